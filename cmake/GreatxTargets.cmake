@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+
+# What every target of the project compiles with.
+add_library(greatx_options INTERFACE)
+target_compile_options(greatx_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+target_include_directories(greatx_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_definitions(greatx_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_DEPTH_ZERO_TO_ONE
+                                                    GLM_ENABLE_EXPERIMENTAL GREATX_VERSION="${PROJECT_VERSION}")
+# The same sums on every compiler: no fused multiply-add that the source does not ask for.
+target_compile_options(greatx_options INTERFACE -ffp-contract=off)
+if(GREATX_SANITIZE)
+  target_compile_options(greatx_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                  -fno-omit-frame-pointer)
+  target_link_options(greatx_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# greatx_library(NAME SOURCES ... LINK ...): the static library of one folder.
+function(greatx_library NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  if(NOT ARG_SOURCES)
+    add_library(greatx_${NAME} INTERFACE)
+    return()
+  endif()
+  add_library(greatx_${NAME} STATIC ${ARG_SOURCES})
+  target_link_libraries(greatx_${NAME} PUBLIC greatx_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# greatx_test(NAME SOURCES ... LINK ...): a GoogleTest program, each test of it known to ctest.
+# Tests whose name has "HardCase" get the label "hard"; those of a program that needs a device run one at a time.
+function(greatx_test NAME)
+  cmake_parse_arguments(ARG "GPU" "" "SOURCES;LINK" ${ARGN})
+  add_executable(test_${NAME} ${ARG_SOURCES})
+  target_link_libraries(test_${NAME} PRIVATE greatx_options ${ARG_LINK} greatx_test_support GTest::gtest GTest::gmock)
+  set_property(GLOBAL APPEND PROPERTY GREATX_TEST_PROGRAMS test_${NAME})
+  gtest_discover_tests(test_${NAME} TEST_FILTER "*HardCase*" TEST_LIST hard_${NAME}
+                       PROPERTIES LABELS "hard;${NAME}" DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_FILTER "-*HardCase*" TEST_LIST plain_${NAME}
+                       PROPERTIES LABELS "${NAME}" DISCOVERY_TIMEOUT 60)
+endfunction()

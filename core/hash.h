@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace greatx {
+
+/// SHA-256 (FIPS 180-4) of a stream of bytes.
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  Sha256(Sha256&&) noexcept;
+  Sha256& operator=(Sha256&&) noexcept;
+
+  Sha256& update(std::span<const std::byte> bytes);
+  Sha256& update(std::string_view text);
+  template <typename T>
+    requires std::is_trivially_copyable_v<T>
+  Sha256& update_value(const T& value) {
+    return update(std::as_bytes(std::span<const T, 1>(&value, 1)));
+  }
+  /// 64 lower-case hexadecimal digits of what was fed so far; more may follow.
+  std::string hex() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+std::string sha256_hex(std::span<const std::byte> bytes);
+/// Throws UserError if the file cannot be read.
+std::string sha256_file(const std::filesystem::path& file);
+
+}  // namespace greatx

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What flows out of the simulator: a Packet per tick, with one Record of every sensor that fired; each Record
+// holds the arrays that its SensorSpec declared before the run. A RecordSink (io/: the data set's writer; tests:
+// a vector) takes packets in order of ticks.
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace greatx {
+
+enum class DType { u8, u16, u32, i32, i64, f32, f64, complex64 };
+
+size_t size_of(DType dtype);
+/// NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
+std::string_view numpy_name(DType dtype);
+
+template <typename T> struct DTypeOf;
+template <> struct DTypeOf<uint8_t> { static constexpr DType value = DType::u8; };
+template <> struct DTypeOf<uint16_t> { static constexpr DType value = DType::u16; };
+template <> struct DTypeOf<uint32_t> { static constexpr DType value = DType::u32; };
+template <> struct DTypeOf<int32_t> { static constexpr DType value = DType::i32; };
+template <> struct DTypeOf<int64_t> { static constexpr DType value = DType::i64; };
+template <> struct DTypeOf<float> { static constexpr DType value = DType::f32; };
+template <> struct DTypeOf<double> { static constexpr DType value = DType::f64; };
+template <> struct DTypeOf<std::complex<float>> { static constexpr DType value = DType::complex64; };
+
+/// A dense array in C order, little endian, that owns its bytes.
+struct Array {
+  DType dtype = DType::u8;
+  std::vector<int64_t> shape;
+  std::vector<std::byte> bytes;
+
+  Array() = default;
+  /// Zero-filled.
+  Array(DType dtype_, std::vector<int64_t> shape_);
+  template <typename T>
+  static Array of(std::vector<int64_t> shape, std::span<const T> values) {
+    Array array(DTypeOf<T>::value, std::move(shape));
+    GREATX_CHECK(array.bytes.size() == values.size_bytes(), "{} bytes for {}", array.bytes.size(), values.size_bytes());
+    std::copy_n(reinterpret_cast<const std::byte*>(values.data()), values.size_bytes(), array.bytes.begin());
+    return array;
+  }
+  int64_t element_count() const;
+  template <typename T>
+  std::span<T> as() {
+    GREATX_CHECK(DTypeOf<T>::value == dtype, "array of {}", numpy_name(dtype));
+    return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+  template <typename T>
+  std::span<const T> as() const {
+    GREATX_CHECK(DTypeOf<T>::value == dtype, "array of {}", numpy_name(dtype));
+    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+};
+
+/// One array that a sensor delivers with every record.
+struct ArraySpec {
+  std::string name;            ///< e.g. "rgb", "points", "cfr"
+  DType dtype = DType::f32;
+  std::vector<int64_t> shape;  ///< of one record; a first axis of -1 varies from record to record
+  std::string unit;            ///< e.g. "m", "1", "s"
+  std::string description;     ///< axes and meaning, one line
+};
+
+/// How arrays become files.
+enum class FileFormat {
+  npy_stack,    ///< one .npy per sequence, records stacked along a new first axis
+  npy_ragged,   ///< one .npy per sequence, records concatenated along their first axis, plus NAME_offsets.npy [records+1]
+  npy_frame,    ///< one .npy per record
+  png,          ///< u8 [h, w, 3] as 8-bit RGB, or [h, w] as grey; u16 [h, w] as 16-bit grey
+  png_depth24,  ///< f32 metres [h, w] as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1)
+  exr,          ///< f32 [h, w] as one channel "Z", [h, w, 3] as R, G, B
+  ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n] properties
+};
+
+/// One file series of a sensor.
+struct OutputSpec {
+  std::string name;                 ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
+  FileFormat format = FileFormat::npy_stack;
+  std::vector<std::string> arrays;  ///< names of the ArraySpecs that it holds; all formats but ply hold one
+};
+
+/// What a sensor will deliver, declared before the run.
+struct SensorSpec {
+  std::string name;  ///< unique, "node/sensor", also the folder's path in the data set
+  std::string kind;  ///< "camera", "lidar", "csi", "pose"
+  std::string rate;  ///< as written by the user, e.g. "30", "30000/1001" (Hz)
+  std::vector<ArraySpec> arrays;
+  std::vector<OutputSpec> outputs;
+  std::string metadata_json;  ///< one JSON object: intrinsics, frames, conventions, array geometry, ...
+};
+
+/// What one sensor measured at one tick.
+struct Record {
+  uint32_t sensor = 0;  ///< index into the SensorSpecs
+  int64_t tick = 0;
+  int64_t time_ns = 0;  ///< exact time of the tick, rounded to nanoseconds
+  int64_t sample = 0;   ///< k: the sensor's own count
+  std::vector<Array> arrays;  ///< in the order of SensorSpec::arrays
+};
+
+/// Everything that was due at one tick, complete.
+struct Packet {
+  int64_t tick = 0;
+  int64_t time_ns = 0;
+  std::vector<Record> records;  ///< by sensor index, ascending
+};
+
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  /// Packets come in ascending order of ticks. May block to bound memory. Throws if the packet cannot be kept.
+  virtual void write(Packet packet) = 0;
+};
+
+}  // namespace greatx

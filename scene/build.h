@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/model.h"
+
+namespace greatx::scene {
+
+/// A model put into the world.
+struct Placement {
+  std::string name;            ///< prefix of its instances' names; may be empty
+  const Model* model = nullptr;
+  Pose pose;                   ///< world_from_model; ignored for a moving body (its node's pose places it)
+  dvec3 scale{1.0};
+  bool moving = false;         ///< true: becomes a body of its own, called `name`
+  std::optional<SemanticClass> semantic_class;  ///< overrides the file's
+};
+
+struct BuildOptions {
+  std::string name;
+  std::optional<dvec3> origin;  ///< default: the centre of the static bounds, rounded to whole metres
+  double coplanar_distance_m = 1e-4;  ///< facets: triangles merge when every corner is this close to the plane
+  double coplanar_angle_rad = 1e-4;
+};
+
+/// Places the models, makes what is missing (normals, tangents), mends winding under negative scale, merges facets.
+/// Throws UserError naming model and mesh if a transformed vertex is not finite.
+Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options);
+
+}  // namespace greatx::scene

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/vec.h"
+#include "sim/scenario.h"
+
+namespace greatx::sim {
+
+/// A node's path through the world as a function of time: pose, velocity, acceleration from the curve's derivatives.
+class Path {
+ public:
+  virtual ~Path() = default;
+  virtual Motion at(double time_s) const = 0;
+  virtual bool is_static() const { return false; }
+};
+
+/// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node, sequence).
+/// Throws UserError naming the node if the limits cannot be met (e.g. no point of the box within d_min..d_max).
+std::vector<std::unique_ptr<Path>> make_paths(const Scenario& scenario, uint32_t sequence);
+
+}  // namespace greatx::sim

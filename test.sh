@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Installs what is missing, builds greatx (Release) and runs every test; arguments go to ctest, e.g. ./test.sh -L hard
+set -euo pipefail
+cd "$(dirname "$0")"
+scripts/setup.sh
+scripts/build.sh release
+exec ctest --test-dir build/release --output-on-failure -j 2 "$@"
