@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files whose every failure is a UserError that names the file and the system's reason.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace greatx::io {
+
+using Bytes = std::vector<std::byte>;
+
+/// A file could not be written: disk full, file-size limit, I/O error, no permission.
+class WriteError : public UserError {
+ public:
+  WriteError(const std::filesystem::path& file, int error_number);
+};
+
+/// An open file descriptor, closed with the object. Short writes are continued; a write that makes no progress throws.
+class File {
+ public:
+  File() = default;
+  /// For reading. Throws UserError.
+  static File open_for_reading(const std::filesystem::path& path);
+  /// For reading and writing, created if missing, kept if there. Throws WriteError.
+  static File open_for_writing(const std::filesystem::path& path);
+  ~File();
+  File(File&& other) noexcept;
+  File& operator=(File&& other) noexcept;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  const std::filesystem::path& path() const { return path_; }
+  uint64_t size() const;
+
+  void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  /// Exactly that many bytes; throws UserError if the file ends before.
+  void read_at(uint64_t offset, std::span<std::byte> bytes) const;
+  void truncate(uint64_t size);
+  /// Closes now; a failure that the system reports only then (NFS, quota) throws.
+  void close();
+
+ private:
+  File(std::filesystem::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+/// The name under which a file is written until it is whole: PATH + ".part".
+std::filesystem::path part_name(const std::filesystem::path& path);
+/// Writes PATH.part, then renames it to PATH; on failure nothing stays. Throws WriteError.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_file_atomically(const std::filesystem::path& path, std::string_view text);
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// mkdir -p. Throws WriteError.
+void create_folders(const std::filesystem::path& folder);
+Bytes read_file(const std::filesystem::path& path);
+std::string read_text_file(const std::filesystem::path& path);
+
+/// Makes a write beyond the file-size limit (ulimit -f) an ordinary error instead of the end of the process. Only the
+/// default action is replaced; a handler that the program has set stays.
+void ignore_file_size_signal();
+
+inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+void append(Bytes& out, std::span<const std::byte> bytes);
+
+}  // namespace greatx::io
