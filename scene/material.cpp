@@ -56,22 +56,24 @@ const RadioRow* nearest_row(const RadioMedium& medium, double frequency_hz) {
 const RadioRow& row_at(const RadioMedium& medium, double frequency_hz, const std::string& material_name) {
   GREATX_CHECK(!medium.rows.empty(), "material '{}' has no row", material_name);
   if (!(frequency_hz > 0.0) || !std::isfinite(frequency_hz)) {
-    throw_user_error("material '{}': frequency {} Hz: expected a positive number", material_name, frequency_hz);
+    throw_user_error("material '{}': frequency {} Hz: expected a positive number", material_name,
+                     frequency_hz);
   }
   const RadioRow* row = narrowest_row(medium, frequency_hz);
   const bool extrapolated = row == nullptr;
   if (extrapolated) {
     if (!medium.extrapolate) {
       throw_user_error(
-          "material '{}' ({}): {:g} GHz lies outside its ranges ({}); choose another frequency or material, or set "
+          "material '{}' ({}): {:g} GHz lies outside its ranges ({}); choose another frequency or material, "
+          "or set "
           "'extrapolate: true' to use the nearest row",
           material_name, medium.source, frequency_hz / 1e9, ranges_of(medium));
     }
     row = nearest_row(medium, frequency_hz);
   }
-  spdlog::debug("material '{}' ({}) at {:g} GHz: row a={:g} b={:g} c={:g} d={:g}, {:g} to {:g} GHz{}", material_name,
-                medium.source, frequency_hz / 1e9, row->a, row->b, row->c, row->d, row->min_hz / 1e9,
-                row->max_hz / 1e9, extrapolated ? " (extrapolated)" : "");
+  spdlog::debug("material '{}' ({}) at {:g} GHz: row a={:g} b={:g} c={:g} d={:g}, {:g} to {:g} GHz{}",
+                material_name, medium.source, frequency_hz / 1e9, row->a, row->b, row->c, row->d,
+                row->min_hz / 1e9, row->max_hz / 1e9, extrapolated ? " (extrapolated)" : "");
   return *row;
 }
 

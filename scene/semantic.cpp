@@ -20,26 +20,75 @@ struct NamePattern {
 
 using enum SemanticClass;
 
-// The first word of a name (split at punctuation, digits and changes of case) that stands here decides; words are
-// compared whole, so that "car" does not find "cardboard". docs/materials.md lists them.
+// The first word of a name (split at punctuation, digits and changes of case) that stands here decides; words
+// are compared whole, so that "car" does not find "cardboard". docs/materials.md lists them.
 constexpr NamePattern patterns[] = {
-    {"ground", ground},           {"plane", ground},        {"terrain", ground},     {"field", ground},
-    {"grass", ground},            {"road", road},           {"street", road},        {"highway", road},
-    {"junction", road},           {"crossing", road},       {"pavement", pavement},  {"sidewalk", pavement},
-    {"kerb", pavement},           {"curb", pavement},       {"marking", lane_marking}, {"lane", lane_marking},
-    {"building", building},       {"house", building},      {"barn", building},      {"wall", building},
-    {"facade", building},         {"tower", building},      {"element", building},   {"roof", roof},
-    {"window", window},           {"tree", vegetation},     {"bush", vegetation},    {"hedge", vegetation},
-    {"shrub", vegetation},        {"vegetation", vegetation}, {"forest", vegetation}, {"lamp", street_lamp},
-    {"streetlight", street_lamp}, {"streetlamp", street_lamp}, {"lamppost", street_lamp}, {"pole", pole},
-    {"post", pole},               {"trafficlight", pole},   {"mast", mast},          {"antenna", mast},
-    {"car", vehicle},             {"taxi", vehicle},        {"hatchback", vehicle},  {"sedan", vehicle},
-    {"vehicle", vehicle},         {"truck", vehicle},       {"bus", vehicle},        {"van", vehicle},
-    {"police", vehicle},          {"stationwagon", vehicle}, {"uav", uav},           {"drone", uav},
-    {"quadrotor", uav},           {"quadcopter", uav},      {"water", water},        {"river", water},
-    {"lake", water},              {"bench", furniture},     {"furniture", furniture}, {"dumpster", furniture},
-    {"box", furniture},           {"hydrant", furniture},   {"bin", furniture},      {"person", person},
-    {"pedestrian", person},       {"human", person},
+    {"ground", ground},
+    {"plane", ground},
+    {"terrain", ground},
+    {"field", ground},
+    {"grass", ground},
+    {"road", road},
+    {"street", road},
+    {"highway", road},
+    {"junction", road},
+    {"crossing", road},
+    {"pavement", pavement},
+    {"sidewalk", pavement},
+    {"kerb", pavement},
+    {"curb", pavement},
+    {"marking", lane_marking},
+    {"lane", lane_marking},
+    {"building", building},
+    {"house", building},
+    {"barn", building},
+    {"wall", building},
+    {"facade", building},
+    {"tower", building},
+    {"element", building},
+    {"roof", roof},
+    {"window", window},
+    {"tree", vegetation},
+    {"bush", vegetation},
+    {"hedge", vegetation},
+    {"shrub", vegetation},
+    {"vegetation", vegetation},
+    {"forest", vegetation},
+    {"lamp", street_lamp},
+    {"streetlight", street_lamp},
+    {"streetlamp", street_lamp},
+    {"lamppost", street_lamp},
+    {"pole", pole},
+    {"post", pole},
+    {"trafficlight", pole},
+    {"mast", mast},
+    {"antenna", mast},
+    {"car", vehicle},
+    {"taxi", vehicle},
+    {"hatchback", vehicle},
+    {"sedan", vehicle},
+    {"vehicle", vehicle},
+    {"truck", vehicle},
+    {"bus", vehicle},
+    {"van", vehicle},
+    {"police", vehicle},
+    {"stationwagon", vehicle},
+    {"uav", uav},
+    {"drone", uav},
+    {"quadrotor", uav},
+    {"quadcopter", uav},
+    {"water", water},
+    {"river", water},
+    {"lake", water},
+    {"bench", furniture},
+    {"furniture", furniture},
+    {"dumpster", furniture},
+    {"box", furniture},
+    {"hydrant", furniture},
+    {"bin", furniture},
+    {"person", person},
+    {"pedestrian", person},
+    {"human", person},
 };
 
 // Two words that together mean something else than the first alone.
@@ -48,9 +97,9 @@ struct PairPattern {
   SemanticClass semantic_class;
 };
 constexpr PairPattern pair_patterns[] = {
-    {"street", "lamp", street_lamp}, {"street", "light", street_lamp},  {"traffic", "light", pole},
+    {"street", "lamp", street_lamp},   {"street", "light", street_lamp},  {"traffic", "light", pole},
     {"lane", "marking", lane_marking}, {"road", "marking", lane_marking}, {"base", "station", mast},
-    {"fire", "hydrant", furniture},  {"lamp", "post", street_lamp},
+    {"fire", "hydrant", furniture},    {"lamp", "post", street_lamp},
 };
 
 std::vector<std::string> words_of(const std::string& name) {
@@ -81,8 +130,9 @@ bool matches(std::string_view word, std::string_view pattern) {
 
 const std::vector<std::string>& semantic_class_names() {
   static const std::vector<std::string> names = {
-      "unlabeled", "ground",      "road",  "pavement", "lane_marking", "building", "roof",      "window", "vegetation",
-      "pole",      "street_lamp", "mast",  "vehicle",  "uav",          "water",    "furniture", "person"};
+      "unlabeled", "ground", "road",       "pavement",  "lane_marking", "building",
+      "roof",      "window", "vegetation", "pole",      "street_lamp",  "mast",
+      "vehicle",   "uav",    "water",      "furniture", "person"};
   return names;
 }
 
@@ -111,7 +161,8 @@ std::optional<SemanticClass> semantic_class_from_name(const std::string& name) {
       if (matches(word, pattern.word)) return pattern.semantic_class;
     }
   }
-  // "Hotel_Belfast-itu_marble": the way in which Sionna RT's scenes are exported, one mesh per building and material.
+  // "Hotel_Belfast-itu_marble": the way in which Sionna RT's scenes are exported, one mesh per building and
+  // material.
   if (name.find("-itu_") != std::string::npos) return SemanticClass::building;
   return std::nullopt;
 }

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace greatx::scene {
+
+/// The folder of one glTF file: what its URIs may name, and nothing else.
+class AssetFolder {
+ public:
+  /// `asset` is the glTF file; an empty path stands for an asset in memory, which may name no external file
+  /// at all.
+  explicit AssetFolder(const std::filesystem::path& asset);
+
+  /// The bytes of the file that `uri` (RFC 3986, percent-encoded, relative) names. Throws UserError, starting
+  /// with `what` ("x.gltf: buffer 0"), if the URI is absolute, has a scheme, a ".." or a backslash (also
+  /// percent-encoded), if the file lies outside the folder through a symbolic link, is no regular file, or
+  /// cannot be read.
+  std::vector<unsigned char> read(const std::string& uri, const std::string& what) const;
+
+ private:
+  std::filesystem::path folder_;  ///< canonical
+  bool in_memory_ = false;
+};
+
+/// Percent-decodes; throws UserError starting with `what` on a broken escape or a NUL.
+std::string decode_uri(const std::string& uri, const std::string& what);
+
+/// The whole file. Throws UserError starting with `what` if it is no regular file or cannot be read.
+std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what);
+
+}  // namespace greatx::scene
