@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double shortest_line_of_sight_m = 1e-9;
+
+/// A path that meets the edge between two facets touches both at one point. It exists (as the limit of paths
+/// beside it) only if each facet lies on the side of the other that reflects: the corner of a room, not that
+/// of a house; and never for two facets of one plane.
+bool joins_as_corner(const PosedFacet& a, double side_a, const PosedFacet& b, double side_b) {
+  return side_a * a.distance(b.centroid) > a.tolerance_m && side_b * b.distance(a.centroid) > b.tolerance_m;
+}
+
+bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
+  const double tolerance = std::max(1e-6, 1e-9 * a.length_m);
+  if (a.vertices.size() != b.vertices.size() || std::abs(a.length_m - b.length_m) > tolerance) return false;
+  for (size_t i = 0; i < a.vertices.size(); ++i)
+    if (glm::length(a.vertices[i] - b.vertices[i]) > tolerance) return false;
+  return true;
+}
+
+/// Canonical order, then the first of each polyline.
+void finish(std::vector<GeometricPath>& paths) {
+  std::sort(paths.begin(), paths.end(),
+            [](const GeometricPath& a, const GeometricPath& b) { return sequence_less(a.facets, b.facets); });
+  size_t kept = 0;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const auto known = [&](const GeometricPath& other) { return same_polyline(other, paths[i]); };
+    const auto end = paths.begin() + static_cast<ptrdiff_t>(kept);
+    if (std::find_if(paths.begin(), end, known) != end) continue;
+    if (kept != i) paths[kept] = std::move(paths[i]);
+    ++kept;
+  }
+  paths.resize(kept);
+}
+
+}  // namespace
+
+ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
+                     Source end)
+    : world_(&world), source_(source), end_(end) {
+  GREATX_CHECK(candidates.is_canonical(), "{} candidate sequences are not in canonical order",
+               candidates.size());
+  build(candidates);
+  update(source);
+}
+
+void ImageTree::build(const CandidateList& candidates) {
+  std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; looked up only, never walked
+  child_of.reserve(candidates.size());
+  nodes_.reserve(candidates.size());
+  std::vector<uint32_t> sequence;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const auto listed = candidates.sequence(i);
+    if (listed.empty()) {
+      line_of_sight_ = true;
+      continue;
+    }
+    sequence.assign(listed.begin(), listed.end());
+    if (end_ == Source::receiver) std::reverse(sequence.begin(), sequence.end());
+    uint32_t node = none;
+    for (const uint32_t facet : sequence) {
+      GREATX_CHECK(facet < world_->facet_count(), "candidate {}: facet {} of {}", i, facet,
+                   world_->facet_count());
+      const uint64_t key = (uint64_t{node} << 32) | facet;
+      const auto [entry, is_new] = child_of.try_emplace(key, static_cast<uint32_t>(nodes_.size()));
+      if (is_new) {
+        nodes_.push_back({.slot = facet, .parent = node});
+        used_facets_.push_back(facet);
+      }
+      node = entry->second;
+    }
+    nodes_[node].candidate = true;
+  }
+  std::sort(used_facets_.begin(), used_facets_.end());
+  used_facets_.erase(std::unique(used_facets_.begin(), used_facets_.end()), used_facets_.end());
+  for (Node& node : nodes_)
+    node.slot =
+        static_cast<uint32_t>(std::ranges::lower_bound(used_facets_, node.slot) - used_facets_.begin());
+  images_.resize(nodes_.size());
+}
+
+void ImageTree::update(const dvec3& source) {
+  source_ = source;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    const PosedFacet& facet = world_->facet(used_facets_[node.slot]);
+    const dvec3 before = node.parent == none ? source_ : images_[node.parent];
+    const double distance = facet.distance(before);
+    images_[i] = before - 2.0 * distance * facet.normal;
+    node.distance = -distance;
+    const dvec2 at = facet.plane_coordinates(before);  // mirroring keeps them
+    node.u = at.x;
+    node.v = at.y;
+  }
+}
+
+/// Does the straight line from the node's image to the target pass the bounding box of its facet? Never false
+/// for a path that exists: the test leaves more room than trace().
+bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
+  if (node.distance * target.distance >= 0.0) return false;  // the target is behind the mirror
+  const PosedFacet& facet = world_->facet(used_facets_[node.slot]);
+  const double t = node.distance / (node.distance - target.distance);
+  const double u = node.u + t * (target.u - node.u), v = node.v + t * (target.v - node.v);
+  // Roundings of u and v grow with the distance to the image, not with the facet.
+  const double room = 2.0 * facet.tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
+  return u >= facet.min_u - room && u <= facet.max_u + room && v >= facet.min_v - room &&
+         v <= facet.max_v + room;
+}
+
+/// Walks from the target back to the source, cutting the line to each image with that image's facet.
+bool ImageTree::trace(uint32_t leaf, const dvec3& target, GeometricPath& path) const {
+  path.facets.clear();
+  path.vertices.assign(1, target);
+  const PosedFacet* previous = nullptr;
+  double previous_side = 0.0;
+  for (uint32_t index = leaf; index != none; index = nodes_[index].parent) {
+    const Node& node = nodes_[index];
+    const uint32_t facet_index = used_facets_[node.slot];
+    const PosedFacet& facet = world_->facet(facet_index);
+    const dvec3 from = path.vertices.back();
+    const double side = node.distance > 0.0 ? -1.0 : 1.0;  // where the path is: opposite to the image
+    const double behind = std::abs(node.distance);
+    double before = side * facet.distance(from);
+    if (behind <= facet.tolerance_m) return false;
+    if (before < (previous ? -facet.tolerance_m : facet.tolerance_m)) return false;
+    before = std::max(before, 0.0);
+    const dvec3 image = images_[index];
+    const dvec3 hit = image + behind / (behind + before) * (from - image);
+    if (!world_->contains(facet_index, facet.plane_coordinates(hit))) return false;
+    if (previous && glm::length(hit - from) <= 4.0 * (facet.tolerance_m + previous->tolerance_m) &&
+        !joins_as_corner(facet, side, *previous, previous_side))
+      return false;
+    path.facets.push_back(facet_index);
+    path.vertices.push_back(hit);
+    previous = &facet;
+    previous_side = side;
+  }
+  path.vertices.push_back(source_);
+  path.length_m = glm::length(target - images_[leaf]);
+  if (end_ == Source::transmitter) {  // built from the target back: turn round
+    std::reverse(path.facets.begin(), path.facets.end());
+    std::reverse(path.vertices.begin(), path.vertices.end());
+  }
+  return true;
+}
+
+std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
+  std::vector<GeometricPath> paths;
+  const double direct = glm::length(target - source_);
+  if (line_of_sight_ && direct > shortest_line_of_sight_m) {
+    GeometricPath path{{}, {source_, target}, direct};
+    if (end_ == Source::receiver) std::reverse(path.vertices.begin(), path.vertices.end());
+    paths.push_back(std::move(path));
+  }
+  std::vector<TargetInFacet> targets(used_facets_.size());
+  for (size_t slot = 0; slot < targets.size(); ++slot) {
+    const PosedFacet& facet = world_->facet(used_facets_[slot]);
+    const dvec2 at = facet.plane_coordinates(target);
+    targets[slot] = {facet.distance(target), at.x, at.y};
+  }
+  GeometricPath path;
+  for (uint32_t index = 0; index < nodes_.size(); ++index) {
+    const Node& node = nodes_[index];
+    if (!node.candidate || !may_reach(node, targets[node.slot])) continue;
+    if (trace(index, target, path)) paths.push_back(path);
+  }
+  finish(paths);
+  return paths;
+}
+
+std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
+                                       const dvec3& receiver, const CandidateList& candidates) {
+  return ImageTree(world, transmitter, candidates).solve(receiver);
+}
+
+}  // namespace greatx::rf

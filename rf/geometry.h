@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact paths by the image method, fp64. Geometry only: what stands in the way is decided by the visibility
+// pass, what a reflection does to the field by path_field.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/candidates.h"
+#include "rf/facet_world.h"
+#include "rf/path.h"
+
+namespace greatx::rf {
+
+/// Which end of the path stays put while the other one is solved for many points.
+enum class Source : uint32_t { transmitter, receiver };
+
+/// The images of one end of the channel in every candidate's facets, shared between candidates with a common
+/// prefix (a trie). Built once for a static source; solve() then costs a few nanoseconds for each sequence
+/// that cannot reach the target and a full chain of intersections for each that may.
+///
+/// What counts as a path:
+/// - a reflection may happen on either side of a facet, both neighbours of the reflection point being on the
+/// same side;
+/// - facets are closed: a point on an outline or on an inner edge is inside, within PosedFacet::tolerance_m;
+/// - an end that lies in a facet's plane (within that tolerance) is not reflected by it: no segment of zero
+/// length
+///   starts or ends a path; a line of sight shorter than 1 nm is none either, so transmitter = receiver has
+///   no line of sight but keeps its echoes;
+/// - two reflections at the same point (the path meets the edge where two facets join) are a path only if
+/// each facet
+///   lies on the reflecting side of the other, as in the corner of a room;
+/// - paths with the same polyline (vertices within 1e-6 m, or 1e-9 of the length if that is more) are one,
+/// and the
+///   first facet sequence in the canonical order is kept: duplicated facets, ties at corners.
+///
+/// A target's paths depend on that target alone: solving it among others gives the same bits.
+class ImageTree {
+ public:
+  /// `candidates`, in canonical order, run from the transmitter to the receiver whichever end the source is.
+  /// `world` is read by solve() and must outlive the tree.
+  ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
+            Source end = Source::transmitter);
+  /// Works the images out again: the source has moved, or a body with candidate facets has.
+  void update(const dvec3& source);
+  /// Every path between the source and `target`, from transmitter to receiver, in canonical order of the
+  /// sequences.
+  std::vector<GeometricPath> solve(const dvec3& target) const;
+
+  size_t node_count() const { return nodes_.size(); }
+
+ private:
+  static constexpr uint32_t none = ~0u;
+  struct Node {
+    double distance = 0.0, u = 0.0, v = 0.0;  ///< of the image in this node's facet
+    uint32_t slot = 0;                        ///< into used_facets_
+    uint32_t parent = none;
+    bool candidate = false;  ///< false: a prefix only
+  };
+  struct TargetInFacet {
+    double distance = 0.0, u = 0.0, v = 0.0;
+  };
+  void insert(std::span<const uint32_t> sequence);
+  void build(const CandidateList& candidates);
+  bool may_reach(const Node& node, const TargetInFacet& target) const;
+  bool trace(uint32_t leaf, const dvec3& target, GeometricPath& path) const;
+
+  const FacetWorld* world_;
+  dvec3 source_;
+  Source end_;
+  bool line_of_sight_ = false;
+  std::vector<Node> nodes_;            ///< parents before children
+  std::vector<dvec3> images_;          ///< [nodes]
+  std::vector<uint32_t> used_facets_;  ///< ascending
+};
+
+/// The same for a single pair: builds the tree, solves, forgets.
+std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
+                                       const dvec3& receiver, const CandidateList& candidates);
+
+}  // namespace greatx::rf

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/surfaces.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+
+RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
+                           const std::string& material_name) {
+  if (material.layers.empty())
+    throw_user_error("material '{}': expected one radio layer at least", material_name);
+  RadioSurface surface;
+  for (size_t i = 0; i < material.layers.size(); ++i) {
+    const scene::RadioLayer& layer = material.layers[i];
+    const bool last = i + 1 == material.layers.size();
+    if (!(layer.thickness_m >= 0.0))
+      throw_user_error("material '{}', layer {}: expected a thickness >= 0 m, found {}", material_name, i + 1,
+                       layer.thickness_m);
+    if (layer.thickness_m == 0.0 && !last)
+      throw_user_error(
+          "material '{}', layer {}: thickness 0 makes it a half-space, so expected no layer behind it, "
+          "found {}",
+          material_name, i + 1, material.layers.size() - i - 1);
+    surface.front.push_back(
+        {scene::relative_permittivity(layer.medium, frequency_hz, material_name), layer.thickness_m});
+  }
+  surface.back.assign(surface.front.rbegin(), surface.front.rend());
+  if (surface.back.front().thickness_m == 0.0) surface.back.resize(1);
+  return surface;
+}
+
+RadioSurfaces::RadioSurfaces(const scene::Scene& scene, double carrier_hz)
+    : surfaces_(scene.materials.size()), carrier_hz_(carrier_hz), wavelength_m_(speed_of_light / carrier_hz) {
+  GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
+  for (const scene::Facet& facet : scene.facets) {
+    GREATX_CHECK(facet.material < surfaces_.size(), "material {} of {}", facet.material, surfaces_.size());
+    RadioSurface& surface = surfaces_[facet.material];
+    if (!surface.front.empty()) continue;
+    const scene::Material& material = scene.materials[facet.material];
+    if (!material.radio)
+      throw_user_error("material '{}' of scene '{}' has no radio properties", material.name, scene.name);
+    surface = radio_surface(*material.radio, carrier_hz, material.name);
+  }
+}
+
+RadioSurfaces::RadioSurfaces(std::vector<RadioSurface> surfaces, double carrier_hz)
+    : surfaces_(std::move(surfaces)), carrier_hz_(carrier_hz), wavelength_m_(speed_of_light / carrier_hz) {
+  GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
+}
+
+FresnelCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
+  GREATX_CHECK(material < surfaces_.size() && !surfaces_[material].front.empty(),
+               "material {} of {} has no surface", material, surfaces_.size());
+  const RadioSurface& surface = surfaces_[material];
+  const std::vector<DielectricLayer>& layers = from_front ? surface.front : surface.back;
+  if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space(layers[0].eta, cos_theta);
+  if (layers.size() == 1) return slab(layers[0], wavelength_m_, cos_theta);
+  return multilayer(layers, wavelength_m_, cos_theta);
+}
+
+}  // namespace greatx::rf
