@@ -22,7 +22,8 @@ class Clock {
   Rational rate_;
 };
 
-/// When a sensor of rational rate fires: sample k at tick round(k * tick_rate / rate), half up, exact integers.
+/// When a sensor of rational rate fires: sample k at tick round(k * tick_rate / rate), half up, exact
+/// integers.
 class SampleTimes {
  public:
   SampleTimes(Rational tick_rate_hz, Rational rate_hz);

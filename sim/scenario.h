@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario as the user wrote it: what is in the world, who moves how, which sensors fire when. Plain data, no
-// behaviour; docs/scenario.md documents every field, docs/scenario.schema.json checks it in an editor.
+// A scenario as the user wrote it: what is in the world, who moves how, which sensors fire when. Plain data,
+// no behaviour; docs/scenario.md documents every field, docs/scenario.schema.json checks it in an editor.
 #pragma once
 
 #include <array>
@@ -15,19 +15,21 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "core/vec.h"
 #include "sim/rational.h"
 
 namespace greatx::sim {
 
-// ---------------------------------------------------------------------------------------------- what is in the world
+// ---------------------------------------------------------------------------------------------- what is in
+// the world
 
 /// A scene or model made by the generator (scene/generator) instead of read from a file.
 struct Generated {
   std::string kind;  ///< city, country, mast, car, quadrotor
   uint64_t seed = 1;
-  double size_m = 300.0;      ///< city, country: edge of the square
-  std::string variant;        ///< quadrotor: small, medium, large; car: hatchback, van
+  double size_m = 300.0;  ///< city, country: edge of the square
+  std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
 };
 
 /// Where a mesh comes from.
@@ -54,16 +56,17 @@ struct SceneConfig {
 };
 
 struct Environment {
-  double sun_azimuth = 0.0;    ///< rad, from x (east) towards y (north): the direction to the sun
-  double sun_elevation = 0.0;  ///< rad above the horizon
+  double sun_azimuth = -0.25 * pi;        ///< rad, from x (east) towards y (north): the direction to the sun
+  double sun_elevation = 0.25 * pi;       ///< rad above the horizon
   double sun_illuminance_lux = 100000.0;  ///< on a surface facing the sun
   double sky_illuminance_lux = 15000.0;   ///< on the ground from the sky alone
   double temperature_k = 288.15;
-  double pressure_hpa = 1013.25;          ///< dry-air pressure (ITU-R P.676)
+  double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
 };
 
-// ------------------------------------------------------------------------------------------------- who moves and how
+// ------------------------------------------------------------------------------------------------- who moves
+// and how
 
 struct StaticTrajectory {
   dvec3 position_m{0.0};
@@ -76,15 +79,17 @@ struct WayPoint {
   std::optional<dquat> orientation;
 };
 
-/// Way-points with times, in the file or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]). Positions by a C1 cubic
-/// Hermite (Catmull-Rom tangents for uneven times) or linear; attitude by slerp, or along the velocity if none given.
+/// Way-points with times, in the file or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]). Positions by
+/// a C1 cubic Hermite (Catmull-Rom tangents for uneven times) or linear; attitude by slerp, or along the
+/// velocity if none given.
 struct WayPointTrajectory {
   std::vector<WayPoint> points;  ///< at least one, times ascending
   bool smooth = true;
 };
 
-/// Cubic Bezier curve in a box: start and end drawn from the seed within `min`..`max` and at d_min..d_max from a node;
-/// P1 and P2 are the thirds of the chord plus offsets drawn within +-offset; B(u) sampled uniformly over the duration.
+/// Cubic Bezier curve in a box: start and end drawn from the seed within `min`..`max` and at d_min..d_max
+/// from a node; P1 and P2 are the thirds of the chord plus offsets drawn within +-offset; B(u) sampled
+/// uniformly over the duration.
 struct BezierTrajectory {
   dvec3 min_m{0.0}, max_m{0.0};
   std::string reference_node;  ///< empty: no distance limit
@@ -94,8 +99,8 @@ struct BezierTrajectory {
   std::optional<std::array<dvec3, 4>> control_points;
 };
 
-/// Spatially constrained random linear interpolation: straight legs between points drawn within `width_m`, `height_m`
-/// of a centre line, at a constant speed.
+/// Spatially constrained random linear interpolation: straight legs between points drawn within `width_m`,
+/// `height_m` of a centre line, at a constant speed.
 struct CorridorTrajectory {
   std::vector<dvec3> center_line_m;  ///< two points at least
   double width_m = 0.0, height_m = 0.0;
@@ -104,7 +109,8 @@ struct CorridorTrajectory {
 
 using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory>;
 
-// ------------------------------------------------------------------------------------------------------- the sensors
+// ------------------------------------------------------------------------------------------------------- the
+// sensors
 
 /// 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
 struct Mount {
@@ -114,12 +120,13 @@ struct Mount {
 
 struct CameraConfig {
   uint32_t width = 640, height = 480;
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< pixels; from `fov_deg` (horizontal) if the user gave that
+  double fx = 0.0, fy = 0.0, cx = 0.0,
+         cy = 0.0;  ///< pixels; from `fov_deg` (horizontal) if the user gave that
   double near_m = 0.1;
-  uint32_t msaa = 4;                    ///< samples per pixel of the colour: 1 or 4
-  double exposure_ev100 = 15.0;         ///< EV at ISO 100
+  uint32_t msaa = 4;                          ///< samples per pixel of the colour: 1 or 4
+  double exposure_ev100 = 15.0;               ///< EV at ISO 100
   bool rgb = true, depth = true, ids = true;  ///< what to deliver
-  bool hdr = false;                     ///< also the linear radiance as EXR
+  bool hdr = false;                           ///< also the linear radiance as EXR
   bool depth_png24 = true, depth_log = false;
   bool see_own_body = false;
 };
@@ -127,10 +134,10 @@ struct CameraConfig {
 struct LidarConfig {
   std::vector<double> elevations;  ///< rad, one a channel, from the first ring up or down as given
   uint32_t azimuth_steps = 1024;
-  double azimuth_start = 0.0, azimuth_span = 2.0 * 3.14159265358979323846;  ///< rad; left is positive
-  double sweep_s = 0.0;            ///< duration of one sweep; 0: all shots at the tick
+  double azimuth_start = 0.0, azimuth_span = 2.0 * pi;  ///< rad; left is positive
+  double sweep_s = 0.0;                                 ///< duration of one sweep; 0: all shots at the tick
   double min_range_m = 0.5, max_range_m = 120.0;
-  double wavelength_nm = 905.0;    ///< 905 or 1550
+  double wavelength_nm = 905.0;  ///< 905 or 1550
   bool see_own_body = false;
 };
 
@@ -140,7 +147,7 @@ enum class Polarization { v, h, vh, slant };  ///< vh: two ports, slant: +-45 de
 struct AntennaConfig {
   AntennaPattern pattern = AntennaPattern::isotropic;
   Polarization polarization = Polarization::v;
-  uint32_t rows = 1, columns = 1;      ///< of the planar array in its y-z plane: rows along z, columns along y
+  uint32_t rows = 1, columns = 1;  ///< of the planar array in its y-z plane: rows along z, columns along y
   double row_spacing_wl = 0.5, column_spacing_wl = 0.5;  ///< wavelengths at the carrier
 };
 
@@ -169,27 +176,28 @@ struct ChannelConfig {
   Rational rate_hz;
   double carrier_hz = 3.5e9;
   double subcarrier_spacing_hz = 30e3;
-  uint32_t subcarriers = 256;          ///< f_k = (k - floor(N/2)) * spacing around the carrier
-  uint32_t time_samples = 1;           ///< per record, by Doppler
+  uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
+  uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
-  uint32_t max_depth = 3;              ///< reflections per path
-  uint32_t rays = 1u << 18;            ///< launched per search for candidates
-  std::string search = "auto";         ///< auto, once (from a static end), every_tick
+  uint32_t max_depth = 3;       ///< reflections per path
+  uint32_t rays = 1u << 18;     ///< launched per search for candidates
+  std::string search = "auto";  ///< auto, once (from a static end), every_tick
   SourceLocation where;
 };
 
-// ------------------------------------------------------------------------------------------------------ all together
+// ------------------------------------------------------------------------------------------------------ all
+// together
 
 enum class Switch { automatic, on, off };
 
 struct Scenario {
   std::string name;
-  std::filesystem::path file;   ///< empty: embedded
-  std::string text;             ///< the YAML as read; its SHA-256 is the scenario's hash
+  std::filesystem::path file;  ///< empty: embedded
+  std::string text;            ///< the YAML as read; its SHA-256 is the scenario's hash
   uint64_t seed = 1;
-  uint32_t sequences = 1;       ///< runs of the same scenario, each with its own draws
+  uint32_t sequences = 1;  ///< runs of the same scenario, each with its own draws
   Rational tick_rate_hz{1000, 1};
-  int64_t ticks = 0;            ///< per sequence
+  int64_t ticks = 0;  ///< per sequence
   SceneConfig scene;
   Environment environment;
   std::vector<NodeConfig> nodes;
@@ -198,10 +206,12 @@ struct Scenario {
   double tolerance_db = 0.01;             ///< an effect that cannot matter more than this stays off
 };
 
-/// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown keys
-/// are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and sensors).
+/// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
+/// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
+/// sensors).
 Scenario load_scenario(const std::filesystem::path& file);
 /// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
-Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder);
+Scenario parse_scenario(const std::string& text, const std::string& name,
+                        const std::filesystem::path& folder);
 
 }  // namespace greatx::sim

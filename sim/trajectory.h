@@ -10,7 +10,8 @@
 
 namespace greatx::sim {
 
-/// A node's path through the world as a function of time: pose, velocity, acceleration from the curve's derivatives.
+/// A node's path through the world as a function of time: pose, velocity, acceleration from the curve's
+/// derivatives.
 class Path {
  public:
   virtual ~Path() = default;
@@ -18,8 +19,11 @@ class Path {
   virtual bool is_static() const { return false; }
 };
 
-/// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node, sequence).
-/// Throws UserError naming the node if the limits cannot be met (e.g. no point of the box within d_min..d_max).
+/// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node's name,
+/// sequence): other nodes change nothing. Bezier curves and corridors last from tick 0 to the last tick, T =
+/// (ticks - 1) / tick_rate: u = t / T; beyond that they go straight on. Way-points have their own times and
+/// hold before and after. Throws UserError naming the node if the limits cannot be met (e.g. no point of the
+/// box within d_min..d_max).
 std::vector<std::unique_ptr<Path>> make_paths(const Scenario& scenario, uint32_t sequence);
 
 }  // namespace greatx::sim

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// nodes[] and channels[], and the references between them.
+#include <algorithm>
+#include <set>
+
+#include "sim/scenario_parse.h"
+
+namespace greatx::sim {
+namespace {
+
+NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rate_hz,
+                      std::vector<NodeReference>& references) {
+  const FieldMap map(field, {"name", "trajectory", "model", "class", "sensors"});
+  NodeConfig node;
+  node.where = field.where();
+  const Field name = map.require("name", "a name");
+  node.name = name.name();
+  if (node.name == "static") name.fail("a name other than 'static', which is the world that never moves");
+  node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, references);
+  if (const auto f = map.find("model")) node.model = parse_model_source(FieldMap(*f, {"file", "generate"}));
+  if (const auto f = map.find("class")) {
+    node.semantic_class = parse_semantic_class(*f);
+    if (!node.model) f->fail("a 'model' beside 'class'", "none");
+  }
+  if (const auto sensors = map.find("sensors")) {
+    std::set<std::string> names;
+    for (const Field& item : sensors->list("sensors")) {
+      node.sensors.push_back(parse_sensor(item, tick_rate_hz));
+      const std::string& sensor = node.sensors.back().name;
+      if (!names.insert(sensor).second)
+        item.fail("every sensor's name once", fmt::format("a second '{}'", sensor));
+    }
+  }
+  return node;
+}
+
+std::vector<std::string> names_of(const std::vector<NodeConfig>& nodes) {
+  std::vector<std::string> names;
+  for (const NodeConfig& node : nodes) names.push_back(node.name);
+  return names;
+}
+
+/// Every reference names another node, and none leads back to where it came from.
+void check_references(const std::vector<NodeReference>& references, const std::vector<NodeConfig>& nodes) {
+  const std::vector<std::string> names = names_of(nodes);
+  std::vector<size_t> target(nodes.size(), nodes.size());
+  for (const NodeReference& reference : references) {
+    const std::string name = reference.field.text();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      reference.field.fail("a node's name", fmt::format("unknown '{}'{}", name, suggestion(name, names)));
+    target[reference.node] = static_cast<size_t>(found - names.begin());
+  }
+  for (const NodeReference& reference : references) {
+    std::string chain = names[reference.node];
+    size_t node = reference.node;
+    for (size_t steps = 0; steps < nodes.size() && target[node] < nodes.size(); ++steps) {
+      node = target[node];
+      chain += " -> " + names[node];
+      if (node == reference.node)
+        reference.field.fail("a node whose path does not depend on this one", chain);
+    }
+  }
+}
+
+const SensorConfig* find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name) {
+  for (const NodeConfig& node : nodes)
+    for (const SensorConfig& sensor : node.sensors)
+      if (name == node.name + "/" + sensor.name) return &sensor;
+  return nullptr;
+}
+
+/// The name, "node/sensor", of an antenna.
+std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>& nodes) {
+  const std::string name = field.text();
+  const std::string expected = "an antenna as node/sensor";
+  const SensorConfig* sensor = find_sensor(nodes, name);
+  if (!sensor) {
+    std::vector<std::string> antennas;
+    for (const NodeConfig& node : nodes)
+      for (const SensorConfig& candidate : node.sensors)
+        if (std::holds_alternative<AntennaConfig>(candidate.config))
+          antennas.push_back(node.name + "/" + candidate.name);
+    field.fail(expected, fmt::format("unknown '{}'{}", name, suggestion(name, antennas)));
+  }
+  if (std::holds_alternative<CameraConfig>(sensor->config))
+    field.fail(expected, fmt::format("'{}', a camera", name));
+  if (std::holds_alternative<LidarConfig>(sensor->config))
+    field.fail(expected, fmt::format("'{}', a LiDAR", name));
+  return name;
+}
+
+void parse_band(const FieldMap& map, ChannelConfig& channel) {
+  if (const auto f = map.find("carrier_hz")) channel.carrier_hz = f->positive();
+  if (const auto f = map.find("subcarriers")) channel.subcarriers = f->integer32(1, 1u << 20);
+  map.exclude("subcarrier_spacing_hz", "bandwidth_hz");
+  if (const auto f = map.find("subcarrier_spacing_hz")) channel.subcarrier_spacing_hz = f->positive();
+  if (const auto f = map.find("bandwidth_hz"))
+    channel.subcarrier_spacing_hz = f->positive() / channel.subcarriers;
+  const double lowest_hz = channel.carrier_hz - (channel.subcarriers / 2) * channel.subcarrier_spacing_hz;
+  if (!(lowest_hz > 0.0))
+    map.field().fail("every subcarrier above 0 Hz", fmt::format("the lowest at {} Hz", lowest_hz));
+}
+
+ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
+                            const std::vector<NodeConfig>& nodes) {
+  const FieldMap map(field,
+                     {"name", "tx", "rx", "rate_hz", "carrier_hz", "subcarrier_spacing_hz", "bandwidth_hz",
+                      "subcarriers", "time_samples", "time_spacing_s", "max_depth", "rays", "search"});
+  ChannelConfig channel;
+  channel.where = field.where();
+  channel.name = map.require("name", "a name").name();
+  channel.transmitter = parse_antenna_name(map.require("tx", "an antenna as node/sensor"), nodes);
+  for (const Field& item : map.require("rx", "a list of antennas").list("antennas", 1)) {
+    const std::string receiver = parse_antenna_name(item, nodes);
+    if (std::find(channel.receivers.begin(), channel.receivers.end(), receiver) != channel.receivers.end())
+      item.fail("every receiver once", fmt::format("a second '{}'", receiver));
+    channel.receivers.push_back(receiver);
+  }
+  channel.rate_hz =
+      rate_of(map.require("rate_hz", "a rate greater than 0 such as 10, 29.97 or 30000/1001"), tick_rate_hz);
+  parse_band(map, channel);
+  if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
+  if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive();
+  if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
+  if (const auto f = map.find("rays")) channel.rays = f->integer32(1, 1u << 28);
+  if (const auto f = map.find("search")) {
+    f->choice({"auto", "once", "every_tick"});
+    channel.search = f->text();
+  }
+  return channel;
+}
+
+}  // namespace
+
+Rational rate_of(const Field& field, const Rational& tick_rate_hz) {
+  const Rational rate = field.rational("a rate greater than 0 such as 10, 29.97 or 30000/1001");
+  if (less(tick_rate_hz, rate)) field.fail(fmt::format("at most the tick rate, {} Hz", tick_rate_hz.str()));
+  if (!quotient(tick_rate_hz, rate))
+    field.fail(
+        fmt::format("a rate whose ratio to the tick rate, {} Hz, fits 64-bit integers", tick_rate_hz.str()));
+  return rate;
+}
+
+std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz) {
+  std::vector<NodeConfig> nodes;
+  std::vector<NodeReference> references;
+  for (const Field& item : field.list("nodes")) {
+    nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, references));
+    const std::string name = nodes.back().name;
+    for (size_t i = 0; i + 1 < nodes.size(); ++i)
+      if (nodes[i].name == name) item.fail("every node's name once", fmt::format("a second '{}'", name));
+  }
+  check_references(references, nodes);
+  return nodes;
+}
+
+std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
+                                          const std::vector<NodeConfig>& nodes) {
+  std::vector<ChannelConfig> channels;
+  for (const Field& item : field.list("channels")) {
+    channels.push_back(parse_channel(item, tick_rate_hz, nodes));
+    const std::string name = channels.back().name;
+    for (size_t i = 0; i + 1 < channels.size(); ++i)
+      if (channels[i].name == name)
+        item.fail("every channel's name once", fmt::format("a second '{}'", name));
+  }
+  return channels;
+}
+
+}  // namespace greatx::sim
