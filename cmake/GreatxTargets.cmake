@@ -4,7 +4,9 @@
 # What every target of the project compiles with.
 add_library(greatx_options INTERFACE)
 target_compile_options(greatx_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                                                -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+                                                -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+                                                # Vulkan's structs are begun with their sType alone; the rest is zero.
+                                                -Wno-missing-field-initializers)
 target_include_directories(greatx_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_definitions(greatx_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_DEPTH_ZERO_TO_ONE
                                                     GLM_ENABLE_EXPERIMENTAL GREATX_VERSION="${PROJECT_VERSION}")

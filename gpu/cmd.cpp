@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gpu/cmd.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace greatx::gpu {
+
+namespace {
+
+struct UseInfo {
+  VkImageLayout layout;
+  Sync sync;
+};
+
+UseInfo info_of(ImageUse use) {
+  constexpr VkPipelineStageFlags2 shaders =
+      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  switch (use) {
+    case ImageUse::undefined:
+      return {VK_IMAGE_LAYOUT_UNDEFINED, sync::none};
+    case ImageUse::color_target:
+      return {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+              {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+               VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT}};
+    case ImageUse::depth_target:
+      return {
+          VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+          {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+           VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT}};
+    case ImageUse::sampled:
+      return {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, {shaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}};
+    case ImageUse::storage:
+      return {VK_IMAGE_LAYOUT_GENERAL,
+              {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+               VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}};
+    case ImageUse::transfer_source:
+      return {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, sync::transfer_read};
+    case ImageUse::transfer_target:
+      return {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, sync::transfer_write};
+  }
+  throw ContractError("unknown use of an image");
+}
+
+VkImageMemoryBarrier2 image_barrier(const Image& image, const UseInfo& from, const UseInfo& to, uint32_t mip,
+                                    uint32_t mip_count) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from.sync.stage;
+  barrier.srcAccessMask = from.sync.access;
+  barrier.dstStageMask = to.sync.stage;
+  barrier.dstAccessMask = to.sync.access;
+  barrier.oldLayout = from.layout;
+  barrier.newLayout = to.layout;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image.handle();
+  barrier.subresourceRange = {image.aspect(), mip, mip_count, 0, 1};
+  return barrier;
+}
+
+void pipeline_barrier(VkCommandBuffer cmd, const VkImageMemoryBarrier2& barrier) {
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(cmd, &info);
+}
+
+bool is_integer(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R32G32_UINT:
+    case VK_FORMAT_R32G32B32A32_UINT:
+    case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16G16_UINT:
+    case VK_FORMAT_R16G16B16A16_UINT:
+      return true;
+    default:
+      return false;
+  }
+}
+
+VkBufferImageCopy whole_mip(const Image& image, VkDeviceSize offset, uint32_t mip) {
+  VkBufferImageCopy region{};
+  region.bufferOffset = offset;
+  region.imageSubresource = {image.aspect(), mip, 0, 1};
+  region.imageExtent = {std::max(1u, image.desc().width >> mip), std::max(1u, image.desc().height >> mip), 1};
+  return region;
+}
+
+}  // namespace
+
+Descriptor Descriptor::buffer(uint32_t slot, const Slice& slice) {
+  Descriptor descriptor;
+  descriptor.slot = slot;
+  descriptor.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  descriptor.buffer_info = {slice.buffer, slice.offset, slice.size};
+  return descriptor;
+}
+
+Descriptor Descriptor::sampled(uint32_t slot, const Image& image, const Sampler& sampler) {
+  Descriptor descriptor;
+  descriptor.slot = slot;
+  descriptor.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  descriptor.image_info = {sampler.handle(), image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  return descriptor;
+}
+
+Descriptor Descriptor::storage(uint32_t slot, const Image& image) {
+  Descriptor descriptor;
+  descriptor.slot = slot;
+  descriptor.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+  descriptor.image_info = {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL};
+  return descriptor;
+}
+
+Descriptor Descriptor::acceleration(uint32_t slot, const AccelerationStructure& structure) {
+  Descriptor descriptor;
+  descriptor.slot = slot;
+  descriptor.type = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+  descriptor.structure = structure.handle();
+  return descriptor;
+}
+
+Timestamps::Timestamps(Device& device, uint32_t max_scopes) : device_(&device), max_scopes_(max_scopes) {
+  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = 2 * max_scopes;
+  GREATX_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &pool_));
+  vkResetQueryPool(device.handle(), pool_, 0, 2 * max_scopes);
+}
+Timestamps::~Timestamps() {
+  if (pool_ != VK_NULL_HANDLE) vkDestroyQueryPool(device_->handle(), pool_, nullptr);
+}
+Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
+Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(pool_, other.pool_);
+  std::swap(max_scopes_, other.max_scopes_);
+  std::swap(names_, other.names_);
+  return *this;
+}
+
+void Timestamps::reset() {
+  vkResetQueryPool(device_->handle(), pool_, 0, 2 * max_scopes_);
+  names_.clear();
+}
+
+std::vector<PassTime> Timestamps::read() const {
+  std::vector<uint64_t> stamps(2 * names_.size());
+  if (names_.empty()) return {};
+  GREATX_VK(vkGetQueryPoolResults(device_->handle(), pool_, 0, static_cast<uint32_t>(stamps.size()),
+                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
+                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const double milliseconds = static_cast<double>(device_->limits().timestampPeriod) * 1e-6;
+  std::vector<PassTime> times;
+  for (size_t i = 0; i < names_.size(); ++i)
+    times.push_back({names_[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * milliseconds});
+  return times;
+}
+
+Cmd::Scope::Scope(Cmd& cmd, std::string_view name) : cmd_(cmd), index_(~0u) {
+  ++cmd.device_->counters().passes;
+  if (const auto begin = cmd.device_->functions().begin_label; begin != nullptr) {
+    const std::string text(name);
+    VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+    label.pLabelName = text.c_str();
+    begin(cmd.handle_, &label);
+  }
+  Timestamps* stamps = cmd.timestamps_;
+  if (stamps == nullptr) return;
+  GREATX_CHECK(stamps->names_.size() < stamps->max_scopes_, "more than {} scopes in a tick",
+               stamps->max_scopes_);
+  index_ = static_cast<uint32_t>(stamps->names_.size());
+  stamps->names_.emplace_back(name);
+  vkCmdWriteTimestamp2(cmd.handle_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, stamps->pool_, 2 * index_);
+}
+
+Cmd::Scope::~Scope() {
+  if (index_ != ~0u)
+    vkCmdWriteTimestamp2(cmd_.handle_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, cmd_.timestamps_->pool_,
+                         2 * index_ + 1);
+  if (const auto end = cmd_.device_->functions().end_label; end != nullptr) end(cmd_.handle_);
+}
+
+void Cmd::barrier(const Sync& from, const Sync& to) {
+  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from.stage;
+  barrier.srcAccessMask = from.access;
+  barrier.dstStageMask = to.stage;
+  barrier.dstAccessMask = to.access;
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(handle_, &info);
+}
+
+void Cmd::transition(Image& image, ImageUse use, bool discard) {
+  UseInfo from = info_of(image.use_);
+  if (discard) from.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  pipeline_barrier(handle_, image_barrier(image, from, info_of(use), 0, image.desc_.mip_levels));
+  image.use_ = use;
+}
+
+void Cmd::bind(const Pipeline& pipeline) {
+  vkCmdBindPipeline(handle_, pipeline.bind_point(), pipeline.handle());
+  if (pipeline.texture_set() != VK_NULL_HANDLE) {
+    const VkDescriptorSet set = pipeline.texture_set();
+    vkCmdBindDescriptorSets(handle_, pipeline.bind_point(), pipeline.layout(), 1, 1, &set, 0, nullptr);
+  }
+  bound_ = &pipeline;
+}
+
+void Cmd::push(std::span<const Descriptor> descriptors) {
+  constexpr size_t max_descriptors = 32;
+  GREATX_CHECK(descriptors.size() <= max_descriptors, "{} descriptors", descriptors.size());
+  std::array<VkWriteDescriptorSet, max_descriptors> writes{};
+  std::array<VkWriteDescriptorSetAccelerationStructureKHR, max_descriptors> structures{};
+  for (size_t i = 0; i < descriptors.size(); ++i) {
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstBinding = descriptors[i].slot;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = descriptors[i].type;
+    writes[i].pBufferInfo = &descriptors[i].buffer_info;
+    writes[i].pImageInfo = &descriptors[i].image_info;
+    if (descriptors[i].structure != VK_NULL_HANDLE) {
+      structures[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
+                       &descriptors[i].structure};
+      writes[i].pNext = &structures[i];
+    }
+  }
+  device_->functions().push_descriptor_set(handle_, bound_->bind_point(), bound_->layout(), 0,
+                                           static_cast<uint32_t>(descriptors.size()), writes.data());
+}
+
+void Cmd::push_constants(const void* data, uint32_t bytes) {
+  GREATX_CHECK(bytes == bound_->push_constant_bytes(), "{} bytes of push constants for a pipeline with {}",
+               bytes, bound_->push_constant_bytes());
+  vkCmdPushConstants(handle_, bound_->layout(), bound_->push_constant_stages(), 0, bytes, data);
+}
+
+void Cmd::dispatch(uint32_t x, uint32_t y, uint32_t z) {
+  vkCmdDispatch(handle_, x, y, z);
+  ++device_->counters().dispatches;
+}
+
+void Cmd::bind_indices(const Buffer& buffer) {
+  vkCmdBindIndexBuffer(handle_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void Cmd::draw(uint32_t vertices, uint32_t instances) {
+  vkCmdDraw(handle_, vertices, instances, 0, 0);
+  ++device_->counters().draws;
+}
+
+void Cmd::draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance) {
+  vkCmdDrawIndexed(handle_, index_count, 1, first_index, 0, first_instance);
+  ++device_->counters().draws;
+}
+
+void Cmd::draw_indexed_indirect(const Slice& commands, uint32_t count) {
+  vkCmdDrawIndexedIndirect(handle_, commands.buffer, commands.offset, count,
+                           sizeof(VkDrawIndexedIndirectCommand));
+  ++device_->counters().draws;
+}
+
+void Cmd::begin_rendering(const RenderTargets& targets) {
+  std::vector<VkRenderingAttachmentInfo> color;
+  for (const ColorTarget& target : targets.color) {
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = target.image->view();
+    info.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    if (target.resolve != nullptr) {
+      info.resolveMode = is_integer(target.image->desc().format) ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT
+                                                                 : VK_RESOLVE_MODE_AVERAGE_BIT;
+      info.resolveImageView = target.resolve->view();
+      info.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    }
+    info.loadOp = target.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp =
+        target.resolve != nullptr ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+    info.clearValue.color = target.clear;
+    color.push_back(info);
+  }
+  VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  if (targets.depth != nullptr) {
+    depth.imageView = targets.depth->view();
+    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    depth.loadOp = targets.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    depth.clearValue.depthStencil = {targets.clear_depth, 0};
+  }
+  VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+  info.renderArea = {{0, 0}, {targets.width, targets.height}};
+  info.layerCount = 1;
+  info.colorAttachmentCount = static_cast<uint32_t>(color.size());
+  info.pColorAttachments = color.data();
+  info.pDepthAttachment = targets.depth != nullptr ? &depth : nullptr;
+  vkCmdBeginRendering(handle_, &info);
+  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(targets.width), static_cast<float>(targets.height),
+                            0.0f, 1.0f};
+  vkCmdSetViewport(handle_, 0, 1, &viewport);
+  vkCmdSetScissor(handle_, 0, 1, &info.renderArea);
+}
+
+void Cmd::end_rendering() { vkCmdEndRendering(handle_); }
+
+void Cmd::copy(const Slice& from, const Slice& to) {
+  GREATX_CHECK(from.size <= to.size, "copy of {} bytes into {}", from.size, to.size);
+  const VkBufferCopy region{from.offset, to.offset, from.size};
+  vkCmdCopyBuffer(handle_, from.buffer, to.buffer, 1, &region);
+}
+
+void Cmd::copy(const Image& from, const Slice& to) {
+  const VkBufferImageCopy region = whole_mip(from, to.offset, 0);
+  vkCmdCopyImageToBuffer(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer, 1, &region);
+}
+
+void Cmd::copy(const Slice& from, const Image& to, uint32_t mip) {
+  const VkBufferImageCopy region = whole_mip(to, from.offset, mip);
+  vkCmdCopyBufferToImage(handle_, from.buffer, to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Cmd::copy(const Image& from, const Image& to) {
+  VkImageCopy region{};
+  region.srcSubresource = {from.aspect(), 0, 0, 1};
+  region.dstSubresource = {to.aspect(), 0, 0, 1};
+  region.extent = {from.desc().width, from.desc().height, 1};
+  vkCmdCopyImage(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(),
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Cmd::fill(const Slice& slice, uint32_t word) {
+  vkCmdFillBuffer(handle_, slice.buffer, slice.offset, slice.size, word);
+}
+
+void Cmd::generate_mipmaps(Image& image) {
+  GREATX_CHECK(image.use_ == ImageUse::transfer_target, "mipmaps of an image that is not a transfer target");
+  const UseInfo target = info_of(ImageUse::transfer_target), source = info_of(ImageUse::transfer_source);
+  const auto extent = [&](uint32_t mip) {
+    return VkOffset3D{static_cast<int32_t>(std::max(1u, image.desc_.width >> mip)),
+                      static_cast<int32_t>(std::max(1u, image.desc_.height >> mip)), 1};
+  };
+  for (uint32_t mip = 1; mip < image.desc_.mip_levels; ++mip) {
+    pipeline_barrier(handle_, image_barrier(image, target, source, mip - 1, 1));
+    VkImageBlit blit{};
+    blit.srcSubresource = {image.aspect(), mip - 1, 0, 1};
+    blit.srcOffsets[1] = extent(mip - 1);
+    blit.dstSubresource = {image.aspect(), mip, 0, 1};
+    blit.dstOffsets[1] = extent(mip);
+    vkCmdBlitImage(handle_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);
+  }
+  const UseInfo sampled = info_of(ImageUse::sampled);
+  const uint32_t last = image.desc_.mip_levels - 1;
+  if (last > 0) pipeline_barrier(handle_, image_barrier(image, source, sampled, 0, last));
+  pipeline_barrier(handle_, image_barrier(image, target, sampled, last, 1));
+  image.use_ = ImageUse::sampled;
+}
+
+Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::string_view name,
+                     VkBufferUsageFlags extra_usage) {
+  Buffer buffer(device, bytes.size(), Memory::device, name, extra_usage);
+  if (bytes.empty()) return buffer;
+  const Buffer staging(device, bytes.size(), Memory::upload, "staging");
+  std::memcpy(staging.slice().mapped, bytes.data(), bytes.size());
+  submit_setup(device, [&](Cmd& cmd) { cmd.copy(staging.slice().part(0, bytes.size()), buffer.slice()); });
+  return buffer;
+}
+
+namespace detail {
+
+SetupSubmission::SetupSubmission(Device& device) : device_(device), cmd_(device, VK_NULL_HANDLE, nullptr) {
+  VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  pool.queueFamilyIndex = device.queue_family();
+  GREATX_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_));
+  VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  allocate.commandPool = pool_;
+  allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  allocate.commandBufferCount = 1;
+  VkCommandBuffer handle = VK_NULL_HANDLE;
+  GREATX_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &handle));
+  const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  GREATX_VK(vkCreateFence(device.handle(), &fence, nullptr, &fence_));
+  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  GREATX_VK(vkBeginCommandBuffer(handle, &begin));
+  cmd_ = Cmd(device, handle, nullptr);
+}
+
+SetupSubmission::~SetupSubmission() {
+  vkDestroyFence(device_.handle(), fence_, nullptr);
+  vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+void SetupSubmission::submit_and_wait() {
+  // Everything written here is seen by every later submission and by the host.
+  cmd_.barrier({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT});
+  GREATX_VK(vkEndCommandBuffer(cmd_.handle()));
+  VkCommandBufferSubmitInfo command{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+  command.commandBuffer = cmd_.handle();
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &command;
+  GREATX_VK(vkQueueSubmit2(device_.queue(), 1, &submit, fence_));
+  GREATX_VK(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX));
+  ++device_.counters().setup_submits;
+}
+
+}  // namespace detail
+
+}  // namespace greatx::gpu

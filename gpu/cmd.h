@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Recording, straight line: scopes, explicit barriers, push descriptors, dispatches, draws, copies.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/acceleration.h"
+#include "gpu/pipeline.h"
+#include "gpu/resources.h"
+
+namespace greatx::gpu {
+
+/// One side of a barrier.
+struct Sync {
+  VkPipelineStageFlags2 stage;
+  VkAccessFlags2 access;
+};
+namespace sync {
+inline constexpr Sync none{VK_PIPELINE_STAGE_2_NONE, 0};
+inline constexpr Sync compute_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT};
+inline constexpr Sync compute_read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+inline constexpr Sync compute_read_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
+inline constexpr Sync transfer_write{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr Sync transfer_read{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+inline constexpr Sync host_read{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+inline constexpr Sync host_write{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
+inline constexpr Sync indirect_read{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+inline constexpr Sync shader_read{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                                      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_READ_BIT};
+inline constexpr Sync index_read{VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT};
+inline constexpr Sync build_read{
+    VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+    VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
+inline constexpr Sync build_write{VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+                                  VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR};
+inline constexpr Sync ray_query_read{
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
+}  // namespace sync
+
+/// A descriptor to be pushed into set 0.
+struct Descriptor {
+  uint32_t slot = 0;
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  VkDescriptorBufferInfo buffer_info{};
+  VkDescriptorImageInfo image_info{};
+  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+
+  static Descriptor buffer(uint32_t slot, const Slice& slice);
+  static Descriptor buffer(uint32_t slot, const Buffer& buffer) {
+    return Descriptor::buffer(slot, buffer.slice());
+  }
+  static Descriptor sampled(uint32_t slot, const Image& image, const Sampler& sampler);
+  static Descriptor storage(uint32_t slot, const Image& image);
+  static Descriptor acceleration(uint32_t slot, const AccelerationStructure& structure);
+};
+
+struct ColorTarget {
+  Image* image = nullptr;
+  Image* resolve = nullptr;  ///< for multisampled images: averaged (floats) or sample zero (integers)
+  VkClearColorValue clear{};
+  bool keep = false;  ///< load what is there instead of clearing
+};
+
+struct RenderTargets {
+  std::vector<ColorTarget> color;
+  Image* depth = nullptr;
+  float clear_depth = 0.0f;  ///< reversed depth: far is 0
+  bool keep_depth = false;
+  uint32_t width = 0, height = 0;
+};
+
+/// Time that a scope took on the GPU.
+struct PassTime {
+  std::string name;
+  double milliseconds = 0.0;
+};
+
+/// Timestamps of one command buffer.
+class Timestamps {
+ public:
+  Timestamps() = default;
+  Timestamps(Device& device, uint32_t max_scopes);
+  ~Timestamps();
+  Timestamps(Timestamps&& other) noexcept;
+  Timestamps& operator=(Timestamps&& other) noexcept;
+  /// After the submission is done; in recording order.
+  std::vector<PassTime> read() const;
+  /// Before the command buffer is recorded anew.
+  void reset();
+
+ private:
+  friend class Cmd;
+  Device* device_ = nullptr;
+  VkQueryPool pool_ = VK_NULL_HANDLE;
+  uint32_t max_scopes_ = 0;
+  std::vector<std::string> names_;
+};
+
+/// A command buffer being recorded. Barriers and image transitions are the caller's, one at each hand-over.
+class Cmd {
+ public:
+  Cmd(Device& device, VkCommandBuffer handle, Timestamps* timestamps)
+      : device_(&device), handle_(handle), timestamps_(timestamps) {}
+
+  /// Debug label, GPU timestamps and a count of one pass, until the end of the C++ scope.
+  class Scope {
+   public:
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    friend class Cmd;
+    Scope(Cmd& cmd, std::string_view name);
+    Cmd& cmd_;
+    uint32_t index_;
+  };
+  [[nodiscard]] Scope scope(std::string_view name) { return Scope(*this, name); }
+
+  void barrier(const Sync& from, const Sync& to);
+  /// `discard`: the old content is not needed.
+  void transition(Image& image, ImageUse use, bool discard = false);
+
+  void bind(const Pipeline& pipeline);
+  /// For the bound pipeline.
+  void push(std::initializer_list<Descriptor> descriptors) {
+    push(std::span(descriptors.begin(), descriptors.size()));
+  }
+  void push(std::span<const Descriptor> descriptors);
+  template <typename T>
+  void constants(const T& values) {
+    push_constants(&values, sizeof(T));
+  }
+  void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+  void bind_indices(const Buffer& buffer);  ///< uint32
+  void draw(uint32_t vertices, uint32_t instances = 1);
+  void draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance);
+  /// `count` VkDrawIndexedIndirectCommands at `commands`.
+  void draw_indexed_indirect(const Slice& commands, uint32_t count);
+
+  void begin_rendering(const RenderTargets& targets);
+  void end_rendering();
+
+  void copy(const Slice& from, const Slice& to);
+  void copy(const Image& from, const Slice& to);  ///< tightly packed, mip 0; image in transfer_source
+  void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
+  void copy(const Image& from, const Image& to);                    ///< same size and format
+  void fill(const Slice& slice, uint32_t word);
+  /// Fills mips 1.. from mip 0 (image in transfer_target, left in sampled).
+  void generate_mipmaps(Image& image);
+
+  VkCommandBuffer handle() const { return handle_; }
+  Device& device() const { return *device_; }
+
+ private:
+  void push_constants(const void* data, uint32_t bytes);
+  Device* device_;
+  VkCommandBuffer handle_;
+  Timestamps* timestamps_;
+  const Pipeline* bound_ = nullptr;
+};
+
+/// Records with `record(cmd)`, submits, waits: set-up work outside the ticks.
+template <typename F>
+void submit_setup(Device& device, F&& record);
+
+/// Device-local buffer filled from the host, through a staging buffer and a set-up submission.
+Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::string_view name,
+                     VkBufferUsageFlags extra_usage = 0);
+
+namespace detail {
+class SetupSubmission {
+ public:
+  explicit SetupSubmission(Device& device);
+  ~SetupSubmission();
+  SetupSubmission(const SetupSubmission&) = delete;
+  SetupSubmission& operator=(const SetupSubmission&) = delete;
+  Cmd& cmd() { return cmd_; }
+  void submit_and_wait();
+
+ private:
+  Device& device_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  Cmd cmd_;
+};
+}  // namespace detail
+
+template <typename F>
+void submit_setup(Device& device, F&& record) {
+  detail::SetupSubmission submission(device);
+  record(submission.cmd());
+  submission.submit_and_wait();
+}
+
+}  // namespace greatx::gpu

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which GPU, what it can do, and the one queue that everything is submitted to.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/vulkan.h"
+
+namespace greatx::gpu {
+
+/// One thing that greatx needs or could use, and whether a device has it.
+struct Capability {
+  std::string name;      ///< as Vulkan calls it, e.g. "rayQuery"
+  std::string used_for;  ///< in words
+  bool required = true;
+  bool available = false;
+};
+
+struct DeviceInfo {
+  uint32_t index = 0;  ///< in vkEnumeratePhysicalDevices
+  std::string name;
+  std::string type;    ///< "discrete", "integrated", "virtual", "cpu", "other"
+  std::string driver;  ///< name and version text of the driver
+  std::string api_version;
+  std::vector<Capability> capabilities;
+  uint64_t memory_bytes = 0;  ///< of the largest device-local heap
+  /// Names of the required capabilities that are missing; empty: greatx runs on it.
+  std::vector<std::string> missing() const;
+  bool usable() const { return missing().empty(); }
+};
+
+/// Every Vulkan device of the machine. Throws UserError if there is no Vulkan loader or driver at all.
+std::vector<DeviceInfo> list_devices();
+
+/// Messages of the validation layer, kept for the tests and the program's end; outlives the device.
+class ValidationLog {
+ public:
+  void add(std::string message);
+  std::vector<std::string> take();
+  size_t count() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+struct DeviceOptions {
+  /// Index or part of the name (case-insensitive). Empty: $GREATX_DEVICE, else the best usable real GPU, else
+  /// a CPU.
+  std::string select;
+  /// Core and synchronisation validation. Also switched on by $GREATX_VALIDATION=1.
+  bool validation = false;
+};
+
+/// What was built and submitted; the run's summary and the tests of "only the effects the scene calls for"
+/// read it.
+struct Counters {
+  uint64_t pipelines_built = 0;
+  uint64_t setup_submits = 0;  ///< uploads and builds before the first tick
+  uint64_t submits = 0;        ///< one a tick
+  uint64_t passes = 0;         ///< scopes recorded
+  uint64_t dispatches = 0;
+  uint64_t draws = 0;
+  uint64_t tlas_builds = 0;
+  uint64_t tlas_refits = 0;
+  std::vector<std::string> pipelines;  ///< names, in the order built
+};
+
+/// Extension entry points, loaded once.
+struct Functions {
+  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
+  PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;
+  PFN_vkDestroyAccelerationStructureKHR destroy_acceleration_structure = nullptr;
+  PFN_vkGetAccelerationStructureBuildSizesKHR acceleration_structure_build_sizes = nullptr;
+  PFN_vkGetAccelerationStructureDeviceAddressKHR acceleration_structure_address = nullptr;
+  PFN_vkCmdBuildAccelerationStructuresKHR build_acceleration_structures = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;  ///< null without debug utils
+  PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+};
+
+/// The logical device. Not copyable, not movable: everything else refers to it and is destroyed before it.
+/// Recording and submitting happen on one thread.
+class Device {
+ public:
+  /// Throws UserError naming what is missing if no device fits.
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  VkDevice handle() const { return device_; }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkQueue queue() const { return queue_; }
+  uint32_t queue_family() const { return queue_family_; }
+  const DeviceInfo& info() const { return info_; }
+  const Functions& functions() const { return functions_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  uint32_t scratch_alignment() const { return scratch_alignment_; }
+  Counters& counters() { return counters_; }
+  const Counters& counters() const { return counters_; }
+  VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
+  std::shared_ptr<ValidationLog> validation_log() const { return validation_log_; }
+
+  /// Memory type with all of `required`, preferring `preferred`. Throws UserError if there is none.
+  uint32_t memory_type(uint32_t allowed_bits, VkMemoryPropertyFlags required,
+                       VkMemoryPropertyFlags preferred) const;
+  /// Names an object for validation messages and RenderDoc.
+  void set_name(VkObjectType type, uint64_t handle, std::string_view name) const;
+  void wait_idle() const;
+
+ private:
+  void create_instance(bool validation);
+  void choose_physical(const std::string& select);
+  void create_logical();
+
+  std::shared_ptr<ValidationLog> validation_log_ = std::make_shared<ValidationLog>();
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
+  uint32_t queue_family_ = 0;
+  uint32_t scratch_alignment_ = 256;
+  bool debug_utils_ = false;
+  DeviceInfo info_;
+  Functions functions_;
+  VkPhysicalDeviceLimits limits_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+  Counters counters_;
+};
+
+}  // namespace greatx::gpu

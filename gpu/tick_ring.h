@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// N slots in flight, each with a command buffer, an upload and a readback arena and timestamps; one timeline
+// semaphore counts the ticks submitted. One submission a tick.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/cmd.h"
+#include "gpu/resources.h"
+
+namespace greatx::gpu {
+
+/// Memory handed out front to back and taken back all at once. Grows by a block when a tick asks for more
+/// than any tick before it; a steady state allocates nothing.
+class Arena {
+ public:
+  Arena() = default;
+  Arena(Device& device, Memory memory, VkDeviceSize bytes, std::string name);
+  /// Aligned to 256 bytes. The content is undefined.
+  Slice allocate(VkDeviceSize bytes);
+  template <typename T>
+  Slice allocate_for(size_t count) {
+    return allocate(sizeof(T) * count);
+  }
+  /// Copies `values` in.
+  template <typename T>
+  Slice put(std::span<const T> values) {
+    const Slice slice = allocate(values.size_bytes());
+    std::copy_n(reinterpret_cast<const std::byte*>(values.data()), values.size_bytes(), slice.mapped);
+    return slice;
+  }
+  void reset();
+  uint64_t growths() const { return growths_; }
+
+ private:
+  Device* device_ = nullptr;
+  Memory memory_ = Memory::upload;
+  std::string name_;
+  std::vector<Buffer> blocks_;
+  size_t block_ = 0;
+  VkDeviceSize used_ = 0;
+  uint64_t growths_ = 0;
+};
+
+/// Everything one tick needs while it is in flight. Slices of its arenas are valid until the slot is begun
+/// again.
+struct TickSlot {
+  uint32_t index = 0;
+  Cmd* cmd = nullptr;  ///< valid between begin and submit
+  Arena upload;
+  Arena readback;
+  Timestamps timestamps;
+  uint64_t submission = 0;  ///< value of the timeline when it is done
+};
+
+class TickRing {
+ public:
+  TickRing(Device& device, uint32_t slots, VkDeviceSize upload_bytes, VkDeviceSize readback_bytes);
+  ~TickRing();
+  TickRing(const TickRing&) = delete;
+  TickRing& operator=(const TickRing&) = delete;
+
+  /// Next slot in turn; waits until its last submission is done, resets its arenas and starts recording.
+  TickSlot& begin();
+  /// Ends recording with a barrier from all writes to host reads, and submits: one submission a tick.
+  void submit(TickSlot& slot);
+  /// Blocks until the slot's submission is done: its readback arena and timestamps may be read.
+  void wait(const TickSlot& slot) const;
+  uint32_t slot_count() const { return static_cast<uint32_t>(slots_.size()); }
+
+ private:
+  Device& device_;
+  VkSemaphore timeline_ = VK_NULL_HANDLE;
+  uint64_t submitted_ = 0;
+  uint32_t next_ = 0;
+  std::vector<TickSlot> slots_;
+  std::vector<VkCommandPool> pools_;
+  std::vector<Cmd> cmds_;
+};
+
+}  // namespace greatx::gpu

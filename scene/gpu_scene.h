@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene on the GPU: uploaded once, then only the bodies' poses change.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gpu/acceleration.h"
+#include "gpu/cmd.h"
+#include "gpu/pipeline.h"
+#include "gpu/tick_ring.h"
+#include "scene/scene.h"
+#include "shaders/shared/scene.h"
+
+namespace greatx::scene {
+
+/// What the plan asks the upload to make.
+struct GpuSceneOptions {
+  bool acceleration_structure = true;  ///< some pass traces rays
+  bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)
+};
+
+class GpuScene {
+ public:
+  GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options);
+
+  /// Uploads the bodies' poses (local coordinates; [0] is ignored) into the slot, and builds the top-level
+  /// structure the first time, refits it when a body moved since, and leaves it alone otherwise. Must be
+  /// recorded before any pass of the tick that uses the scene.
+  void record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+
+  const Scene& scene() const { return *scene_; }
+  gpu::Device& device() const { return *device_; }
+  const gpu::Tlas& tlas() const { return tlas_; }
+  const gpu::TextureTable& textures() const { return textures_; }
+  const gpu::Buffer& indices() const { return indices_; }
+  /// Descriptors of set 0 shared by all passes: scene addresses, TLAS (if there is one), this tick's bodies.
+  std::vector<gpu::Descriptor> descriptors() const;
+  /// Their bindings, for building pipelines. `trace`: with the TLAS.
+  static std::vector<gpu::Binding> bindings(bool trace);
+  /// The same without the TLAS, for raster passes.
+  std::vector<gpu::Descriptor> raster_descriptors() const;
+
+ private:
+  void upload_geometry();
+  void upload_textures();
+  void build_structures();
+
+  gpu::Device* device_;
+  const Scene* scene_;
+  GpuSceneOptions options_;
+  gpu::Buffer positions_, normals_, tangents_, uvs_, indices_, primitives_, materials_, facet_of_triangle_,
+      addresses_;
+  std::vector<gpu::Image> images_;
+  std::vector<gpu::Sampler> samplers_;
+  gpu::TextureTable textures_;
+  std::vector<gpu::Blas> blas_;      ///< of the bodies that have triangles
+  std::vector<uint32_t> blas_body_;  ///< body of each
+  gpu::Tlas tlas_;
+  gpu::Slice bodies_;  ///< of the tick being recorded
+  std::vector<Pose> last_poses_;
+};
+
+}  // namespace greatx::scene

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Access to the scene's buffers.
+#ifndef GREATX_LIB_SCENE_GLSL
+#define GREATX_LIB_SCENE_GLSL
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#include "shared/scene.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec3Buffer { vec3 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec4Buffer { vec4 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec2Buffer { vec2 v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer UintBuffer { uint v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PrimitiveBuffer { GpuPrimitive v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialBuffer { GpuMaterial v[]; };
+
+layout(set = 0, binding = scene_binding, scalar) readonly buffer SceneBlock { GpuSceneAddresses scene; };
+layout(set = 0, binding = bodies_binding, scalar) readonly buffer BodiesBlock { GpuBody bodies[]; };
+
+GpuPrimitive scene_primitive(uint i) { return PrimitiveBuffer(scene.primitives).v[i]; }
+GpuMaterial scene_material(uint i) { return MaterialBuffer(scene.materials).v[i]; }
+uint scene_index(uint i) { return UintBuffer(scene.indices).v[i]; }
+vec3 scene_position(uint i) { return Vec3Buffer(scene.positions).v[i]; }
+vec3 scene_normal(uint i) { return Vec3Buffer(scene.normals).v[i]; }
+vec4 scene_tangent(uint i) { return Vec4Buffer(scene.tangents).v[i]; }
+vec2 scene_uv(uint i) { return Vec2Buffer(scene.uvs).v[i]; }
+uint scene_facet(uint triangle) { return UintBuffer(scene.facet_of_triangle).v[triangle]; }
+
+vec3 body_point(uint body, vec3 p) {
+  vec4 h = vec4(p, 1.0);
+  return vec3(dot(bodies[body].row0, h), dot(bodies[body].row1, h), dot(bodies[body].row2, h));
+}
+vec3 body_direction(uint body, vec3 d) {
+  return vec3(dot(bodies[body].row0.xyz, d), dot(bodies[body].row1.xyz, d), dot(bodies[body].row2.xyz, d));
+}
+#endif

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tracing rays: one interface; this back end uses the driver's ray query. Another one may stand beside it.
+//
+// What holds for every back end:
+// - t_min < t < t_max; a hit exactly at an end may or may not be reported, so callers leave room for rounding.
+// - Both sides of a triangle are solid. Degenerate triangles and triangles in the ray's plane are never hit.
+// - direction need not be a unit vector, but must not be zero; nothing may be NaN.
+// - Where several triangles share the nearest t (an edge, a vertex, duplicates) one of them is returned.
+//
+// With GREATX_TRACE_ALPHA defined (needs lib/alpha.glsl and the texture table), texels below the cut-off of a masked
+// material let rays through in the functions that say so; everywhere else masked triangles are solid.
+#ifndef GREATX_LIB_TRACE_GLSL
+#define GREATX_LIB_TRACE_GLSL
+#extension GL_EXT_ray_query : require
+#include "lib/scene.glsl"
+#ifdef GREATX_TRACE_ALPHA
+#include "lib/alpha.glsl"
+#endif
+
+layout(set = 0, binding = tlas_binding) uniform accelerationStructureEXT tlas;
+
+const uint no_body = ~0u;
+const uint no_facet = ~0u;
+
+struct Hit {
+  bool hit;
+  float t;          // along the direction, in its lengths
+  uint primitive;   // index into the scene's primitives
+  uint triangle;    // index into the scene's triangles
+  vec2 barycentric; // of the second and third corner
+  bool front;       // seen from the side the winding faces
+};
+
+Hit no_hit(float t_max) { return Hit(false, t_max, 0u, 0u, vec2(0.0), true); }
+
+Hit committed_hit(rayQueryEXT query, float t_max) {
+  Hit hit = no_hit(t_max);
+  hit.hit = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT;
+  if (hit.hit) {
+    hit.t = rayQueryGetIntersectionTEXT(query, true);
+    hit.primitive = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) +
+                    uint(rayQueryGetIntersectionGeometryIndexEXT(query, true));
+    hit.triangle = scene_primitive(hit.primitive).first_triangle +
+                   uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
+    hit.barycentric = rayQueryGetIntersectionBarycentricsEXT(query, true);
+    hit.front = rayQueryGetIntersectionFrontFaceEXT(query, true);
+  }
+  return hit;
+}
+
+uint candidate_primitive(rayQueryEXT query) {
+  return uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false)) +
+         uint(rayQueryGetIntersectionGeometryIndexEXT(query, false));
+}
+uint candidate_triangle(rayQueryEXT query, GpuPrimitive primitive) {
+  return primitive.first_triangle + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+}
+
+/// The first triangle along origin + t * direction. Masked texels count as solid.
+Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xff, origin, t_min, direction, t_max);
+  while (rayQueryProceedEXT(query)) {}
+  return committed_hit(query, t_max);
+}
+
+/// The same without the triangles of one body and of one facet (no_body, no_facet: none), exactly: they are passed over
+/// one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
+Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, 0xff, origin, t_min, direction, t_max);
+  while (rayQueryProceedEXT(query)) {
+    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
+    uint triangle = candidate_triangle(query, primitive);
+    bool solid = primitive.body != body && (facet == no_facet || scene_facet(triangle) != facet);
+#ifdef GREATX_TRACE_ALPHA
+    if (masks) solid = solid && alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false));
+#endif
+    if (solid) rayQueryConfirmIntersectionEXT(query);
+  }
+  return committed_hit(query, t_max);
+}
+
+#ifdef GREATX_TRACE_ALPHA
+/// The first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are looked at one by one.
+Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, 0xff, origin, t_min, direction, t_max);
+  while (rayQueryProceedEXT(query)) {
+    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
+    uint triangle = candidate_triangle(query, primitive);
+    if (alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false)))
+      rayQueryConfirmIntersectionEXT(query);
+  }
+  return committed_hit(query, t_max);
+}
+#endif
+
+/// Whether anything stands between t_min and t_max, not counting triangles of two facets (those at the ends of a
+/// segment; no_facet: none). Masked texels count as solid.
+bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, 0xff, origin, t_min,
+                        direction, t_max);
+  while (rayQueryProceedEXT(query)) {
+    uint triangle = candidate_triangle(query, scene_primitive(candidate_primitive(query)));
+    uint facet = scene_facet(triangle);
+    if (facet == no_facet || (facet != skip_facet_a && facet != skip_facet_b)) rayQueryConfirmIntersectionEXT(query);
+  }
+  return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
+}
+
+/// A triangle's corners in local coordinates.
+struct Corners {
+  vec3 a, b, c;
+};
+Corners triangle_corners(uint triangle, uint body) {
+  uint first = 3u * triangle;
+  Corners corners = Corners(scene_position(scene_index(first)), scene_position(scene_index(first + 1u)),
+                            scene_position(scene_index(first + 2u)));
+  if (body != 0u) {
+    corners.a = body_point(body, corners.a);
+    corners.b = body_point(body, corners.b);
+    corners.c = body_point(body, corners.c);
+  }
+  return corners;
+}
+
+/// Unit normal on the side the winding faces (counter-clockwise); zero for a triangle without area.
+vec3 geometric_normal(Corners corners) {
+  vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
+  float squared = dot(normal, normal);
+  return squared > 0.0 ? normal * inversesqrt(squared) : vec3(0.0);
+}
+
+/// Where a hit is, from its barycentric coordinates: far more exact than origin + t * direction, whose error grows with
+/// the distance travelled. `error` bounds each coordinate: three products and two sums of |coordinate| at 2^-24 each,
+/// plus those of a body's pose (M. Pharr et al., "Physically Based Rendering", 4th ed., section 6.8.5).
+struct HitPoint {
+  vec3 position;
+  vec3 error;
+};
+HitPoint hit_point(Corners corners, vec2 barycentric) {
+  float first = 1.0 - barycentric.x - barycentric.y;
+  HitPoint point;
+  point.position = first * corners.a + barycentric.x * corners.b + barycentric.y * corners.c;
+  vec3 magnitude = abs(first * corners.a) + abs(barycentric.x * corners.b) + abs(barycentric.y * corners.c);
+  point.error = magnitude * (7.0 * 5.9604645e-8);
+  return point;
+}
+
+/// Start of a ray that leaves `point` on the side of `normal`: moved along it just beyond the error of the point, and
+/// rounded away from the surface. For queries only: lengths and delays never see it.
+vec3 offset_origin(HitPoint point, vec3 normal) {
+  vec3 start = point.position + normal * dot(abs(normal), point.error);
+  vec3 bumped = intBitsToFloat(floatBitsToInt(start) + mix(ivec3(1), ivec3(-1), lessThan(start, vec3(0.0))) *
+                                                           ivec3(sign(normal)));
+  // Next to zero the integer step would cross from -0 to NaN patterns; a denormal step is no step anyway.
+  return mix(bumped, start, lessThan(abs(start), vec3(1e-30)));
+}
+#endif

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene as shaders see it. A hit's primitive is instanceCustomIndex + geometryIndex (a body's custom
+// index is its first primitive); its triangle is primitives[i].first_triangle + primitiveIndex.
+#ifndef GREATX_SHADERS_SHARED_SCENE_H
+#define GREATX_SHADERS_SHARED_SCENE_H
+#include "glsl.h"
+
+GREATX_SHARED_BEGIN
+
+const uint material_flag_alpha_mask = 1u;
+const uint material_flag_double_sided = 2u;
+
+struct GpuMaterial {
+  vec4 base_color;
+  vec3 emissive;
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float alpha_cutoff;
+  uint flags;
+  int base_color_texture;
+  int metallic_roughness_texture;
+  int normal_texture;
+  int emissive_texture;
+  float reflectance_905nm;
+  float reflectance_1550nm;
+};
+
+struct GpuPrimitive {
+  uint first_index;
+  uint first_triangle;
+  uint material;
+  uint instance;
+  uint semantic_class;
+  uint body;
+};
+
+/// Where a body is at this tick: rows of local_from_body, and of the tick before (for motion).
+struct GpuBody {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
+};
+
+/// Addresses of the scene's buffers; one such block is a buffer of its own (binding `scene_binding` of set
+/// 0).
+struct GpuSceneAddresses {
+  uint64_t positions;          // vec3[]
+  uint64_t normals;            // vec3[]
+  uint64_t tangents;           // vec4[]
+  uint64_t uvs;                // vec2[]
+  uint64_t indices;            // uint[]
+  uint64_t primitives;         // GpuPrimitive[]
+  uint64_t materials;          // GpuMaterial[]
+  uint64_t facet_of_triangle;  // uint[]
+};
+
+// Bindings of set 0 that every pass over the scene shares; a pass's own start at first_pass_binding.
+const uint scene_binding = 0u;
+const uint tlas_binding = 1u;
+const uint bodies_binding = 2u;
+const uint first_pass_binding = 4u;
+
+GREATX_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(greatx::shared::GpuMaterial) == 72);
+static_assert(sizeof(greatx::shared::GpuPrimitive) == 24);
+static_assert(sizeof(greatx::shared::GpuBody) == 48);
+static_assert(sizeof(greatx::shared::GpuSceneAddresses) == 64);
+#endif
+#endif

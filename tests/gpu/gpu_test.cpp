@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gpu/tick_ring.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace greatx::gpu {
+namespace {
+
+struct AddConstants {
+  uint32_t count, more;
+};
+
+ComputePipeline add_pipeline(uint32_t addend) {
+  ComputeDesc desc;
+  desc.shader = "tests/add.comp";
+  desc.bindings = {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+  desc.push_constant_bytes = sizeof(AddConstants);
+  desc.specialization = {addend};
+  return ComputePipeline(test::device(), desc, "add");
+}
+
+TEST(Devices, AreListedWithWhatTheyLack) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  ASSERT_FALSE(devices.empty());
+  for (const DeviceInfo& info : devices) {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_EQ(info.usable(), info.missing().empty());
+  }
+}
+
+TEST(Devices, MissingFeatureIsNamed) {
+  DeviceInfo info;
+  info.capabilities = {{"rayQuery", "tracing rays", true, false}, {"nicety", "speed", false, false}};
+  EXPECT_THAT(info.missing(), testing::ElementsAre("rayQuery"));
+  EXPECT_FALSE(info.usable());
+}
+
+TEST(Devices, UnknownSelectionListsWhatThereIs) {
+  try {
+    const Device device({"no such device", false});
+    FAIL() << "a device was found";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no Vulkan device matches 'no such device'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr(list_devices()[0].name));
+  }
+}
+
+TEST(Validation, AMessageIsCaught) {
+  Device& device = test::device();
+  const Buffer small(device, 16, Memory::device, "small");
+  const Buffer large(device, 64, Memory::device, "large");
+  submit_setup(device, [&](Cmd& cmd) {
+    const VkBufferCopy outside{0, 0, 64};
+    vkCmdCopyBuffer(cmd.handle(), large.handle(), small.handle(), 1, &outside);
+  });
+  EXPECT_FALSE(device.validation_log()->take().empty()) << "validation is not on";
+}
+
+TEST(Compute, AddsWithSpecializationAndPushConstants) {
+  Device& device = test::device();
+  const ComputePipeline pipeline = add_pipeline(100);
+  TickRing ring(device, 2, 1 << 16, 1 << 16);
+  const uint64_t submits = device.counters().submits;
+  for (uint32_t tick = 0; tick < 5; ++tick) {
+    std::vector<uint32_t> values(1000);
+    std::iota(values.begin(), values.end(), tick);
+    TickSlot& slot = ring.begin();
+    const Slice in = slot.upload.put(std::span<const uint32_t>(values));
+    const Slice out = slot.readback.allocate_for<uint32_t>(values.size());
+    {
+      const auto scope = slot.cmd->scope("add");
+      slot.cmd->bind(pipeline);
+      slot.cmd->push({Descriptor::buffer(0, in), Descriptor::buffer(1, out)});
+      slot.cmd->constants(AddConstants{1000, tick});
+      slot.cmd->dispatch(16);
+    }
+    ring.submit(slot);
+    ring.wait(slot);
+    const auto result = out.as<uint32_t>();
+    for (uint32_t i = 0; i < values.size(); ++i) ASSERT_EQ(result[i], i + 2 * tick + 100);
+    const std::vector<PassTime> times = slot.timestamps.read();
+    ASSERT_EQ(times.size(), 1u);
+    EXPECT_EQ(times[0].name, "add");
+    EXPECT_GE(times[0].milliseconds, 0.0);
+  }
+  EXPECT_EQ(device.counters().submits - submits, 5u);
+}
+
+TEST(Arena, GrowsOnceThenReuses) {
+  Arena arena(test::device(), Memory::upload, 1024, "test");
+  for (int round = 0; round < 3; ++round) {
+    arena.reset();
+    const Slice a = arena.allocate(1000);
+    const Slice b = arena.allocate(5000);
+    EXPECT_NE(a.buffer, b.buffer);
+    EXPECT_EQ(b.size, 5000u);
+  }
+  EXPECT_EQ(arena.growths(), 1u);
+}
+
+TEST(Upload, ArrivesWhole) {
+  std::vector<uint32_t> words(100000);
+  std::iota(words.begin(), words.end(), 7u);
+  const Buffer buffer = upload_buffer(test::device(), std::as_bytes(std::span(words)), "words");
+  const Buffer back(test::device(), buffer.size(), Memory::readback, "back");
+  submit_setup(test::device(), [&](Cmd& cmd) { cmd.copy(buffer.slice(), back.slice()); });
+  EXPECT_TRUE(std::equal(words.begin(), words.end(), back.slice().as<uint32_t>().begin()));
+}
+
+TEST(Spirv, UnknownNameIsABrokenContract) { EXPECT_THROW(spirv("no/such.comp"), ContractError); }
+
+}  // namespace
+}  // namespace greatx::gpu
