@@ -31,7 +31,9 @@ shared::GpuMaterial gpu_material(const Material& material, bool textures) {
   result.normal_scale = pbr.normal_scale;
   result.alpha_cutoff = pbr.alpha_cutoff;
   result.flags = (pbr.alpha_mode == AlphaMode::mask ? shared::material_flag_alpha_mask : 0u) |
-                 (pbr.double_sided ? shared::material_flag_double_sided : 0u);
+                 (pbr.double_sided ? shared::material_flag_double_sided : 0u) |
+                 (material.reflectance_905nm ? shared::material_flag_reflectance_905nm : 0u) |
+                 (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u);
   result.base_color_texture = texture(pbr.base_color_texture);
   result.metallic_roughness_texture = texture(pbr.metallic_roughness_texture);
   result.normal_texture = texture(pbr.normal_texture);

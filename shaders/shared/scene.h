@@ -11,6 +11,9 @@ GREATX_SHARED_BEGIN
 
 const uint material_flag_alpha_mask = 1u;
 const uint material_flag_double_sided = 2u;
+// The file states the reflectance; without the flag it stands for the luminance of the base colour.
+const uint material_flag_reflectance_905nm = 4u;
+const uint material_flag_reflectance_1550nm = 8u;
 
 struct GpuMaterial {
   vec4 base_color;

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Textures where a ray meets a triangle: alpha masks (glTF 2.0, section 3.9.4) and base colour. Set 1 is the scene's
+// texture table.
+#ifndef GREATX_LIB_ALPHA_GLSL
+#define GREATX_LIB_ALPHA_GLSL
+#extension GL_EXT_nonuniform_qualifier : require
+#include "lib/scene.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+vec2 hit_uv(uint triangle, vec2 barycentric) {
+  uint first = 3u * triangle;
+  return (1.0 - barycentric.x - barycentric.y) * scene_uv(scene_index(first)) +
+         barycentric.x * scene_uv(scene_index(first + 1u)) + barycentric.y * scene_uv(scene_index(first + 2u));
+}
+
+/// Linear base colour and alpha at a hit, mip 0.
+vec4 hit_base_color(GpuMaterial material, uint triangle, vec2 barycentric) {
+  vec4 color = material.base_color;
+  if (material.base_color_texture >= 0)
+    color *= textureLod(textures[nonuniformEXT(material.base_color_texture)], hit_uv(triangle, barycentric), 0.0);
+  return color;
+}
+
+/// Whether the texel stops a ray: always, but for masked materials below their cut-off.
+bool alpha_is_solid(GpuPrimitive primitive, uint triangle, vec2 barycentric) {
+  GpuMaterial material = scene_material(primitive.material);
+  if ((material.flags & material_flag_alpha_mask) == 0u) return true;
+  return hit_base_color(material, triangle, barycentric).a >= material.alpha_cutoff;
+}
+#endif
