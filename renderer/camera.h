@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pinhole camera: radiance, planar depth and ids from one draw of the scene. docs/camera.md has the conventions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "gpu/cmd.h"
+#include "gpu/tick_ring.h"
+#include "renderer/lighting.h"
+#include "scene/gpu_scene.h"
+
+namespace greatx::render {
+
+/// What to deliver. Colour is rendered only for rgb or hdr, depth and ids only if one of them is wanted.
+struct CameraOutputs {
+  bool rgb = true, depth = true, instance = true, semantic = true, material = true;
+  bool hdr = false;
+  bool color() const { return rgb || hdr; }
+  bool ids() const { return depth || instance || semantic || material; }
+};
+
+struct CameraDesc {
+  std::string name = "camera";  ///< for labels, timestamps and messages
+  uint32_t width = 640, height = 480;
+  double fx = 0.0, fy = 0.0;  ///< focal lengths, pixels
+  double cx = 0.0,
+         cy = 0.0;  ///< principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5)
+  double near_m = 0.1;  ///< planar depth of the nearest visible point; there is no far plane
+  uint32_t msaa = 4;    ///< samples a pixel: 1 or 4
+  double exposure_ev100 = 15.0;
+  CameraOutputs outputs;
+  std::optional<uint32_t> excluded_body;  ///< the body that carries the camera, if it shall not see it
+};
+
+/// What a camera saw at one tick; arrays that were not asked for are empty. C order, row 0 on top.
+struct CameraImages {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgb;        ///< [height, width, 3], sRGB
+  std::vector<float> hdr;          ///< [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 L_max
+  std::vector<float> depth;        ///< [height, width], planar metres at the pixel's centre; sky: +inf
+  std::vector<uint32_t> instance;  ///< [height, width], instance index + 1; 0: nothing
+  std::vector<uint8_t> semantic;   ///< [height, width], SemanticClass; 0: nothing or unlabeled
+  std::vector<uint16_t> material;  ///< [height, width], material index + 1; 0: nothing
+};
+
+/// Luminance that saturates the sensor at an exposure value: 1.2 * 2^EV100 cd/m^2 (ISO 12232 with a lens
+/// transmission of .65; Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH course 2014, section 5.1.2).
+double saturation_luminance(double ev100);
+
+struct CameraView;
+
+class CameraPass {
+ public:
+  /// Builds only the pipelines that this scene, these outputs and the lighting's effects need. `lighting` and its
+  /// scene outlive the pass. Throws UserError naming the camera and the field if `desc` is not sensible.
+  CameraPass(const SceneLighting& lighting, const CameraDesc& desc);
+
+  /// Records one picture into the slot; after GpuScene::record_update and SceneLighting::record of the same tick.
+  /// `local_from_sensor`: x forward, y left, z up, in local coordinates.
+  void record(gpu::TickSlot& slot, const Pose& local_from_sensor);
+  /// The picture that was recorded into `slot`, once its submission is done.
+  CameraImages collect(const gpu::TickSlot& slot) const;
+
+  const CameraDesc& desc() const { return desc_; }
+  /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times saturation_luminance is cd/m^2.
+  gpu::Image& hdr_image() { return color_; }
+  /// Primitives drawn, and left out because they lie outside the view, by the last record().
+  uint32_t drawn() const { return drawn_; }
+  uint32_t culled() const { return culled_; }
+
+ private:
+  /// Primitives that one pipeline draws.
+  struct Group {
+    bool textured = false, masked = false, normal_mapped = false;
+    std::vector<uint32_t> primitives;
+    gpu::GraphicsPipeline pipeline;
+  };
+  /// Bounding sphere of a primitive in its body's frame.
+  struct Sphere {
+    dvec3 center{0.0};
+    double radius = 0.0;
+  };
+  struct Readback {
+    gpu::Slice rgb, hdr, depth, instance, semantic, material;
+  };
+
+  void check() const;
+  void bound_primitives();
+  void group_primitives();
+  void build_pipelines();
+  void create_images();
+  std::vector<uint32_t> visible(const Group& group, const CameraView& view);
+  gpu::Slice upload_lights(gpu::TickSlot& slot, const CameraView& view) const;
+  void record_surfaces(gpu::TickSlot& slot, const CameraView& view);
+  void record_develop(gpu::TickSlot& slot);
+
+  const SceneLighting* lighting_;
+  const scene::GpuScene* scene_;
+  CameraDesc desc_;
+  CameraEffects effects_;
+  std::vector<Sphere> spheres_;
+  std::vector<Group> groups_;
+  gpu::GraphicsPipeline sky_;
+  gpu::ComputePipeline develop_;
+  gpu::Image color_samples_, ids_samples_, depth_;  ///< samples: only with msaa > 1
+  gpu::Image color_, ids_;
+  std::vector<Readback> readbacks_;  ///< by slot
+  std::string surface_scope_, develop_scope_;
+  uint32_t drawn_ = 0, culled_ = 0;
+};
+
+}  // namespace greatx::render

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sun, sky and shadows of a scene, shared by all its cameras: made once, only moving bodies' shadows change.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "gpu/cmd.h"
+#include "gpu/tick_ring.h"
+#include "renderer/shadow.h"
+#include "scene/gpu_scene.h"
+
+namespace greatx::render {
+
+enum class SkyModel {
+  preetham,  ///< clear sky (Preetham, Shirley, Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999)
+  uniform,  ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
+};
+
+/// Light that reaches the scene from outside, photometric: lux. The sun's and the sky's colours are scaled so that
+/// 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is sun sin(elevation) + sky exactly.
+struct Lighting {
+  dvec3 sun_direction{0.0, 0.0, 1.0};  ///< unit, local axes (x east, y north, z up), to the sun
+  double sun_illuminance_lux =
+      100000.0;  ///< on a surface facing the sun; no light while the sun is below the horizon
+  double sky_illuminance_lux = 15000.0;  ///< on level ground from the sky alone
+  SkyModel sky_model = SkyModel::preetham;
+  double turbidity = 3.0;                ///< haziness, 2 (very clear) to 10 (hazy); Preetham only
+  double ground_albedo = 0.15;           ///< of what lies below the horizon beyond the scene; Preetham only
+  uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
+  uint32_t moving_shadow_texels = 512;   ///< edge of a moving body's tile, at most
+
+  /// To the sun at `azimuth` from x towards y and `elevation` above the horizon, rad.
+  static dvec3 direction(double azimuth, double elevation);
+};
+
+/// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded.
+struct CameraEffects {
+  bool sun = true;
+  bool sky = true;             ///< as background, ambient light and reflection
+  bool static_shadows = true;  ///< only with the sun
+  bool moving_shadows = true;  ///< only with the sun
+  bool textures = true;
+  bool normal_maps = true;
+  bool alpha_mask = true;
+  bool emissive = true;
+  bool punctual_lights = true;
+  bool specular = true;  ///< off: every surface is Lambertian
+};
+
+class SceneLighting {
+ public:
+  /// Bakes the sky and renders the static shadow map (set-up submissions). `scene` outlives this.
+  /// Throws UserError if a value of `lighting` is out of its range.
+  SceneLighting(const scene::GpuScene& scene, const Lighting& lighting, const CameraEffects& effects);
+
+  /// Once a tick, after the scene's update and before the cameras: the moving bodies' shadows. Poses as given to
+  /// GpuScene::record_update.
+  void record(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+
+  const CameraEffects& effects() const { return effects_; }
+  const scene::GpuScene& scene() const { return *scene_; }
+  /// Poses of the tick being recorded; [0] is the identity.
+  const std::vector<Pose>& body_poses() const { return body_poses_; }
+  const ShadowMaps& shadows() const { return shadows_; }
+  /// Bindings and descriptors of light.glsl, without the lamps (each camera has its own).
+  static std::vector<gpu::Binding> bindings();
+  std::vector<gpu::Descriptor> descriptors() const;
+
+ private:
+  void bake(const Lighting& lighting);
+
+  const scene::GpuScene* scene_;
+  CameraEffects effects_;  ///< what was asked, less what this light cannot cast
+  ShadowMaps shadows_;
+  gpu::Image environment_;
+  gpu::Sampler environment_sampler_;
+  gpu::Buffer block_;  ///< GpuLighting
+  std::vector<Pose> body_poses_;
+};
+
+}  // namespace greatx::render

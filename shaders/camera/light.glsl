@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What arrives at a surface point: sun with its shadows, sky, lamps.
+#ifndef GREATX_CAMERA_LIGHT_GLSL
+#define GREATX_CAMERA_LIGHT_GLSL
+#include "camera/surface_interface.glsl"
+#include "shared/brdf.h"
+
+layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };
+layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTilesBlock {
+  uint shadow_tile_count;
+  GpuShadowTile shadow_tiles[];
+};
+layout(set = 0, binding = lights_binding, scalar) readonly buffer LightsBlock {
+  uint light_count;
+  GpuLight lights[];
+};
+layout(set = 0, binding = environment_binding) uniform sampler2D environment;
+layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_shadow;
+layout(set = 0, binding = moving_shadow_binding) uniform sampler2DShadow moving_shadow;
+
+/// The octahedral map's coordinates of a unit direction, z up (Cigolle et al., JCGT 3(2), 2014).
+vec2 octahedral_uv(vec3 d) {
+  vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
+  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  if (d.z < 0.0) p = (1.0 - abs(p.yx)) * signs;
+  return p * 0.5 + 0.5;
+}
+
+/// Radiance from a direction, blurred for a roughness.
+vec3 environment_radiance(vec3 direction, float roughness) {
+  float level = roughness * float(environment_levels - 1u);
+  return textureLod(environment, octahedral_uv(direction), level).rgb * lighting.environment_scale;
+}
+
+/// Irradiance of the sky on a plane, over pi (Ramamoorthi and Hanrahan, SIGGRAPH 2001; coefficients already
+/// convolved and scaled by the basis).
+vec3 sky_irradiance_over_pi(vec3 n) {
+  vec3 e = lighting.irradiance[0].rgb;
+  e += lighting.irradiance[1].rgb * n.y + lighting.irradiance[2].rgb * n.z + lighting.irradiance[3].rgb * n.x;
+  e += lighting.irradiance[4].rgb * (n.x * n.y) + lighting.irradiance[5].rgb * (n.y * n.z);
+  e += lighting.irradiance[6].rgb * (3.0 * n.z * n.z - 1.0) + lighting.irradiance[7].rgb * (n.x * n.z);
+  e += lighting.irradiance[8].rgb * (n.x * n.x - n.y * n.y);
+  return max(e, vec3(0.0));
+}
+
+/// Share of the light that passes a shadow map at uv: four bilinear comparisons, a 3 x 3 texel tent.
+float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv) {
+  const float r = 0.5;
+  float sum = texture(map, vec3(uv + texel_uv * vec2(-r, -r), depth));
+  sum += texture(map, vec3(uv + texel_uv * vec2(r, -r), depth));
+  sum += texture(map, vec3(uv + texel_uv * vec2(-r, r), depth));
+  sum += texture(map, vec3(uv + texel_uv * vec2(r, r), depth));
+  return 0.25 * sum;
+}
+
+/// Moves the point off its surface by what a texel can hide: along the normal where the light grazes.
+vec3 shadow_point(vec3 p, vec3 n_light, float texel_m) {
+  float slope = sqrt(max(1.0 - n_light.z * n_light.z, 0.0));
+  return p + n_light * (texel_m * (0.25 + 1.75 * slope)) + vec3(0.0, 0.0, 0.25 * texel_m);
+}
+
+/// Share of the sun that reaches a point; geometric normal in the local frame, facing the sun.
+float sun_visibility(vec3 p_eye, vec3 normal) {
+  float visible = 1.0;
+  if (!static_shadows_on && !moving_shadows_on) return visible;
+  vec3 n = vec3(dot(lighting.light_x, normal), dot(lighting.light_y, normal), dot(lighting.sun_direction, normal));
+  vec3 p = camera.light_eye +
+           vec3(dot(lighting.light_x, p_eye), dot(lighting.light_y, p_eye), dot(lighting.sun_direction, p_eye));
+  if (static_shadows_on) {
+    vec3 q = shadow_point(p, n, lighting.static_texel_m);
+    float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
+    vec2 uv = q.xy * lighting.static_uv_scale + lighting.static_uv_offset;
+    visible = shadow_filter(static_shadow, uv, depth, 1.0 / lighting.static_map_size);
+  }
+  if (moving_shadows_on) {
+    for (uint i = 0u; i < shadow_tile_count; ++i) {
+      GpuShadowTile tile = shadow_tiles[i];
+      vec3 q = (shadow_point(p, n, tile.texel_m) - tile.center) / tile.radius;
+      // A loop, not a branch: a device that masks its lanes still skips the samples when none is inside.
+      bool inside = max(abs(q.x), abs(q.y)) < 1.0 && q.z < 1.0;
+      while (inside) {
+        float depth = clamp(0.5 * q.z + 0.5, 0.0, 1.0);
+        visible *= shadow_filter(moving_shadow, tile.uv_center + q.xy * tile.uv_radius, depth,
+                                 1.0 / lighting.moving_map_size);
+        inside = false;
+      }
+    }
+  }
+  return visible;
+}
+
+/// Radiance towards the eye of light from direction l with the given illuminance on a facing surface.
+vec3 reflect_light(Reflectance r, vec3 n, vec3 v, vec3 l, vec3 illuminance) {
+  float n_dot_l = dot(n, l);
+  if (n_dot_l <= 0.0) return vec3(0.0);
+  vec3 f = r.diffuse * inverse_pi;
+  if (specular_on) {
+    vec3 h = normalize(l + v);
+    f += specular_brdf(r, n_dot_l, clamp(dot(n, h), 0.0, 1.0), clamp(dot(l, h), 0.0, 1.0));
+  }
+  return f * illuminance * n_dot_l;
+}
+
+/// Radiance towards the eye by every lamp within its range (KHR_lights_punctual's attenuation).
+vec3 reflect_lights(Reflectance r, vec3 n, vec3 v, vec3 p_eye) {
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < light_count; ++i) {
+    GpuLight light = lights[i];
+    vec3 to_light = light.directional != 0u ? -light.direction : light.position - p_eye;
+    float d2 = max(dot(to_light, to_light), 1e-4);
+    vec3 l = to_light * inversesqrt(d2);
+    float cone = clamp(dot(-l, light.direction) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+    float ratio = d2 * light.inverse_range_squared;
+    float attenuation = light.directional != 0u ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) / d2;
+    sum += reflect_light(r, n, v, l, light.intensity * attenuation);
+  }
+  return sum;
+}
+#endif

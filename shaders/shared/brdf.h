@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a surface reflects light: glTF 2.0 metallic-roughness (appendix B) with the height-correlated Smith term and
+// compensation for multiple scattering. Pure functions, read by C++ tests and shaders alike.
+//
+//   f = diffuse (1 - E) / pi + D V F k
+//   E  directional albedo of the specular lobe, so that what the lobe takes the diffuse part does not give again
+//   k  1 + F0 (1/E_ss - 1): what a single bounce off the microfacets loses (Fdez-Aguera, "A Multiple-Scattering
+//      Microfacet Model for Real-Time Image-based Lighting", JCGT 8(1), 2019; Filament, section 4.7.2)
+#ifndef GREATX_SHADERS_SHARED_BRDF_H
+#define GREATX_SHADERS_SHARED_BRDF_H
+#include "glsl.h"
+
+#ifdef __cplusplus
+namespace greatx::shared {
+using glm::clamp;
+using glm::exp2;
+using glm::max;
+using glm::min;
+using glm::mix;
+using std::sqrt;
+}  // namespace greatx::shared
+#endif
+
+GREATX_SHARED_BEGIN
+
+/// Reflectance at normal incidence of a dielectric with index 1.5 (glTF 2.0, 3.9.2).
+const float dielectric_f0 = 0.04f;
+const float inverse_pi = 0.31830988618f;
+/// Least alpha: a perfect mirror's highlight of the sun would not fit a half float.
+const float least_alpha = 0.002f;
+
+/// alpha = perceptual roughness squared (glTF 2.0, appendix B.2.3).
+GREATX_FUNCTION float alpha_from_roughness(float roughness) {
+  return max(roughness * roughness, least_alpha);
+}
+
+/// GGX normal distribution, 1/sr (Walter et al., EGSR 2007, eq. 33).
+GREATX_FUNCTION float ggx_distribution(float n_dot_h, float alpha) {
+  float a2 = alpha * alpha;
+  float f = (n_dot_h * a2 - n_dot_h) * n_dot_h + 1.0f;
+  return a2 * inverse_pi / (f * f);
+}
+
+/// G / (4 (n.v) (n.l)), height-correlated Smith (Heitz, JCGT 3(2), 2014, eq. 99).
+GREATX_FUNCTION float smith_visibility(float n_dot_v, float n_dot_l, float alpha) {
+  float a2 = alpha * alpha;
+  float v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2);
+  float l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0f - a2) + a2);
+  return 0.5f / (v + l);
+}
+
+/// Schlick's Fresnel term (1994) for 1 - cos of the half angle.
+GREATX_FUNCTION vec3 schlick_fresnel(vec3 f0, float one_minus_cos) {
+  float s = one_minus_cos * one_minus_cos;
+  return f0 + (vec3(1.0f) - f0) * (s * s * one_minus_cos);
+}
+
+/// Scale of F0 and offset that give the specular lobe's directional albedo: E_ss(F0) = F0 x + y.
+/// Analytic fit of the split sum (Karis, "Physically Based Shading on Mobile", 2014, after Lazarov 2013).
+GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
+  vec4 r = roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
+  float a004 = min(r.x * r.x, exp2(-9.28f * n_dot_v)) * r.x + r.y;
+  return vec2(-1.04f, 1.04f) * a004 + vec2(r.z, r.w);
+}
+
+/// What a surface is made of at a point and how it answers in the direction of the eye.
+struct Reflectance {
+  vec3 diffuse;  ///< albedo of the diffuse part, E taken off
+  vec3 f0;
+  vec3 albedo;  ///< E: directional albedo of the specular lobe with its multiple scattering
+  vec3 gain;    ///< k
+  float alpha;
+  float n_dot_v;
+};
+
+GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, float roughness, float n_dot_v) {
+  Reflectance r;
+  r.n_dot_v = max(n_dot_v, 1e-3f);
+  r.alpha = alpha_from_roughness(roughness);
+  r.f0 = mix(vec3(dielectric_f0), base_color, metallic);
+  vec2 terms = specular_albedo_terms(r.n_dot_v, roughness);
+  r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
+  r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
+  r.diffuse = base_color * (1.0f - metallic) * (vec3(1.0f) - r.albedo);
+  return r;
+}
+
+/// The same without a specular lobe: a Lambertian surface.
+GREATX_FUNCTION Reflectance lambertian_reflectance(vec3 base_color) {
+  Reflectance r;
+  r.n_dot_v = 1.0f;
+  r.alpha = 1.0f;
+  r.f0 = vec3(0.0f);
+  r.albedo = vec3(0.0f);
+  r.gain = vec3(0.0f);
+  r.diffuse = base_color;
+  return r;
+}
+
+/// The specular lobe, 1/sr; all cosines in (0, 1].
+GREATX_FUNCTION vec3 specular_brdf(Reflectance r, float n_dot_l, float n_dot_h, float l_dot_h) {
+  float dv = ggx_distribution(n_dot_h, r.alpha) * smith_visibility(r.n_dot_v, n_dot_l, r.alpha);
+  return schlick_fresnel(r.f0, 1.0f - l_dot_h) * r.gain * dv;
+}
+
+GREATX_SHARED_END
+#endif

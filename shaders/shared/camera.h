@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the camera's shaders and renderer/ agree on: bindings, specialization constants, per-tick constants, lighting.
+#ifndef GREATX_SHADERS_SHARED_CAMERA_H
+#define GREATX_SHADERS_SHARED_CAMERA_H
+#include "glsl.h"
+
+GREATX_SHARED_BEGIN
+
+// Set 0, beside the scene's own bindings.
+const uint lighting_binding = 4u;       // uniform: GpuLighting
+const uint shadow_tiles_binding = 5u;   // storage: GpuShadowTiles, this tick's
+const uint lights_binding = 6u;         // storage: GpuLights, this tick's
+const uint environment_binding = 7u;    // sampled: octahedral map of the sky, a roughness per mip level
+const uint static_shadow_binding = 8u;  // sampled with comparison
+const uint moving_shadow_binding = 9u;  // sampled with comparison
+// The developing pass.
+const uint develop_color_binding = 4u;  // storage image rgba16f
+const uint develop_ids_binding = 5u;    // storage image rg32ui
+
+// Specialization constants of the surface pipelines: one for each effect of the plan.
+const uint spec_sun = 0u;
+const uint spec_sky = 1u;
+const uint spec_static_shadows = 2u;
+const uint spec_moving_shadows = 3u;
+const uint spec_textures = 4u;
+const uint spec_normal_maps = 5u;
+const uint spec_alpha_mask = 6u;
+const uint spec_emissive = 7u;
+const uint spec_lights = 8u;
+const uint spec_specular = 9u;
+const uint spec_multisampled = 10u;
+const uint surface_spec_count = 11u;
+// Of the developing pipeline.
+const uint develop_spec_rgb = 0u;
+const uint develop_spec_hdr = 1u;
+const uint develop_spec_depth = 2u;
+const uint develop_spec_instance = 3u;
+const uint develop_spec_semantic = 4u;
+const uint develop_spec_material = 5u;
+const uint develop_spec_count = 6u;
+
+const uint develop_group_size = 64u;
+/// Pixels that one invocation of the developing pass packs into whole words.
+const uint develop_pixels = 4u;
+
+/// Mip levels of the environment map: level l is blurred for roughness l / (levels - 1).
+const uint environment_size = 256u;
+const uint environment_levels = 6u;
+
+/// Radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
+const float emissive_nits = 1000.0f;
+
+/// Push constants of the surface and sky pipelines. Positions are taken relative to the eye before anything is
+/// rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a float.
+struct CameraConstants {
+  vec3 eye_high;
+  vec3 eye_low;
+  vec3 clip_x;  ///< clip.x = dot(clip_x, p - eye)
+  vec3 clip_y;
+  vec3 forward;  ///< clip.w = planar depth = dot(forward, p - eye)
+  vec3 ray_x;    ///< p - eye = depth (ray_0 + ray_x x + ray_y y) at pixel coordinates x, y (centres at +0.5)
+  vec3 ray_y;
+  vec3 ray_0;
+  vec3 light_eye;  ///< the eye in the sun's frame (GpuLighting::light_x, light_y, sun_direction)
+  float near_m;
+  float exposure;  ///< times radiance in cd/m^2 gives what is stored
+};
+
+/// Set at construction: sun, sky, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
+/// linear Rec. 709 channel, such that 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance.
+struct GpuLighting {
+  vec3 sun_direction;         ///< unit, to the sun, local frame; also the third axis of the sun's frame
+  float sun_cos_radius;       ///< of the disc, cosine
+  vec3 sun_illuminance;       ///< on a surface facing the sun
+  float static_texel_m;       ///< edge of a texel of the static shadow map
+  vec3 sun_disc;              ///< radiance of the disc
+  float environment_scale;    ///< radiance = texel of the environment map times this
+  vec3 light_x;               ///< the sun's frame: unit, right-handed with light_y and sun_direction
+  float static_depth_offset;  ///< depth = z static_depth_scale + static_depth_offset
+  vec3 light_y;
+  float static_depth_scale;
+  vec2 static_uv_scale;  ///< uv = xy static_uv_scale + static_uv_offset
+  vec2 static_uv_offset;
+  float static_map_size;  ///< texels along an edge
+  float moving_map_size;
+  float pad1;
+  float pad2;
+  vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
+};
+
+/// Shadow of one moving body: a square of the sun's frame around it, and where that lies in the atlas.
+struct GpuShadowTile {
+  vec3 center;  ///< of the body's bounding sphere, the sun's frame
+  float radius;
+  vec2 uv_center;   ///< of the tile
+  float uv_radius;  ///< half of its edge, without the margin
+  float texel_m;
+};
+
+/// Range, cone and colour of a point or spot light at this tick (KHR_lights_punctual), axes of the local
+/// frame, positions from the eye.
+struct GpuLight {
+  vec3 position;
+  float inverse_range_squared;  ///< 0: unlimited
+  vec3 direction;               ///< unit, along the cone (or of a directional light)
+  float cone_scale;             ///< attenuation = clamp(cos * scale + offset)^2; 0 and 1: no cone
+  vec3 intensity;               ///< cd; lux if directional
+  float cone_offset;
+  uint directional;
+};
+
+struct DevelopConstants {
+  uint64_t rgb;  ///< addresses of the packed outputs, 0 where not wanted
+  uint64_t hdr;
+  uint64_t depth;
+  uint64_t instance;
+  uint64_t semantic;
+  uint64_t material;
+  uint width;
+  uint height;
+  float radiance_scale;  ///< stored value to cd/m^2
+  uint pad0;
+};
+
+/// Push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
+struct ShadowConstants {
+  vec4 row0;
+  vec4 row1;
+  vec4 row2;
+};
+
+GREATX_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(greatx::shared::CameraConstants) == 116);
+static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 144);
+static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);
+static_assert(sizeof(greatx::shared::GpuLight) == 52);
+static_assert(sizeof(greatx::shared::DevelopConstants) == 64);
+#endif
+#endif
