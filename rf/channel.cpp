@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/channel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "rf/phase.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr size_t path_chunk = 128;  // paths summed at a time: their phasors stay in the cache
+constexpr size_t lanes = 8;         // subcarriers per block of the inner product
+
+void check(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+           double carrier_hz) {
+  GREATX_CHECK(carrier_hz > 0.0 && std::isfinite(carrier_hz), "carrier {} Hz", carrier_hz);
+  GREATX_CHECK(transmitter.array.port_count() > 0 && receiver.array.port_count() > 0,
+               "arrays of {} and {} ports", transmitter.array.port_count(), receiver.array.port_count());
+  for (const Path& path : paths) {
+    bool finite = std::isfinite(path.delay_s) && std::isfinite(path.doppler_hz);
+    for (const Complex& value : path.transfer)
+      finite = finite && std::isfinite(value.real()) && std::isfinite(value.imag());
+    GREATX_CHECK(finite, "path of {} reflections, {} m long, is not finite", path.facets.size(),
+                 path.length_m);
+  }
+}
+
+/// Everything of a path that reaches the sum; paths that agree in all of it may stand in any order.
+std::array<double, 16> sum_key(const Path& path) {
+  std::array<double, 16> key{path.delay_s,     path.doppler_hz, path.departure.x, path.departure.y,
+                             path.departure.z, path.arrival.x,  path.arrival.y,   path.arrival.z};
+  for (size_t i = 0; i < 4; ++i) {
+    key[8 + 2 * i] = path.transfer[i].real();
+    key[9 + 2 * i] = path.transfer[i].imag();
+  }
+  return key;
+}
+
+std::vector<uint32_t> summing_order(std::span<const Path> paths) {
+  std::vector<uint32_t> order(paths.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    if (paths[a].delay_s != paths[b].delay_s) return paths[a].delay_s < paths[b].delay_s;
+    return sum_key(paths[a]) < sum_key(paths[b]);
+  });
+  return order;
+}
+
+/// An array's ports, worked out once: where the elements are and which way the polarizations point.
+class Ports {
+ public:
+  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver.
+  Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
+      : end_(end), conjugate_(conjugate), count_(end.array.port_count()) {
+    const double per_wavelength = carrier_hz / speed_of_light;
+    for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
+      positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
+    for (uint32_t p = 0; p < end.array.polarization_count(); ++p) slants_.push_back(end.array.slant(p));
+  }
+  uint32_t count() const { return count_; }
+  /// Field pattern times the plane wave's phase at each port, for one direction.
+  void respond(const dvec3& direction, std::vector<Jones>& out) const {
+    out.resize(count_);
+    Jones fields[2];
+    for (size_t p = 0; p < slants_.size(); ++p) {
+      const Jones field = element_field(end_.array.pattern, slants_[p], end_.orientation, direction);
+      fields[p] = conjugate_ ? Jones{std::conj(field.theta), std::conj(field.phi)} : field;
+    }
+    size_t port = 0;
+    for (const dvec3& position : positions_) {
+      const Complex phase = unit_phasor(fraction_of_turn(glm::dot(direction, position)));
+      for (size_t p = 0; p < slants_.size(); ++p, ++port)
+        out[port] = {fields[p].theta * phase, fields[p].phi * phase};
+    }
+  }
+
+ private:
+  const ArrayPose& end_;
+  bool conjugate_;
+  uint32_t count_;
+  std::vector<dvec3> positions_;  ///< [elements], carrier wavelengths, local axes
+  std::vector<double> slants_;    ///< [polarizations]
+};
+
+/// (lambda/4 pi) C_R^H T C_T with the array phases, for all pairs of ports of one path: out[rx * tx_count +
+/// tx]. The conjugate of C_R is taken of the pattern, not of the array's phase.
+class PairAmplitudes {
+ public:
+  PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz)
+      : tx_(transmitter, false, carrier_hz),
+        rx_(receiver, true, carrier_hz),
+        scale_(speed_of_light / carrier_hz / (4.0 * pi)) {}
+  uint32_t pairs() const { return tx_.count() * rx_.count(); }
+  void operator()(const Path& path, Complex* out) {
+    tx_.respond(path.departure, tx_response_);
+    rx_.respond(path.arrival, rx_response_);
+    const Complex* t = path.transfer;
+    for (const Jones& rx : rx_response_) {
+      const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
+      const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
+      for (const Jones& tx : tx_response_) *out++ = to_theta * tx.theta + to_phi * tx.phi;
+    }
+  }
+
+ private:
+  Ports tx_, rx_;
+  double scale_;
+  std::vector<Jones> tx_response_, rx_response_;
+};
+
+/// The phasors e^{-j 2 pi f tau} of a chunk of paths, in blocks of `lanes` subcarriers: [block][path][re,
+/// im][lane].
+class SubcarrierPhasors {
+ public:
+  SubcarrierPhasors(const ChannelGrid& grid, size_t paths)
+      : grid_(grid),
+        paths_(paths),
+        blocks_((grid.subcarriers + lanes - 1) / lanes),
+        values_(blocks_ * paths * 2 * lanes) {}
+  size_t blocks() const { return blocks_; }
+  const double* block(size_t index) const { return values_.data() + index * paths_ * 2 * lanes; }
+
+  /// A block's subcarriers as (first of the block) x (place in the block): two phasors, each from exactly
+  /// reduced turns, and one product; no recurrence whose error grows.
+  void set(size_t path, double delay_s) {
+    Complex place[lanes];
+    for (size_t lane = 0; lane < lanes; ++lane)
+      place[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid_.subcarrier_spacing_hz, delay_s));
+    for (size_t index = 0; index < blocks_; ++index) {
+      const double number = grid_.subcarrier_number(static_cast<uint32_t>(index * lanes));
+      const Complex first = unit_phasor(-turns_of(number, grid_.subcarrier_spacing_hz, delay_s));
+      double* out = values_.data() + (index * paths_ + path) * 2 * lanes;
+      for (size_t lane = 0; lane < lanes; ++lane) {
+        out[lane] = first.real() * place[lane].real() - first.imag() * place[lane].imag();
+        out[lanes + lane] = first.real() * place[lane].imag() + first.imag() * place[lane].real();
+      }
+    }
+  }
+
+ private:
+  ChannelGrid grid_;
+  size_t paths_, blocks_;
+  std::vector<double> values_;
+};
+
+/// sum[lane] += sum over paths of amplitude * phasor, in the order of the paths.
+inline void add_block(const Complex* amplitudes, const double* phasors, size_t paths, double* sum_re,
+                      double* sum_im) {
+  double re[lanes], im[lanes];
+  for (size_t lane = 0; lane < lanes; ++lane) re[lane] = sum_re[lane], im[lane] = sum_im[lane];
+  for (size_t path = 0; path < paths; ++path) {
+    const double a = amplitudes[path].real(), b = amplitudes[path].imag();
+    const double* p = phasors + path * 2 * lanes;
+    for (size_t lane = 0; lane < lanes; ++lane) {
+      re[lane] += a * p[lane] - b * p[lanes + lane];
+      im[lane] += a * p[lanes + lane] + b * p[lane];
+    }
+  }
+  for (size_t lane = 0; lane < lanes; ++lane) sum_re[lane] = re[lane], sum_im[lane] = im[lane];
+}
+
+/// The matrix product [rows, paths] x [paths, subcarriers], rows = (pair, time). `sums` holds real and
+/// imaginary parts in blocks: [row][block][re, im][lane].
+class Summation {
+ public:
+  Summation(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+            const ChannelGrid& grid)
+      : grid_(grid),
+        amplitudes_of_(transmitter, receiver, grid.carrier_hz),
+        chunk_(std::min(path_chunk, paths.size())),
+        phasors_(grid, chunk_) {
+    check(paths, transmitter, receiver, grid.carrier_hz);
+    rows_ = size_t{amplitudes_of_.pairs()} * grid.time_samples;
+    sums_.assign(rows_ * phasors_.blocks() * 2 * lanes, 0.0);
+    amplitudes_.resize(rows_ * chunk_);
+    pair_.resize(amplitudes_of_.pairs());
+    const std::vector<uint32_t> order = summing_order(paths);
+    for (size_t first = 0; first < order.size(); first += chunk_) {
+      const size_t count = std::min(chunk_, order.size() - first);
+      for (size_t i = 0; i < count; ++i) load(i, paths[order[first + i]]);
+      add(count);
+    }
+  }
+
+  template <typename Value>
+  std::vector<Value> values() const {
+    std::vector<Value> out;
+    out.reserve(rows_ * grid_.subcarriers);
+    using Part = typename Value::value_type;
+    for (size_t row = 0; row < rows_; ++row)
+      for (size_t k = 0; k < grid_.subcarriers; ++k) {
+        const double* sum = sums_.data() + (row * phasors_.blocks() + k / lanes) * 2 * lanes + k % lanes;
+        out.emplace_back(static_cast<Part>(sum[0]), static_cast<Part>(sum[lanes]));
+      }
+    return out;
+  }
+
+ private:
+  void load(size_t place, const Path& path) {
+    phasors_.set(place, path.delay_s);
+    amplitudes_of_(path, pair_.data());
+    const Complex carrier = unit_phasor(-turns_of(grid_.carrier_hz, path.delay_s));
+    for (uint32_t m = 0; m < grid_.time_samples; ++m) {
+      const Complex turned =
+          carrier * unit_phasor(turns_of(static_cast<double>(m), grid_.time_spacing_s, path.doppler_hz));
+      for (size_t pair = 0; pair < pair_.size(); ++pair)
+        amplitudes_[(pair * grid_.time_samples + m) * chunk_ + place] = pair_[pair] * turned;
+    }
+  }
+
+  void add(size_t count) {
+    for (size_t block = 0; block < phasors_.blocks(); ++block)
+      for (size_t row = 0; row < rows_; ++row) {
+        double* sum = sums_.data() + (row * phasors_.blocks() + block) * 2 * lanes;
+        add_block(amplitudes_.data() + row * chunk_, phasors_.block(block), count, sum, sum + lanes);
+      }
+  }
+
+  ChannelGrid grid_;
+  PairAmplitudes amplitudes_of_;
+  size_t chunk_;  ///< paths at a time
+  SubcarrierPhasors phasors_;
+  size_t rows_ = 0;
+  std::vector<double> sums_;
+  std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
+};
+
+}  // namespace
+
+std::vector<std::complex<float>> frequency_response(std::span<const Path> paths, const ArrayPose& transmitter,
+                                                    const ArrayPose& receiver, const ChannelGrid& grid) {
+  return Summation(paths, transmitter, receiver, grid).values<std::complex<float>>();
+}
+
+std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
+                                             const ArrayPose& receiver, const ChannelGrid& grid) {
+  return Summation(paths, transmitter, receiver, grid).values<Complex>();
+}
+
+ImpulseResponse impulse_response(std::span<const Path> paths, const ArrayPose& transmitter,
+                                 const ArrayPose& receiver, double carrier_hz) {
+  check(paths, transmitter, receiver, carrier_hz);
+  PairAmplitudes amplitudes_of(transmitter, receiver, carrier_hz);
+  std::vector<Complex> pair(amplitudes_of.pairs());
+  ImpulseResponse response;
+  response.amplitude.reserve(paths.size() * pair.size());
+  for (const Path& path : paths) {
+    amplitudes_of(path, pair.data());
+    const Complex carrier = unit_phasor(-turns_of(carrier_hz, path.delay_s));
+    for (const Complex& value : pair) response.amplitude.emplace_back(value * carrier);
+    response.delay_s.push_back(path.delay_s);
+    response.doppler_hz.push_back(path.doppler_hz);
+  }
+  return response;
+}
+
+}  // namespace greatx::rf

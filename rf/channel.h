@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From paths to what a receiver measures: the frequency response at every pair of ports, and the impulse
+// response.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/antenna.h"
+#include "rf/path.h"
+
+namespace greatx::rf {
+
+/// One end of the channel: an array and how it is turned (local_from_array; the local axes are the world's).
+struct ArrayPose {
+  AntennaArray array;
+  dquat orientation{1.0, 0.0, 0.0, 0.0};
+};
+
+/// Where the channel is sampled.
+struct ChannelGrid {
+  double carrier_hz = 3.5e9;
+  double subcarrier_spacing_hz = 30e3;
+  uint32_t subcarriers = 256;
+  uint32_t time_samples = 1;
+  double time_spacing_s = 1e-3;
+
+  /// Number of subcarrier k counted from the carrier: k - floor(N/2).
+  double subcarrier_number(uint32_t k) const {
+    return static_cast<double>(k) - static_cast<double>(subcarriers / 2);
+  }
+  size_t size_per_pair() const { return size_t{time_samples} * subcarriers; }
+};
+
+/// H_us(f, t) = (lambda/4 pi) sum_i C_{R,u}^H T_i C_{T,s} e^{j 2 pi (r_R . d_u + r_T . d_s)/lambda} e^{j 2 pi
+/// nu_i t}
+///              e^{-j 2 pi (f_c + f) tau_i}                          (after 3GPP TR 38.901, eq. 7.5-22
+///              and 7.5-28)
+/// at f = subcarrier_number(k) * spacing and t = m * time_spacing; complex64 [rx_ant, tx_ant, time,
+/// subcarrier], C order. C are the ports' field patterns, d the elements' positions, r_T and r_R the
+/// directions of departure and arrival (both pointing away from their array), lambda the carrier's
+/// wavelength.
+///
+/// The array is met by a plane wave: each path has one direction and one delay for the whole array. Against a
+/// solution for every element this costs an NMSE of some -14 dB at 5 m and -40 dB at 100 m (32 elements, 28
+/// GHz).
+///
+/// The sum is in fp64 and in an order of the paths that depends on what they are, not on where they stand in
+/// `paths`: any permutation gives the same bits. Phases are counted in turns and reduced exactly; each phasor
+/// is good to some 1e-15 before it is rounded to complex64. Delays are the paths' own: nothing is normalised.
+std::vector<std::complex<float>> frequency_response(std::span<const Path> paths, const ArrayPose& transmitter,
+                                                    const ArrayPose& receiver, const ChannelGrid& grid);
+/// The same before it is rounded.
+std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
+                                             const ArrayPose& receiver, const ChannelGrid& grid);
+
+/// h(tau) = sum_i a_i delta(tau - tau_i) about the carrier, at t = 0: H(f) = sum_i a_i e^{-j 2 pi f tau_i}.
+struct ImpulseResponse {
+  std::vector<std::complex<float>> amplitude;  ///< [paths, rx_ant, tx_ant], with e^{-j 2 pi f_c tau}
+  std::vector<double> delay_s;                 ///< [paths]
+  std::vector<double> doppler_hz;              ///< [paths]
+};
+/// In the order of `paths`.
+ImpulseResponse impulse_response(std::span<const Path> paths, const ArrayPose& transmitter,
+                                 const ArrayPose& receiver, double carrier_hz);
+
+}  // namespace greatx::rf

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/fresnel.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "rf/surfaces.h"
+#include "tests/rf/scenes.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double frequency_hz = 3.5e9;
+const double wavelength_m = speed_of_light / frequency_hz;
+
+Complex conductive(double relative, double sigma, double f_hz) {
+  return {relative, -sigma / (2.0 * pi * f_hz * vacuum_permittivity)};
+}
+Complex concrete() { return conductive(5.24, 0.0462 * std::pow(3.5, 0.7822), frequency_hz); }
+
+void expect_near(Complex found, Complex expected, double tolerance) {
+  EXPECT_NEAR(found.real(), expected.real(), tolerance);
+  EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
+}
+
+TEST(Fresnel, ConcreteAt3500MHz) {
+  expect_near(concrete(), {5.24, -0.632143}, 5e-7);
+  const FresnelCoefficients face = half_space(concrete(), std::sqrt(0.5));
+  expect_near(face.r_te, {-0.511723497, 0.024481843}, 6e-10);
+  expect_near(face.r_tm, {0.261261576, -0.025055869}, 6e-10);
+  const FresnelCoefficients wall = slab({concrete(), 0.1}, wavelength_m, 1.0);
+  expect_near(wall.r_te, {-0.422222101, -0.007580311}, 6e-10);
+  expect_near(wall.t_te, {-0.136274648, 0.270959987}, 6e-10);
+}
+
+TEST(Fresnel, BoundaryConditionsHold) {
+  // Tangential E and H are continuous: 1 + r = t, C(1 - r) = A t (TE); C(1 - r) = (A/sqrt(eta)) t ... (TM).
+  for (const double c : {1.0, 0.7, 0.2, 1e-3}) {
+    const Complex eta = concrete(), a = normal_component(eta, c);
+    const FresnelCoefficients face = half_space(eta, c);
+    expect_near(1.0 + face.r_te, face.t_te, 1e-15);
+    expect_near(c * (1.0 - face.r_te), a * face.t_te, 1e-15);
+    expect_near(1.0 + face.r_tm, std::sqrt(eta) * face.t_tm, 2e-15);            // H
+    expect_near(c * (1.0 - face.r_tm), a / std::sqrt(eta) * face.t_tm, 2e-15);  // E along the face
+  }
+}
+
+TEST(FresnelHardCase, N26_NormalIncidenceKnowsNoPlane) {
+  const FresnelCoefficients face = half_space(concrete(), 1.0),
+                            wall = slab({concrete(), 0.1}, wavelength_m, 1.0);
+  expect_near(face.r_te, -face.r_tm, 1e-16);
+  expect_near(wall.r_te, -wall.r_tm, 1e-15);
+  expect_near(wall.t_te, wall.t_tm, 1e-15);
+}
+
+TEST(FresnelHardCase, N27_Grazing) {
+  const Complex metal = conductive(1.0, 1e7, frequency_hz);
+  for (const Complex eta :
+       {Complex(5.24, 0.0), concrete(), metal, Complex(0.5, 0.0), Complex(1.0 + 1e-9, 0.0)}) {
+    for (const FresnelCoefficients& found :
+         {half_space(eta, 0.0), slab({eta, 0.1}, wavelength_m, 0.0),
+          multilayer(std::vector<DielectricLayer>{{eta, 0.1}, {2.0, 0.02}}, wavelength_m, 0.0)}) {
+      expect_near(found.r_te, -1.0, 1e-15);
+      expect_near(found.r_tm, -1.0, 1e-15);
+      expect_near(found.t_te, 0.0, 1e-15);
+      expect_near(found.t_tm, 0.0, 1e-15);
+    }
+    // The limit is reached from above, too.
+    expect_near(half_space(eta, 1e-14).r_te, -1.0, 1e-8);
+    expect_near(half_space(eta, 1e-14).r_tm, -1.0, 1e-8);
+  }
+}
+
+TEST(FresnelHardCase, N28_Brewster) {
+  EXPECT_LE(std::abs(half_space(5.24, std::cos(radians(66.401791))).r_tm), 1e-7);
+  EXPECT_LE(std::abs(half_space(5.24, std::sqrt(1.0 / 6.24)).r_tm), 1e-16);
+}
+
+TEST(FresnelHardCase, N29_AlmostVacuum) {
+  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C + A)
+  // would have no digit left.
+  const double contrast = 0x1p-40, c = 0.6;
+  const FresnelCoefficients face = half_space(1.0 + contrast, c);
+  EXPECT_NEAR(face.r_te.real() / (-contrast / (4 * c * c)), 1.0, 1e-9);
+  EXPECT_NEAR(face.r_tm.real() / (contrast * (2 * c * c - 1) / (4 * c * c)), 1.0, 1e-9);
+}
+
+TEST(FresnelHardCase, N30_ConductorNearGrazing) {
+  const Complex r = half_space(conductive(1.0, 1e7, frequency_hz), std::cos(radians(89.9))).r_tm;
+  expect_near(r, {0.8876, -0.1010}, 5e-5);
+}
+
+TEST(FresnelHardCase, N31_TotalReflectionAndThickSlabs) {
+  const double c = std::cos(radians(60.0));
+  for (const double eta : {0.2, 0.5, 0.7}) {  // sin^2 60 = 0.75: all beyond the critical angle
+    const FresnelCoefficients face = half_space(eta, c);
+    EXPECT_NEAR(std::abs(face.r_te), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(face.r_tm), 1.0, 1e-12);
+    EXPECT_LE(normal_component(eta, c).imag(), 0.0);  // decays inwards
+    const FresnelCoefficients wall = slab({eta, 3.0}, wavelength_m, c);
+    EXPECT_NEAR(std::abs(wall.r_te), 1.0, 1e-12);
+    EXPECT_LT(std::abs(wall.t_te), 1e-10);
+  }
+  // A metre, a kilometre, and a megametre of wet concrete: the face alone is left, nothing overflows.
+  for (const double thickness : {10.0, 1e3, 1e6}) {
+    const FresnelCoefficients face = half_space(concrete(), c),
+                              wall = slab({concrete(), thickness}, wavelength_m, c);
+    const FresnelCoefficients layered = multilayer(
+        std::vector<DielectricLayer>{{concrete(), thickness}, {{3.0, -1.0}, thickness}}, wavelength_m, c);
+    for (const FresnelCoefficients& found : {wall, layered}) {
+      expect_near(found.r_te, face.r_te, 1e-14);
+      expect_near(found.r_tm, face.r_tm, 1e-14);
+      EXPECT_LT(std::abs(found.t_te) + std::abs(found.t_tm), 1e-12);
+    }
+  }
+}
+
+TEST(FresnelHardCase, N32_HalfWaveSlabAtGrazing) {
+  // A = m lambda / 2d exactly: the slab is invisible but for its sign, even where r is almost -1.
+  const double c = std::cos(radians(89.999));
+  const Complex eta = 4.0;
+  const double thickness = 0.5 * wavelength_m / normal_component(eta, c).real();
+  for (const FresnelCoefficients& found :
+       {slab({eta, thickness}, wavelength_m, c),
+        multilayer(std::vector<DielectricLayer>{{eta, thickness}}, wavelength_m, c)}) {
+    EXPECT_NEAR(std::abs(found.t_te), 1.0, 1e-9);
+    EXPECT_NEAR(std::abs(found.t_tm), 1.0, 1e-9);
+    EXPECT_LT(std::abs(found.r_te), 1e-9);
+    EXPECT_LT(std::abs(found.r_tm), 1e-9);
+  }
+}
+
+TEST(FresnelHardCase, N33_Energy) {
+  for (const double c : {1.0, 0.9, 0.5, 0.1, 1e-2, 1e-4}) {
+    for (const double thickness : {1e-4, 0.01, 0.1, 0.333}) {
+      const FresnelCoefficients clear = slab({{6.31, 0.0}, thickness}, wavelength_m, c);
+      EXPECT_NEAR(std::norm(clear.r_te) + std::norm(clear.t_te), 1.0, 1e-9);
+      EXPECT_NEAR(std::norm(clear.r_tm) + std::norm(clear.t_tm), 1.0, 1e-9);
+      const FresnelCoefficients lossy = slab({concrete(), thickness}, wavelength_m, c);
+      EXPECT_LE(std::norm(lossy.r_te) + std::norm(lossy.t_te), 1.0);
+      EXPECT_LE(std::norm(lossy.r_tm) + std::norm(lossy.t_tm), 1.0);
+    }
+    const FresnelCoefficients stack =
+        multilayer(std::vector<DielectricLayer>{{6.31, 0.004}, {1.0, 0.016}, {6.31, 0.004}}, wavelength_m, c);
+    EXPECT_NEAR(std::norm(stack.r_te) + std::norm(stack.t_te), 1.0, 1e-9);
+    EXPECT_NEAR(std::norm(stack.r_tm) + std::norm(stack.t_tm), 1.0, 1e-9);
+  }
+}
+
+TEST(FresnelHardCase, N34_VacuumSlabIsInvisible) {
+  for (const double c : {1.0, 0.3, 0.0}) {
+    const FresnelCoefficients one = slab({1.0, 0.2}, wavelength_m, c);
+    const FresnelCoefficients two =
+        multilayer(std::vector<DielectricLayer>{{1.0, 0.15}, {1.0, 0.05}}, wavelength_m, c);
+    for (const FresnelCoefficients& found : {one, two}) {
+      EXPECT_EQ(found.r_te, Complex(0.0));
+      EXPECT_EQ(found.r_tm, Complex(0.0));
+      // As a sheet without thickness it must not add the free-space phase a second time.
+      expect_near(found.t_te * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
+      expect_near(found.t_tm * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
+    }
+  }
+}
+
+TEST(FresnelHardCase, N35_FrequencyInAGap) {
+  testing::HandScene hand;
+  hand.itu_material("brick");  // rows for 1-40 and 110-330 GHz
+  hand.ground(10.0);
+  EXPECT_NO_THROW(RadioSurfaces(hand.scene, 28e9));
+  EXPECT_NO_THROW(RadioSurfaces(hand.scene, 140e9));
+  try {
+    RadioSurfaces(hand.scene, 77e9);
+    FAIL() << "77 GHz lies in the gap";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("brick"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Fresnel, LayersOfOneMediumAreOneSlab) {
+  for (const double c : {1.0, 0.5, 0.02}) {
+    const FresnelCoefficients one = slab({concrete(), 0.1}, wavelength_m, c);
+    for (const auto& layers : {std::vector<DielectricLayer>{{concrete(), 0.1}},
+                               std::vector<DielectricLayer>{{concrete(), 0.03}, {concrete(), 0.07}}}) {
+      const FresnelCoefficients many = multilayer(layers, wavelength_m, c);
+      expect_near(many.r_te, one.r_te, 1e-13);
+      expect_near(many.r_tm, one.r_tm, 1e-13);
+      expect_near(many.t_te, one.t_te, 1e-13);
+      expect_near(many.t_tm, one.t_tm, 1e-13);
+    }
+    // A half-space of the same medium behind it: no second face.
+    const FresnelCoefficients backed =
+        multilayer(std::vector<DielectricLayer>{{concrete(), 0.03}, {concrete(), 0.0}}, wavelength_m, c);
+    expect_near(backed.r_te, half_space(concrete(), c).r_te, 1e-13);
+    expect_near(backed.r_tm, half_space(concrete(), c).r_tm, 1e-13);
+  }
+}
+
+TEST(Fresnel, QuarterWaveCoatingDoesNotReflect) {
+  // eta_coating = sqrt(eta): a coating a quarter of a wave thick hides the half-space behind it.
+  const double quarter = wavelength_m / 4.0 / std::pow(6.31, 0.25);
+  const FresnelCoefficients found =
+      multilayer(std::vector<DielectricLayer>{{std::sqrt(6.31), quarter}, {6.31, 0.0}}, wavelength_m, 1.0);
+  EXPECT_LT(std::abs(found.r_te), 1e-15);
+  EXPECT_LT(std::abs(found.r_tm), 1e-15);
+  EXPECT_NEAR(std::norm(found.t_te) * std::sqrt(6.31), 1.0, 1e-14);  // all the power goes in
+  EXPECT_NEAR(std::norm(found.t_tm) * std::sqrt(6.31), 1.0, 1e-14);
+}
+
+TEST(RadioSurface, IsWhatTheMaterialSays) {
+  testing::HandScene hand;
+  const uint32_t ground = hand.material("ground", 4.0);
+  const uint32_t pane = hand.material("pane", 6.31, 0.0, 0.006);
+  const uint32_t plastered = hand.material("plastered", 2.73, 0.0, 0.02);
+  auto& layers = hand.scene.materials[plastered].radio->layers;
+  layers.push_back({hand.scene.materials[ground].radio->layers[0].medium, 0.0});
+  for (const uint32_t material : {ground, pane, plastered}) hand.ground(1.0, material, material);
+
+  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  const double c = 0.8;
+  EXPECT_EQ(surfaces.reflect(ground, true, c).r_te, half_space(4.0, c).r_te);
+  EXPECT_EQ(surfaces.reflect(ground, false, c).r_te, half_space(4.0, c).r_te);
+  EXPECT_EQ(surfaces.reflect(pane, true, c).r_tm, slab({6.31, 0.006}, wavelength_m, c).r_tm);
+  EXPECT_EQ(surfaces.reflect(plastered, true, c).r_te,
+            multilayer(std::vector<DielectricLayer>{{2.73, 0.02}, {4.0, 0.0}}, wavelength_m, c).r_te);
+  EXPECT_EQ(surfaces.reflect(plastered, false, c).r_te, half_space(4.0, c).r_te);
+}
+
+TEST(RadioSurface, RefusesLayersThatMakeNoSense) {
+  testing::HandScene hand;
+  const uint32_t index = hand.material("odd", 4.0, 0.0, 0.0);
+  auto& radio = *hand.scene.materials[index].radio;
+  radio.layers.push_back(radio.layers[0]);
+  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);  // a layer behind a half-space
+  radio.layers[0].thickness_m = -0.1;
+  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);
+  radio.layers.clear();
+  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);
+  hand.ground(1.0);
+  hand.scene.materials[index].radio.reset();
+  EXPECT_THROW(RadioSurfaces(hand.scene, frequency_hz), UserError);
+}
+
+}  // namespace
+}  // namespace greatx::rf

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "tests/rf/scenes.h"
+
+namespace greatx::rf {
+namespace {
+
+using testing::HandScene;
+
+std::vector<GeometricPath> solve_all(const HandScene& hand, const dvec3& tx, const dvec3& rx,
+                                     uint32_t depth) {
+  const FacetWorld world(hand.scene);
+  return solve_paths(world, tx, rx, exhaustive_candidates(world.facet_count(), depth));
+}
+
+bool same_bits(const std::vector<GeometricPath>& a, const std::vector<GeometricPath>& b) {
+  if (a.size() != b.size()) return false;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a[i].facets != b[i].facets || a[i].vertices.size() != b[i].vertices.size()) return false;
+    if (std::memcmp(&a[i].length_m, &b[i].length_m, sizeof(double)) != 0) return false;
+    if (std::memcmp(a[i].vertices.data(), b[i].vertices.data(), a[i].vertices.size() * sizeof(dvec3)) != 0)
+      return false;
+  }
+  return true;
+}
+
+/// Vertices on the segments between the ends, lengths that add up, angles of reflection equal.
+void expect_specular(const FacetWorld& world, const GeometricPath& path) {
+  ASSERT_EQ(path.vertices.size(), path.facets.size() + 2);
+  double sum = 0.0;
+  for (size_t i = 1; i < path.vertices.size(); ++i)
+    sum += glm::length(path.vertices[i] - path.vertices[i - 1]);
+  EXPECT_NEAR(sum / path.length_m, 1.0, 1e-12);
+  for (size_t i = 0; i < path.facets.size(); ++i) {
+    const PosedFacet& facet = world.facet(path.facets[i]);
+    const dvec3 in = glm::normalize(path.vertices[i + 1] - path.vertices[i]);
+    const dvec3 out = glm::normalize(path.vertices[i + 2] - path.vertices[i + 1]);
+    EXPECT_NEAR(facet.distance(path.vertices[i + 1]), 0.0, 1e-9);
+    EXPECT_LT(glm::length(in - 2.0 * glm::dot(in, facet.normal) * facet.normal - out), 1e-9);
+  }
+}
+
+TEST(Candidates, CanonicalOrderAndNoDuplicates) {
+  CandidateList list;
+  const std::vector<std::vector<uint32_t>> sequences{{2, 1}, {1}, {}, {1, 2}, {1}, {0, 3, 0}, {2, 1}, {10}};
+  for (const auto& sequence : sequences) list.add(sequence);
+  EXPECT_FALSE(list.is_canonical());
+  list.make_canonical();
+  EXPECT_TRUE(list.is_canonical());
+  ASSERT_EQ(list.size(), 6u);
+  EXPECT_TRUE(list.sequence(0).empty());
+  EXPECT_EQ(list.sequence(2)[0], 10u);
+  EXPECT_EQ(list.sequence(5).size(), 3u);
+  CandidateList copy = list;
+  copy.make_canonical();
+  EXPECT_EQ(copy, list);
+}
+
+TEST(Candidates, ExhaustiveCountsAndBound) {
+  const CandidateList list = exhaustive_candidates(6, 4);
+  EXPECT_EQ(list.size(), 1u + 6 + 30 + 150 + 750);
+  EXPECT_TRUE(list.is_canonical());
+  EXPECT_EQ(exhaustive_candidates(0, 3).size(), 1u);
+  EXPECT_EQ(exhaustive_candidates(1, 3).size(), 2u);
+  EXPECT_EQ(exhaustive_candidates(5, 0).size(), 1u);
+  EXPECT_EQ(exhaustive_candidates(10, 2, 101).size(), 101u);
+  EXPECT_THROW(exhaustive_candidates(10, 2, 100), UserError);
+  EXPECT_THROW(exhaustive_candidates(4882, 3), UserError);
+  EXPECT_THROW(exhaustive_candidates(4'000'000'000u, 40), UserError);
+}
+
+TEST(ImageMethod, RefusesCandidatesOutOfOrderOrRange) {
+  HandScene hand;
+  hand.ground(5.0);
+  const FacetWorld world(hand.scene);
+  CandidateList list;
+  list.add(std::vector<uint32_t>{0});
+  list.add({});
+  EXPECT_THROW(ImageTree(world, dvec3(0, 0, 1), list), ContractError);
+  CandidateList far;
+  far.add(std::vector<uint32_t>{1});
+  EXPECT_THROW(ImageTree(world, dvec3(0, 0, 1), far), ContractError);
+}
+
+TEST(ImageMethod, OnlyTheCandidatesAreLookedAt) {
+  HandScene hand;
+  hand.ground(50.0);
+  const FacetWorld world(hand.scene);
+  CandidateList list;
+  list.add(std::vector<uint32_t>{0});
+  const auto paths = solve_paths(world, {0, 0, 3}, {4, 0, 3}, list);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].length_m, std::sqrt(16.0 + 36.0));
+  EXPECT_LT(glm::length(paths[0].vertices[1] - dvec3(2, 0, 0)), 1e-15);
+}
+
+TEST(ImageMethodHardCase, N07_UtmShift) {
+  RandomStream random(11, 0);
+  const dvec3 shift(500'000.0, -500'000.0, 300.0);
+  HandScene here, there;
+  here.room({8, 5, 3});
+  there.room({8, 5, 3}, shift);
+  // What the loader does: the world's coordinates less the local origin (exact differences).
+  for (scene::FacetTriangle& triangle : there.scene.facet_triangles)
+    for (dvec3& corner : triangle.corners) corner -= shift;
+  for (scene::Facet& facet : there.scene.facets) {
+    const dvec3* corners = there.scene.facet_triangles[facet.first_triangle].corners;
+    facet.offset = glm::dot(facet.normal, corners[0]);
+  }
+  const dvec3 tx(1.3, 2.2, 1.1), rx(6.7, 3.3, 2.4);
+  const auto a = solve_all(here, tx, rx, 3), b = solve_all(there, tx + shift - shift, rx + shift - shift, 3);
+  ASSERT_EQ(a.size(), 63u);
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].facets, b[i].facets);
+    for (size_t k = 0; k < a[i].vertices.size(); ++k)
+      EXPECT_LT(glm::length(a[i].vertices[k] - b[i].vertices[k]), 1e-9);
+  }
+  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11 m).
+  HandScene far;
+  const dvec3 off(500'000.0, -500'000.0, 0.0);
+  far.room({8, 5, 3}, off);
+  const auto c = solve_all(far, tx + off, rx + off, 3);
+  ASSERT_EQ(a.size(), c.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].facets, c[i].facets);
+    EXPECT_NEAR(a[i].length_m, c[i].length_m, 1e-9);
+    for (size_t k = 0; k < a[i].vertices.size(); ++k)
+      EXPECT_LT(glm::length(a[i].vertices[k] + off - c[i].vertices[k]), 2e-9);
+  }
+}
+
+TEST(ImageMethodHardCase, N15_N16_EndInTheReflectingPlane) {
+  HandScene hand;
+  hand.ground(50.0);
+  for (const auto& [tx, rx] :
+       {std::pair{dvec3(0, 0, 0), dvec3(5, 0, 2)}, std::pair{dvec3(5, 0, 2), dvec3(0, 0, 0)},
+        std::pair{dvec3(0, 0, 0), dvec3(5, 0, 0)}}) {
+    const auto paths = solve_all(hand, tx, rx, 3);
+    ASSERT_EQ(paths.size(), 1u);  // the line of sight
+    EXPECT_TRUE(paths[0].facets.empty());
+  }
+  // On the plane but beside the facet: the same.
+  EXPECT_EQ(solve_all(hand, {80, 0, 0}, {5, 0, 2}, 2).size(), 1u);
+  // 5 mm above it (hard case 12): a path, to the last digit.
+  const auto paths = solve_all(hand, {0, 0, 0.005}, {5, 0, 2}, 1);
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_NEAR(paths[1].length_m / std::sqrt(25 + 2.005 * 2.005), 1.0, 1e-15);
+  EXPECT_NEAR(paths[1].vertices[1].x, 5 * 0.005 / 2.005, 1e-14);
+}
+
+TEST(ImageMethodHardCase, N17_TransmitterIsReceiver) {
+  HandScene hand;
+  hand.ground(50.0);
+  const auto paths = solve_all(hand, {1, 2, 3}, {1, 2, 3}, 2);
+  ASSERT_EQ(paths.size(), 1u);  // no line of sight of zero length; the echo stays
+  EXPECT_EQ(paths[0].length_m, 6.0);
+  EXPECT_EQ(paths[0].vertices[1], dvec3(1, 2, 0));
+}
+
+TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
+  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two facets.
+  HandScene merged, apart;
+  merged.ground(10.0);
+  apart.triangle({-10, -10, 0}, {10, -10, 0}, {10, 10, 0});
+  apart.triangle({-10, -10, 0}, {10, 10, 0}, {-10, 10, 0});
+  RandomStream random(5, 0);
+  for (int i = 0; i < 200; ++i) {
+    const double at = random.uniform(-9, 9), nudge = random.uniform(-1, 1) * 1e-15;
+    const dvec3 offset(random.uniform(-3, 3), random.uniform(-3, 3), 0.0),
+        height(0, 0, random.uniform(0.1, 20));
+    const dvec3 point(at + nudge, at, 0);
+    EXPECT_EQ(solve_all(merged, point + offset + height, point - offset + height, 2).size(), 2u);
+    const auto paths = solve_all(apart, point + offset + height, point - offset + height, 2);
+    ASSERT_EQ(paths.size(), 2u);
+  }
+  // Exactly on the common edge, the lower index wins.
+  const auto paths = solve_all(apart, {0, 4, 2}, {4, 0, 2}, 1);
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_EQ(paths[1].facets, FacetSequence{0});
+}
+
+TEST(ImageMethodHardCase, N19_DuplicateFacets) {
+  HandScene hand;
+  hand.ground(10.0);
+  hand.ground(10.0);
+  hand.quad({-10, 10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, -10, 0});  // and once more, facing down
+  hand.quad({10, -10, 0}, {10, 10, 0}, {10, 10, 5}, {10, -10, 5});
+  const auto paths = solve_all(hand, {0, 1, 2}, {3, 2, 4}, 2);
+  ASSERT_EQ(paths.size(), 4u);  // line of sight, ground, wall, ground and wall in one order
+  EXPECT_EQ(paths[1].facets, FacetSequence{0});
+  EXPECT_EQ(paths[2].facets, FacetSequence{3});
+  EXPECT_EQ(paths[3].facets, (FacetSequence{0, 3}));
+}
+
+TEST(ImageMethodHardCase, N20_CornerTie) {
+  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself when both
+  // ends and the edge are in one line as seen from above; xy and yx are then one path.
+  HandScene hand;
+  hand.quad({0, 0, 0}, {0, 10, 0}, {0, 10, 10}, {0, 0, 10});  // x = 0, facing +x
+  hand.quad({0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0});  // y = 0, facing +y
+  const FacetWorld world(hand.scene);
+  EXPECT_EQ(world.facet(0).normal, dvec3(1, 0, 0));
+  EXPECT_EQ(world.facet(1).normal, dvec3(0, 1, 0));
+  RandomStream random(9, 0);
+  for (int i = 0; i < 200; ++i) {
+    const double azimuth = random.uniform(0.1, 1.4), near = random.uniform(0.5, 5),
+                 far = random.uniform(0.5, 5);
+    const dvec3 along(std::cos(azimuth), std::sin(azimuth), 0);
+    const dvec3 tx = near * along + dvec3(0, 0, random.uniform(1, 9)), rx = far * along + dvec3(0, 0, 5);
+    const auto paths = solve_paths(world, tx, rx, exhaustive_candidates(2, 2));
+    ASSERT_EQ(paths.size(), 4u) << azimuth;
+    EXPECT_NEAR(std::hypot(paths[3].vertices[1].x, paths[3].vertices[1].y), 0.0, 1e-7);
+    EXPECT_NEAR(paths[3].length_m, glm::length(rx - tx * dvec3(-1, -1, 1)), 1e-12);
+  }
+  // Exactly representable: both orders tie to the bit, the first one is kept.
+  const auto exact = solve_paths(world, {1, 1, 2}, {3, 3, 6}, exhaustive_candidates(2, 2));
+  ASSERT_EQ(exact.size(), 4u);
+  EXPECT_EQ(exact[3].facets, (FacetSequence{0, 1}));
+  // Off the tie, exactly one order exists.
+  EXPECT_EQ(solve_paths(world, {1, 1.001, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
+  EXPECT_EQ(solve_paths(world, {1, 0.999, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
+}
+
+TEST(ImageMethod, OuterCornerAndFlatSeamReflectOnce) {
+  // The same two walls from outside (a house, not a room): no double reflection in the edge.
+  HandScene house;
+  house.quad({0, 0, 0}, {0, -10, 0}, {0, -10, 10}, {0, 0, 10});
+  house.quad({0, 0, 0}, {0, 0, 10}, {-10, 0, 10}, {-10, 0, 0});
+  for (const auto& path : solve_all(house, {1, 1, 2}, {3, 3, 6}, 3)) EXPECT_LE(path.facets.size(), 1u);
+  // Two facets of one plane that touch: a point on the seam is one reflection, never two.
+  HandScene seam;
+  seam.quad({-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0});
+  seam.quad({0, -5, 0}, {5, -5, 0}, {5, 5, 0}, {0, 5, 0});
+  EXPECT_EQ(solve_all(seam, {-1, 0, 2}, {1, 1, 2}, 3).size(), 2u);
+  EXPECT_EQ(solve_all(seam, {-1, 0, 2}, {1, 1, -2}, 3).size(), 1u);  // from side to side: no reflection
+}
+
+TEST(ImageMethodHardCase, N21_ShoeBox) {
+  const dvec3 size(7.3, 4.1, 2.9), tx(1.234, 2.345, 1.111), rx(5.432, 0.987, 2.013);
+  HandScene hand;
+  hand.room(size);
+  const auto paths = solve_all(hand, tx, rx, 4);
+  std::array<std::vector<double>, 5> found, expected;
+  const FacetWorld world(hand.scene);
+  for (const GeometricPath& path : paths) {
+    expect_specular(world, path);
+    found[path.facets.size()].push_back(path.length_m / speed_of_light);
+  }
+  // Images at 2ml +- x: |m| counted by how many walls of that axis are crossed.
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -4; j <= 4; ++j)
+      for (int k = -4; k <= 4; ++k) {
+        const int order = std::abs(i) + std::abs(j) + std::abs(k);
+        if (order > 4) continue;
+        dvec3 image;
+        const int counts[3]{i, j, k};
+        for (int axis = 0; axis < 3; ++axis) {
+          const int n = counts[axis];
+          image[axis] = n % 2 == 0 ? n * size[axis] + tx[axis] : (n + 1) * size[axis] - tx[axis];
+        }
+        expected[static_cast<size_t>(order)].push_back(glm::length(image - rx) / speed_of_light);
+      }
+  const size_t counts[5]{1, 6, 18, 38, 66};
+  for (size_t order = 0; order <= 4; ++order) {
+    ASSERT_EQ(found[order].size(), counts[order]);
+    ASSERT_EQ(expected[order].size(), counts[order]);
+    std::sort(found[order].begin(), found[order].end());
+    std::sort(expected[order].begin(), expected[order].end());
+    for (size_t i = 0; i < counts[order]; ++i) EXPECT_NEAR(found[order][i] / expected[order][i], 1.0, 1e-12);
+  }
+  for (size_t i = 1; i < paths.size(); ++i) EXPECT_TRUE(sequence_less(paths[i - 1].facets, paths[i].facets));
+}
+
+TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {
+  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no duplicates.
+  HandScene hand;
+  for (int i = -4; i < 4; ++i)
+    for (int j = -4; j < 4; ++j) hand.quad({i, j, 0}, {i + 1, j, 0}, {i + 1, j + 1, 0}, {i, j + 1, 0});
+  RandomStream random(2, 0);
+  for (int i = 0; i < 50; ++i) {
+    // On corners of four facets, on edges of two, inside one.
+    const dvec3 point(random.below(7) - 3.0, i % 3 == 0 ? random.below(7) - 3.0 : random.uniform(-3.9, 3.9),
+                      0.0);
+    const dvec3 offset(random.uniform(-1, 1), random.uniform(-1, 1), 0), up(0, 0, random.uniform(0.5, 2));
+    EXPECT_EQ(solve_all(hand, point + offset + up, point - offset + up, 1).size(), 2u);
+  }
+}
+
+TEST(ImageMethodHardCase, N23_TwoWallsFourMillimetresApart) {
+  HandScene hand;
+  hand.quad({0, -5, 0}, {0, 5, 0}, {0, 5, 5}, {0, -5, 5});
+  hand.quad({-0.004, -5, 0}, {-0.004, 5, 0}, {-0.004, 5, 5}, {-0.004, -5, 5});
+  const auto paths = solve_all(hand, {3, -1, 2}, {3, 1, 2}, 1);
+  ASSERT_EQ(paths.size(), 3u);
+  EXPECT_NEAR(paths[1].length_m, std::sqrt(4 + 36.0), 1e-14);
+  EXPECT_NEAR(paths[2].length_m, std::sqrt(4 + 6.008 * 6.008), 1e-14);
+  // Between them: from inside the gap to and fro.
+  const FacetWorld world(hand.scene);
+  for (const auto& path : solve_all(hand, {-0.001, -1, 2}, {-0.002, 1, 2}, 4)) expect_specular(world, path);
+  EXPECT_EQ(solve_all(hand, {-0.001, -1, 2}, {-0.002, 1, 2}, 4).size(), 9u);
+}
+
+TEST(ImageMethodHardCase, N24_Grazing) {
+  // 89.99 degrees: 1.745 m up over 2 x 10 km.
+  HandScene hand;
+  hand.ground(15'000.0);
+  const double run = 10'000.0, height = run / std::tan(radians(89.99));
+  const auto paths = solve_all(hand, {-run, 7.0, height}, {run, 7.0, height}, 1);
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_LT(glm::length(paths[1].vertices[1] - dvec3(0, 7, 0)), 1e-9);
+  EXPECT_NEAR(paths[1].length_m / (2 * std::hypot(run, height)), 1.0, 1e-12);
+  // The point is inside a facet that ends 1 um behind it and outside one that ends 1 um before it.
+  for (const double edge : {1e-6, -1e-6}) {
+    HandScene half;
+    half.quad({-100, -100, 0}, {edge, -100, 0}, {edge, 100, 0}, {-100, 100, 0});
+    EXPECT_EQ(solve_all(half, {-run, 7.0, height}, {run, 7.0, height}, 1).size(), edge > 0 ? 2u : 1u);
+  }
+}
+
+TEST(ImageMethodHardCase, N25_AReceiverAloneIsTheSameAmongAHundred) {
+  HandScene hand;
+  hand.room({20, 15, 6});
+  hand.quad({8, 5, 0}, {8, 9, 0}, {8, 9, 4}, {8, 5, 4});
+  const FacetWorld world(hand.scene);
+  const CandidateList candidates = exhaustive_candidates(world.facet_count(), 3);
+  const dvec3 tx(3, 4, 2);
+  const ImageTree tree(world, tx, candidates);
+  RandomStream random(1, 0);
+  std::vector<dvec3> receivers;
+  std::vector<std::vector<GeometricPath>> together;
+  for (int i = 0; i < 100; ++i)
+    receivers.emplace_back(random.uniform(1, 19), random.uniform(1, 14), random.uniform(1, 5));
+  for (const dvec3& rx : receivers) together.push_back(tree.solve(rx));
+  for (const size_t i : {0u, 41u, 99u})
+    EXPECT_TRUE(same_bits(together[i], ImageTree(world, tx, candidates).solve(receivers[i])));
+}
+
+TEST(ImageMethod, EitherEndMayBeTheSource) {
+  HandScene hand;
+  hand.room({20, 15, 6});
+  hand.quad({8, 5, 0}, {8, 9, 0}, {8, 9, 4}, {8, 5, 4});
+  const FacetWorld world(hand.scene);
+  const CandidateList candidates = exhaustive_candidates(world.facet_count(), 3);
+  const dvec3 tx(3, 4, 2), rx(16, 9, 3.3);
+  const auto forward = ImageTree(world, tx, candidates).solve(rx);
+  const auto backward = ImageTree(world, rx, candidates, Source::receiver).solve(tx);
+  ASSERT_EQ(forward.size(), backward.size());
+  ASSERT_GT(forward.size(), 60u);
+  for (size_t i = 0; i < forward.size(); ++i) {
+    EXPECT_EQ(forward[i].facets, backward[i].facets);
+    EXPECT_EQ(backward[i].vertices.front(), tx);
+    EXPECT_EQ(backward[i].vertices.back(), rx);
+    EXPECT_NEAR(forward[i].length_m, backward[i].length_m, 1e-12);
+    for (size_t k = 0; k < forward[i].vertices.size(); ++k)
+      EXPECT_LT(glm::length(forward[i].vertices[k] - backward[i].vertices[k]), 1e-12);
+  }
+}
+
+TEST(ImageMethod, MovingBodiesAndSources) {
+  HandScene hand;
+  hand.ground(50.0);
+  const uint32_t body = hand.body();
+  // A plate in its own frame, facing its +x.
+  const uint32_t plate = hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);
+  FacetWorld world(hand.scene);
+  Motion motion;
+  motion.pose = {{10, 0, 3}, orientation_from_yaw_pitch_roll(pi, 0, 0)};  // now facing -x
+  motion.velocity = {-2, 0, 0};
+  motion.angular_velocity = {0, 0, 0.5};
+  world.move(body, motion);
+  EXPECT_LT(glm::length(world.facet(plate).normal - dvec3(-1, 0, 0)), 1e-15);
+  EXPECT_LT(glm::length(world.velocity(plate, {10, 1, 3}) - dvec3(-2.5, 0, 0)), 1e-15);
+  EXPECT_EQ(world.velocity(0, {1, 2, 0}), dvec3(0.0));
+
+  ImageTree tree(world, {0, -0.5, 3}, exhaustive_candidates(2, 1));
+  auto paths = tree.solve({0, 0.5, 3});
+  ASSERT_EQ(paths.size(), 3u);
+  EXPECT_NEAR(paths[2].length_m, std::sqrt(400 + 1.0), 1e-12);
+  motion.pose.position.x = 8;
+  world.move(body, motion);
+  tree.update({0, -0.5, 3.5});
+  paths = tree.solve({0, 0.5, 3});
+  ASSERT_EQ(paths.size(), 3u);
+  EXPECT_NEAR(paths[2].length_m, std::sqrt(256 + 1.0 + 0.25), 1e-12);
+  EXPECT_THROW(world.move(0, motion), ContractError);
+}
+
+TEST(ImageMethod, NothingToHit) {
+  HandScene hand;
+  const auto paths = solve_all(hand, {0, 0, 1}, {3, 4, 1}, 3);
+  ASSERT_EQ(paths.size(), 1u);
+  EXPECT_EQ(paths[0].length_m, 5.0);
+  EXPECT_TRUE(ImageTree(FacetWorld(hand.scene), dvec3(0.0), CandidateList{}).node_count() == 0);
+}
+
+}  // namespace
+}  // namespace greatx::rf
