@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/city_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/generator/materials.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// A row across the street: `cuts` are fractions of its width from 0 to 1, cell i lies between cuts i and i + 1.
+struct Row {
+  double length_m = 0.0;
+  std::vector<double> cuts;
+  std::vector<bool> marked;
+};
+
+Row plain_row(double length) { return {length, {0.0, 1.0}, {false}}; }
+
+/// Dashes (or solid lines) of 0.12 m around `lines`, fractions of the width.
+Row line_row(double length, double width, const std::vector<double>& lines) {
+  Row row{length, {0.0}, {}};
+  for (const double line : lines) {
+    row.cuts.insert(row.cuts.end(), {line - 0.06 / width, line + 0.06 / width});
+    row.marked.insert(row.marked.end(), {false, true});
+  }
+  row.cuts.push_back(1.0);
+  row.marked.push_back(false);
+  return row;
+}
+
+/// Bars of 0.5 m, 0.6 m apart, along the direction of travel.
+Row zebra_row(double width) {
+  const int bars = static_cast<int>((width - 0.6) / 1.1);
+  Row row{3.0, {0.0}, {}};
+  const double first = 0.5 * (width - 1.1 * bars + 0.6);
+  for (int i = 0; i < bars; ++i) {
+    row.cuts.insert(row.cuts.end(), {(first + 1.1 * i) / width, (first + 1.1 * i + 0.5) / width});
+    row.marked.insert(row.marked.end(), {false, true});
+  }
+  row.cuts.push_back(1.0);
+  row.marked.push_back(false);
+  return row;
+}
+
+std::vector<Row> make_rows(const Street& street, double length, double width, RandomStream& random) {
+  std::vector<Row> head, tail;
+  const auto end_rows = [&](bool junction, std::vector<Row>& rows) {
+    rows.push_back(plain_row(0.7));
+    if (!junction || (!street.avenue && random.uniform() < 0.5)) return;
+    rows.push_back(zebra_row(width));
+    rows.push_back(plain_row(1.5));
+  };
+  end_rows(street.junction[0], head);
+  end_rows(street.junction[1], tail);
+  std::reverse(tail.begin(), tail.end());
+  double used = 0.0;
+  for (const Row& row : head) used += row.length_m;
+  for (const Row& row : tail) used += row.length_m;
+  // Dashes of 3 m every 9 m, stretched to fit; an avenue has a solid line in the middle and two dashed ones.
+  const int dashes = std::max(1, static_cast<int>((length - used + 6.0) / 9.0));
+  const double unit = (length - used) / (3.0 * dashes - 2.0);
+  std::vector<Row> rows = head;
+  for (int i = 0; i < dashes; ++i) {
+    if (i > 0) rows.push_back(street.avenue ? line_row(2 * unit, width, {0.5}) : plain_row(2 * unit));
+    rows.push_back(line_row(unit, width, street.avenue ? std::vector{0.27, 0.5, 0.73} : std::vector{0.5}));
+  }
+  rows.insert(rows.end(), tail.begin(), tail.end());
+  return rows;
+}
+
+using Chain = std::vector<dvec2>;
+
+/// Fills the cell between two chains of points (each from left to right) with triangles.
+void zip(MeshBuilder& mesh, int material, const Chain& low, const Chain& high) {
+  const auto triangle = [&](const dvec2& a, const dvec2& b, const dvec2& c) {
+    const dvec3 up(0, 0, 1);
+    const dvec3 pa(a, 0.0), pb(b, 0.0), pc(c, 0.0);
+    mesh.triangle(material, {pa, pb, pc},
+                  {planar_uv(material, pa, up), planar_uv(material, pb, up), planar_uv(material, pc, up)});
+  };
+  size_t i = 0, j = 0;
+  while (i + 1 < low.size() || j + 1 < high.size()) {
+    // Advance on the side that is behind.
+    const bool advance_low =
+        j + 1 == high.size() ||
+        (i + 1 < low.size() && static_cast<double>(i + 1) / static_cast<double>(low.size()) <=
+                                   static_cast<double>(j + 1) / static_cast<double>(high.size()));
+    if (advance_low) {
+      triangle(low[i], low[i + 1], high[j]);
+      ++i;
+    } else {
+      triangle(low[i], high[j + 1], high[j]);
+      ++j;
+    }
+  }
+}
+
+void add_street(const Street& street, RandomStream& random, MeshBuilder& road, MeshBuilder& markings) {
+  const double length =
+      0.5 * (glm::length(street.left[1] - street.left[0]) + glm::length(street.right[1] - street.right[0]));
+  const double width =
+      0.5 * (glm::length(street.left[0] - street.right[0]) + glm::length(street.left[1] - street.right[1]));
+  const std::vector<Row> rows = make_rows(street, length, width, random);
+  const int asphalt = material("asphalt"), paint = material("road_marking");
+
+  // The points on the boundary below row i: the cuts of both rows that meet there.
+  std::vector<std::vector<double>> cuts(rows.size() + 1);
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (const size_t boundary : {i, i + 1})
+      cuts[boundary].insert(cuts[boundary].end(), rows[i].cuts.begin(), rows[i].cuts.end());
+  for (auto& c : cuts) {
+    std::sort(c.begin(), c.end());
+    c.erase(std::unique(c.begin(), c.end(), [](double a, double b) { return b - a < 1e-9; }), c.end());
+  }
+  const auto point = [&](double along, double across) {
+    const dvec2 left = glm::mix(street.left[0], street.left[1], along);
+    const dvec2 right = glm::mix(street.right[0], street.right[1], along);
+    return snap(glm::mix(left, right, across));
+  };
+  const auto chain = [&](size_t boundary, double along, double from, double to) {
+    Chain points;
+    for (const double cut : cuts[boundary])
+      if (cut >= from - 1e-9 && cut <= to + 1e-9) points.push_back(point(along, cut));
+    return points;
+  };
+  double start = 0.0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const double end = i + 1 == rows.size() ? 1.0 : start + rows[i].length_m / length;
+    for (size_t cell = 0; cell + 1 < rows[i].cuts.size(); ++cell) {
+      const double from = rows[i].cuts[cell], to = rows[i].cuts[cell + 1];
+      const bool marked = rows[i].marked[cell];
+      zip(marked ? markings : road, marked ? paint : asphalt, chain(i, start, from, to),
+          chain(i + 1, end, from, to));
+    }
+    start = end;
+  }
+}
+
+}  // namespace
+
+void add_streets(const CityPlan& plan, uint64_t seed, MeshBuilder& road, MeshBuilder& markings) {
+  RandomStream random(seed, 2);
+  for (const std::vector<dvec2>& outline : plan.junctions)
+    road.flat_polygon(material("asphalt"), outline, 0.0, true);
+  for (const Street& street : plan.streets) add_street(street, random, road, markings);
+}
+
+void add_block_ground(const Block& block, int surface, MeshBuilder& pavement, MeshBuilder& courtyard) {
+  const std::vector<dvec2> outer = block.outline();
+  const std::vector<dvec2> inner = inset(outer, block.outline_insets());
+  const int slabs = material("pavement"), kerb = material("kerb");
+  const double z = pavement_height_m;
+  size_t index = 0;
+  for (size_t corner = 0; corner < 4; ++corner)
+    for (size_t k = 0; k < block.corners[corner].size(); ++k, ++index) {
+      const size_t next = (index + 1) % outer.size();
+      pavement.quad(slabs, dvec3(outer[index], z), dvec3(outer[next], z), dvec3(inner[next], z),
+                    dvec3(inner[index], z));
+      const bool last = k + 1 == block.corners[corner].size();
+      if (last && !block.street[corner]) continue;  // the base closes the model's edge
+      pavement.quad(kerb, dvec3(outer[index], 0.0), dvec3(outer[next], 0.0), dvec3(outer[next], z),
+                    dvec3(outer[index], z));
+    }
+  courtyard.flat_polygon(surface, inner, z, true);
+}
+
+void add_base(const CityPlan& plan, MeshBuilder& base) {
+  const int subsoil = material("subsoil");
+  const double bottom = -1.0;
+  const dvec3 middle(0.0, 0.0, bottom);
+  const auto side = [&](const dvec2& a, const dvec2& b, bool block) {
+    base.quad(subsoil, dvec3(a, bottom), dvec3(b, bottom), dvec3(b, 0.0), dvec3(a, 0.0));
+    if (block)
+      base.quad(subsoil, dvec3(a, 0.0), dvec3(b, 0.0), dvec3(b, pavement_height_m),
+                dvec3(a, pavement_height_m));
+    const dvec3 pa(a, bottom), pb(b, bottom), down(0, 0, -1);
+    base.triangle(
+        subsoil, {middle, pb, pa},
+        {planar_uv(subsoil, middle, down), planar_uv(subsoil, pb, down), planar_uv(subsoil, pa, down)});
+  };
+  const int last = plan.blocks - 1;
+  for (int edge = 0; edge < 4; ++edge)
+    for (int i = 0; i <= last; ++i) {
+      // Counter-clockwise around the model; between two blocks a street ends.
+      const auto block = [&](int k) -> const Block& {
+        switch (edge) {
+          case 0:
+            return plan.at(k, 0);
+          case 1:
+            return plan.at(last, k);
+          case 2:
+            return plan.at(last - k, last);
+          default:
+            return plan.at(0, last - k);
+        }
+      };
+      side(block(i).edge_start(edge), block(i).edge_end(edge), true);
+      if (i < last) side(block(i).edge_end(edge), block(i + 1).edge_start(edge), false);
+    }
+}
+
+}  // namespace greatx::scene::generator

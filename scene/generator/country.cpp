@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "scene/generator/farm.h"
+#include "scene/generator/kinds.h"
+#include "scene/generator/materials.h"
+#include "scene/generator/objects.h"
+#include "scene/generator/terrain.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// Fields: on each side of the road two bands, each cut across at rows of its own.
+struct Field {
+  int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
+  int material;
+};
+
+class Country {
+ public:
+  Country(GlbWriter& writer, double size_m, uint64_t seed)
+      : writer_(writer), random_(seed, 5), terrain_(size_m, random_) {}
+
+  void write() {
+    choose_sites();
+    terrain_.build_grid();
+    choose_fields();
+    add_ground();
+    add_hedges();
+    add_farms();
+    add_woods();
+    add_poles();
+  }
+
+ private:
+  void choose_sites();
+  void choose_fields();
+  void add_ground();
+  void add_hedges();
+  void add_farms();
+  void add_woods();
+  void add_poles();
+  void add_tree(const dvec2& where, bool conifer);
+  bool near_site(const dvec2& point, double margin) const;
+  int shared(const std::string& name, const std::function<MeshBuilder()>& make);
+  void add(const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
+    writer_.add_node({.name = name, .mesh = writer_.add_mesh(name, mesh), .semantic_class = semantic_class});
+  }
+
+  GlbWriter& writer_;
+  RandomStream random_;
+  Terrain terrain_;
+  std::vector<Site> farms_;
+  Site pond_;
+  std::vector<Field> fields_;
+  std::map<std::string, int> meshes_;
+  int tree_count_ = 0, barn_count_ = 0;
+};
+
+int Country::shared(const std::string& name, const std::function<MeshBuilder()>& make) {
+  const auto found = meshes_.find(name);
+  if (found != meshes_.end()) return found->second;
+  return meshes_[name] = writer_.add_mesh(name, make());
+}
+
+bool Country::near_site(const dvec2& point, double margin) const {
+  for (const Site& farm : farms_)
+    if (glm::length(point - farm.center) < farm.inner_m + margin) return true;
+  return glm::length(point - pond_.center) < pond_.outer_m + margin ||
+         std::abs(point.y - terrain_.road_y(point.x)) < road_half_width_m + verge_m + margin;
+}
+
+void Country::choose_sites() {
+  // A farm on each side of the road, and a pond away from both.
+  const double half = terrain_.half();
+  const auto beside_road = [&](double x, double distance, double side) {
+    const dvec2 along = terrain_.road_direction(x);
+    return snap(dvec2(x, terrain_.road_y(x)) + side * distance * dvec2(-along.y, along.x));
+  };
+  const double side = random_.uniform() < 0.5 ? 1.0 : -1.0;
+  const double reach = std::min(0.5 * half, 110.0);
+  const double yard = std::min(24.0, 0.3 * half);
+  for (const double sign : {-1.0, 1.0}) {
+    Site farm;
+    farm.center = beside_road(sign * reach * random_.uniform(0.55, 0.75), yard + 10.0, sign * side);
+    farm.inner_m = yard;
+    farm.outer_m = yard + 16.0;
+    farm.level = snap(terrain_.height(farm.center));
+    farms_.push_back(farm);
+  }
+  for (const Site& farm : farms_) terrain_.flatten(farm);
+  pond_.center = beside_road(-reach * random_.uniform(0.5, 0.7), std::min(0.52 * half, 78.0), side);
+  pond_.inner_m = std::min(9.0, 0.1 * half);
+  pond_.outer_m = 3.2 * pond_.inner_m;
+  double shore = 1e9;
+  for (const dvec2& p : regular_polygon(24, pond_.outer_m, pond_.center))
+    shore = std::min(shore, terrain_.height(p));
+  pond_.level = snap(shore - 3.0);  // of the bed; the water stands 2 m above it
+  terrain_.flatten(pond_);
+}
+
+void Country::choose_fields() {
+  const std::array<const char*, 6> crops{"wheat", "crop", "ploughed_soil", "rapeseed", "meadow", "wheat"};
+  const int south = terrain_.road_south() - 1, north = terrain_.road_north() + 1,
+            last = terrain_.columns() - 1;
+  const std::array<std::array<int, 2>, 4> bands{
+      {{0, south / 2}, {south / 2, south}, {north, (north + last) / 2}, {(north + last) / 2, last}}};
+  for (const auto& band : bands) {
+    size_t before = crops.size();
+    for (int row = 0; row + 1 < terrain_.rows();) {
+      int end = std::min(row + 6 + static_cast<int>(random_.below(7)), terrain_.rows() - 1);
+      if (terrain_.rows() - 1 - end < 5) end = terrain_.rows() - 1;
+      size_t pick = random_.below(static_cast<uint32_t>(crops.size()));
+      if (pick == before) pick = (pick + 1) % crops.size();
+      before = pick;
+      fields_.push_back({row, end, band[0], band[1], material(crops[pick])});
+      row = end;
+    }
+  }
+}
+
+void Country::add_ground() {
+  const int verge = material("verge"), meadow = material("meadow"), grass = material("grass");
+  const int south = terrain_.road_south(), north = terrain_.road_north();
+  MeshBuilder land, road, water;
+  terrain_.add_surface(land, [&](int row, int column) {
+    if (column == south) return -1;
+    if (column == south - 1 || column == north) return verge;
+    const dvec2 middle =
+        0.5 * (dvec2(terrain_.vertex(row, column)) + dvec2(terrain_.vertex(row + 1, column + 1)));
+    for (const Site& farm : farms_)
+      if (glm::length(middle - farm.center) < farm.inner_m + 6.0) return grass;
+    if (glm::length(middle - pond_.center) < pond_.outer_m + 4.0) return meadow;
+    for (const Field& f : fields_)
+      if (row >= f.row0 && row < f.row1 && column >= f.column0 && column < f.column1) return f.material;
+    return meadow;
+  });
+  terrain_.add_base(land);
+  terrain_.add_surface(road,
+                       [&](int, int column) { return column == south ? material("country_road") : -1; });
+  // A disc that reaches into the banks all round: the shore is where they meet.
+  water.flat_polygon(material("water"), regular_polygon(20, 0.86 * pond_.outer_m, pond_.center),
+                     pond_.level + 2.0, true);
+  add("terrain", land, SemanticClass::ground);
+  add("road", road, SemanticClass::road);
+  add("pond", water, SemanticClass::water);
+}
+
+/// A closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
+MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
+  MeshBuilder mesh;
+  const int leaves = material("hedge");
+  const auto section = [&](size_t i) {
+    const dvec3 next = chain[std::min(i + 1, chain.size() - 1)], before = chain[i == 0 ? 0 : i - 1];
+    const dvec2 along = glm::normalize(dvec2(next - before)), right(along.y, -along.x);
+    const dvec3 r(right, 0.0), up(0, 0, 1);
+    return std::array<dvec3, 4>{snap(chain[i] + 0.65 * r - 0.5 * up), snap(chain[i] + 0.45 * r + 1.7 * up),
+                                snap(chain[i] - 0.45 * r + 1.7 * up), snap(chain[i] - 0.65 * r - 0.5 * up)};
+  };
+  for (size_t i = 0; i + 1 < chain.size(); ++i) {
+    const auto a = section(i), b = section(i + 1);
+    for (size_t k = 0; k < 4; ++k) mesh.quad(leaves, a[k], b[k], b[(k + 1) % 4], a[(k + 1) % 4]);
+  }
+  const auto first = section(0), last = section(chain.size() - 1);
+  mesh.quad(leaves, first[0], first[1], first[2], first[3]);
+  mesh.quad(leaves, last[3], last[2], last[1], last[0]);
+  return mesh;
+}
+
+void Country::add_hedges() {
+  int count = 0;
+  for (const Field& field : fields_) {
+    if (field.row0 == 0 || random_.uniform() < 0.25) continue;
+    std::vector<dvec3> chain;
+    const auto flush = [&] {
+      if (chain.size() > 2)
+        add(fmt::format("hedge_{:03}", count++), make_hedge(chain), SemanticClass::vegetation);
+      chain.clear();
+    };
+    const int from = std::max(field.column0, 1), to = std::min(field.column1, terrain_.columns() - 2);
+    for (int column = from; column <= to; ++column) {
+      const dvec3 p = terrain_.vertex(field.row0, column);
+      // Stations of one hedge end a metre and a half short of the next band's.
+      if (near_site(dvec2(p), 5.0)) {
+        flush();
+        continue;
+      }
+      chain.push_back(
+          column == to && to == field.column1 ? glm::mix(p, chain.empty() ? p : chain.back(), 0.25) : p);
+      if (column < to && random_.uniform() < 0.16)
+        add_tree(dvec2(p) + dvec2(2.4, random_.uniform(-3.0, 3.0)), false);
+    }
+    flush();
+  }
+}
+
+void Country::add_tree(const dvec2& where, bool conifer) {
+  const dvec2 at = snap(where);
+  if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
+  const int shape = static_cast<int>(random_.below(4));
+  const int mesh = conifer ? shared("conifer", make_conifer)
+                           : shared(fmt::format("tree_shape_{}", shape), [&] { return make_tree(shape); });
+  writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
+                    .mesh = mesh,
+                    .position = dvec3(at, terrain_.height(at) - 0.1),
+                    .yaw = random_.uniform(0.0, 2.0 * pi),
+                    .scale = random_.uniform(0.85, 1.5),
+                    .semantic_class = SemanticClass::vegetation});
+}
+
+void Country::add_farms() {
+  int building = 0;
+  for (size_t f = 0; f < farms_.size(); ++f) {
+    const Site& farm = farms_[f];
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    const double yaw = std::atan2(along.y, along.x) + random_.uniform(-0.08, 0.08);
+    const double scale = farm.inner_m / 24.0;
+    const auto place = [&](const MeshBuilder& mesh, const std::string& kind, const dvec2& where,
+                           double turn) {
+      const std::string name = fmt::format("{}_{:03}", kind, building++);
+      const dvec2 at = farm.center + scale * (where.x * along + where.y * across);
+      writer_.add_node({.name = name,
+                        .mesh = writer_.add_mesh(name, mesh),
+                        .position = dvec3(at, farm.level),
+                        .yaw = yaw + turn,
+                        .semantic_class = SemanticClass::building});
+    };
+    place(make_farmhouse(scale), "farmhouse", {-12.0, -9.0}, pi / 2);
+    place(make_barn(scale, random_.uniform() < 0.6), "barn", {10.0, 3.0}, 0.0);
+    if (random_.uniform() < 0.6) place(make_barn(0.72 * scale, false), "barn", {-9.0, 12.0}, pi / 2);
+    if (f == 0) place(make_silo(scale), "silo", {18.5, -8.0}, 0.0);
+    const dvec2 at = farm.center + scale * (-1.5 * along - 7.0 * across);
+    const bool van = f == 1;
+    const int mesh = shared(van ? "parked_van" : "parked_car", [&] {
+      return van ? make_car("van", "car_paint_white", false) : make_car("hatchback", "car_paint_blue", false);
+    });
+    writer_.add_node({.name = fmt::format("car_{:03}", f),
+                      .mesh = mesh,
+                      .position = dvec3(at, farm.level),
+                      .yaw = yaw + random_.uniform(-0.6, 0.6),
+                      .semantic_class = SemanticClass::vehicle});
+    // A few trees around the yard.
+    for (int i = 0; i < 5; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi);
+      add_tree(
+          farm.center + (farm.inner_m + random_.uniform(4.0, 9.0)) * dvec2(std::cos(angle), std::sin(angle)),
+          false);
+    }
+  }
+}
+
+void Country::add_woods() {
+  const double half = terrain_.half();
+  for (int wood = 0; wood < 2; ++wood) {
+    const dvec2 center(random_.uniform(-0.75, 0.75) * half, (wood == 0 ? 0.72 : -0.72) * half);
+    for (int i = 0; i < 22; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi), r = 0.22 * half * std::sqrt(random_.uniform());
+      add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)), (i + wood) % 2 == 0);
+    }
+  }
+  for (int i = 0; i < 9; ++i) {  // around the pond
+    const double angle = 2.0 * pi * (i + random_.uniform(0.0, 0.7)) / 9;
+    add_tree(pond_.center + (pond_.outer_m + 4.0) * dvec2(std::cos(angle), std::sin(angle)), false);
+  }
+}
+
+void Country::add_poles() {
+  int count = 0;
+  for (double x = -terrain_.half() + 15.0; x < terrain_.half() - 5.0; x += 38.0) {
+    const dvec2 along = terrain_.road_direction(x), side(-along.y, along.x);
+    const dvec2 at = snap(dvec2(x, terrain_.road_y(x)) + (road_half_width_m + verge_m - 0.4) * side);
+    writer_.add_node({.name = fmt::format("pole_{:03}", count++),
+                      .mesh = shared("telegraph_pole", make_pole),
+                      .position = dvec3(at, terrain_.height(at)),
+                      .yaw = std::atan2(along.y, along.x),
+                      .semantic_class = SemanticClass::pole});
+  }
+}
+
+}  // namespace
+
+void write_country(GlbWriter& writer, double size_m, uint64_t seed) { Country(writer, size_m, seed).write(); }
+
+}  // namespace greatx::scene::generator

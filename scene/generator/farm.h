@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/generator/mesh_builder.h"
+
+namespace greatx::scene::generator {
+
+// Ridge along y, ground at z = 0, foundations 1 m deep.
+MeshBuilder make_farmhouse(double scale);
+MeshBuilder make_barn(double scale, bool red);
+MeshBuilder make_silo(double scale);
+MeshBuilder make_pole();
+
+}  // namespace greatx::scene::generator

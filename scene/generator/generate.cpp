@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/generate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/ranges.h>
+
+#include "core/error.h"
+#include "scene/generator/kinds.h"
+#include "scene/generator/objects.h"
+
+namespace greatx::scene {
+
+namespace {
+
+using namespace generator;
+
+struct Kind {
+  const char* name;
+  double min_size_m, max_size_m;  ///< 0: has no size
+  std::vector<std::string> variants;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> list{{"city", 100, 1000, {}},
+                                      {"country", 100, 2000, {}},
+                                      {"mast", 0, 0, {}},
+                                      {"car", 0, 0, {"hatchback", "van"}},
+                                      {"quadrotor", 0, 0, {"medium", "small", "large"}}};
+  return list;
+}
+
+const Kind& find_kind(const std::string& name) {
+  for (const Kind& kind : kinds())
+    if (name == kind.name) return kind;
+  throw_user_error("scene generator: kind: expected one of {}, found \"{}\"",
+                   fmt::join(generator_kinds(), ", "), name);
+}
+
+std::string checked_variant(const Kind& kind, const std::string& variant) {
+  if (variant.empty()) return kind.variants.empty() ? "" : kind.variants.front();
+  if (kind.variants.empty())
+    throw_user_error("scene generator: variant: \"{}\" has none, found \"{}\"", kind.name, variant);
+  if (std::find(kind.variants.begin(), kind.variants.end(), variant) == kind.variants.end())
+    throw_user_error("scene generator: variant: expected one of {} for \"{}\", found \"{}\"",
+                     fmt::join(kind.variants, ", "), kind.name, variant);
+  return variant;
+}
+
+void write_quadrotor(GlbWriter& writer, const std::string& variant) {
+  const double diagonal = variant == "small" ? 0.35 : variant == "medium" ? 0.9 : 2.2;
+  const Quadrotor parts = make_quadrotor(diagonal);
+  const int body = writer.add_node({.name = "quadrotor",
+                                    .mesh = writer.add_mesh("quadrotor_body", parts.body),
+                                    .semantic_class = SemanticClass::uav});
+  const int rotor = writer.add_mesh("rotor", parts.rotor);
+  for (size_t i = 0; i < parts.rotor_centers.size(); ++i)
+    writer.add_node({.name = fmt::format("rotor_{}", i),
+                     .mesh = rotor,
+                     .position = parts.rotor_centers[i],
+                     .yaw = 0.5 + 0.7 * static_cast<double>(i),
+                     .semantic_class = SemanticClass::uav,
+                     .parent = body});
+}
+
+}  // namespace
+
+std::vector<std::string> generator_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+std::vector<std::string> generator_variants(const std::string& kind) { return find_kind(kind).variants; }
+
+std::vector<std::byte> generate_glb(const GenerateOptions& options) {
+  const Kind& kind = find_kind(options.kind);
+  const std::string variant = checked_variant(kind, options.variant);
+  const double size = options.size_m;
+  if (kind.max_size_m > 0 && !(size >= kind.min_size_m && size <= kind.max_size_m))
+    throw_user_error("scene generator: size of \"{}\": expected {} to {} m, found {}", kind.name,
+                     kind.min_size_m, kind.max_size_m, size);
+  GlbWriter writer;
+  if (options.kind == "city") {
+    write_city(writer, size, options.seed);
+  } else if (options.kind == "country") {
+    write_country(writer, size, options.seed);
+  } else if (options.kind == "quadrotor") {
+    write_quadrotor(writer, variant);
+  } else if (options.kind == "car") {
+    const char* const paint = variant == "van" ? "car_paint_white" : "car_paint_red";
+    writer.add_node({.name = "car",
+                     .mesh = writer.add_mesh(variant, make_car(variant, paint, true)),
+                     .semantic_class = SemanticClass::vehicle});
+  } else {
+    writer.add_node({.name = "mast",
+                     .mesh = writer.add_mesh("mast", make_mast()),
+                     .semantic_class = SemanticClass::mast});
+  }
+  return writer.finish(variant.empty() ? options.kind : options.kind + "_" + variant);
+}
+
+}  // namespace greatx::scene

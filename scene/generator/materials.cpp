@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/materials.h"
+
+#include "core/error.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+// Radio side. Media are those of ITU-R P.2040-4, Table 3, by name where it has them. Scattering coefficients are
+// plausible figures for the effective-roughness model (smooth glass and metal least, rough ground most), not
+// measurements of these surfaces.
+const char* const concrete_wall =
+    R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
+const char* const concrete_ground =
+    R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1})";
+const char* const brick_wall =
+    R"({"itu":"brick","thickness_m":0.3,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+// Double glazing, outer pane first.
+const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
+                            R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.016},)"
+                            R"({"itu":"glass","thickness_m":0.006}],"scattering_coefficient":0.05})";
+const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
+const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
+const char* const asphalt_ground = R"({"itu":"asphalt_concrete","scattering_coefficient":0.2})";
+// The table's row for soil ends at 10 GHz; its formula is carried on above that, and the file says so.
+const char* const soil =
+    R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
+const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coefficient":0.2})";
+const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
+// A crown is mostly air: a crude canopy stand-in, see docs/generator.md.
+const char* const canopy =
+    R"({"relative_permittivity":1.1,"conductivity":0.001,"thickness_m":2.0,"scattering_coefficient":0.5,)"
+    R"("cross_polarization":0.3})";
+const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
+const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
+const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,"thickness_m":0.003})";
+// Carbon fibre composite conducts well enough to reflect like metal.
+const char* const carbon_fibre =
+    R"({"relative_permittivity":1.0,"conductivity":10000.0,"thickness_m":0.003})";
+// Fresh water near 20 C at a few GHz; not frequency-dependent as Debye's model would be.
+const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5})";
+const char* const clay_tiles =
+    R"({"itu":"brick","thickness_m":0.03,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+
+std::vector<MaterialSpec> make_library() {
+  const dvec2 facade(6.0, 6.4);
+  return {
+      // name, texture, tile, bays, colour, roughness, metallic, emissive, radio
+      {"asphalt", "asphalt", dvec2(5.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"asphalt_lot", "asphalt", dvec2(5.0), 0, vec3(1.35f / 1.4f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"country_road", "asphalt", dvec2(5.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"road_marking", "", dvec2(1.0), 0, vec3(0.72f), 0.7f, 0.0f, vec3(0), asphalt_ground},
+      {"pavement", "pavement", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"kerb", "concrete", dvec2(2.0), 0, vec3(0.85f), 0.85f, 0.0f, vec3(0), concrete_ground},
+      {"paving", "pavement", dvec2(4.8), 0, vec3(0.86f, 0.78f, 0.68f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"subsoil", "", dvec2(2.0), 0, vec3(0.12f, 0.09f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
+      {"grass", "grass", dvec2(6.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), soil},
+      {"meadow", "grass", dvec2(9.0), 0, vec3(0.95f, 1.0f, 0.8f), 1.0f, 0.0f, vec3(0), soil},
+      {"wheat", "crop", dvec2(6.0), 0, vec3(0.62f, 0.46f, 0.18f), 1.0f, 0.0f, vec3(0), soil},
+      {"crop", "crop", dvec2(6.0), 0, vec3(0.16f, 0.27f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
+      {"ploughed_soil", "crop", dvec2(5.0), 0, vec3(0.24f, 0.15f, 0.09f), 1.0f, 0.0f, vec3(0), soil},
+      {"rapeseed", "crop", dvec2(6.0), 0, vec3(0.66f, 0.56f, 0.07f), 1.0f, 0.0f, vec3(0), soil},
+      {"verge", "grass", dvec2(5.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), soil},
+      {"water", "", dvec2(4.0), 0, vec3(0.03f, 0.07f, 0.08f), 0.06f, 0.0f, vec3(0), fresh_water},
+
+      {"facade_brick_red", "facade_brick", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), brick_wall},
+      {"facade_brick_yellow", "facade_brick", facade, 2, vec3(1.0f, 0.98f, 0.72f), 1.0f, 1.0f, vec3(0),
+       brick_wall},
+      {"facade_brick_brown", "facade_brick", facade, 2, vec3(0.6f, 0.66f, 0.7f), 1.0f, 1.0f, vec3(0),
+       brick_wall},
+      {"facade_plaster_cream", "facade_plaster", facade, 2, vec3(1.0f, 0.93f, 0.78f), 1.0f, 1.0f, vec3(0),
+       brick_wall},
+      {"facade_plaster_white", "facade_plaster", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), brick_wall},
+      {"facade_plaster_ochre", "facade_plaster", facade, 2, vec3(1.0f, 0.72f, 0.42f), 1.0f, 1.0f, vec3(0),
+       brick_wall},
+      {"facade_concrete_grey", "facade_concrete", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), concrete_wall},
+      {"facade_concrete_light", "facade_ribbon", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), concrete_wall},
+      {"facade_glass_blue", "facade_glass", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), glazing},
+      {"facade_glass_green", "facade_glass", facade, 2, vec3(0.8f, 1.0f, 0.82f), 1.0f, 1.0f, vec3(0),
+       glazing},
+      {"facade_metal_silver", "facade_metal", facade, 2, vec3(1.0f), 1.0f, 1.0f, vec3(0), sheet_metal},
+      {"facade_metal_dark", "facade_metal", facade, 2, vec3(0.42f, 0.46f, 0.52f), 1.0f, 1.0f, vec3(0),
+       sheet_metal},
+      {"shopfront", "shopfront", dvec2(6.0, 4.2), 1, vec3(1.0f), 1.0f, 1.0f, vec3(0), glazing},
+      {"blind_brick", "brick", dvec2(2.56), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), brick_wall},
+      {"blind_plaster", "concrete", dvec2(3.2), 0, vec3(0.9f, 0.84f, 0.72f), 0.95f, 0.0f, vec3(0),
+       brick_wall},
+      {"concrete", "concrete", dvec2(3.2), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_wall},
+      {"roof_gravel", "roof", dvec2(4.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), concrete_wall},
+      {"roof_dark", "roof", dvec2(4.0), 0, vec3(0.4f), 0.95f, 0.0f, vec3(0), concrete_wall},
+      {"roof_equipment", "corrugated", dvec2(1.6), 0, vec3(0.62f, 0.64f, 0.66f), 0.6f, 0.4f, vec3(0),
+       sheet_metal},
+      {"roof_tiles", "roof_tiles", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), clay_tiles},
+      {"roof_sheet", "corrugated", dvec2(1.6), 0, vec3(0.5f, 0.52f, 0.55f), 0.55f, 0.5f, vec3(0),
+       sheet_metal},
+      {"barn_boards", "boards", dvec2(2.0), 0, vec3(0.5f, 0.1f, 0.07f), 0.9f, 0.0f, vec3(0), timber},
+      {"barn_boards_brown", "boards", dvec2(2.0), 0, vec3(0.42f, 0.28f, 0.17f), 0.9f, 0.0f, vec3(0), timber},
+      {"door_boards", "boards", dvec2(1.5), 0, vec3(0.75f, 0.72f, 0.66f), 0.8f, 0.0f, vec3(0), timber},
+      {"farm_plaster", "farm_wall", dvec2(4.0, 3.0), 1, vec3(1.0f), 1.0f, 1.0f, vec3(0), brick_wall},
+      {"wood_pole", "bark", dvec2(1.0), 0, vec3(0.9f), 0.95f, 0.0f, vec3(0), trunk},
+
+      {"bark", "bark", dvec2(1.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), trunk},
+      {"leaves_green", "leaves", dvec2(3.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_dark", "leaves", dvec2(3.0), 0, vec3(0.62f, 0.74f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(1.25f / 1.3f, 1.0f, 0.6f), 1.0f, 0.0f, vec3(0), canopy},
+      {"hedge", "leaves", dvec2(2.0), 0, vec3(0.7f, 0.8f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
+
+      {"painted_metal", "", dvec2(1.0), 0, vec3(0.1f, 0.12f, 0.13f), 0.45f, 0.0f, vec3(0), sheet_metal},
+      {"galvanised_metal", "", dvec2(1.0), 0, vec3(0.55f, 0.57f, 0.58f), 0.5f, 0.7f, vec3(0), sheet_metal},
+      {"lamp_glass", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, vec3(2.0f, 1.7f, 1.2f), pane},
+      {"bench_wood", "boards", dvec2(1.0), 0, vec3(0.45f, 0.28f, 0.14f), 0.8f, 0.0f, vec3(0), timber},
+      {"radome", "", dvec2(1.0), 0, vec3(0.8f), 0.5f, 0.0f, vec3(0), radome},
+      {"aviation_light", "", dvec2(1.0), 0, vec3(0.6f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(1.0f, 0.02f, 0.02f),
+       plastic},
+
+      {"car_paint_white", "", dvec2(1.0), 0, vec3(0.82f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_silver", "", dvec2(1.0), 0, vec3(0.5f, 0.51f, 0.53f), 0.3f, 0.3f, vec3(0), sheet_metal},
+      {"car_paint_red", "", dvec2(1.0), 0, vec3(0.5f, 0.025f, 0.03f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_blue", "", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.32f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_black", "", dvec2(1.0), 0, vec3(0.02f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), pane},
+      {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},
+      {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), sheet_metal},
+      {"bumper", "", dvec2(1.0), 0, vec3(0.03f), 0.7f, 0.0f, vec3(0), plastic},
+      {"headlight", "", dvec2(1.0), 0, vec3(0.85f), 0.15f, 0.0f, vec3(0.6f), plastic},
+      {"tail_light", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(0.25f, 0.0f, 0.0f),
+       plastic},
+      {"number_plate", "", dvec2(1.0), 0, vec3(0.7f), 0.5f, 0.0f, vec3(0), sheet_metal},
+
+      {"uav_shell", "", dvec2(1.0), 0, vec3(0.75f, 0.76f, 0.77f), 0.4f, 0.0f, vec3(0), plastic},
+      {"uav_dark", "", dvec2(1.0), 0, vec3(0.03f), 0.5f, 0.0f, vec3(0), plastic},
+      {"carbon_fibre", "", dvec2(1.0), 0, vec3(0.02f, 0.02f, 0.022f), 0.35f, 0.0f, vec3(0), carbon_fibre},
+      {"motor_metal", "", dvec2(1.0), 0, vec3(0.35f), 0.4f, 0.9f, vec3(0), sheet_metal},
+      {"camera_glass", "", dvec2(1.0), 0, vec3(0.01f, 0.01f, 0.02f), 0.05f, 0.0f, vec3(0), pane},
+      {"uav_accent", "", dvec2(1.0), 0, vec3(0.75f, 0.16f, 0.02f), 0.45f, 0.0f, vec3(0), plastic},
+  };
+}
+
+}  // namespace
+
+const std::vector<MaterialSpec>& material_library() {
+  static const std::vector<MaterialSpec> library = make_library();
+  return library;
+}
+
+int material(const std::string& name) {
+  const std::vector<MaterialSpec>& library = material_library();
+  for (size_t i = 0; i < library.size(); ++i)
+    if (library[i].name == name) return static_cast<int>(i);
+  GREATX_CHECK(false, "no material called \"{}\"", name);
+}
+
+}  // namespace greatx::scene::generator
