@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/exr.h"
 
+#include <Imath/ImathBox.h>
 #include <cstring>
 #include <memory>
 
-#include <Imath/ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -16,7 +16,8 @@ namespace greatx::io {
 
 namespace {
 
-constexpr int compression_level = 1;  // of libdeflate
+constexpr int compression_level = 1;    // of libdeflate
+constexpr size_t lines_per_block = 16;  // of ZIP
 
 template <typename T>
 void append_value(Bytes& out, const T& value) {
@@ -42,7 +43,7 @@ Bytes packed(const Values&... values) {
 /// Magic, version 2, and the attributes that the format requires.
 Bytes header(int32_t width, int32_t height, std::string_view channels) {
   constexpr int32_t pixel_float = 2;
-  constexpr uint8_t compression_zips = 2, increasing_y = 0;
+  constexpr uint8_t compression_zip = 3, increasing_y = 0;
   Bytes list;
   for (const char& channel : channels) {
     append_string(list, std::string_view(&channel, 1));
@@ -55,7 +56,7 @@ Bytes header(int32_t width, int32_t height, std::string_view channels) {
   const Bytes window = packed(int32_t{0}, int32_t{0}, width - 1, height - 1);
   Bytes out = packed(uint32_t{20000630}, uint32_t{2});
   append_attribute(out, "channels", "chlist", list);
-  append_attribute(out, "compression", "compression", packed(compression_zips));
+  append_attribute(out, "compression", "compression", packed(compression_zip));
   append_attribute(out, "dataWindow", "box2i", window);
   append_attribute(out, "displayWindow", "box2i", window);
   append_attribute(out, "lineOrder", "lineOrder", packed(increasing_y));
@@ -70,7 +71,7 @@ struct FreeCompressor {
   void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 
-/// What ZIPS does before deflate: even bytes first, odd bytes behind, then differences offset by 128.
+/// What ZIP does before deflate: even bytes first, odd bytes behind, then differences offset by 128.
 void rearrange(std::span<const uint8_t> raw, std::vector<uint8_t>& halves, std::vector<uint8_t>& out) {
   const size_t half = (raw.size() + 1) / 2;
   for (size_t i = 0; i < raw.size() / 2; ++i) {
@@ -95,32 +96,34 @@ Bytes encode_exr(const Array& image) {
       libdeflate_alloc_compressor(compression_level));
   GREATX_CHECK(compressor, "no memory for a compressor");
 
-  // Channels lie in the file in the order of their names: B, G, R.
-  Bytes out = header(static_cast<int32_t>(width), static_cast<int32_t>(height), rgb ? "BGR" : "Z");
-  out.reserve(out.size() + height * (row_bytes + 16));
-  const size_t table = out.size();
-  out.resize(table + height * sizeof(uint64_t));
-  std::vector<float> planes(rgb ? width * 3 : 0);
-  std::vector<uint8_t> halves(row_bytes), line(row_bytes), deflated(row_bytes);
+  // Channels lie in the file in the order of their names: B, G, R; each line's planes one after the other.
+  std::vector<float> planes(rgb ? height * width * 3 : 0);
   const std::span<const float> values = image.as<float>();
-  for (size_t y = 0; y < height; ++y) {
-    const float* row = values.data() + y * width * channels;
-    if (rgb) {
-      for (size_t x = 0; x < width; ++x)
-        for (size_t c = 0; c < 3; ++c) planes[(2 - c) * width + x] = row[3 * x + c];
-      row = planes.data();
-    }
-    const std::span<const uint8_t> raw(reinterpret_cast<const uint8_t*>(row), row_bytes);
-    rearrange(raw, halves, line);
-    // Into one byte less than the raw line: a line that does not get smaller is stored as it is.
-    const size_t size =
-        libdeflate_zlib_compress(compressor.get(), line.data(), row_bytes, deflated.data(), row_bytes - 1);
+  for (size_t y = 0; rgb && y < height; ++y)
+    for (size_t x = 0; x < width; ++x)
+      for (size_t c = 0; c < 3; ++c) planes[(3 * y + 2 - c) * width + x] = values[3 * (y * width + x) + c];
+  const auto* const lines = reinterpret_cast<const uint8_t*>(rgb ? planes.data() : values.data());
+
+  Bytes out = header(static_cast<int32_t>(width), static_cast<int32_t>(height), rgb ? "BGR" : "Z");
+  const size_t blocks = (height + lines_per_block - 1) / lines_per_block, table = out.size();
+  out.reserve(table + blocks * 16 + height * row_bytes);
+  out.resize(table + blocks * sizeof(uint64_t));
+  const size_t block_bytes = std::min(lines_per_block, height) * row_bytes;
+  std::vector<uint8_t> halves(block_bytes), shuffled(block_bytes), deflated(block_bytes);
+  for (size_t block = 0; block < blocks; ++block) {
+    const size_t y = block * lines_per_block;
+    const std::span<const uint8_t> raw(lines + y * row_bytes,
+                                       std::min(lines_per_block, height - y) * row_bytes);
+    rearrange(raw, halves, shuffled);
+    // Into one byte less than the raw block: one that does not get smaller is stored as it is.
+    const size_t size = libdeflate_zlib_compress(compressor.get(), shuffled.data(), raw.size(),
+                                                 deflated.data(), raw.size() - 1);
+    const std::span<const uint8_t> data = size > 0 ? std::span<const uint8_t>(deflated).first(size) : raw;
     const uint64_t offset = out.size();
-    std::memcpy(out.data() + table + y * sizeof(uint64_t), &offset, sizeof(uint64_t));
+    std::memcpy(out.data() + table + block * sizeof(uint64_t), &offset, sizeof(uint64_t));
     append_value(out, static_cast<int32_t>(y));
-    append_value(out, static_cast<int32_t>(size > 0 ? size : row_bytes));
-    const auto* data = reinterpret_cast<const std::byte*>(size > 0 ? deflated.data() : raw.data());
-    append(out, {data, size > 0 ? size : row_bytes});
+    append_value(out, static_cast<int32_t>(data.size()));
+    append(out, std::as_bytes(data));
   }
   return out;
 }
@@ -128,7 +131,8 @@ Bytes encode_exr(const Array& image) {
 Array read_exr(const std::filesystem::path& path) try {
   Imf::InputFile file(path.c_str(), 0);  // 0: in this thread, not in OpenEXR's pool
   const Imath::Box2i window = file.header().dataWindow();
-  const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1,
+                height = int64_t{window.max.y} - window.min.y + 1;
   const Imf::ChannelList& list = file.header().channels();
   const bool depth = list.findChannel("Z") != nullptr;
   const std::vector<const char*> names =
@@ -137,7 +141,8 @@ Array read_exr(const std::filesystem::path& path) try {
     if (list.findChannel(name) == nullptr)
       throw_user_error("{}: expected a channel Z, or R, G and B; {} is missing", path.string(), name);
   }
-  Array image(DType::f32, depth ? std::vector<int64_t>{height, width} : std::vector<int64_t>{height, width, 3});
+  Array image(DType::f32,
+              depth ? std::vector<int64_t>{height, width} : std::vector<int64_t>{height, width, 3});
   const size_t step = names.size() * sizeof(float), row = step * static_cast<size_t>(width);
   char* base = reinterpret_cast<char*>(image.bytes.data());
   Imf::FrameBuffer buffer;

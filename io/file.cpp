@@ -5,12 +5,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <system_error>
-#include <utility>
-
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace greatx::io {
 
@@ -70,8 +69,8 @@ void File::read_at(uint64_t offset, std::span<std::byte> bytes) const {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw_user_error("{}: cannot be read: {}", path_.string(), reason(errno));
     if (count == 0) {
-      throw_user_error("{}: expected {} more bytes at byte {}, found the end of the file", path_.string(), bytes.size(),
-                       offset);
+      throw_user_error("{}: expected {} more bytes at byte {}, found the end of the file", path_.string(),
+                       bytes.size(), offset);
     }
     bytes = bytes.subspan(static_cast<size_t>(count));
     offset += static_cast<uint64_t>(count);
@@ -83,7 +82,8 @@ void File::truncate(uint64_t size) {
 }
 
 void File::close() {
-  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) throw WriteError(path_, errno);
+  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)
+    throw WriteError(path_, errno);
 }
 
 std::filesystem::path part_name(const std::filesystem::path& path) { return path.string() + ".part"; }
@@ -113,7 +113,8 @@ void rename_file(const std::filesystem::path& from, const std::filesystem::path&
 void create_folders(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (!error && !std::filesystem::is_directory(folder, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && !std::filesystem::is_directory(folder, error))
+    error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw WriteError(folder, error.value());
 }
 

@@ -14,11 +14,11 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 namespace {
 
 constexpr std::string_view magic = "\x93NUMPY\x01";  // then the minor version's zero byte
-constexpr uint64_t preamble = 10;                     // magic, version, u16 length of the text
+constexpr uint64_t preamble = 10;                    // magic, version, u16 length of the text
 
 std::optional<DType> dtype_named(std::string_view name) {
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::f32, DType::f64,
-                            DType::complex64})
+  for (const DType dtype :
+       {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::f32, DType::f64, DType::complex64})
     if (numpy_name(dtype) == name) return dtype;
   return std::nullopt;
 }
@@ -42,7 +42,8 @@ std::vector<int64_t> parse_shape(std::string_view text, const std::string& file)
     }
     int64_t extent = 0;
     const auto [next, error] = std::from_chars(at, end, extent);
-    if (error != std::errc{} || extent < 0) throw_user_error("{}: expected a shape, found \"{}\"", file, text);
+    if (error != std::errc{} || extent < 0)
+      throw_user_error("{}: expected a shape, found \"{}\"", file, text);
     shape.push_back(extent);
     at = next;
   }
@@ -57,7 +58,8 @@ Bytes npy_header(DType dtype, const std::vector<int64_t>& shape) {
   // As numpy writes it: "(3,)" with one axis, "(3, 4)" with more.
   if (!shape.empty()) text.erase(text.size() - (shape.size() == 1 ? 1 : 2));
   text += "), }";
-  GREATX_CHECK(preamble + text.size() < npy_header_bytes, "header of {} bytes for {} axes", text.size(), shape.size());
+  GREATX_CHECK(preamble + text.size() < npy_header_bytes, "header of {} bytes for {} axes", text.size(),
+               shape.size());
   text = fmt::format("{:<{}}\n", text, npy_header_bytes - preamble - 1);
   Bytes header(npy_header_bytes);
   std::memcpy(header.data(), magic.data(), magic.size());
@@ -77,7 +79,8 @@ NpyFile::NpyFile(const std::filesystem::path& path) : file_(File::open_for_readi
   const uint64_t size = file_.size();
   std::string start(preamble, '\0');
   if (size >= preamble) file_.read_at(0, std::as_writable_bytes(std::span(start)));
-  if (start.substr(0, 8) != std::string(magic) + '\0') throw_user_error("{}: expected a .npy file 1.0", path.string());
+  if (start.substr(0, 8) != std::string(magic) + '\0')
+    throw_user_error("{}: expected a .npy file 1.0", path.string());
   uint16_t length = 0;
   std::memcpy(&length, start.data() + 8, 2);
   std::string text(length, '\0');
@@ -85,7 +88,8 @@ NpyFile::NpyFile(const std::filesystem::path& path) : file_(File::open_for_readi
   const std::string_view descr = between(text, "'descr': '", "'");
   const std::optional<DType> dtype = dtype_named(descr);
   if (!dtype) throw_user_error("{}: expected a known element type, found \"{}\"", path.string(), descr);
-  if (text.find("'fortran_order': False") == text.npos) throw_user_error("{}: expected C order", path.string());
+  if (text.find("'fortran_order': False") == text.npos)
+    throw_user_error("{}: expected C order", path.string());
   dtype_ = *dtype;
   shape_ = parse_shape(between(text, "'shape': (", ")"), path.string());
   data_offset_ = preamble + length;
@@ -100,8 +104,8 @@ NpyFile::NpyFile(const std::filesystem::path& path) : file_(File::open_for_readi
 }
 
 Array NpyFile::read_rows(int64_t first, int64_t last) const {
-  GREATX_CHECK(!shape_.empty() && 0 <= first && first <= last && last <= shape_[0], "rows {}..{} of {}", first, last,
-               rows());
+  GREATX_CHECK(!shape_.empty() && 0 <= first && first <= last && last <= shape_[0], "rows {}..{} of {}",
+               first, last, rows());
   std::vector<int64_t> shape = shape_;
   shape[0] = 1;
   const uint64_t row_bytes = Array(dtype_, shape).bytes.size();

@@ -74,17 +74,18 @@ Header parse_header(std::string_view text, const std::string& file) {
 }  // namespace
 
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays) {
-  GREATX_CHECK(!arrays.empty() && names.size() == arrays.size(), "{} names, {} arrays", names.size(), arrays.size());
+  GREATX_CHECK(!arrays.empty() && names.size() == arrays.size(), "{} names, {} arrays", names.size(),
+               arrays.size());
   const Array& points = *arrays[0];
-  GREATX_CHECK(points.dtype == DType::f32 && points.shape.size() == 2 && points.shape[1] == 4, "points of {} axes, {}",
-               points.shape.size(), numpy_name(points.dtype));
+  GREATX_CHECK(points.dtype == DType::f32 && points.shape.size() == 2 && points.shape[1] == 4,
+               "points of {} axes, {}", points.shape.size(), numpy_name(points.dtype));
   const auto count = static_cast<size_t>(points.shape[0]);
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", count);
   for (const char* axis : {"x", "y", "z", "intensity"}) header += fmt::format("property float {}\n", axis);
   size_t stride = 16;
   for (size_t i = 1; i < arrays.size(); ++i) {
-    GREATX_CHECK(arrays[i]->shape == std::vector<int64_t>{points.shape[0]}, "property {} of {} axes", names[i],
-                 arrays[i]->shape.size());
+    GREATX_CHECK(arrays[i]->shape == std::vector<int64_t>{points.shape[0]}, "property {} of {} axes",
+                 names[i], arrays[i]->shape.size());
     header += fmt::format("property {} {}\n", ply_type(arrays[i]->dtype), names[i]);
     stride += size_of(arrays[i]->dtype);
   }
@@ -105,7 +106,8 @@ Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const 
 
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name) {
   constexpr std::string_view end_mark = "end_header\n";
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), std::min<size_t>(file.size(), 65536));
+  const std::string_view text(reinterpret_cast<const char*>(file.data()),
+                              std::min<size_t>(file.size(), 65536));
   const size_t end = text.find(end_mark);
   if (end == text.npos) throw_user_error("{}: expected a PLY file", name);
   const Header header = parse_header(text.substr(0, end), name);
@@ -113,7 +115,8 @@ std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const s
   const size_t found = file.size() - end - end_mark.size();
   const auto count = static_cast<size_t>(header.vertices);
   if (header.stride == 0 || found / header.stride != count || found % header.stride != 0) {
-    throw_user_error("{}: expected {} vertices of {} bytes, found {} bytes", name, count, header.stride, found);
+    throw_user_error("{}: expected {} vertices of {} bytes, found {} bytes", name, count, header.stride,
+                     found);
   }
   std::map<std::string, Array> arrays;
   size_t column = 0;

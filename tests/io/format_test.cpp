@@ -53,7 +53,8 @@ TEST(Png, RgbIsReadBackByStb) {
   const Array image = test_picture<uint8_t>({37, 53, 3});
   const Bytes file = encode_png(image);
   int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels = stbi_load_from_memory(raw(file), static_cast<int>(file.size()), &width, &height, &channels, 0);
+  stbi_uc* pixels =
+      stbi_load_from_memory(raw(file), static_cast<int>(file.size()), &width, &height, &channels, 0);
   ASSERT_NE(pixels, nullptr) << stbi_failure_reason();
   EXPECT_EQ(std::tie(width, height, channels), std::make_tuple(53, 37, 3));
   EXPECT_EQ(std::memcmp(pixels, image.bytes.data(), image.bytes.size()), 0);
@@ -64,7 +65,8 @@ TEST(Png, GreyIsReadBackByStb) {
   const Array image = test_picture<uint8_t>({20, 1});
   const Bytes file = encode_png(image);
   int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels = stbi_load_from_memory(raw(file), static_cast<int>(file.size()), &width, &height, &channels, 0);
+  stbi_uc* pixels =
+      stbi_load_from_memory(raw(file), static_cast<int>(file.size()), &width, &height, &channels, 0);
   ASSERT_NE(pixels, nullptr) << stbi_failure_reason();
   EXPECT_EQ(std::tie(width, height, channels), std::make_tuple(1, 20, 1));
   EXPECT_EQ(std::memcmp(pixels, image.bytes.data(), image.bytes.size()), 0);
@@ -126,7 +128,8 @@ TEST(Depth24, RedIsTheLowestByte) {
   const Array image = decode_png(encode_png_depth24(Array::of<float>({1, 2}, depth)), "x.png");
   const std::span<const uint8_t> rgb = image.as<uint8_t>();
   for (size_t i = 0; i < 2; ++i) {
-    const double metres = 1000.0 * (rgb[3 * i] + 256.0 * rgb[3 * i + 1] + 65536.0 * rgb[3 * i + 2]) / 16777215.0;
+    const double metres =
+        1000.0 * (rgb[3 * i] + 256.0 * rgb[3 * i + 1] + 65536.0 * rgb[3 * i + 2]) / 16777215.0;
     EXPECT_NEAR(metres, depth[i], 0.5 * 1000.0 / 16777215.0);
   }
 }
@@ -187,8 +190,8 @@ TEST(Npy, RoundTripsEveryTypeAndAxisCount) {
   const TemporaryFolder folder;
   for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::f32, DType::f64,
                             DType::complex64}) {
-    for (const std::vector<int64_t>& shape :
-         {std::vector<int64_t>{}, std::vector<int64_t>{5}, std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
+    for (const std::vector<int64_t>& shape : {std::vector<int64_t>{}, std::vector<int64_t>{5},
+                                              std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
       Array array(dtype, shape);
       for (size_t i = 0; i < array.bytes.size(); ++i) array.bytes[i] = static_cast<std::byte>(i);
       write_file_atomically(folder.path() / "a.npy", encode_npy(array));
@@ -229,9 +232,10 @@ TEST(Ply, RoundTrips) {
               c = Array::of<uint32_t>({2}, instance);
   const Bytes file = encode_ply({"points", "ring", "instance"}, {&a, &b, &c});
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  EXPECT_TRUE(text.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
-                               "property float y\nproperty float z\nproperty float intensity\nproperty ushort ring\n"
-                               "property uint instance\nend_header\n"));
+  EXPECT_TRUE(
+      text.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
+                       "property float y\nproperty float z\nproperty float intensity\nproperty ushort ring\n"
+                       "property uint instance\nend_header\n"));
   const std::map<std::string, Array> back = decode_ply(file, "x.ply");
   EXPECT_EQ(back.at("z").as<float>()[1], 6.0f);
   EXPECT_EQ(back.at("intensity").as<float>()[0], 0.5f);
