@@ -73,12 +73,16 @@ int64_t SampleTimes::sample_at(int64_t tick) const {
   if (tick < 0) return -1;
   // A sample lasts one tick or more, so samples fire at distinct ticks, and only the last one not after the
   // tick and the one that follows can round to it.
+  const int64_t sample = first_at_or_after(tick);
+  return tick_of(sample) == tick ? sample : -1;
+}
+
+int64_t SampleTimes::first_at_or_after(int64_t tick) const {
+  if (tick <= 0) return 0;
   const int64_t before = narrow(
       floor_divide(static_cast<int128>(tick) * ticks_per_sample_.denominator, ticks_per_sample_.numerator),
       "sample");
-  for (const int64_t sample : {before, before + 1})
-    if (tick_of(sample) == tick) return sample;
-  return -1;
+  return tick_of(before) >= tick ? before : before + 1;
 }
 
 }  // namespace greatx::sim

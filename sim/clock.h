@@ -30,6 +30,8 @@ class SampleTimes {
   int64_t tick_of(int64_t sample) const;
   /// The sample that fires at `tick`; -1: none.
   int64_t sample_at(int64_t tick) const;
+  /// The first sample that fires at or after `tick`.
+  int64_t first_at_or_after(int64_t tick) const;
 
  private:
   Rational ticks_per_sample_;

@@ -109,7 +109,7 @@ dvec3 draw_end(const EndLimits& limits, double time_s, RandomStream& random) {
   const double nearest = glm::distance(center, glm::clamp(center, t.min_m, t.max_m));
   const double farthest = glm::length(glm::max(glm::abs(center - t.min_m), glm::abs(center - t.max_m)));
   if (nearest > t.max_distance_m || farthest < t.min_distance_m)
-    no_end(limits, center, fmt::format("distances of {} .. {} m only", nearest, farthest));
+    no_end(limits, center, fmt::format("distances of {:.6g} .. {:.6g} m only", nearest, farthest));
   for (int i = 0; i < most_tries; ++i) {
     const dvec3 point = draw();
     const double distance = glm::distance(point, center);
@@ -150,34 +150,55 @@ std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   return legs;
 }
 
-/// A point of the cross-section perpendicular to `along`: across is horizontal (y for a vertical line), up is
-/// the rest.
-dvec3 draw_across(const dvec3& center, const dvec3& along, const CorridorTrajectory& corridor,
-                  RandomStream& random) {
-  const bool vertical = std::hypot(along.x, along.y) < 1e-9;
-  const dvec3 across = vertical ? dvec3(0, 1, 0) : glm::normalize(dvec3(-along.y, along.x, 0.0));
-  const dvec3 up = glm::cross(along, across);
+/// Axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical line), up is the rest.
+struct CrossSection {
+  dvec3 across, up;
+  explicit CrossSection(const dvec3& along) {
+    const bool vertical = std::hypot(along.x, along.y) < 1e-9;
+    across = vertical ? dvec3(0, 1, 0) : glm::normalize(dvec3(-along.y, along.x, 0.0));
+    up = glm::cross(along, across);
+  }
+};
+
+/// An offset from the centre line, uniform in the cross-section.
+dvec3 draw_offset(const CrossSection& section, const CorridorTrajectory& corridor, RandomStream& random) {
   const double a = random.uniform(-0.5 * corridor.width_m, 0.5 * corridor.width_m);
-  return center + a * across + random.uniform(-0.5 * corridor.height_m, 0.5 * corridor.height_m) * up;
+  const double b = random.uniform(-0.5 * corridor.height_m, 0.5 * corridor.height_m);
+  return a * section.across + b * section.up;
 }
 
-/// At a bend the cross-section halves the angle, so that the legs on both sides stay within the corridor.
+/// The part of `offset` that stays inside the corridor along `section` (a bend in both planes leans its cross-section).
+double inside_part(const dvec3& offset, const CrossSection& section, const CorridorTrajectory& corridor) {
+  const auto part = [](double value, double limit) {
+    return std::abs(value) > limit ? limit / std::abs(value) : 1.0;
+  };
+  constexpr double rounding = 1e-12;
+  return std::min(part(glm::dot(offset, section.across), 0.5 * corridor.width_m + rounding),
+                  part(glm::dot(offset, section.up), 0.5 * corridor.height_m + rounding));
+}
+
+/// At a bend the cross-section halves the angle and the offset fits both sections, so that no leg leaves the corridor.
 std::vector<dvec3> draw_corridor(const CorridorTrajectory& corridor, RandomStream& random) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   const std::vector<int> legs = share_legs(corridor);
   std::vector<dvec3> points;
-  dvec3 along{0.0};
+  dvec3 before{0.0};
   for (size_t i = 0; i + 1 < line.size(); ++i) {
-    const dvec3 before = along;
-    along = glm::normalize(line[i + 1] - line[i]);
+    const dvec3 along = glm::normalize(line[i + 1] - line[i]);
+    const CrossSection section(along);
     const dvec3 half = before + along;
     const bool turns_back = glm::length(half) < 1e-9;
-    points.push_back(draw_across(line[i], turns_back ? along : glm::normalize(half), corridor, random));
+    dvec3 offset = draw_offset(turns_back ? section : CrossSection(glm::normalize(half)), corridor, random);
+    if (i > 0)
+      offset *= std::min(inside_part(offset, section, corridor),
+                         inside_part(offset, CrossSection(before), corridor));
+    points.push_back(line[i] + offset);
     for (int k = 1; k < legs[i]; ++k)
-      points.push_back(
-          draw_across(glm::mix(line[i], line[i + 1], double(k) / legs[i]), along, corridor, random));
+      points.push_back(glm::mix(line[i], line[i + 1], double(k) / legs[i]) +
+                       draw_offset(section, corridor, random));
+    before = along;
   }
-  points.push_back(draw_across(line.back(), along, corridor, random));
+  points.push_back(line.back() + draw_offset(CrossSection(before), corridor, random));
   return points;
 }
 

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "renderer/camera.h"
+#include "renderer/probe.h"
+#include "sim/sensor.h"
+#include "sim/world.h"
+
+namespace greatx::sim {
+
+/// A camera on a node. With a probe pass, each picture's depth is held against rays through pixel centres.
+class CameraSensor : public Sensor {
+ public:
+  /// `node`, `sensor`: indices into the scenario. `probe` may be null; the others outlive this.
+  CameraSensor(const render::SceneLighting& lighting, const render::ProbePass* probe, const Scenario& scenario,
+               const World& world, uint32_t node, uint32_t sensor);
+
+  const SensorSpec& spec() const override { return spec_; }
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  void report(Consistency& consistency) const override;
+
+  uint32_t node() const { return node_; }
+  const Pose& mount() const { return mount_; }
+  const render::CameraDesc& desc() const { return pass_.desc(); }
+  /// The picture collected last, for comparing with other sensors of the same tick.
+  const render::CameraImages& images() const { return images_; }
+
+ private:
+  void describe(const CameraConfig& config, size_t instances);
+  void check(const gpu::TickSlot& slot);
+
+  const World& world_;
+  CameraConfig config_;
+  uint32_t node_;
+  Pose mount_;
+  SensorSpec spec_;
+  render::CameraPass pass_;
+  const render::ProbePass* probe_;
+  std::vector<glm::uvec2> probe_pixels_;
+  std::array<gpu::Slice, slots_in_flight> probe_hits_;
+  render::CameraImages images_;
+  uint64_t compared_ = 0;
+  double worst_ = 0.0;
+};
+
+}  // namespace greatx::sim

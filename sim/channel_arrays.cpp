@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a channel delivers: its declaration and the arrays of a record, in the same order.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/channel_sensor.h"
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+nlohmann::json describe_array(const rf::AntennaArray& array) {
+  nlohmann::json json;
+  json["pattern"] = array.pattern == rf::Pattern::isotropic ? "isotropic" : "half_wave_dipole";
+  constexpr const char* names[] = {"v", "h", "vh", "slant"};
+  json["polarization"] = names[static_cast<uint32_t>(array.polarization)];
+  json["rows"] = array.rows;
+  json["columns"] = array.columns;
+  json["row_spacing_m"] = array.row_spacing_m;
+  json["column_spacing_m"] = array.column_spacing_m;
+  json["ports"] = array.port_count();
+  json["port_order"] = "(row * columns + column) * polarizations + polarization";
+  return json;
+}
+
+/// Rows of one per-path array, filled path by path.
+template <typename T>
+class PathArray {
+ public:
+  PathArray(size_t paths, std::vector<int64_t> row_shape) {
+    std::vector<int64_t> shape{static_cast<int64_t>(paths)};
+    shape.insert(shape.end(), row_shape.begin(), row_shape.end());
+    array_ = Array(DTypeOf<T>::value, std::move(shape));
+    next_ = array_.as<T>().data();
+  }
+  void push(T value) { *next_++ = value; }
+  Array take() { return std::move(array_); }
+
+ private:
+  Array array_;
+  T* next_;
+};
+
+}  // namespace
+
+void ChannelSensor::describe() {
+  const int64_t receivers = static_cast<int64_t>(receivers_.size());
+  const int64_t rx_ports = receivers_[0].array.port_count(), tx_ports = transmitter_.array.port_count();
+  const int64_t depth = std::max<uint32_t>(1, config_.max_depth);
+  spec_.name = config_.name;
+  spec_.kind = "csi";
+  spec_.rate = config_.rate_hz.str();
+  const auto stack = [&](const char* name, DType dtype, std::vector<int64_t> shape, const char* unit, const char* text) {
+    spec_.arrays.push_back({name, dtype, std::move(shape), unit, text});
+    spec_.outputs.push_back({name, FileFormat::npy_stack, {name}});
+  };
+  const auto ragged = [&](const char* name, DType dtype, std::vector<int64_t> row, const char* unit, const char* text) {
+    row.insert(row.begin(), -1);
+    spec_.arrays.push_back({name, dtype, std::move(row), unit, text});
+    spec_.outputs.push_back({std::string("paths/") + name, FileFormat::npy_ragged, {name}});
+  };
+  stack("cfr", DType::complex64, {receivers, rx_ports, 1, tx_ports, config_.time_samples, config_.subcarriers}, "1",
+        "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing");
+  stack("path_count", DType::i32, {receivers}, "1", "[rx] visible paths");
+  stack("line_of_sight", DType::u8, {receivers}, "1", "[rx] 1: the direct path is free");
+  stack("path_gain", DType::f64, {receivers}, "1", "[rx] sum over paths of |a|^2, mean over port pairs");
+  ragged("rx", DType::i32, {}, "1", "[path] receiver");
+  ragged("amplitude", DType::complex64, {rx_ports, tx_ports}, "1", "[path, rx_ant, tx_ant] with e^{-j 2 pi f_c tau}");
+  ragged("delay", DType::f64, {}, "s", "[path] not normalised");
+  ragged("doppler", DType::f64, {}, "Hz", "[path] approaching: positive");
+  ragged("departure", DType::f64, {2}, "rad", "[path, (zenith, azimuth)] leaving the transmitter, world axes");
+  ragged("arrival", DType::f64, {2}, "rad", "[path, (zenith, azimuth)] from the receiver back along the path, world axes");
+  ragged("transfer", DType::complex64, {2, 2}, "1/m", "[path, (theta, phi) at rx, (theta, phi) at tx] without the phase of the delay");
+  ragged("interaction", DType::u8, {depth}, "1", "[path, i] 0: none, 1: reflection");
+  ragged("vertex", DType::f64, {depth, 3}, "m", "[path, i, xyz] of each interaction, world; NaN: none");
+  ragged("facet", DType::u32, {depth}, "1", "[path, i] facet + 1, the path's identity across ticks; 0: none");
+  ragged("object", DType::u32, {depth}, "1", "[path, i] index into instances + 1; 0: none");
+  ragged("object_material", DType::u32, {depth}, "1", "[path, i] index into materials + 1; 0: none");
+
+  nlohmann::json metadata;
+  metadata["carrier_hz"] = config_.carrier_hz;
+  metadata["subcarrier_spacing_hz"] = config_.subcarrier_spacing_hz;
+  metadata["subcarriers"] = config_.subcarriers;
+  metadata["first_subcarrier"] = -static_cast<int64_t>(config_.subcarriers / 2);
+  metadata["time_samples"] = config_.time_samples;
+  metadata["time_spacing_s"] = config_.time_spacing_s;
+  metadata["max_depth"] = config_.max_depth;
+  metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
+  metadata["time_convention"] = "e^{+j omega t}";
+  metadata["transmitter"] = describe_array(transmitter_.array);
+  metadata["transmitter"]["name"] = config_.transmitter;
+  for (size_t r = 0; r < receivers_.size(); ++r) {
+    metadata["receivers"].push_back(describe_array(receivers_[r].array));
+    metadata["receivers"].back()["name"] = config_.receivers[r];
+  }
+  constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from the receivers", "every tick"};
+  metadata["search"] = {{"when", searches[static_cast<uint32_t>(search_)]}, {"rays", config_.rays}};
+  spec_.metadata_json = metadata.dump();
+}
+
+std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
+  const size_t receivers = receivers_.size();
+  const size_t depth = std::max<uint32_t>(1, config_.max_depth);
+  const size_t rx_ports = receivers_[0].array.port_count(), tx_ports = transmitter_.array.port_count();
+  size_t paths = 0;
+  for (const Link& link : pending.links) paths += link.paths.size();
+  const auto ports = [](size_t count) { return static_cast<int64_t>(count); };
+
+  Array cfr(DType::complex64, spec_.arrays[0].shape);
+  Array counts(DType::i32, {ports(receivers)}), sight(DType::u8, {ports(receivers)}), gains(DType::f64, {ports(receivers)});
+  PathArray<int32_t> rx(paths, {});
+  PathArray<std::complex<float>> amplitude(paths, {ports(rx_ports), ports(tx_ports)}), transfer(paths, {2, 2});
+  PathArray<double> delay(paths, {}), doppler(paths, {}), departure(paths, {2}), arrival(paths, {2}),
+      vertex(paths, {ports(depth), 3});
+  PathArray<uint8_t> interaction(paths, {ports(depth)});
+  PathArray<uint32_t> facet(paths, {ports(depth)}), object(paths, {ports(depth)}), material(paths, {ports(depth)});
+
+  rf::ChannelGrid grid{config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
+                       doppler_ ? config_.time_spacing_s : 0.0};
+  const rf::ArrayPose transmitter{transmitter_.array, pending.transmitter.orientation};
+  size_t cfr_offset = 0;
+  for (size_t r = 0; r < receivers; ++r) {
+    const Link& link = pending.links[r];
+    const rf::ArrayPose receiver{receivers_[r].array, link.receiver.orientation};
+    const auto response = rf::frequency_response(link.paths, transmitter, receiver, grid);
+    std::copy(response.begin(), response.end(), cfr.as<std::complex<float>>().begin() + static_cast<std::ptrdiff_t>(cfr_offset));
+    cfr_offset += response.size();
+    const rf::ImpulseResponse impulse = rf::impulse_response(link.paths, transmitter, receiver, config_.carrier_hz);
+    double gain = 0.0;
+    for (const std::complex<float>& a : impulse.amplitude) {
+      amplitude.push(a);
+      gain += std::norm(std::complex<double>(a));
+    }
+    counts.as<int32_t>()[r] = static_cast<int32_t>(link.paths.size());
+    gains.as<double>()[r] = gain / static_cast<double>(rx_ports * tx_ports);
+    for (const rf::Path& path : link.paths) {
+      if (path.facets.empty()) sight.as<uint8_t>()[r] = 1;
+      rx.push(static_cast<int32_t>(r));
+      delay.push(path.delay_s);
+      doppler.push(path.doppler_hz);
+      for (const auto& [direction, into] : {std::pair(path.departure, &departure), std::pair(path.arrival, &arrival)}) {
+        const dvec2 angles = rf::theta_phi(direction);
+        into->push(angles.x);
+        into->push(angles.y);
+      }
+      for (const rf::Complex& t : path.transfer) transfer.push(std::complex<float>(t));
+      for (size_t i = 0; i < depth; ++i) {
+        const bool there = i < path.facets.size();
+        const scene::Facet* f = there ? &world_.scene.facets[path.facets[i]] : nullptr;
+        const dvec3 point = there ? path.vertices[i + 1] + world_.scene.origin : dvec3(nan);
+        interaction.push(there ? 1 : 0);
+        for (int c = 0; c < 3; ++c) vertex.push(point[c]);
+        facet.push(there ? path.facets[i] + 1 : 0);
+        object.push(there ? f->instance + 1 : 0);
+        material.push(there ? f->material + 1 : 0);
+      }
+    }
+  }
+  std::vector<Array> arrays;
+  arrays.push_back(std::move(cfr));
+  arrays.push_back(std::move(counts));
+  arrays.push_back(std::move(sight));
+  arrays.push_back(std::move(gains));
+  arrays.push_back(rx.take());
+  arrays.push_back(amplitude.take());
+  arrays.push_back(delay.take());
+  arrays.push_back(doppler.take());
+  arrays.push_back(departure.take());
+  arrays.push_back(arrival.take());
+  arrays.push_back(transfer.take());
+  arrays.push_back(interaction.take());
+  arrays.push_back(vertex.take());
+  arrays.push_back(facet.take());
+  arrays.push_back(object.take());
+  arrays.push_back(material.take());
+  return arrays;
+}
+
+}  // namespace greatx::sim

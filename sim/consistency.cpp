@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/consistency.h"
+
+#include <cmath>
+
+namespace greatx::sim {
+
+std::optional<InverseDepthPlane> interior_plane(const render::CameraImages& images, uint32_t column,
+                                                uint32_t row) {
+  if (column == 0 || row == 0 || column + 1 >= images.width || row + 1 >= images.height) return std::nullopt;
+  const auto index = [&](int dc, int dr) {
+    return (row + static_cast<size_t>(dr)) * images.width + column + static_cast<size_t>(dc);
+  };
+  const size_t middle = index(0, 0);
+  for (int dr = -1; dr <= 1; ++dr)
+    for (int dc = -1; dc <= 1; ++dc) {
+      const size_t i = index(dc, dr);
+      if (!std::isfinite(images.depth[i])) return std::nullopt;
+      if (!images.instance.empty() && images.instance[i] != images.instance[middle]) return std::nullopt;
+      if (!images.material.empty() && images.material[i] != images.material[middle]) return std::nullopt;
+    }
+  const auto inverse = [&](int dc, int dr) { return 1.0 / static_cast<double>(images.depth[index(dc, dr)]); };
+  InverseDepthPlane plane;
+  plane.center = inverse(0, 0);
+  plane.per_column = 0.5 * (inverse(1, 0) - inverse(-1, 0));
+  plane.per_row = 0.5 * (inverse(0, 1) - inverse(0, -1));
+  for (int dr = -1; dr <= 1; ++dr)
+    for (int dc = -1; dc <= 1; ++dc)
+      if (std::abs(inverse(dc, dr) - plane.at(dc, dr)) > affine_tolerance * plane.center) return std::nullopt;
+  return plane;
+}
+
+std::vector<glm::uvec2> probe_pixels(uint32_t width, uint32_t height, uint32_t count) {
+  constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532;  // 1/g, 1/g^2 with g^3 = g + 1
+  std::vector<glm::uvec2> pixels;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double x = std::fmod(0.5 + a1 * (i + 1), 1.0), y = std::fmod(0.5 + a2 * (i + 1), 1.0);
+    pixels.emplace_back(static_cast<uint32_t>(x * width), static_cast<uint32_t>(y * height));
+  }
+  return pixels;
+}
+
+dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
+  // Optical frame: x right, y down, z forward; sensor frame: x forward, y left, z up.
+  return {1.0, -(column - camera.cx) / camera.fx, -(row - camera.cy) / camera.fy};
+}
+
+std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
+                                          const render::CameraImages& images, const dvec3& point_in_camera,
+                                          uint32_t instance) {
+  const double z = point_in_camera.x;
+  if (z <= camera.near_m) return std::nullopt;
+  const double column = camera.cx - camera.fx * point_in_camera.y / z;
+  const double row = camera.cy - camera.fy * point_in_camera.z / z;
+  if (!(column >= 0.0 && row >= 0.0 && column < images.width && row < images.height)) return std::nullopt;
+  const auto i = static_cast<uint32_t>(column), j = static_cast<uint32_t>(row);
+  if (!images.instance.empty() && images.instance[size_t{j} * images.width + i] != instance)
+    return std::nullopt;
+  const std::optional<InverseDepthPlane> plane = interior_plane(images, i, j);
+  if (!plane) return std::nullopt;
+  const double depth = 1.0 / plane->at(column - (i + 0.5), row - (j + 0.5));
+  return std::abs(depth - z) / z;
+}
+
+}  // namespace greatx::sim

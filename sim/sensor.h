@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the simulator asks of a sensor: say what it delivers, record its part of a tick, hand over the result when the
+// GPU is done. A sensor keeps its pending state per slot, since two ticks are in flight.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/record.h"
+#include "core/vec.h"
+#include "gpu/tick_ring.h"
+#include "sim/scenario.h"
+
+namespace greatx::sim {
+
+/// Everything that a sensor may know of the tick being recorded.
+struct TickContext {
+  int64_t tick = 0;
+  double time_s = 0.0;
+  /// Time of the tick before at which something was due; NaN at the first one of a sequence.
+  double previous_time_s = 0.0;
+  std::span<const Motion> nodes;      ///< world frame, by node
+  std::span<const Pose> body_poses;   ///< local coordinates, by body
+  /// Motion of any node at any other time (a sweep's shots).
+  std::function<Motion(uint32_t node, double time_s)> motion_at;
+};
+
+/// Figures of a run that show that the modalities see one world; worst case over the run.
+struct Consistency {
+  uint64_t depth_pixels = 0;            ///< interior pixels compared with the ray through their centre
+  double depth_error = 0.0;             ///< |depth - ray| / ray, at most
+  uint64_t lidar_beams = 0;             ///< returns compared with the depth picture of a camera on the same node
+  double lidar_error = 0.0;             ///< relative
+  uint64_t line_of_sight_paths = 0;
+  double line_of_sight_error = 0.0;     ///< |c delay - distance| / distance
+};
+
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+  virtual const SensorSpec& spec() const = 0;
+  /// Once before the first tick of a sequence (or of its rest): set-up that depends on where things are.
+  virtual void start(const TickContext&) {}
+  /// Adds the sensor's passes to the tick's command buffer.
+  virtual void record(gpu::TickSlot& slot, const TickContext& context) = 0;
+  /// Whether record() needs results of the tick before: record_ahead() is then called at the end of each tick's command
+  /// buffer, with the scene already where it will be at the next tick that is due, and record() comes after that
+  /// submission is done.
+  virtual bool looks_ahead() const { return false; }
+  virtual void record_ahead(gpu::TickSlot&, const TickContext&) {}
+  /// The arrays of the record, in the order of the spec; after the slot's submission is done.
+  virtual std::vector<Array> collect(const gpu::TickSlot& slot) = 0;
+  /// Adds this sensor's figures.
+  virtual void report(Consistency&) const {}
+  /// Adds what this sensor counted over the run: candidates, paths, overflows.
+  virtual void count(std::map<std::string, uint64_t>&) const {}
+};
+
+/// Slots of the tick ring: one in flight while the one before it is collected.
+inline constexpr uint32_t slots_in_flight = 2;
+
+/// World pose of a sensor: the node's pose times its mount.
+inline Pose mount_pose(const Mount& mount) {
+  return {mount.position_m, orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One tick: poses ─► scene update ─► the due sensors' passes ─► ONE submission; meanwhile the tick before is collected
+// into a packet. Nothing but the simulator's own state changes in a tick.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/record.h"
+#include "gpu/tick_ring.h"
+#include "scene/gpu_scene.h"
+#include "sim/clock.h"
+#include "sim/effect_plan.h"
+#include "sim/schedule.h"
+#include "sim/sensor.h"
+#include "sim/trajectory.h"
+#include "sim/world.h"
+
+namespace greatx::sim {
+
+/// GPU time of one pass over the run so far.
+struct PassTotal {
+  uint64_t count = 0;
+  double milliseconds = 0.0;
+  std::vector<double> samples;  ///< ms, kept only if asked for (benchmarks)
+};
+
+struct RunStatistics {
+  int64_t ticks = 0;    ///< at which something was due, recorded and submitted
+  int64_t packets = 0;  ///< complete, handed to the sink
+  std::map<std::string, int64_t> records;      ///< by sensor
+  std::map<std::string, PassTotal> passes;     ///< by scope name
+  std::map<std::string, uint64_t> counters;    ///< what sensors count: paths, candidates, overflows
+  Consistency consistency;
+};
+
+class Simulator {
+ public:
+  /// Uploads the scene and builds the pipelines of the plan. All arguments outlive the simulator.
+  Simulator(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan);
+  ~Simulator();
+
+  /// What the packets will hold; index = Record::sensor.
+  const std::vector<SensorSpec>& sensors() const { return specs_; }
+
+  /// Begins a sequence at its first tick, or later (`first_tick`) to finish an interrupted one.
+  void start(uint32_t sequence, int64_t first_tick = 0);
+  /// Records and submits the next tick that is due and hands the packet of the one before to `sink`.
+  /// False: nothing is left; the last packet has been handed over.
+  bool step(RecordSink& sink);
+  /// Hands over what is in flight (before stopping early).
+  void drain(RecordSink& sink);
+
+  int64_t next_tick() const { return next_tick_; }  ///< the tick that step() will record
+  const RunStatistics& statistics() const { return statistics_; }
+  void keep_pass_samples(bool keep) { keep_samples_ = keep; }
+
+ private:
+  struct InFlight;
+  TickContext context_at(int64_t tick);
+  std::vector<Motion> motions_at(double time_s) const;
+  void collect(InFlight& in_flight, RecordSink& sink);
+
+  const Scenario& scenario_;
+  const World& world_;
+  const EffectPlan& plan_;
+  gpu::Device& device_;
+  scene::GpuScene gpu_scene_;
+  gpu::TickRing ring_;
+  Clock clock_;
+  Schedule schedule_;
+  struct Passes;
+  std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, visibility, probe
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::vector<SensorSpec> specs_;
+  std::vector<std::unique_ptr<Path>> paths_;
+  std::vector<Motion> motions_;     ///< of the tick being recorded
+  std::vector<Pose> body_poses_;
+  std::unique_ptr<InFlight> pending_;
+  int64_t next_tick_ = 0;
+  bool keep_samples_ = false;
+  RunStatistics statistics_;
+};
+
+}  // namespace greatx::sim

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/world.h"
+
+#include <deque>
+#include <set>
+
+#include "rf/surfaces.h"
+#include "scene/build.h"
+#include "scene/generator/generate.h"
+
+namespace greatx::sim {
+
+namespace {
+
+scene::Model load(const ModelSource& source, const SceneConfig& config) {
+  const scene::LoadOptions options{config.radio_materials, config.optical_only};
+  if (const auto* file = std::get_if<std::filesystem::path>(&source.source))
+    return scene::load_model(*file, options);
+  const Generated& made = std::get<Generated>(source.source);
+  try {
+    const std::vector<std::byte> glb = scene::generate_glb({made.kind, made.seed, made.size_m, made.variant});
+    return scene::load_model(made.kind + ".glb", glb, options);
+  } catch (const UserError& error) {
+    throw_user_error_at(source.where, "{}", error.what());
+  }
+}
+
+std::optional<scene::SemanticClass> semantic_class(const std::optional<std::string>& name,
+                                                   const SourceLocation& where) {
+  if (!name) return std::nullopt;
+  const std::vector<std::string>& names = scene::semantic_class_names();
+  for (size_t i = 0; i < names.size(); ++i)
+    if (names[i] == *name) return static_cast<scene::SemanticClass>(i);
+  throw_user_error_at(where, "class: expected one of {}, found '{}'", fmt::join(names, ", "), *name);
+}
+
+dquat orientation_of(const dvec3& yaw_pitch_roll) {
+  return orientation_from_yaw_pitch_roll(yaw_pitch_roll.x, yaw_pitch_roll.y, yaw_pitch_roll.z);
+}
+
+bool never_moves(const NodeConfig& node) { return std::holds_alternative<StaticTrajectory>(node.trajectory); }
+
+/// A material without a row at the carrier is an error of the scenario, before anything runs.
+void check_radio(const Scenario& scenario, const scene::Scene& scene) {
+  for (const ChannelConfig& channel : scenario.channels) {
+    try {
+      const rf::RadioSurfaces surfaces(scene, channel.carrier_hz);
+    } catch (const UserError& error) {
+      throw_user_error_at(channel.where, "channel '{}': {}", channel.name, error.what());
+    }
+  }
+}
+
+}  // namespace
+
+World load_world(const Scenario& scenario) {
+  if (scenario.scene.optical_only && !scenario.channels.empty())
+    throw_user_error_at(scenario.channels[0].where,
+                        "channel '{}': scene.optical_only says that materials may lack radio properties; "
+                        "expected false in a scenario with channels",
+                        scenario.channels[0].name);
+  World world;
+  std::deque<scene::Model> models;  // placements point at them
+  std::vector<scene::Placement> placements;
+  for (const StaticObject& object : scenario.scene.objects) {
+    models.push_back(load(object.model, scenario.scene));
+    placements.push_back({object.name,
+                          &models.back(),
+                          {object.position_m, orientation_of(object.rotation)},
+                          object.scale,
+                          false,
+                          semantic_class(object.semantic_class, object.model.where)});
+  }
+  for (const NodeConfig& node : scenario.nodes) {
+    if (!node.model) continue;
+    models.push_back(load(*node.model, scenario.scene));
+    scene::Placement placement{
+        node.name,  &models.back(),     {},
+        dvec3(1.0), !never_moves(node), semantic_class(node.semantic_class, node.where)};
+    if (const auto* fixed = std::get_if<StaticTrajectory>(&node.trajectory))
+      placement.pose = {fixed->position_m, orientation_of(fixed->rotation)};
+    placements.push_back(placement);
+  }
+  world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
+  for (const NodeConfig& node : scenario.nodes)
+    world.body_of_node.push_back(node.model && !never_moves(node) ? world.scene.body_index(node.name) : 0);
+  check_radio(scenario, world.scene);
+  return world;
+}
+
+std::vector<Pose> body_poses(const World& world, const std::vector<Motion>& node_motions) {
+  std::vector<Pose> poses(world.scene.bodies.size());
+  for (size_t node = 0; node < node_motions.size(); ++node)
+    if (const uint32_t body = world.body_of_node[node]; body != 0)
+      poses[body] = world.scene.to_local(node_motions[node].pose);
+  return poses;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Checks docs/scenario.schema.json: it accepts the good scenarios, and of the bad ones refuses exactly those that
+bad_scenarios.json says a schema can find (the others need more than one field, or files, to be seen).
+
+usage: check_schema.py SCHEMA FOLDER
+"""
+import json
+import pathlib
+import re
+import sys
+
+import jsonschema
+import yaml
+
+
+class Core(yaml.SafeLoader):
+    """YAML 1.2's core schema, as the program reads it: `on` is a text and 28e9 a number."""
+
+
+Core.yaml_implicit_resolvers = {}
+Core.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|True|TRUE|false|False|FALSE)$"), list("tTfF"))
+Core.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|Null|NULL|)$"), ["~", "n", "N", ""])
+Core.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), list("-+0123456789"))
+Core.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), list("-+.0123456789"))
+Core.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
+Core.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
+
+
+def main():
+    schema = json.loads(pathlib.Path(sys.argv[1]).read_text())
+    folder = pathlib.Path(sys.argv[2])
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    faults = []
+
+    # JSON Schema ignores keywords that it does not know: a misspelt one would accept anything.
+    known = set(jsonschema.Draft202012Validator.VALIDATORS) | {
+        "$schema", "$defs", "title", "description", "default", "minItems", "maxItems"}
+
+    def look(node, in_names):
+        if isinstance(node, dict):
+            for key, value in node.items():
+                if not in_names and key not in known:
+                    faults.append(f"schema: unknown keyword {key}")
+                if key not in ("default", "const", "enum"):
+                    look(value, not in_names and key in ("properties", "$defs", "dependentRequired"))
+        elif isinstance(node, list):
+            for value in node:
+                look(value, False)
+
+    look(schema, False)
+
+    good = sorted(path for path in folder.glob("*.yaml") if path.name != "materials.yaml")
+    for path in good:
+        for error in validator.iter_errors(yaml.load(path.read_text(), Core)):
+            faults.append(f"{path.name}: refused: {error.json_path}: {error.message}")
+    base = (folder / "everything.yaml").read_text()
+    cases = json.loads((folder / "bad_scenarios.json").read_text())
+    for case in cases:
+        if case["schema"] == "malformed":
+            continue  # no YAML, nothing to validate
+        text = case["text"] if "text" in case else base.replace(case["replace"], case["with"], 1)
+        accepted = validator.is_valid(yaml.load(text, Core))
+        if accepted != (case["schema"] == "accepts"):
+            faults.append(f"{case['name']}: the schema {'accepts' if accepted else 'refuses'} it")
+    if not good or not cases:
+        faults.append("no scenarios found")
+    print("\n".join(faults) or f"{len(good)} good and {len(cases)} bad scenarios as expected")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

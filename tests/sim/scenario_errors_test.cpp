@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml, or a text of its own) gives exactly
+// the message it should, at the right line.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "sim/scenario.h"
+
+namespace greatx::sim {
+namespace {
+
+const std::filesystem::path folder = GREATX_SCENARIOS;
+
+std::string read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  EXPECT_TRUE(stream) << file;
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), with);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_scenario(text, "s.yaml", folder);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BadScenarios, EachGivesItsMessageAndLine) {
+  const std::string base = read(folder / "everything.yaml");
+  ASSERT_EQ(message_of(base), "accepted");
+  const auto cases = nlohmann::json::parse(read(folder / "bad_scenarios.json"));
+  ASSERT_GT(cases.size(), 100u);
+  for (const auto& bad : cases) {
+    SCOPED_TRACE(bad["name"].get<std::string>());
+    const std::string text =
+        bad.contains("text") ? bad["text"].get<std::string>() : replaced(base, bad["replace"], bad["with"]);
+    std::string message = bad["message"];
+    if (message.find("{folder}") != std::string::npos)
+      message = replaced(message, "{folder}", folder.string());
+    message = fmt::format("s.yaml:{}: {}", bad["line"].get<int>(), message);
+    if (bad.value("prefix", false))  // goes on in yaml-cpp's own words
+      EXPECT_THAT(message_of(text), testing::StartsWith(message));
+    else
+      EXPECT_EQ(message_of(text), message);
+  }
+}
+
+TEST(BadScenarios, MissingFileIsNamed) {
+  try {
+    load_scenario(folder / "missing.yaml");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "missing.yaml").string() + ": expected a scenario file, found no such file");
+  }
+}
+
+TEST(BadScenarios, FolderIsNoScenario) { EXPECT_THROW(load_scenario(folder), UserError); }
+
+TEST(BadScenarios, HostileBytesAreRefusedWithoutCrash) {
+  const std::string base = read(folder / "everything.yaml");
+  EXPECT_THROW(parse_scenario(std::string("\0\xff\xfe greatx", 10), "s.yaml", folder), UserError);
+  EXPECT_THROW(parse_scenario(std::string(100000, '['), "s.yaml", folder), UserError);
+  EXPECT_THROW(parse_scenario("greatx: 1\nname: &a [*a]\nticks: 1\n", "s.yaml", folder), UserError);
+  // Cut anywhere, it is read or refused by a UserError.
+  for (size_t length = 0; length < base.size(); length += 7) {
+    try {
+      parse_scenario(base.substr(0, length), "s.yaml", folder);
+    } catch (const UserError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace greatx::sim

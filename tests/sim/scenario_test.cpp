@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scenario.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+
+namespace greatx::sim {
+namespace {
+
+const std::filesystem::path folder = GREATX_SCENARIOS;
+
+template <typename T>
+const T& sensor(const Scenario& scenario, size_t node, size_t index) {
+  return std::get<T>(scenario.nodes.at(node).sensors.at(index).config);
+}
+
+TEST(Scenario, MinimalHasTheDocumentedDefaults) {
+  const Scenario s = load_scenario(folder / "minimal.yaml");
+  EXPECT_EQ(s.name, "minimal");
+  EXPECT_EQ(s.file, folder / "minimal.yaml");
+  EXPECT_EQ(s.text, "greatx: 1\nname: minimal\nticks: 1\n");
+  EXPECT_EQ(s.seed, 1u);
+  EXPECT_EQ(s.sequences, 1u);
+  EXPECT_EQ(s.ticks, 1);
+  EXPECT_EQ(s.tick_rate_hz, (Rational{1000, 1}));
+  EXPECT_TRUE(s.scene.objects.empty() && s.nodes.empty() && s.channels.empty() && s.effects.empty());
+  EXPECT_DOUBLE_EQ(s.environment.sun_azimuth, radians(-45.0));
+  EXPECT_DOUBLE_EQ(s.environment.sun_elevation, radians(45.0));
+  EXPECT_EQ(s.tolerance_db, 0.01);
+}
+
+TEST(Scenario, EverythingTop) {
+  const Scenario s = load_scenario(folder / "everything.yaml");
+  EXPECT_EQ(s.seed, 18446744073709551615u);
+  EXPECT_EQ(s.sequences, 3u);
+  EXPECT_EQ(s.ticks, 2000);
+  EXPECT_EQ(s.tick_rate_hz, (Rational{2000, 1}));
+  ASSERT_EQ(s.scene.objects.size(), 3u);
+  EXPECT_EQ(s.scene.objects[0].name, "");
+  EXPECT_EQ(std::get<std::filesystem::path>(s.scene.objects[0].model.source), folder / "box.gltf");
+  EXPECT_EQ(s.scene.objects[0].model.where.line, 9);
+  const StaticObject& house = s.scene.objects[1];
+  EXPECT_EQ(house.position_m, dvec3(10, -20, 0.5));
+  EXPECT_DOUBLE_EQ(house.rotation.x, pi / 2);
+  EXPECT_EQ(house.scale, dvec3(2));
+  EXPECT_EQ(house.semantic_class, "building");
+  const auto& van = std::get<Generated>(s.scene.objects[2].model.source);
+  EXPECT_EQ(van.kind, "car");
+  EXPECT_EQ(van.seed, 3u);
+  EXPECT_EQ(van.variant, "van");
+  EXPECT_EQ(s.scene.objects[2].scale, dvec3(1, -1, 1.5));
+  EXPECT_EQ(s.scene.radio_materials, folder / "materials.yaml");
+  EXPECT_EQ(s.scene.origin_m, dvec3(691000.0, 5335000.0, 500.0));
+  EXPECT_DOUBLE_EQ(s.environment.sun_azimuth, radians(-30.0));
+  EXPECT_DOUBLE_EQ(s.environment.sun_elevation, radians(60.0));
+  EXPECT_EQ(s.environment.sun_illuminance_lux, 90000.0);
+  EXPECT_EQ(s.environment.sky_illuminance_lux, 12000.0);
+  EXPECT_EQ(s.environment.temperature_k, 293.15);
+  EXPECT_EQ(s.environment.pressure_hpa, 1000.0);
+  EXPECT_EQ(s.environment.water_vapour_g_m3, 10.0);
+  EXPECT_EQ(s.effects.at("shadows"), Switch::on);
+  EXPECT_EQ(s.effects.at("reflection"), Switch::off);
+  EXPECT_EQ(s.effects.at("gas_attenuation"), Switch::automatic);
+  EXPECT_EQ(s.tolerance_db, 0.05);
+}
+
+TEST(Scenario, EverythingMoves) {
+  const Scenario s = load_scenario(folder / "everything.yaml");
+  ASSERT_EQ(s.nodes.size(), 6u);
+  const auto& fixed = std::get<StaticTrajectory>(s.nodes[0].trajectory);
+  EXPECT_EQ(fixed.position_m, dvec3(0, 0, 25));
+  EXPECT_DOUBLE_EQ(fixed.rotation.y, radians(10.0));
+  EXPECT_EQ(std::get<Generated>(s.nodes[0].model->source).kind, "mast");
+  EXPECT_EQ(s.nodes[0].semantic_class, "mast");
+  EXPECT_EQ(s.nodes[0].where.line, 30);
+  const auto& drawn = std::get<BezierTrajectory>(s.nodes[1].trajectory);
+  EXPECT_EQ(drawn.min_m, dvec3(-100, -100, 20));
+  EXPECT_EQ(drawn.max_m, dvec3(100, 100, 80));
+  EXPECT_EQ(drawn.reference_node, "bs");
+  EXPECT_EQ(drawn.min_distance_m, 20.0);
+  EXPECT_EQ(drawn.max_distance_m, 120.0);
+  EXPECT_EQ(drawn.offset_m, dvec3(30, 30, 10));
+  EXPECT_FALSE(drawn.control_points);
+  EXPECT_EQ(std::get<BezierTrajectory>(s.nodes[2].trajectory).control_points->at(2), dvec3(2, 1, 1));
+  const auto& walk = std::get<WayPointTrajectory>(s.nodes[3].trajectory);
+  EXPECT_FALSE(walk.smooth);
+  ASSERT_EQ(walk.points.size(), 2u);
+  EXPECT_EQ(walk.points[1].time_s, 0.75);
+  EXPECT_TRUE(walk.points[1].orientation);
+  const auto& flight = std::get<WayPointTrajectory>(s.nodes[4].trajectory);
+  EXPECT_TRUE(flight.smooth);
+  ASSERT_EQ(flight.points.size(), 3u);
+  EXPECT_EQ(flight.points[2].position_m, dvec3(10, 5, 12));
+  const auto& bus = std::get<CorridorTrajectory>(s.nodes[5].trajectory);
+  EXPECT_EQ(bus.center_line_m.size(), 3u);
+  EXPECT_EQ(bus.width_m, 4.0);
+  EXPECT_EQ(bus.legs, 8);
+}
+
+TEST(Scenario, EverythingSenses) {
+  const Scenario s = load_scenario(folder / "everything.yaml");
+  const auto& panel = sensor<AntennaConfig>(s, 0, 0);
+  EXPECT_EQ(panel.polarization, Polarization::slant);
+  EXPECT_EQ(panel.rows, 4u);
+  EXPECT_EQ(panel.columns, 8u);
+  EXPECT_EQ(panel.row_spacing_wl, 0.7);
+  EXPECT_DOUBLE_EQ(s.nodes[0].sensors[0].mount.rotation.y, radians(5.0));
+  const auto& camera = sensor<CameraConfig>(s, 1, 0);
+  EXPECT_EQ(s.nodes[1].sensors[0].rate_hz, (Rational{30, 1}));
+  EXPECT_EQ(camera.width, 320u);
+  EXPECT_EQ(camera.fx, 300.5);
+  EXPECT_EQ(camera.fy, 301.5);
+  EXPECT_EQ(camera.cx, 159.5);
+  EXPECT_EQ(camera.cy, 120.25);
+  EXPECT_EQ(camera.msaa, 1u);
+  EXPECT_TRUE(camera.rgb && camera.depth && camera.ids && camera.hdr && camera.depth_png24 &&
+              camera.depth_log);
+  EXPECT_TRUE(camera.see_own_body);
+  const auto& lidar = sensor<LidarConfig>(s, 1, 1);
+  ASSERT_EQ(lidar.elevations.size(), 16u);
+  EXPECT_DOUBLE_EQ(lidar.elevations.front(), radians(-15.0));
+  EXPECT_DOUBLE_EQ(lidar.elevations[1], radians(-13.0));
+  EXPECT_DOUBLE_EQ(lidar.elevations.back(), radians(15.0));
+  EXPECT_DOUBLE_EQ(lidar.azimuth_span, -2 * pi);
+  EXPECT_EQ(lidar.sweep_s, 0.1);
+  EXPECT_EQ(lidar.wavelength_nm, 1550.0);
+  const auto& scan = sensor<LidarConfig>(s, 4, 0);
+  EXPECT_EQ(s.nodes[4].sensors[0].rate_hz, (Rational{25, 2}));
+  ASSERT_EQ(scan.elevations.size(), 4u);
+  EXPECT_DOUBLE_EQ(scan.elevations[3], radians(-20.0));
+  EXPECT_EQ(sensor<AntennaConfig>(s, 1, 2).pattern, AntennaPattern::half_wave_dipole);
+  ASSERT_EQ(s.channels.size(), 2u);
+  const ChannelConfig& csi = s.channels[0];
+  EXPECT_EQ(csi.transmitter, "bs/panel");
+  EXPECT_EQ(csi.receivers, (std::vector<std::string>{"uav/antenna", "bs/panel"}));
+  EXPECT_EQ(csi.carrier_hz, 28e9);
+  EXPECT_EQ(csi.subcarrier_spacing_hz, 100e6 / 64);
+  EXPECT_EQ(csi.time_samples, 14u);
+  EXPECT_EQ(csi.rays, 100000u);
+  EXPECT_EQ(csi.search, "once");
+  EXPECT_EQ(s.channels[1].rate_hz, (Rational{30000, 1001}));
+  EXPECT_EQ(s.channels[1].subcarrier_spacing_hz, 15e3);
+}
+
+TEST(Scenario, FieldOfViewIsHorizontalAndCentred) {
+  const Scenario s = load_scenario(folder / "uav_city.yaml");
+  const auto& camera = sensor<CameraConfig>(s, 1, 0);
+  EXPECT_NEAR(camera.fx, 320.0, 1e-12);  // 640 / 2 / tan 45 degrees
+  EXPECT_EQ(camera.fx, camera.fy);
+  EXPECT_EQ(camera.cx, 320.0);
+  EXPECT_EQ(camera.cy, 240.0);
+  EXPECT_TRUE(camera.rgb && camera.depth && camera.ids && camera.depth_png24);
+  EXPECT_FALSE(camera.hdr || camera.depth_log);
+  EXPECT_EQ(s.ticks, 100);
+}
+
+TEST(Scenario, DurationCountsTicksInIt) {
+  const auto ticks = [](const std::string& rest) {
+    return parse_scenario("greatx: 1\nname: x\n" + rest, "s.yaml", folder).ticks;
+  };
+  EXPECT_EQ(ticks("duration_s: 10\n"), 10000);
+  EXPECT_EQ(ticks("duration_s: 0.0001\n"), 1);
+  EXPECT_EQ(ticks("duration_s: 0.1\n"), 100);  // 0.1 is not exact in fp64; the text is
+  EXPECT_EQ(ticks("duration_s: 0.1001\n"), 101);
+  EXPECT_EQ(ticks("duration_s: 1001\ntick_rate_hz: 30000/1001\n"), 30000);
+  EXPECT_EQ(load_scenario(folder / "broadcast_rates.yaml").ticks, 90);  // 89.91
+}
+
+TEST(Scenario, RatesAreExact) {
+  const Scenario s = load_scenario(folder / "broadcast_rates.yaml");
+  EXPECT_EQ(s.tick_rate_hz.str(), "60000/1001");
+  EXPECT_EQ(s.nodes[0].sensors[0].rate_hz.str(), "30000/1001");
+  EXPECT_EQ(s.nodes[0].sensors[1].rate_hz.str(), "2997/125");
+  EXPECT_EQ(s.nodes[0].sensors[2].rate_hz.str(), "25");
+}
+
+}  // namespace
+}  // namespace greatx::sim
