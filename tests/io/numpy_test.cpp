@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of a set.
+#include <gtest/gtest.h>
+
+#include "io/file.h"
+#include "io/npy.h"
+#include "tests/io/sample_run.h"
+#include "tests/io/temporary_folder.h"
+
+namespace greatx::io {
+namespace {
+
+int python(const std::filesystem::path& folder, const std::string& script) {
+  write_file_atomically(folder / "script.py", script);
+  return std::system(fmt::format("cd '{}' && '{}' script.py", folder.string(), GREATX_PYTHON).c_str());
+}
+
+TEST(NumPy, MemoryMapsTheStackedCsi) {
+  const TemporaryFolder folder;
+  {
+    DatasetWriter writer(folder.path() / "set", sample_info());
+    ASSERT_TRUE(write_sample_run(writer, sample_info()));
+  }
+  // sample_cfr: element i of record k in sequence s is s + k - 1j i.
+  EXPECT_EQ(python(folder.path(), R"(
+import numpy
+csi = numpy.load("set/sequence_0001/bs/csi/cfr.npy", mmap_mode="c")  # [batch, rx, rx_ant, tx, tx_ant, time, subcarrier]
+assert isinstance(csi, numpy.memmap)
+assert csi.shape == (7, 1, 2, 1, 4, 1, 8), csi.shape
+assert csi.dtype == numpy.complex64 and csi.flags.c_contiguous and csi.offset == 256
+k = numpy.arange(7).reshape(7, 1)
+expected = (1 + k) - 1j * numpy.arange(64)
+assert numpy.array_equal(csi.reshape(7, 64), expected.astype(numpy.complex64))
+)"),
+            0);
+}
+
+TEST(NumPy, ReadsIndexAndRaggedArrays) {
+  const TemporaryFolder folder;
+  {
+    DatasetWriter writer(folder.path() / "set", sample_info());
+    ASSERT_TRUE(write_sample_run(writer, sample_info()));
+  }
+  EXPECT_EQ(python(folder.path(), R"(
+import glob, numpy
+for f in glob.glob("set/**/*.npy", recursive=True):
+    numpy.load(f, mmap_mode="r" if numpy.load(f).size else None)
+index = numpy.load("set/sequence_0000/index.npy")
+table = numpy.genfromtxt("set/sequence_0000/index.csv", delimiter=",", skip_header=1, usecols=range(5), dtype=numpy.int64)
+assert numpy.array_equal(index, table)
+camera = index[index[:, 2] == 0]
+assert camera[:, 0].tolist() == [0, 33, 67] and camera[:, 3].tolist() == [0, 1, 2]
+delay = numpy.load("set/sequence_0000/bs/csi/delay.npy")
+offsets = numpy.load("set/sequence_0000/bs/csi/delay_offsets.npy")
+vertices = numpy.load("set/sequence_0000/bs/csi/vertices.npy")
+assert offsets.shape == (8,) and offsets[-1] == len(delay) == len(vertices) and vertices.shape[1:] == (3, 3)
+)"),
+            0);
+}
+
+TEST(NumPy, ReadsEveryTypeAndShape) {
+  const TemporaryFolder folder;
+  std::string script = "import numpy\n";
+  int count = 0;
+  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::f32, DType::f64,
+                            DType::complex64}) {
+    for (const std::vector<int64_t>& shape : {std::vector<int64_t>{}, std::vector<int64_t>{5},
+                                              std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
+      const std::string name = fmt::format("a{}.npy", count++);
+      write_file_atomically(folder.path() / name, encode_npy(Array(dtype, shape)));
+      script += fmt::format("a = numpy.load('{}'); assert a.dtype.str == '{}' and list(a.shape) == [{}], a\n",
+                            name, numpy_name(dtype), fmt::join(shape, ", "));
+    }
+  }
+  EXPECT_EQ(python(folder.path(), script), 0);
+}
+
+}  // namespace
+}  // namespace greatx::io
