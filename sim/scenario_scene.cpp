@@ -23,19 +23,18 @@ Generated parse_generated(const Field& field) {
   const size_t kind = kind_of(field, "kind", {"city", "country", "mast", "car", "quadrotor"});
   Generated generated;
   generated.kind = kinds[kind];
-  if (kind == city || kind == country) {
+  if (kind == city || kind == country) {  // the others look the same for every seed
     const FieldMap map(field, {"kind", "seed", "size_m"});
     if (const auto f = map.find("seed")) generated.seed = f->integer(0);
-    if (const auto f = map.find("size_m")) generated.size_m = f->positive();
+    if (const auto f = map.find("size_m"))
+      generated.size_m = f->between(100.0, kind == city ? 1000.0 : 2000.0);
     return generated;
   }
   if (kind == mast) {
-    const FieldMap map(field, {"kind", "seed"});
-    if (const auto f = map.find("seed")) generated.seed = f->integer(0);
+    const FieldMap map(field, {"kind"});
     return generated;
   }
-  const FieldMap map(field, {"kind", "seed", "variant"});
-  if (const auto f = map.find("seed")) generated.seed = f->integer(0);
+  const FieldMap map(field, {"kind", "variant"});
   generated.variant = kind == car ? "hatchback" : "medium";
   if (const auto f = map.find("variant")) {
     kind == car ? f->choice({"hatchback", "van"}) : f->choice({"small", "medium", "large"});

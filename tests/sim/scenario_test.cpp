@@ -4,10 +4,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "scene/generator/generate.h"
+#include "scene/scene.h"
 
 namespace greatx::sim {
 namespace {
@@ -51,7 +55,6 @@ TEST(Scenario, EverythingTop) {
   EXPECT_EQ(house.semantic_class, "building");
   const auto& van = std::get<Generated>(s.scene.objects[2].model.source);
   EXPECT_EQ(van.kind, "car");
-  EXPECT_EQ(van.seed, 3u);
   EXPECT_EQ(van.variant, "van");
   EXPECT_EQ(s.scene.objects[2].scale, dvec3(1, -1, 1.5));
   EXPECT_EQ(s.scene.radio_materials, folder / "materials.yaml");
@@ -157,6 +160,30 @@ TEST(Scenario, FieldOfViewIsHorizontalAndCentred) {
   EXPECT_TRUE(camera.rgb && camera.depth && camera.ids && camera.depth_png24);
   EXPECT_FALSE(camera.hdr || camera.depth_log);
   EXPECT_EQ(s.ticks, 100);
+}
+
+TEST(Scenario, ClassesAndModelsAreThoseOfTheSceneAndItsGenerator) {
+  const auto parse = [](const std::string& scene) {
+    return parse_scenario(
+        "greatx: 1\nname: x\nticks: 1\nscene:\n  objects:\n    - {name: a, " + scene + "}\n", "s.yaml",
+        folder);
+  };
+  std::ifstream file(GREATX_SCHEMA);
+  const auto schema = nlohmann::json::parse(file);
+  std::vector<std::string> classes = schema["$defs"]["class"]["enum"];
+  EXPECT_EQ(classes, scene::semantic_class_names());
+  for (const std::string& name : scene::semantic_class_names())
+    EXPECT_EQ(parse("file: box.gltf, class: " + name).scene.objects[0].semantic_class, name);
+  for (const std::string& kind : scene::generator_kinds()) {
+    const auto generated = [&](const std::string& rest) {
+      return std::get<Generated>(
+          parse("generate: {kind: " + kind + rest + "}").scene.objects[0].model.source);
+    };
+    const std::vector<std::string> variants = scene::generator_variants(kind);
+    EXPECT_EQ(generated("").variant, variants.empty() ? "" : variants.front());
+    for (const std::string& variant : variants)
+      EXPECT_EQ(generated(", variant: " + variant).variant, variant);
+  }
 }
 
 TEST(Scenario, DurationCountsTicksInIt) {

@@ -145,11 +145,11 @@ TEST(BezierPath, SpeedIsTheLimitOfDistanceOverTime) {
 }
 
 TEST(BezierPath, EndsKeepToBoxAndDistanceForThousandSeeds) {
-  Scenario scenario = scenario_of(drawn_bezier());
-  auto& bezier = std::get<BezierTrajectory>(scenario.nodes[0].trajectory);
+  BezierTrajectory bezier = drawn_bezier();
   bezier.reference_node = "bs";
   bezier.min_distance_m = 30;
   bezier.max_distance_m = 55;
+  Scenario scenario = scenario_of(bezier);
   NodeConfig bs;
   bs.name = "bs";
   bs.trajectory = StaticTrajectory{{10, 0, 25}, {}};
@@ -203,10 +203,10 @@ TEST(BezierPath, DependsOnSeedSequenceAndNameOnly) {
 }
 
 TEST(BezierPath, FollowsAMovingReferenceAtBothEnds) {
-  Scenario scenario = scenario_of(drawn_bezier());
-  auto& bezier = std::get<BezierTrajectory>(scenario.nodes[0].trajectory);
+  BezierTrajectory bezier = drawn_bezier();
   bezier.reference_node = "car";
   bezier.max_distance_m = 40;
+  Scenario scenario = scenario_of(bezier);
   NodeConfig car;
   car.name = "car";
   car.trajectory = way_points({{0, {-90, 0, 0}, {}}, {10, {90, 0, 0}, {}}});
@@ -217,9 +217,9 @@ TEST(BezierPath, FollowsAMovingReferenceAtBothEnds) {
 }
 
 TEST(BezierPath, LimitsThatCannotBeMetNameTheNode) {
-  Scenario scenario = scenario_of(drawn_bezier());
-  auto& bezier = std::get<BezierTrajectory>(scenario.nodes[0].trajectory);
+  BezierTrajectory bezier = drawn_bezier();
   bezier.reference_node = "bs";
+  Scenario scenario = scenario_of(bezier);
   NodeConfig bs;
   bs.name = "bs";
   bs.trajectory = StaticTrajectory{{0, 0, 0}, {}};
