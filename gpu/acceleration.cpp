@@ -145,7 +145,7 @@ void Tlas::record(Cmd& cmd, std::span<const TlasInstance> instances, const Slice
     VkAccelerationStructureInstanceKHR row{};
     row.transform = rows_of(instances[i].local_from_body);
     row.instanceCustomIndex = instances[i].custom_index & 0xffffffu;
-    row.mask = instances[i].mask;
+    row.mask = instances[i].mask & 0xffu;
     row.accelerationStructureReference = instances[i].blas->address();
     std::memcpy(staging.mapped + i * sizeof(row), &row, sizeof(row));
   }

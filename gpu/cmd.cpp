@@ -257,6 +257,11 @@ void Cmd::draw(uint32_t vertices, uint32_t instances) {
   ++device_->counters().draws;
 }
 
+void Cmd::draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance) {
+  vkCmdDraw(handle_, vertices, 1, first_vertex, first_instance);
+  ++device_->counters().draws;
+}
+
 void Cmd::draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance) {
   vkCmdDrawIndexed(handle_, index_count, 1, first_index, 0, first_instance);
   ++device_->counters().draws;

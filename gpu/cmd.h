@@ -145,6 +145,8 @@ class Cmd {
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
   void bind_indices(const Buffer& buffer);  ///< uint32
   void draw(uint32_t vertices, uint32_t instances = 1);
+  /// Without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is `first_instance`.
+  void draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance);
   void draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance);
   /// `count` VkDrawIndexedIndirectCommands at `commands`.
   void draw_indexed_indirect(const Slice& commands, uint32_t count);

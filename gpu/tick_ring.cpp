@@ -87,7 +87,7 @@ TickSlot& TickRing::begin() {
   return slot;
 }
 
-void TickRing::submit(TickSlot& slot) {
+void TickRing::submit(TickSlot& slot, Kind kind) {
   slot.cmd->barrier({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT}, sync::host_read);
   GREATX_VK(vkEndCommandBuffer(slot.cmd->handle()));
   slot.submission = ++submitted_;
@@ -104,7 +104,7 @@ void TickRing::submit(TickSlot& slot) {
   submit.pSignalSemaphoreInfos = &signal;
   GREATX_VK(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE));
   slot.cmd = nullptr;
-  ++device_.counters().submits;
+  ++(kind == Kind::tick ? device_.counters().submits : device_.counters().setup_submits);
 }
 
 void TickRing::wait(const TickSlot& slot) const {

@@ -67,8 +67,10 @@ class TickRing {
 
   /// Next slot in turn; waits until its last submission is done, resets its arenas and starts recording.
   TickSlot& begin();
+  /// What a submission counts as: a tick, or work before the first one.
+  enum class Kind { tick, setup };
   /// Ends recording with a barrier from all writes to host reads, and submits: one submission a tick.
-  void submit(TickSlot& slot);
+  void submit(TickSlot& slot, Kind kind = Kind::tick);
   /// Blocks until the slot's submission is done: its readback arena and timestamps may be read.
   void wait(const TickSlot& slot) const;
   uint32_t slot_count() const { return static_cast<uint32_t>(slots_.size()); }

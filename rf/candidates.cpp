@@ -19,6 +19,18 @@ void CandidateList::add(std::span<const uint32_t> sequence) {
   offsets.push_back(static_cast<uint32_t>(facets.size()));
 }
 
+CandidateList CandidateList::reversed() const {
+  CandidateList result;
+  std::vector<uint32_t> backwards;
+  for (size_t i = 0; i < size(); ++i) {
+    const std::span<const uint32_t> forwards = sequence(i);
+    backwards.assign(forwards.rbegin(), forwards.rend());
+    result.add(backwards);
+  }
+  result.make_canonical();
+  return result;
+}
+
 bool CandidateList::is_canonical() const {
   for (size_t i = 1; i < size(); ++i)
     if (!sequence_less(sequence(i - 1), sequence(i))) return false;

@@ -27,6 +27,8 @@ struct CandidateList {
   /// Sorts and removes duplicates, comparing whole sequences.
   void make_canonical();
   bool is_canonical() const;
+  /// Every sequence from the other end, in canonical order.
+  CandidateList reversed() const;
   friend bool operator==(const CandidateList&, const CandidateList&) = default;
 };
 

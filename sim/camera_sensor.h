@@ -16,8 +16,8 @@ namespace greatx::sim {
 class CameraSensor : public Sensor {
  public:
   /// `node`, `sensor`: indices into the scenario. `probe` may be null; the others outlive this.
-  CameraSensor(const render::SceneLighting& lighting, const render::ProbePass* probe, const Scenario& scenario,
-               const World& world, uint32_t node, uint32_t sensor);
+  CameraSensor(const render::SceneLighting& lighting, const render::ProbePass* probe,
+               const Scenario& scenario, const World& world, uint32_t node, uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;

@@ -57,27 +57,34 @@ void ChannelSensor::describe() {
   spec_.name = config_.name;
   spec_.kind = "csi";
   spec_.rate = config_.rate_hz.str();
-  const auto stack = [&](const char* name, DType dtype, std::vector<int64_t> shape, const char* unit, const char* text) {
+  const auto stack = [&](const char* name, DType dtype, std::vector<int64_t> shape, const char* unit,
+                         const char* text) {
     spec_.arrays.push_back({name, dtype, std::move(shape), unit, text});
     spec_.outputs.push_back({name, FileFormat::npy_stack, {name}});
   };
-  const auto ragged = [&](const char* name, DType dtype, std::vector<int64_t> row, const char* unit, const char* text) {
+  const auto ragged = [&](const char* name, DType dtype, std::vector<int64_t> row, const char* unit,
+                          const char* text) {
     row.insert(row.begin(), -1);
     spec_.arrays.push_back({name, dtype, std::move(row), unit, text});
     spec_.outputs.push_back({std::string("paths/") + name, FileFormat::npy_ragged, {name}});
   };
-  stack("cfr", DType::complex64, {receivers, rx_ports, 1, tx_ports, config_.time_samples, config_.subcarriers}, "1",
+  stack("cfr", DType::complex64,
+        {receivers, rx_ports, 1, tx_ports, config_.time_samples, config_.subcarriers}, "1",
         "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing");
   stack("path_count", DType::i32, {receivers}, "1", "[rx] visible paths");
   stack("line_of_sight", DType::u8, {receivers}, "1", "[rx] 1: the direct path is free");
   stack("path_gain", DType::f64, {receivers}, "1", "[rx] sum over paths of |a|^2, mean over port pairs");
   ragged("rx", DType::i32, {}, "1", "[path] receiver");
-  ragged("amplitude", DType::complex64, {rx_ports, tx_ports}, "1", "[path, rx_ant, tx_ant] with e^{-j 2 pi f_c tau}");
+  ragged("amplitude", DType::complex64, {rx_ports, tx_ports}, "1",
+         "[path, rx_ant, tx_ant] with e^{-j 2 pi f_c tau}");
   ragged("delay", DType::f64, {}, "s", "[path] not normalised");
   ragged("doppler", DType::f64, {}, "Hz", "[path] approaching: positive");
-  ragged("departure", DType::f64, {2}, "rad", "[path, (zenith, azimuth)] leaving the transmitter, world axes");
-  ragged("arrival", DType::f64, {2}, "rad", "[path, (zenith, azimuth)] from the receiver back along the path, world axes");
-  ragged("transfer", DType::complex64, {2, 2}, "1/m", "[path, (theta, phi) at rx, (theta, phi) at tx] without the phase of the delay");
+  ragged("departure", DType::f64, {2}, "rad",
+         "[path, (zenith, azimuth)] leaving the transmitter, world axes");
+  ragged("arrival", DType::f64, {2}, "rad",
+         "[path, (zenith, azimuth)] from the receiver back along the path, world axes");
+  ragged("transfer", DType::complex64, {2, 2}, "1/m",
+         "[path, (theta, phi) at rx, (theta, phi) at tx] without the phase of the delay");
   ragged("interaction", DType::u8, {depth}, "1", "[path, i] 0: none, 1: reflection");
   ragged("vertex", DType::f64, {depth, 3}, "m", "[path, i, xyz] of each interaction, world; NaN: none");
   ragged("facet", DType::u32, {depth}, "1", "[path, i] facet + 1, the path's identity across ticks; 0: none");
@@ -92,6 +99,7 @@ void ChannelSensor::describe() {
   metadata["time_samples"] = config_.time_samples;
   metadata["time_spacing_s"] = config_.time_spacing_s;
   metadata["max_depth"] = config_.max_depth;
+  metadata["non_finite"] = {"vertex"};
   metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
   metadata["time_convention"] = "e^{+j omega t}";
   metadata["transmitter"] = describe_array(transmitter_.array);
@@ -100,7 +108,8 @@ void ChannelSensor::describe() {
     metadata["receivers"].push_back(describe_array(receivers_[r].array));
     metadata["receivers"].back()["name"] = config_.receivers[r];
   }
-  constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from the receivers", "every tick"};
+  constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from the receivers",
+                                      "every tick"};
   metadata["search"] = {{"when", searches[static_cast<uint32_t>(search_)]}, {"rays", config_.rays}};
   spec_.metadata_json = metadata.dump();
 }
@@ -114,25 +123,30 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
   const auto ports = [](size_t count) { return static_cast<int64_t>(count); };
 
   Array cfr(DType::complex64, spec_.arrays[0].shape);
-  Array counts(DType::i32, {ports(receivers)}), sight(DType::u8, {ports(receivers)}), gains(DType::f64, {ports(receivers)});
+  Array counts(DType::i32, {ports(receivers)}), sight(DType::u8, {ports(receivers)}),
+      gains(DType::f64, {ports(receivers)});
   PathArray<int32_t> rx(paths, {});
-  PathArray<std::complex<float>> amplitude(paths, {ports(rx_ports), ports(tx_ports)}), transfer(paths, {2, 2});
+  PathArray<std::complex<float>> amplitude(paths, {ports(rx_ports), ports(tx_ports)}),
+      transfer(paths, {2, 2});
   PathArray<double> delay(paths, {}), doppler(paths, {}), departure(paths, {2}), arrival(paths, {2}),
       vertex(paths, {ports(depth), 3});
   PathArray<uint8_t> interaction(paths, {ports(depth)});
-  PathArray<uint32_t> facet(paths, {ports(depth)}), object(paths, {ports(depth)}), material(paths, {ports(depth)});
+  PathArray<uint32_t> facet(paths, {ports(depth)}), object(paths, {ports(depth)}),
+      material(paths, {ports(depth)});
 
-  rf::ChannelGrid grid{config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
-                       doppler_ ? config_.time_spacing_s : 0.0};
+  rf::ChannelGrid grid{config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers,
+                       config_.time_samples, doppler_ ? config_.time_spacing_s : 0.0};
   const rf::ArrayPose transmitter{transmitter_.array, pending.transmitter.orientation};
   size_t cfr_offset = 0;
   for (size_t r = 0; r < receivers; ++r) {
     const Link& link = pending.links[r];
     const rf::ArrayPose receiver{receivers_[r].array, link.receiver.orientation};
     const auto response = rf::frequency_response(link.paths, transmitter, receiver, grid);
-    std::copy(response.begin(), response.end(), cfr.as<std::complex<float>>().begin() + static_cast<std::ptrdiff_t>(cfr_offset));
+    std::copy(response.begin(), response.end(),
+              cfr.as<std::complex<float>>().begin() + static_cast<std::ptrdiff_t>(cfr_offset));
     cfr_offset += response.size();
-    const rf::ImpulseResponse impulse = rf::impulse_response(link.paths, transmitter, receiver, config_.carrier_hz);
+    const rf::ImpulseResponse impulse =
+        rf::impulse_response(link.paths, transmitter, receiver, config_.carrier_hz);
     double gain = 0.0;
     for (const std::complex<float>& a : impulse.amplitude) {
       amplitude.push(a);
@@ -145,7 +159,8 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
       rx.push(static_cast<int32_t>(r));
       delay.push(path.delay_s);
       doppler.push(path.doppler_hz);
-      for (const auto& [direction, into] : {std::pair(path.departure, &departure), std::pair(path.arrival, &arrival)}) {
+      for (const auto& [direction, into] :
+           {std::pair(path.departure, &departure), std::pair(path.arrival, &arrival)}) {
         const dvec2 angles = rf::theta_phi(direction);
         into->push(angles.x);
         into->push(angles.y);

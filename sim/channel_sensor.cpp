@@ -17,12 +17,21 @@ namespace {
 rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz) {
   const double wavelength = speed_of_light / carrier_hz;
   rf::AntennaArray array;
-  array.pattern = config.pattern == AntennaPattern::isotropic ? rf::Pattern::isotropic : rf::Pattern::half_wave_dipole;
+  array.pattern =
+      config.pattern == AntennaPattern::isotropic ? rf::Pattern::isotropic : rf::Pattern::half_wave_dipole;
   switch (config.polarization) {
-    case Polarization::v: array.polarization = rf::Polarization::v; break;
-    case Polarization::h: array.polarization = rf::Polarization::h; break;
-    case Polarization::vh: array.polarization = rf::Polarization::vh; break;
-    case Polarization::slant: array.polarization = rf::Polarization::slant; break;
+    case Polarization::v:
+      array.polarization = rf::Polarization::v;
+      break;
+    case Polarization::h:
+      array.polarization = rf::Polarization::h;
+      break;
+    case Polarization::vh:
+      array.polarization = rf::Polarization::vh;
+      break;
+    case Polarization::slant:
+      array.polarization = rf::Polarization::slant;
+      break;
   }
   array.rows = config.rows;
   array.columns = config.columns;
@@ -37,8 +46,9 @@ bool is_static(const Scenario& scenario, uint32_t node) {
 
 }  // namespace
 
-ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::VisibilityPass& visibility, const EffectPlan& plan,
-                             const Scenario& scenario, const World& world, uint32_t channel)
+ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::VisibilityPass& visibility,
+                             const EffectPlan& plan, const Scenario& scenario, const World& world,
+                             uint32_t channel)
     : world_(world),
       config_(scenario.channels[channel]),
       line_of_sight_(plan.line_of_sight.on),
@@ -52,13 +62,14 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::VisibilityPass& vis
   for (const End& receiver : receivers_)
     if (receiver.array.port_count() != receivers_[0].array.port_count())
       throw_user_error_at(config_.where,
-                          "channel '{}': rx: expected receivers with one number of ports, found {} and {}; give each its own channel",
+                          "channel '{}': rx: expected receivers with one number of ports, found {} and {}; "
+                          "give each its own channel",
                           config_.name, receivers_[0].array.port_count(), receiver.array.port_count());
   choose_search(scenario, plan);
   if (search_ != Search::none)
-    candidates_.emplace(gpu_scene, rf::CandidateSearchOptions{.rays = config_.rays,
-                                                              .max_depth = config_.max_depth,
-                                                              .moving_bodies = search_ == Search::every_tick});
+    candidates_.emplace(
+        gpu_scene, rf::CandidateSearchOptions{
+                       .rays = config_.rays, .max_depth = config_.max_depth, .moving_bodies = move_facets_});
   describe();
 }
 
@@ -68,7 +79,8 @@ ChannelSensor::End ChannelSensor::end_of(const Scenario& scenario, const std::st
       if (scenario.nodes[node].name + "/" + sensor.name == name)
         return {node, world_.body_of_node[node], mount_pose(sensor.mount),
                 array_of(std::get<AntennaConfig>(sensor.config), config_.carrier_hz)};
-  throw ContractError(fmt::format("channel '{}' refers to '{}', which the parser let pass", config_.name, name));
+  throw ContractError(
+      fmt::format("channel '{}' refers to '{}', which the parser let pass", config_.name, name));
 }
 
 void ChannelSensor::choose_search(const Scenario& scenario, const EffectPlan& plan) {
@@ -82,7 +94,8 @@ void ChannelSensor::choose_search(const Scenario& scenario, const EffectPlan& pl
   else if (receivers_static)
     search_ = Search::once_from_receivers;
   else if (config_.search == "once")
-    throw_user_error_at(config_.where, "channel '{}': search: expected auto or every_tick, since both ends move; found once",
+    throw_user_error_at(config_.where,
+                        "channel '{}': search: expected auto or every_tick, since both ends move; found once",
                         config_.name);
   else
     search_ = Search::every_tick;
@@ -91,14 +104,16 @@ void ChannelSensor::choose_search(const Scenario& scenario, const EffectPlan& pl
 ChannelSensor::EndState ChannelSensor::state_of(const End& end, const TickContext& context) const {
   const Motion& node = context.nodes[end.node];
   const Pose pose = world_.scene.to_local(node.pose) * end.mount;
-  return {pose.position, node.velocity + glm::cross(node.angular_velocity, node.pose.rotate(end.mount.position)),
+  return {pose.position,
+          node.velocity + glm::cross(node.angular_velocity, node.pose.rotate(end.mount.position)),
           pose.orientation};
 }
 
 rf::CandidateList ChannelSensor::with_line_of_sight(rf::CandidateSearchResult result) {
   candidate_count_ = std::max<uint64_t>(candidate_count_, result.list.size());
   if (result.overflow() > 0)
-    spdlog::warn("channel '{}': {} candidates beyond the bound were left out", config_.name, result.overflow());
+    spdlog::warn("channel '{}': {} candidates beyond the bound were left out", config_.name,
+                 result.overflow());
   overflow_ += result.overflow();
   if (line_of_sight_) {
     result.list.add({});
@@ -112,7 +127,8 @@ void ChannelSensor::search_from_static_ends(const TickContext& context) {
     return with_line_of_sight(candidates_->search(context.body_poses, state_of(end, context).position));
   };
   if (search_ == Search::once_from_transmitter) {
-    trees_.push_back(std::make_unique<rf::ImageTree>(facets_, state_of(transmitter_, context).position, search(transmitter_)));
+    trees_.push_back(std::make_unique<rf::ImageTree>(facets_, state_of(transmitter_, context).position,
+                                                     search(transmitter_)));
     return;
   }
   for (const End& receiver : receivers_)
@@ -215,7 +231,8 @@ std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
     for (const rf::Path& path : link.paths) {
       if (!path.facets.empty()) continue;
       ++los_paths_;
-      los_error_ = std::max(los_error_, std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
+      los_error_ =
+          std::max(los_error_, std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
     }
   }
   return arrays_of(pending);

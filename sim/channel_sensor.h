@@ -73,7 +73,8 @@ class ChannelSensor : public Sensor {
   EndState state_of(const End& end, const TickContext& context) const;
   rf::CandidateList with_line_of_sight(rf::CandidateSearchResult result);
   void search_from_static_ends(const TickContext& context);
-  void add_segments(const std::vector<rf::Path>& paths, const End& receiver, std::vector<rf::Segment>& segments) const;
+  void add_segments(const std::vector<rf::Path>& paths, const End& receiver,
+                    std::vector<rf::Segment>& segments) const;
   void drop_blocked(Pending& pending);
   std::vector<Array> arrays_of(const Pending& pending) const;
 

@@ -22,7 +22,8 @@ struct InverseDepthPlane {
   double at(double columns, double rows) const { return center + columns * per_column + rows * per_row; }
 };
 inline constexpr double affine_tolerance = 2e-6;
-std::optional<InverseDepthPlane> interior_plane(const render::CameraImages& images, uint32_t column, uint32_t row);
+std::optional<InverseDepthPlane> interior_plane(const render::CameraImages& images, uint32_t column,
+                                                uint32_t row);
 
 /// Pixels to probe, the same for every picture of this size: a low-discrepancy set (R2 sequence, M. Roberts 2018).
 std::vector<glm::uvec2> probe_pixels(uint32_t width, uint32_t height, uint32_t count);
@@ -33,7 +34,8 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row);
 
 /// Relative difference between a LiDAR return (sensor-frame position, seen from the same tick) and the picture, at the
 /// place where it falls; empty where it falls outside or on no interior pixel of the same instance.
-std::optional<double> lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
-                                          const dvec3& point_in_camera, uint32_t instance);
+std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
+                                          const render::CameraImages& images, const dvec3& point_in_camera,
+                                          uint32_t instance);
 
 }  // namespace greatx::sim

@@ -15,7 +15,7 @@ namespace greatx::sim {
 
 /// One decision.
 struct Effect {
-  std::string name;    ///< as written under `effects:` in a scenario
+  std::string name;  ///< as written under `effects:` in a scenario
   bool switchable = true;
   bool on = false;
   std::string reason;  ///< why it is on or off, one line
@@ -27,8 +27,8 @@ struct EffectPlan {
   // What tracing rays needs.
   Effect acceleration_structure, scene_motion;
   // Cameras.
-  Effect camera, rgb, depth, ids, hdr, sun, sky, static_shadows, moving_shadows, textures, normal_maps, alpha_mask,
-      emissive, punctual_lights;
+  Effect camera, rgb, depth, ids, hdr, sun, sky, static_shadows, moving_shadows, textures, normal_maps,
+      alpha_mask, emissive, punctual_lights;
   // LiDAR.
   Effect lidar, lidar_alpha_mask, lidar_sweep_motion;
   // Radio.

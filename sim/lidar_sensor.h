@@ -14,8 +14,8 @@ namespace greatx::sim {
 /// A LiDAR on a node: each shot from the pose at its own time.
 class LidarSensor : public Sensor {
  public:
-  LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario, const World& world,
-              uint32_t node, uint32_t sensor);
+  LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
+              const World& world, uint32_t node, uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;

@@ -13,7 +13,7 @@ PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
   const auto nodes = static_cast<int64_t>(scenario.nodes.size());
   spec_.name = "poses";
   spec_.kind = "pose";
-  spec_.rate = "every tick at which something fires";
+  spec_.rate = "";  // whenever something else fires
   const auto add = [&](const char* name, int64_t width, const char* unit, const char* description) {
     spec_.arrays.push_back({name, DType::f64, {nodes, width}, unit, description});
     spec_.outputs.push_back({name, FileFormat::npy_stack, {name}});
@@ -27,6 +27,7 @@ PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
       "[node, xyz] (p_k - p_(k-1)) / (t_k - t_(k-1)); NaN in the first record of a sequence");
   nlohmann::json metadata;
   for (const NodeConfig& node : scenario.nodes) metadata["nodes"].push_back(node.name);
+  metadata["non_finite"] = {"mean_velocity"};
   metadata["local_origin_m"] = {origin.x, origin.y, origin.z};
   spec_.metadata_json = metadata.dump();
 }

@@ -26,20 +26,20 @@ struct TickContext {
   double time_s = 0.0;
   /// Time of the tick before at which something was due; NaN at the first one of a sequence.
   double previous_time_s = 0.0;
-  std::span<const Motion> nodes;      ///< world frame, by node
-  std::span<const Pose> body_poses;   ///< local coordinates, by body
+  std::span<const Motion> nodes;     ///< world frame, by node
+  std::span<const Pose> body_poses;  ///< local coordinates, by body
   /// Motion of any node at any other time (a sweep's shots).
   std::function<Motion(uint32_t node, double time_s)> motion_at;
 };
 
 /// Figures of a run that show that the modalities see one world; worst case over the run.
 struct Consistency {
-  uint64_t depth_pixels = 0;            ///< interior pixels compared with the ray through their centre
-  double depth_error = 0.0;             ///< |depth - ray| / ray, at most
-  uint64_t lidar_beams = 0;             ///< returns compared with the depth picture of a camera on the same node
-  double lidar_error = 0.0;             ///< relative
+  uint64_t depth_pixels = 0;  ///< interior pixels compared with the ray through their centre
+  double depth_error = 0.0;   ///< |depth - ray| / ray, at most
+  uint64_t lidar_beams = 0;   ///< returns compared with the depth picture of a camera on the same node
+  double lidar_error = 0.0;   ///< relative
   uint64_t line_of_sight_paths = 0;
-  double line_of_sight_error = 0.0;     ///< |c delay - distance| / distance
+  double line_of_sight_error = 0.0;  ///< |c delay - distance| / distance
 };
 
 class Sensor {
@@ -68,7 +68,8 @@ inline constexpr uint32_t slots_in_flight = 2;
 
 /// World pose of a sensor: the node's pose times its mount.
 inline Pose mount_pose(const Mount& mount) {
-  return {mount.position_m, orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
+  return {mount.position_m,
+          orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
 }
 
 }  // namespace greatx::sim

@@ -31,11 +31,11 @@ struct PassTotal {
 };
 
 struct RunStatistics {
-  int64_t ticks = 0;    ///< at which something was due, recorded and submitted
-  int64_t packets = 0;  ///< complete, handed to the sink
-  std::map<std::string, int64_t> records;      ///< by sensor
-  std::map<std::string, PassTotal> passes;     ///< by scope name
-  std::map<std::string, uint64_t> counters;    ///< what sensors count: paths, candidates, overflows
+  int64_t ticks = 0;                         ///< at which something was due, recorded and submitted
+  int64_t packets = 0;                       ///< complete, handed to the sink
+  std::map<std::string, int64_t> records;    ///< by sensor
+  std::map<std::string, PassTotal> passes;   ///< by scope name
+  std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
   Consistency consistency;
 };
 
@@ -57,14 +57,19 @@ class Simulator {
   void drain(RecordSink& sink);
 
   int64_t next_tick() const { return next_tick_; }  ///< the tick that step() will record
-  const RunStatistics& statistics() const { return statistics_; }
+  RunStatistics statistics() const;
   void keep_pass_samples(bool keep) { keep_samples_ = keep; }
 
  private:
   struct InFlight;
-  TickContext context_at(int64_t tick);
-  std::vector<Motion> motions_at(double time_s) const;
-  void collect(InFlight& in_flight, RecordSink& sink);
+  struct Moment;
+  Moment moment_at(int64_t tick) const;
+  void add_sensors();
+  void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
+  void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
+  void record_ahead(gpu::TickSlot& slot);
+  void collect(const InFlight& in_flight, RecordSink& sink);
+  void compare_lidar_with_depth(const std::vector<Due>& due);
 
   const Scenario& scenario_;
   const World& world_;
@@ -79,10 +84,10 @@ class Simulator {
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<SensorSpec> specs_;
   std::vector<std::unique_ptr<Path>> paths_;
-  std::vector<Motion> motions_;     ///< of the tick being recorded
-  std::vector<Pose> body_poses_;
   std::unique_ptr<InFlight> pending_;
   int64_t next_tick_ = 0;
+  int64_t due_ticks_ = 0;  ///< of the sequence, before next_tick_
+  bool looks_ahead_ = false;
   bool keep_samples_ = false;
   RunStatistics statistics_;
 };

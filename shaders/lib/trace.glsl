@@ -19,6 +19,11 @@
 #include "lib/alpha.glsl"
 #endif
 
+// Which bodies the rays of this shader may meet (static_mask, moving_mask); all of them unless the shader says otherwise.
+#ifndef GREATX_TRACE_MASK
+#define GREATX_TRACE_MASK 0xffu
+#endif
+
 layout(set = 0, binding = tlas_binding) uniform accelerationStructureEXT tlas;
 
 const uint no_body = ~0u;
@@ -61,7 +66,7 @@ uint candidate_triangle(rayQueryEXT query, GpuPrimitive primitive) {
 /// The first triangle along origin + t * direction. Masked texels count as solid.
 Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, 0xff, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {}
   return committed_hit(query, t_max);
 }
@@ -70,7 +75,7 @@ Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
 /// one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
 Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, 0xff, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     uint triangle = candidate_triangle(query, primitive);
@@ -87,7 +92,7 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
 /// The first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are looked at one by one.
 Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, 0xff, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     uint triangle = candidate_triangle(query, primitive);
@@ -102,7 +107,7 @@ Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) 
 /// segment; no_facet: none). Masked texels count as solid.
 bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, 0xff, origin, t_min,
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK, origin, t_min,
                         direction, t_max);
   while (rayQueryProceedEXT(query)) {
     uint triangle = candidate_triangle(query, scene_primitive(candidate_primitive(query)));
@@ -159,5 +164,14 @@ vec3 offset_origin(HitPoint point, vec3 normal) {
                                                            ivec3(sign(normal)));
   // Next to zero the integer step would cross from -0 to NaN patterns; a denormal step is no step anyway.
   return mix(bumped, start, lessThan(abs(start), vec3(1e-30)));
+}
+/// The first triangle of another facet along a ray that leaves `facet` from a start made by offset_origin. The offset
+/// deals with what lies in the same plane; passing over the facet by name deals with the rest, on triangles so large or
+/// so thin that a driver's own rounding exceeds the offset.
+Hit trace_leaving(vec3 origin, vec3 direction, float t_max, uint facet) {
+  Hit hit = trace_closest(origin, 0.0, direction, t_max);
+  if (hit.hit && facet != no_facet && scene_facet(hit.triangle) == facet)
+    hit = trace_closest_except(origin, 0.0, direction, t_max, no_body, facet, false);
+  return hit;
 }
 #endif

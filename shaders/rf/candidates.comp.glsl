@@ -6,6 +6,9 @@
 // Rays share nothing, each writes to its own slots.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
+
+layout(constant_id = 0) const uint search_mask = 0xffu;  // bodies that reflect: static_mask, or moving ones as well
+#define GREATX_TRACE_MASK search_mask
 #include "lib/trace.glsl"
 
 layout(local_size_x = candidates_group) in;
@@ -26,9 +29,7 @@ void main() {
   uint left_facet = no_facet;
   uint depth = 0u;
   for (; depth < constants.max_depth; ++depth) {
-    Hit hit = trace_closest(origin, 0.0, direction, infinite_range);
-    if (hit.hit && left_facet != no_facet && scene_facet(hit.triangle) == left_facet)
-      hit = trace_closest_except(origin, 0.0, direction, infinite_range, no_body, left_facet, false);
+    Hit hit = trace_leaving(origin, direction, infinite_range, left_facet);
     if (!hit.hit) break;
     Corners corners = triangle_corners(hit.triangle, scene_primitive(hit.primitive).body);
     vec3 normal = geometric_normal(corners);

@@ -15,6 +15,10 @@ const uint material_flag_double_sided = 2u;
 const uint material_flag_reflectance_905nm = 4u;
 const uint material_flag_reflectance_1550nm = 8u;
 
+// Instance masks: which bodies a ray may meet.
+const uint static_mask = 1u;
+const uint moving_mask = 2u;
+
 struct GpuMaterial {
   vec4 base_color;
   vec3 emissive;

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/lighting.h"
+#include "renderer/probe.h"
+#include "rf/visibility.h"
+#include "sim/camera_sensor.h"
+#include "sim/channel_sensor.h"
+#include "sim/consistency.h"
+#include "sim/lidar_sensor.h"
+#include "sim/pose_sensor.h"
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
+constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever another one is
+constexpr size_t lidar_comparisons = 1024;
+
+scene::GpuSceneOptions gpu_scene_options(const EffectPlan& plan) {
+  return {plan.acceleration_structure.on, plan.textures.on || plan.alpha_mask.on || plan.lidar_alpha_mask.on};
+}
+
+render::CameraEffects camera_effects(const EffectPlan& plan) {
+  render::CameraEffects effects;
+  effects.sun = plan.sun.on;
+  effects.sky = plan.sky.on;
+  effects.static_shadows = plan.static_shadows.on;
+  effects.moving_shadows = plan.moving_shadows.on;
+  effects.textures = plan.textures.on;
+  effects.normal_maps = plan.normal_maps.on;
+  effects.alpha_mask = plan.alpha_mask.on;
+  effects.emissive = plan.emissive.on;
+  effects.punctual_lights = plan.punctual_lights.on;
+  return effects;
+}
+
+render::Lighting lighting_of(const Environment& environment) {
+  render::Lighting lighting;
+  lighting.sun_direction = render::Lighting::direction(environment.sun_azimuth, environment.sun_elevation);
+  lighting.sun_illuminance_lux = environment.sun_illuminance_lux;
+  lighting.sky_illuminance_lux = environment.sky_illuminance_lux;
+  return lighting;
+}
+
+}  // namespace
+
+/// Passes that several sensors share; only those of the plan exist.
+struct Simulator::Passes {
+  std::unique_ptr<render::SceneLighting> lighting;
+  std::unique_ptr<render::ProbePass> probe;
+  std::unique_ptr<rf::VisibilityPass> visibility;
+};
+
+/// A tick that was submitted and not yet collected.
+struct Simulator::InFlight {
+  const gpu::TickSlot* slot = nullptr;
+  int64_t tick = 0;
+  std::vector<Due> due;
+};
+
+/// Where everything is at a tick; owns what the context points at.
+struct Simulator::Moment {
+  std::vector<Motion> motions;
+  std::vector<Pose> bodies;
+  TickContext context;
+};
+
+Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World& world,
+                     const EffectPlan& plan)
+    : scenario_(scenario),
+      world_(world),
+      plan_(plan),
+      device_(device),
+      gpu_scene_(device, world.scene, gpu_scene_options(plan)),
+      ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
+      clock_(scenario.tick_rate_hz),
+      schedule_(scenario.tick_rate_hz),
+      passes_(std::make_unique<Passes>()) {
+  if (plan.camera.on)
+    passes_->lighting = std::make_unique<render::SceneLighting>(gpu_scene_, lighting_of(scenario.environment),
+                                                                camera_effects(plan));
+  if (plan.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
+  if (plan.channel.on) passes_->visibility = std::make_unique<rf::VisibilityPass>(gpu_scene_);
+  add_sensors();
+}
+
+Simulator::~Simulator() = default;
+
+void Simulator::add_sensors() {
+  sensors_.push_back(std::make_unique<PoseSensor>(scenario_, world_.scene.origin));
+  for (uint32_t node = 0; node < scenario_.nodes.size(); ++node) {
+    const std::vector<SensorConfig>& configs = scenario_.nodes[node].sensors;
+    for (uint32_t i = 0; i < configs.size(); ++i) {
+      if (std::holds_alternative<CameraConfig>(configs[i].config))
+        add(std::make_unique<CameraSensor>(*passes_->lighting, passes_->probe.get(), scenario_, world_, node,
+                                           i),
+            configs[i].rate_hz);
+      else if (std::holds_alternative<LidarConfig>(configs[i].config))
+        add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
+    }
+  }
+  for (uint32_t i = 0; i < scenario_.channels.size(); ++i)
+    add(std::make_unique<ChannelSensor>(gpu_scene_, *passes_->visibility, plan_, scenario_, world_, i),
+        scenario_.channels[i].rate_hz);
+  for (const auto& sensor : sensors_) {
+    specs_.push_back(sensor->spec());
+    looks_ahead_ |= sensor->looks_ahead();
+  }
+}
+
+void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz) {
+  sensors_.push_back(std::move(sensor));
+  schedule_.add(rate_hz);
+}
+
+void Simulator::start(uint32_t sequence, int64_t first_tick) {
+  GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
+  paths_ = make_paths(scenario_, sequence);
+  due_ticks_ = 0;
+  for (next_tick_ = schedule_.next(0, scenario_.ticks); next_tick_ < std::min(first_tick, scenario_.ticks);
+       ++due_ticks_)
+    next_tick_ = schedule_.next(next_tick_ + 1, scenario_.ticks);
+  if (next_tick_ >= scenario_.ticks) return;
+  const Moment moment = moment_at(next_tick_);
+  for (const auto& sensor : sensors_) sensor->start(moment.context);
+}
+
+Simulator::Moment Simulator::moment_at(int64_t tick) const {
+  Moment moment;
+  const double time_s = clock_.seconds(tick);
+  for (const auto& path : paths_) moment.motions.push_back(path->at(time_s));
+  moment.bodies = body_poses(world_, moment.motions);
+  moment.context.tick = tick;
+  moment.context.time_s = time_s;
+  const int64_t previous = schedule_.previous(tick);
+  moment.context.previous_time_s =
+      previous < 0 ? std::numeric_limits<double>::quiet_NaN() : clock_.seconds(previous);
+  moment.context.nodes = moment.motions;
+  moment.context.body_poses = moment.bodies;
+  moment.context.motion_at = [this](uint32_t node, double time) { return paths_[node]->at(time); };
+  return moment;
+}
+
+bool Simulator::step(RecordSink& sink) {
+  if (next_tick_ >= scenario_.ticks) {
+    drain(sink);
+    return false;
+  }
+  if (looks_ahead_ && pending_ != nullptr) ring_.wait(*pending_->slot);
+  const int64_t tick = next_tick_;
+  std::vector<Due> due{{poses_sensor, due_ticks_++}};
+  for (const Due& sensor : schedule_.due(tick)) due.push_back({sensor.sensor + 1, sensor.sample});
+
+  gpu::TickSlot& slot = ring_.begin();
+  record(slot, moment_at(tick), due);
+  next_tick_ = schedule_.next(tick + 1, scenario_.ticks);
+  if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(slot);
+  ring_.submit(slot);
+  ++statistics_.ticks;
+
+  drain(sink);  // the tick before, while the GPU works on this one
+  pending_ = std::make_unique<InFlight>(InFlight{&slot, tick, std::move(due)});
+  return true;
+}
+
+void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due) {
+  gpu_scene_.record_update(slot, moment.bodies);
+  const bool camera_due =
+      std::any_of(due.begin(), due.end(), [&](const Due& d) { return specs_[d.sensor].kind == "camera"; });
+  if (camera_due) passes_->lighting->record(slot, moment.bodies);
+  for (const Due& sensor : due) sensors_[sensor.sensor]->record(slot, moment.context);
+}
+
+void Simulator::record_ahead(gpu::TickSlot& slot) {
+  const Moment next = moment_at(next_tick_);
+  gpu_scene_.record_update(slot, next.bodies);
+  for (const auto& sensor : sensors_)
+    if (sensor->looks_ahead()) sensor->record_ahead(slot, next.context);
+}
+
+void Simulator::drain(RecordSink& sink) {
+  if (pending_ == nullptr) return;
+  const std::unique_ptr<InFlight> in_flight = std::move(pending_);
+  collect(*in_flight, sink);
+}
+
+void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
+  ring_.wait(*in_flight.slot);
+  Packet packet{in_flight.tick, clock_.nanoseconds(in_flight.tick), {}};
+  for (const Due& due : in_flight.due) {
+    packet.records.push_back({due.sensor, packet.tick, packet.time_ns, due.sample,
+                              sensors_[due.sensor]->collect(*in_flight.slot)});
+    ++statistics_.records[specs_[due.sensor].name];
+  }
+  if (plan_.consistency.on) compare_lidar_with_depth(in_flight.due);
+  for (const gpu::PassTime& pass : in_flight.slot->timestamps.read()) {
+    PassTotal& total = statistics_.passes[pass.name];
+    ++total.count;
+    total.milliseconds += pass.milliseconds;
+    if (keep_samples_) total.samples.push_back(pass.milliseconds);
+  }
+  sink.write(std::move(packet));
+  ++statistics_.packets;
+}
+
+void Simulator::compare_lidar_with_depth(const std::vector<Due>& due) {
+  for (const Due& a : due) {
+    const auto* lidar = dynamic_cast<const LidarSensor*>(sensors_[a.sensor].get());
+    if (lidar == nullptr || !lidar->instantaneous()) continue;
+    for (const Due& b : due) {
+      const auto* camera = dynamic_cast<const CameraSensor*>(sensors_[b.sensor].get());
+      if (camera == nullptr || camera->node() != lidar->node() || camera->images().depth.empty()) continue;
+      const Pose camera_from_lidar = camera->mount().inverse() * lidar->mount();
+      const render::LidarScan& scan = lidar->scan();
+      const size_t stride = std::max<size_t>(1, scan.size() / lidar_comparisons);
+      for (size_t i = 0; i < scan.size(); i += stride) {
+        const dvec3 point = camera_from_lidar.apply(dvec3(scan.points[i]));
+        const auto error = lidar_against_depth(camera->desc(), camera->images(), point, scan.instance[i]);
+        if (!error) continue;
+        ++statistics_.consistency.lidar_beams;
+        statistics_.consistency.lidar_error = std::max(statistics_.consistency.lidar_error, *error);
+      }
+    }
+  }
+}
+
+RunStatistics Simulator::statistics() const {
+  RunStatistics statistics = statistics_;
+  for (const auto& sensor : sensors_) {
+    sensor->report(statistics.consistency);
+    sensor->count(statistics.counters);
+  }
+  return statistics;
+}
+
+}  // namespace greatx::sim
