@@ -20,8 +20,9 @@ Canvas::Canvas(int width, int height, const Rgb& color)
     : width_(width), height_(height), colors_(static_cast<size_t>(width * height), color) {}
 
 size_t Canvas::index(int x, int y) const {
-  const int wrapped_x = ((x % width_) + width_) % width_, wrapped_y = ((y % height_) + height_) % height_;
-  return static_cast<size_t>(wrapped_y * width_ + wrapped_x);
+  if (x < 0 || x >= width_) x = ((x % width_) + width_) % width_;
+  if (y < 0 || y >= height_) y = ((y % height_) + height_) % height_;
+  return static_cast<size_t>(y * width_ + x);
 }
 
 void Canvas::rect(int x0, int y0, int x1, int y1, const Rgb& color) {

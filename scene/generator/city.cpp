@@ -92,7 +92,7 @@ void furnish_pavement(const Block& block, CityFurniture& furniture, RandomStream
     const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
     const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
     const bool lamps = edge == 0 || edge == 3;
-    const int slots = std::max(2, static_cast<int>(length / (avenue ? 11.0 : 15.0)));
+    const int slots = std::max(2, static_cast<int>(length / (avenue ? 12.0 : 16.0)));
     for (int i = 0; i < slots; ++i) {
       const dvec2 spot = a + along * (length * (i + 0.5) / slots) + inwards * 0.7;
       if (lamps && i % 3 == 1)
@@ -110,7 +110,7 @@ void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& ran
     const dvec2 along = (street.right[1] - street.right[0]) / length, left(-along.y, along.x);
     const int slots = static_cast<int>((length - 16.0) / 6.2);
     for (int i = 0; i < slots; ++i) {
-      if (random.uniform() > 0.2) continue;
+      if (random.uniform() > 0.13) continue;
       const dvec2 spot = street.right[0] + along * (9.0 + 6.2 * i + random.uniform(-0.3, 0.3)) + left * 1.25;
       furniture.car(spot, heading(along), random);
     }

@@ -44,6 +44,9 @@ class Country {
 
  private:
   void choose_sites();
+  /// Fields of a band that are not for crops, by row.
+  std::vector<Field> reserved(const std::array<int, 2>& band) const;
+  double wood_radius() const { return std::min(0.2 * terrain_.half(), 26.0); }
   void choose_fields();
   void add_ground();
   void add_hedges();
@@ -62,6 +65,7 @@ class Country {
   Terrain terrain_;
   std::vector<Site> farms_;
   Site pond_;
+  std::vector<dvec2> woods_;
   std::vector<Field> fields_;
   std::map<std::string, int> meshes_;
   int tree_count_ = 0, barn_count_ = 0;
@@ -99,48 +103,78 @@ void Country::choose_sites() {
     farms_.push_back(farm);
   }
   for (const Site& farm : farms_) terrain_.flatten(farm);
-  pond_.center = beside_road(-reach * random_.uniform(0.5, 0.7), std::min(0.52 * half, 78.0), side);
+  pond_.center = beside_road(-reach * random_.uniform(0.5, 0.7), std::min(0.74 * half, 112.0), side);
   pond_.inner_m = std::min(9.0, 0.1 * half);
   pond_.outer_m = 3.2 * pond_.inner_m;
+  const double limit = half - pond_.outer_m - 4.0;
+  pond_.center = snap(glm::clamp(pond_.center, dvec2(-limit), dvec2(limit)));
   double shore = 1e9;
   for (const dvec2& p : regular_polygon(24, pond_.outer_m, pond_.center))
     shore = std::min(shore, terrain_.height(p));
   pond_.level = snap(shore - 3.0);  // of the bed; the water stands 2 m above it
   terrain_.flatten(pond_);
+  for (const double sign : {-1.0, 1.0})
+    woods_.emplace_back(random_.uniform(-0.75, 0.75) * half, sign * 0.72 * half);
+}
+
+std::vector<Field> Country::reserved(const std::array<int, 2>& band) const {
+  std::vector<Field> fields;
+  const double step = terrain_.vertex(1, 0).x - terrain_.vertex(0, 0).x;
+  const auto reserve = [&](const dvec2& center, double reach, const char* name) {
+    const auto row_at = [&](double x) {
+      return std::clamp(static_cast<int>(std::lround((x + terrain_.half()) / step)), 0, terrain_.rows() - 1);
+    };
+    const int middle = row_at(center.x);
+    if (center.y < terrain_.vertex(middle, band[0]).y || center.y >= terrain_.vertex(middle, band[1]).y)
+      return;
+    const Field field{row_at(center.x - reach), row_at(center.x + reach), band[0], band[1], material(name)};
+    if (field.row1 > field.row0) fields.push_back(field);
+  };
+  for (const Site& farm : farms_) reserve(farm.center, farm.inner_m + 5.0, "grass");
+  reserve(pond_.center, pond_.outer_m + 5.0, "meadow");
+  for (const dvec2& wood : woods_) reserve(wood, 1.2 * wood_radius(), "meadow");
+  std::sort(fields.begin(), fields.end(), [](const Field& a, const Field& b) { return a.row0 < b.row0; });
+  return fields;
 }
 
 void Country::choose_fields() {
-  const std::array<const char*, 6> crops{"wheat", "crop", "ploughed_soil", "rapeseed", "meadow", "wheat"};
+  const std::array<const char*, 6> crops{"wheat", "crop", "ploughed_soil", "rapeseed", "crop", "wheat"};
   const int south = terrain_.road_south() - 1, north = terrain_.road_north() + 1,
             last = terrain_.columns() - 1;
   const std::array<std::array<int, 2>, 4> bands{
       {{0, south / 2}, {south / 2, south}, {north, (north + last) / 2}, {(north + last) / 2, last}}};
+  const int rows = terrain_.rows() - 1;
   for (const auto& band : bands) {
-    size_t before = crops.size();
-    for (int row = 0; row + 1 < terrain_.rows();) {
-      int end = std::min(row + 6 + static_cast<int>(random_.below(7)), terrain_.rows() - 1);
-      if (terrain_.rows() - 1 - end < 5) end = terrain_.rows() - 1;
-      size_t pick = random_.below(static_cast<uint32_t>(crops.size()));
-      if (pick == before) pick = (pick + 1) % crops.size();
-      before = pick;
-      fields_.push_back({row, end, band[0], band[1], material(crops[pick])});
-      row = end;
+    int before = -1, row = 0;
+    const auto fill = [&](int until) {  // with crops, no two alike side by side
+      while (row < until) {
+        int end = std::min(row + 6 + static_cast<int>(random_.below(6)), until);
+        if (until - end < 4) end = until;
+        size_t pick = random_.below(static_cast<uint32_t>(crops.size()));
+        while (material(crops[pick]) == before) pick = (pick + 1) % crops.size();
+        before = material(crops[pick]);
+        fields_.push_back({row, end, band[0], band[1], before});
+        row = end;
+      }
+    };
+    // Yards, the pond's banks and woods stand on grass.
+    for (const Field& field : reserved(band)) {
+      fill(field.row0);
+      if (field.row1 <= row) continue;
+      fields_.push_back({row, field.row1, band[0], band[1], field.material});
+      row = field.row1;
     }
+    fill(rows);
   }
 }
 
 void Country::add_ground() {
-  const int verge = material("verge"), meadow = material("meadow"), grass = material("grass");
+  const int verge = material("verge"), meadow = material("meadow");
   const int south = terrain_.road_south(), north = terrain_.road_north();
   MeshBuilder land, road, water;
   terrain_.add_surface(land, [&](int row, int column) {
     if (column == south) return -1;
     if (column == south - 1 || column == north) return verge;
-    const dvec2 middle =
-        0.5 * (dvec2(terrain_.vertex(row, column)) + dvec2(terrain_.vertex(row + 1, column + 1)));
-    for (const Site& farm : farms_)
-      if (glm::length(middle - farm.center) < farm.inner_m + 6.0) return grass;
-    if (glm::length(middle - pond_.center) < pond_.outer_m + 4.0) return meadow;
     for (const Field& f : fields_)
       if (row >= f.row0 && row < f.row1 && column >= f.column0 && column < f.column1) return f.material;
     return meadow;
@@ -260,12 +294,12 @@ void Country::add_farms() {
 }
 
 void Country::add_woods() {
-  const double half = terrain_.half();
-  for (int wood = 0; wood < 2; ++wood) {
-    const dvec2 center(random_.uniform(-0.75, 0.75) * half, (wood == 0 ? 0.72 : -0.72) * half);
+  for (size_t wood = 0; wood < woods_.size(); ++wood) {
+    const dvec2 center = woods_[wood];
     for (int i = 0; i < 22; ++i) {
-      const double angle = random_.uniform(0.0, 2.0 * pi), r = 0.22 * half * std::sqrt(random_.uniform());
-      add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)), (i + wood) % 2 == 0);
+      const double angle = random_.uniform(0.0, 2.0 * pi), r = wood_radius() * std::sqrt(random_.uniform());
+      add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)),
+               (static_cast<size_t>(i) + wood) % 2 == 0);
     }
   }
   for (int i = 0; i < 9; ++i) {  // around the pond

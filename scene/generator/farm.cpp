@@ -23,7 +23,7 @@ void add_house(MeshBuilder& mesh, const House& h) {
   mesh.quad(h.wall, {w, -l, bottom}, {w, l, bottom}, {w, l, eaves}, {w, -l, eaves});
   mesh.quad(h.wall, {-w, l, bottom}, {-w, -l, bottom}, {-w, -l, eaves}, {-w, l, eaves});
   for (const double side : {-1.0, 1.0}) {
-    const double y = side * l, x = -side * w;
+    const double y = side * l, x = side * w;
     const std::array<dvec3, 5> gable{dvec3(x, y, bottom), dvec3(-x, y, bottom), dvec3(-x, y, eaves),
                                      dvec3(0, y, ridge), dvec3(x, y, eaves)};
     mesh.polygon(h.gable, gable);

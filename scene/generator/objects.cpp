@@ -32,15 +32,15 @@ struct CrownPoint {
 
 /// A closed blob of two rings and two tips, shaded smoothly; `center_z` is where it is widest.
 void add_crown(MeshBuilder& mesh, int material, int shape, double low, double high, double radius) {
-  constexpr int sides = 7;
+  constexpr int sides = 6;
   const double center_z = 0.55 * low + 0.45 * high;
   const auto jitter = [&](int i, int k) {
     return (hash(i, k, static_cast<uint32_t>(shape)) % 1001) / 500.0 - 1.0;
   };
   const auto point = [&](int ring, int side) {
     const double angle = 2.0 * pi * (side % sides + 0.5 * ring) / sides;
-    const double r = radius * (ring == 0 ? 0.98 : 0.8) * (1.0 + 0.14 * jitter(side % sides, ring));
-    const double z = (ring == 0 ? low + 0.3 * (high - low) : low + 0.7 * (high - low)) +
+    const double r = radius * (ring == 0 ? 0.97 : 0.86) * (1.0 + 0.14 * jitter(side % sides, ring));
+    const double z = (ring == 0 ? low + 0.2 * (high - low) : low + 0.68 * (high - low)) +
                      0.08 * (high - low) * jitter(side % sides, ring + 2);
     return dvec3(r * std::cos(angle), r * std::sin(angle), z);
   };
@@ -138,12 +138,39 @@ void add_cabin(MeshBuilder& mesh, int roof, double z0, double z1, const dvec2& x
   mesh.quad(roof, low[3], low[2], low[1], low[0]);
 }
 
-void add_lights(MeshBuilder& mesh, double front, double rear, double half_width, double z) {
+/// Head lights at z.x, tail lights at z.y, a little proud of the body.
+void add_lights(MeshBuilder& mesh, double front, double rear, double half_width, const dvec2& z) {
   for (const double side : {-1.0, 1.0}) {
     const double y0 = side > 0 ? half_width - 0.42 : -half_width + 0.04;
-    mesh.box(material("headlight"), {front - 0.2, y0, z}, {front + 0.015, y0 + 0.38, z + 0.13});
-    mesh.box(material("tail_light"), {rear - 0.015, y0, z + 0.08}, {rear + 0.15, y0 + 0.38, z + 0.2});
+    mesh.box(material("headlight"), {front - 0.2, y0, z.x}, {front + 0.015, y0 + 0.38, z.x + 0.11});
+    mesh.box(material("tail_light"), {rear - 0.015, y0, z.y}, {rear + 0.15, y0 + 0.38, z.y + 0.14});
   }
+}
+
+/// A closed box that leans: its floor [low, high] at height low.z, moved by `shift` at the top.
+void add_leaning_box(MeshBuilder& mesh, int material, const dvec3& low, const dvec2& high,
+                     const dvec3& shift) {
+  const std::array<dvec3, 4> floor{low, dvec3(high.x, low.y, low.z), dvec3(high, low.z),
+                                   dvec3(low.x, high.y, low.z)};
+  for (size_t i = 0; i < 4; ++i) {
+    const dvec3 a = floor[i], b = floor[(i + 1) % 4];
+    mesh.quad(material, a, b, b + shift, a + shift);
+  }
+  mesh.quad(material, floor[3], floor[2], floor[1], floor[0]);
+  mesh.quad(material, floor[0] + shift, floor[1] + shift, floor[2] + shift, floor[3] + shift);
+}
+
+/// Pillars of the hatchback's cabin, on its glass, and mirrors.
+void add_pillars(MeshBuilder& mesh, int paint) {
+  struct Pillar {
+    double x0, x1, lean;
+  };
+  for (const Pillar& p : {Pillar{1.02, 1.11, -0.79}, Pillar{-0.33, -0.25, 0.0}, Pillar{-1.88, -1.7, 0.347}})
+    for (const double side : {-1.0, 1.0}) {
+      const double y0 = side > 0 ? 0.76 : -0.835;
+      add_leaning_box(mesh, paint, {p.x0, y0, 0.91}, {p.x1, y0 + 0.075}, {p.lean, -0.193 * side, 0.53});
+    }
+  for (const double y : {-1.0, 0.84}) mesh.box(paint, {0.72, y, 0.93}, {0.84, y + 0.16, 1.06});
 }
 
 MeshBuilder make_hatchback(int paint, bool detailed) {
@@ -155,15 +182,11 @@ MeshBuilder make_hatchback(int paint, bool detailed) {
   add_axle(mesh, 1.22, 0.31, 0.875, detailed);
   add_axle(mesh, -1.26, 0.31, 0.875, detailed);
   if (!detailed) return mesh;
-  add_lights(mesh, 1.98, -1.98, 0.86, 0.6);
+  add_lights(mesh, 1.98, -1.98, 0.86, {0.485, 0.67});
   mesh.box(material("bumper"), {1.8, -0.7, 0.30}, {2.01, 0.7, 0.44});
   mesh.box(material("bumper"), {-2.01, -0.7, 0.30}, {-1.8, 0.7, 0.44});
   mesh.box(material("number_plate"), {-1.99, -0.26, 0.52}, {-1.9, 0.26, 0.63});
-  for (const double x : {-0.45, 0.62})  // the pillars between the windows
-    for (const double side : {-1.0, 1.0}) {
-      const double y0 = side > 0 ? 0.6 : -0.84;
-      mesh.box(paint, {x, y0, 0.91}, {x + 0.07, y0 + 0.24, 0.98});
-    }
+  add_pillars(mesh, paint);
   mesh.box(paint, {-1.52, -0.635, 1.41}, {0.31, 0.635, 1.47});
   return mesh;
 }
@@ -177,7 +200,12 @@ MeshBuilder make_van(int paint, bool detailed) {
   add_axle(mesh, 1.68, 0.34, 0.975, detailed);
   add_axle(mesh, -1.62, 0.34, 0.975, detailed);
   if (!detailed) return mesh;
-  add_lights(mesh, 2.62, -2.62, 0.96, 0.66);
+  add_lights(mesh, 2.62, -2.62, 0.96, {0.62, 0.9});
+  for (const double side : {-1.0, 1.0}) {  // sills and mirrors
+    const double y0 = side > 0 ? 0.9 : -0.972;
+    mesh.box(material("bumper"), {-1.2, y0, 0.3}, {1.25, y0 + 0.072, 0.4});
+    mesh.box(material("bumper"), {1.3, side > 0 ? 0.9 : -1.14, 1.2}, {1.4, side > 0 ? 1.14 : -0.9, 1.45});
+  }
   mesh.box(material("bumper"), {2.4, -0.85, 0.32}, {2.66, 0.85, 0.5});
   mesh.box(material("bumper"), {-2.66, -0.85, 0.32}, {-2.4, 0.85, 0.5});
   mesh.box(material("number_plate"), {-2.635, -0.26, 0.6}, {-2.5, 0.26, 0.71});

@@ -61,7 +61,7 @@ double Terrain::height(const dvec2& point) const {
 }
 
 void Terrain::build_grid() {
-  const double cell = std::clamp(half_ / 20.0, 7.0, 14.0);
+  const double cell = std::clamp(half_ / 17.0, 6.0, 14.0);
   rows_ = static_cast<int>(std::lround(2.0 * half_ / cell)) + 1;
   side_ = std::max(3, static_cast<int>(std::lround(half_ / cell)));
   columns_ = 2 * side_ + 4;
