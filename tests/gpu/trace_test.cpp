@@ -1,0 +1,366 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Rays against triangles: the hard cases 1-10 of the catalogue, through shaders/lib/trace.glsl.
+#include "shaders/tests/trace_test.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "gpu/tick_ring.h"
+#include "scene/gpu_scene.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx {
+namespace {
+
+using shared::TraceTestRay;
+using shared::TraceTestResult;
+using test::TinyScene;
+using test::Triangle;
+constexpr uint32_t none = shared::trace_test_none;
+
+TraceTestRay ray(const dvec3& origin, const dvec3& direction, double t_max = 1e30) {
+  return {vec3(origin), 0.0f, vec3(direction), static_cast<float>(t_max), none, none};
+}
+
+/// Towards `target`, one unit of t away.
+TraceTestRay ray_towards(const dvec3& origin, const dvec3& target) {
+  return {vec3(origin), 0.0f, vec3(target) - vec3(origin), 1e30f, none, none};
+}
+
+std::vector<TraceTestResult> trace(const scene::Scene& scene, std::span<const TraceTestRay> rays,
+                                   const std::vector<Pose>& bodies = {Pose{}}) {
+  gpu::Device& device = test::device();
+  scene::GpuScene gpu_scene(device, scene, {});
+  gpu::ComputeDesc desc;
+  desc.shader = "tests/trace.comp";
+  desc.bindings = scene::GpuScene::bindings(true);
+  desc.bindings.push_back({shared::trace_test_rays_binding});
+  desc.bindings.push_back({shared::trace_test_results_binding});
+  desc.push_constant_bytes = sizeof(uint32_t);
+  const gpu::ComputePipeline pipeline(device, desc, "trace test");
+  const uint32_t count = static_cast<uint32_t>(rays.size());
+  gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, bodies);
+  const gpu::Slice upload = slot.upload.put(rays);
+  const gpu::Slice results = slot.readback.allocate_for<TraceTestResult>(count);
+  slot.cmd->bind(pipeline);
+  std::vector<gpu::Descriptor> descriptors = gpu_scene.descriptors();
+  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_rays_binding, upload));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_results_binding, results));
+  slot.cmd->push(descriptors);
+  slot.cmd->constants(count);
+  slot.cmd->dispatch((count + 63) / 64);
+  ring.submit(slot);
+  ring.wait(slot);
+  const std::span<TraceTestResult> answers = results.as<TraceTestResult>().first(count);
+  return {answers.begin(), answers.end()};
+}
+
+dvec3 random_direction(RandomStream& random) {
+  const double z = random.uniform(-1.0, 1.0), azimuth = random.uniform(0.0, 2.0 * M_PI),
+               r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+dmat3 random_rotation(RandomStream& random) {
+  return glm::mat3_cast(glm::angleAxis(random.uniform(0.0, 6.28), random_direction(random)));
+}
+
+/// A unit sphere's triangles: an octahedron split `levels` times.
+std::vector<Triangle> sphere(int levels, double radius, const dvec3& center) {
+  std::vector<Triangle> triangles;
+  const dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (const auto& [a, b, c] : {std::tuple{x, y, z},
+                                {y, -x, z},
+                                {-x, -y, z},
+                                {-y, x, z},
+                                {y, x, -z},
+                                {-x, y, -z},
+                                {-y, -x, -z},
+                                {x, -y, -z}})
+    triangles.push_back({a, b, c});
+  for (int level = 0; level < levels; ++level) {
+    std::vector<Triangle> finer;
+    for (const Triangle& t : triangles) {
+      const dvec3 ab = glm::normalize(t[0] + t[1]), bc = glm::normalize(t[1] + t[2]),
+                  ca = glm::normalize(t[2] + t[0]);
+      finer.insert(finer.end(), {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
+    }
+    triangles = finer;
+  }
+  for (Triangle& t : triangles)
+    for (dvec3& corner : t) corner = center + radius * corner;
+  return triangles;
+}
+
+TEST(Trace, HitsWhatItShould) {
+  TinyScene tiny;
+  tiny.quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5})
+      .quad({-1, -1, 7}, {1, -1, 7}, {1, 1, 7}, {-1, 1, 7});
+  TraceTestRay through = ray({0.25, -0.5, 0}, {0, 0, 2});
+  TraceTestRay skipping = through;
+  skipping.skip_facet = 0;
+  TraceTestRay short_one = ray({0.25, -0.5, 0}, {0, 0, 1}, 4.9);
+  const auto results =
+      trace(tiny.build(), std::vector{through, skipping, ray({3, 0, 0}, {0, 0, 1}), short_one});
+  EXPECT_EQ(results[0].triangle, 0u);
+  EXPECT_FLOAT_EQ(results[0].t, 2.5f);  // along the direction, in its lengths
+  EXPECT_EQ(results[0].next_triangle, 2u);
+  EXPECT_FLOAT_EQ(results[0].next_t, 3.5f);
+  EXPECT_EQ(results[0].any, 1u);
+  EXPECT_EQ(results[0].point, vec3(0.25f, -0.5f, 5.0f));
+  EXPECT_EQ(results[1].triangle, 0u);
+  EXPECT_EQ(results[1].except_triangle, 2u);
+  EXPECT_FLOAT_EQ(results[1].except_t, 3.5f);
+  EXPECT_EQ(results[2].triangle, none);
+  EXPECT_EQ(results[2].any, 0u);
+  EXPECT_EQ(results[3].triangle, none);
+  EXPECT_EQ(results[3].any, 0u);
+}
+
+TEST(Trace, PassesOverABodyExactly) {
+  // The body's face and a wall stand at the same place: only the wall may be seen.
+  TinyScene tiny;
+  tiny.object("wall").quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5});
+  const uint32_t body = tiny.body("drone");
+  tiny.object("drone", body).quad({-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2});
+  TraceTestRay up = ray({0.3, 0.1, 0}, {0, 0, 1});
+  up.skip_body = body;
+  const std::vector<Pose> poses{Pose{}, Pose{{0, 0, 3}, {1, 0, 0, 0}}};
+  const auto results = trace(tiny.build(), std::vector{up}, poses);
+  EXPECT_FLOAT_EQ(results[0].t, 5.0f);
+  EXPECT_EQ(results[0].except_triangle, 0u);
+  EXPECT_FLOAT_EQ(results[0].except_t, 5.0f);
+}
+
+TEST(HardCase, N01_SharedEdgeIsHitExactlyOnce) {
+  RandomStream random(1, 1);
+  for (int scene = 0; scene < 4; ++scene) {
+    const dmat3 turn = random_rotation(random);
+    const dvec3 a = turn * dvec3(-3, 0, 0), b = turn * dvec3(4, 0, 0);
+    TinyScene tiny;
+    tiny.triangle(a, b, turn * dvec3(1, 5, -2)).triangle(b, a, turn * dvec3(0, -4, -1));
+    std::vector<TraceTestRay> rays;
+    for (int i = 0; i < 8192; ++i)
+      rays.push_back(
+          ray_towards(turn * dvec3(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(5, 40)),
+                      a + random.uniform(0.02, 0.98) * (b - a)));
+    int missed = 0, twice = 0;
+    for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+      missed += result.triangle == none;
+      twice += result.triangle != none && result.next_triangle != none;
+    }
+    EXPECT_EQ(missed, 0) << "scene " << scene;
+    EXPECT_EQ(twice, 0) << "scene " << scene;
+  }
+}
+
+TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
+  RandomStream random(2, 1);
+  const dvec3 tip(0.3, -0.2, 1.7);
+  TinyScene tiny;
+  constexpr int blades = 9;
+  const auto rim = [](int i) {
+    return dvec3(4 * std::cos(2 * M_PI * i / blades), 4 * std::sin(2 * M_PI * i / blades), 0);
+  };
+  for (int i = 0; i < blades; ++i) tiny.triangle(tip, rim(i % blades), rim((i + 1) % blades));
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 8192; ++i)
+    rays.push_back(ray_towards({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(5, 40)}, tip));
+  int missed = 0, twice = 0;
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    missed += result.triangle == none;
+    twice += result.triangle != none && result.next_triangle != none;
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(twice, 0);
+}
+
+TEST(HardCase, N03_TwoStaticObjectsThatShareAnEdgeDoNotLeak) {
+  // Two instances of the scene, one body: one acceleration structure, whose edges are watertight.
+  TinyScene tiny;
+  tiny.object("left").triangle({-3, 0, 0.5}, {0, -5, 0}, {0, 5, 0});
+  tiny.object("right").triangle({3, 0, 0.7}, {0, 5, 0}, {0, -5, 0});
+  const scene::Scene scene = tiny.build();
+  ASSERT_EQ(scene.instances.size(), 2u);
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  RandomStream random(3, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 16384; ++i)
+    rays.push_back(ray_towards({random.uniform(-1, 1), random.uniform(-2, 2), random.uniform(5, 40)},
+                               {0, random.uniform(-4.8, 4.8), 0}));
+  int missed = 0;
+  for (const TraceTestResult& result : trace(scene, rays)) missed += result.triangle == none;
+  EXPECT_EQ(missed, 0);
+}
+
+TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
+  TinyScene tiny;
+  tiny.triangle({0, 0, 3}, {1, 0, 3}, {2, 0, 3})   // three corners on a line
+      .triangle({0, 0, 2}, {0, 0, 2}, {0, 0, 2})   // a point
+      .triangle({-1, 0, 1}, {1, 0, 1}, {1, 0, 1})  // a line twice
+      .quad({-5, -5, 9}, {5, -5, 9}, {5, 5, 9}, {-5, 5, 9});
+  std::vector<TraceTestRay> rays;
+  for (const dvec3& target : {dvec3(1, 0, 3), dvec3(0, 0, 2), dvec3(0.5, 0, 1), dvec3(0.25, 0, 3)}) {
+    rays.push_back(ray(dvec3(target.x, target.y, 0), {0, 0, 1}));
+    rays.push_back(ray_towards({0.1, 0.2, 0}, target));
+  }
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    EXPECT_GE(result.triangle, 3u);  // the quad behind them
+    EXPECT_LE(result.triangle, 4u);
+    EXPECT_TRUE(std::isfinite(result.t));
+    EXPECT_EQ(result.next_triangle, none);
+  }
+}
+
+TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
+  // A box whose lid is made of strips 1e-4 m wide next to wide ones.
+  TinyScene tiny;
+  tiny.quad({-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1})
+      .quad({-1, -1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1})
+      .quad({-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1})
+      .quad({-1, -1, -1}, {-1, -1, 1}, {-1, 1, 1}, {-1, 1, -1})
+      .quad({1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1});
+  std::vector<double> cuts;
+  for (int i = 0; i <= 20; ++i) cuts.insert(cuts.end(), {-1 + 0.1 * i, std::min(1.0, -1 + 0.1 * i + 1e-4)});
+  std::sort(cuts.begin(), cuts.end());
+  for (size_t i = 0; i + 1 < cuts.size(); ++i)
+    if (cuts[i + 1] > cuts[i])
+      tiny.quad({cuts[i], -1, 1}, {cuts[i + 1], -1, 1}, {cuts[i + 1], 1, 1}, {cuts[i], 1, 1});
+  RandomStream random(5, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 16384; ++i) {
+    const dvec3 from(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9));
+    // A third into the slivers, a third along their edges, a third anywhere.
+    const double cut = cuts[random.below(static_cast<uint32_t>(cuts.size()))];
+    const dvec3 to(i % 3 == 0 ? cut + random.uniform(0, 1e-4) : cut, random.uniform(-0.999, 0.999), 1);
+    rays.push_back(i % 3 == 2 ? ray(from, random_direction(random)) : ray_towards(from, to));
+  }
+  int leaked = 0;
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) leaked += result.triangle == none;
+  EXPECT_EQ(leaked, 0);
+}
+
+TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
+  TinyScene tiny;
+  tiny.box({-1, -1, -1}, {1, 1, 1}).quad({-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0});
+  RandomStream random(6, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 4096; ++i) {
+    const double azimuth = random.uniform(0, 2 * M_PI);
+    rays.push_back(ray({random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0},
+                       {std::cos(azimuth), std::sin(azimuth), 0}));
+  }
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    ASSERT_NE(result.triangle, none);  // the box's wall,
+    ASSERT_LT(result.triangle, 12u);   // not the quad in whose plane it runs
+    ASSERT_GE(result.t, 0.6f - 1e-6f);
+    ASSERT_LE(result.t, 2.0f);
+    ASSERT_TRUE(std::isfinite(result.start.x + result.start.y + result.start.z));
+  }
+}
+
+TEST(HardCase, N07_SceneAtUtmCoordinatesGivesTheSameBytes) {
+  const dvec3 utm(500000.0, 5411000.0, 35.0);
+  RandomStream random(7, 1);
+  TinyScene here, there;
+  for (int i = 0; i < 200; ++i) {
+    // Coordinates in steps of 2^-20 m, which fp64 holds at 5e6 m as well.
+    const auto grid = [&](double reach) {
+      return std::round(random.uniform(-reach, reach) * 0x1p20) * 0x1p-20;
+    };
+    const dvec3 a(grid(100), grid(100), grid(20)), b = a + dvec3(grid(9), grid(9), grid(9)),
+                                                   c = a + dvec3(grid(9), grid(9), grid(9));
+    here.triangle(a, b, c);
+    there.triangle(a + utm, b + utm, c + utm);
+  }
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 4096; ++i)
+    rays.push_back(ray({random.uniform(-50, 50), 1.0, 2.0}, random_direction(random)));
+  const auto near = trace(here.build(), rays), far = trace(there.build(utm), rays);
+  EXPECT_EQ(std::memcmp(near.data(), far.data(), near.size() * sizeof(near[0])), 0);
+}
+
+TEST(HardCase, N08_ATinyPartBesideAHugeTileIsStillHit) {
+  TinyScene tiny;
+  tiny.quad({-5000, -5000, 0}, {5000, -5000, 0}, {5000, 5000, 0}, {-5000, 5000, 0});
+  const dvec3 part(3, 4, 1);
+  tiny.triangle(part, part + dvec3(1e-4, 0, 0), part + dvec3(0, 1e-4, 0));
+  RandomStream random(8, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 4096; ++i) {
+    const double u = random.uniform(0.1, 0.8), v = random.uniform(0.1, 0.9 - u);
+    const dvec3 target = part + 1e-4 * dvec3(u, v, 0);
+    rays.push_back(ray_towards(target + dvec3(random.uniform(-2, 2), random.uniform(-2, 2), 4), target));
+  }
+  int hit = 0;
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) hit += result.triangle == 2;
+  EXPECT_EQ(hit, 4096);
+}
+
+TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
+  // At 5e5 m without a local origin the usual integer offset moves it by 8 m.
+  const dvec3 far(5e5, 4e5, 0);
+  TinyScene tiny;
+  tiny.quad(far + dvec3(-50, -50, 0), far + dvec3(50, -50, 0), far + dvec3(50, 50, 40),
+            far + dvec3(-50, 50, 40));
+  RandomStream random(9, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 4096; ++i)
+    rays.push_back(ray_towards(far + dvec3(random.uniform(-200, 200), -200, 300),
+                               far + dvec3(random.uniform(-40, 40), 10.0, 24.0)));
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    ASSERT_NE(result.triangle, none);
+    // Seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m where a rounding is 0.03 m.
+    ASSERT_LE(glm::length(result.start - result.point), 0.3f);
+    ASSERT_GT(glm::length(result.start - result.point), 0.0f);
+    ASSERT_EQ(result.leaving_triangle, none);
+  }
+  // Near the local origin it is microns.
+  TinyScene near;
+  near.quad({-5, -5, 1}, {5, -5, 1}, {5, 5, 2}, {-5, 5, 2});
+  const auto results = trace(near.build(), std::vector{ray({1, 1, 9}, {0, 0, -1})});
+  EXPECT_LE(glm::length(results[0].start - results[0].point), 5e-6f);
+}
+
+TEST(HardCase, N10_SelfHitSweep) {
+  // Convex solids from a millimetre to ten kilometres, some off the origin: a ray that is reflected off one from
+  // outside meets nothing.
+  RandomStream random(10, 1);
+  for (const double radius : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
+    for (const double offset : {0.0, 20.0}) {
+      const dvec3 center = offset * radius * dvec3(1.0, -0.7, 0.3);
+      TinyScene tiny;
+      for (const Triangle& t : sphere(3, radius, center)) tiny.triangle(t[0], t[1], t[2]);
+      std::vector<TraceTestRay> rays;
+      for (int i = 0; i < 4096; ++i)
+        rays.push_back(ray_towards(center + 3.0 * radius * random_direction(random),
+                                   center + 0.9 * radius * random_direction(random)));
+      int hits = 0, again = 0;
+      for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+        hits += result.triangle != none;
+        again += result.triangle != none && result.leaving_triangle != none;
+      }
+      EXPECT_GT(hits, 4000) << radius;
+      EXPECT_EQ(again, 0) << "radius " << radius << " m, offset " << offset;
+    }
+  }
+}
+
+TEST(HardCase, N64_NothingToHit) {
+  const auto results = trace(TinyScene().build(), std::vector{ray({0, 0, 0}, {0, 0, 1})});
+  EXPECT_EQ(results[0].triangle, none);
+  EXPECT_EQ(results[0].any, 0u);
+  EXPECT_EQ(results[0].except_triangle, none);
+}
+
+}  // namespace
+}  // namespace greatx

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/visibility.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx::rf {
+namespace {
+
+using test::TinyScene;
+using testing::ElementsAre;
+
+std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
+                             const std::vector<Pose>& bodies = {Pose{}}) {
+  gpu::Device& device = test::device();
+  scene::GpuScene gpu_scene(device, scene, {});
+  VisibilityPass pass(gpu_scene);
+  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, bodies);
+  const VisibilityPass::Pending pending = pass.record(slot, segments);
+  ring.submit(slot);
+  ring.wait(slot);
+  return pass.collect(pending);
+}
+
+Segment segment(const dvec3& a, const dvec3& b) {
+  Segment s;
+  s.a = a;
+  s.b = b;
+  return s;
+}
+
+/// Facet 0: a wall in the plane x = 0, facing +x; facet 1: the ground z = 0.
+TinyScene wall_on_ground() {
+  TinyScene tiny;
+  tiny.quad({0, -20, 0}, {0, 20, 0}, {0, 20, 10}, {0, -20, 10})
+      .quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+  return tiny;
+}
+
+TEST(Visibility, WallBlocksAndTheWayAroundItDoesNot) {
+  const std::vector<Segment> segments{
+      segment({-5, 0, 2}, {5, 0, 2}),    // through the wall
+      segment({-5, 0, 12}, {5, 0, 12}),  // above it
+      segment({5, 0, 2}, {-5, 0, 2}),    // from the other side
+      segment({-5, 25, 2}, {5, 25, 2}),  // beside it
+      segment({1, 0, 2}, {5, 0, 2}),     // in front
+      segment({5, 0, 2}, {5, 0, -2}),    // through the ground
+      segment({2, 3, 4}, {2, 3, 4}),     // a point
+  };
+  EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(0, 1, 0, 1, 1, 0, 1));
+}
+
+TEST(Visibility, TheFacetsOfTheEndsDoNotBlock) {
+  // A reflection at the wall, rounded to behind it.
+  Segment s = segment({8, 0, 3}, {-3e-4, 1, 2});
+  EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
+  s.facet_b = 0;
+  EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(1));
+  // Another facet than the one named still does.
+  s = segment({8, 0, 3}, {-4, 0, -1});
+  s.facet_b = 1;
+  EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
+}
+
+TEST(Visibility, TheBodiesOfTheEndsDoNotBlock) {
+  TinyScene tiny = wall_on_ground();
+  const uint32_t drone = tiny.body("drone"), car = tiny.body("car");
+  tiny.object("drone", drone).box({-1, -1, -1}, {1, 1, 1});
+  tiny.object("car", car).box({-1, -1, -1}, {1, 1, 1});
+  const std::vector<Pose> poses{Pose{}, Pose{{10, 0, 8}, {1, 0, 0, 0}}, Pose{{20, 0, 8}, {1, 0, 0, 0}}};
+  Segment plain = segment({10, 0, 8}, {30, 0, 8}), own = plain, both = plain, reversed = plain;
+  own.body_a = drone;
+  both.body_a = drone;
+  both.body_b = car;
+  std::swap(reversed.a, reversed.b);
+  reversed.body_a = car;
+  reversed.body_b = drone;
+  Segment moved = segment({10, 0, 12}, {10, 0, 9.5});
+  EXPECT_THAT(visible(tiny.build(), std::vector{plain, own, both, reversed, moved}, poses),
+              ElementsAre(0, 0, 1, 1, 1));
+}
+
+TEST(Visibility, FacetsOfMovingBodiesAreWhereTheBodyIs) {
+  TinyScene tiny;
+  const uint32_t car = tiny.body("car");
+  tiny.object("car", car).quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
+  const std::vector<Pose> poses{
+      Pose{}, Pose{{100, 50, 3}, orientation_from_yaw_pitch_roll(0.5 * 3.14159265358979, 0, 0)}};
+  // Turned by 90 degrees, the plate lies in the plane y = 50.
+  const std::vector<Segment> segments{
+      segment({100, 45, 3}, {100, 55, 3}), segment({95, 50, 3.5}, {105, 50, 3.5}),
+      segment({100, 49.995, 3}, {100, 40, 3}), segment({100, 50.005, 3}, {100, 40, 3}),
+      segment({100, 50, 3}, {100, 40, 3})};
+  EXPECT_THAT(visible(tiny.build(), segments, poses), ElementsAre(0, 1, 1, 0, 1));
+}
+
+TEST(Visibility, EmptyBatchRecordsNothing) {
+  gpu::Device& device = test::device();
+  const scene::Scene scene = wall_on_ground().build();
+  scene::GpuScene gpu_scene(device, scene, {});
+  VisibilityPass pass(gpu_scene);
+  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, std::vector{Pose{}});
+  const uint64_t before = device.counters().dispatches;
+  EXPECT_TRUE(pass.collect(pass.record(slot, {})).empty());
+  EXPECT_EQ(device.counters().dispatches, before);
+  ring.submit(slot);
+  ring.wait(slot);
+}
+
+TEST(Visibility, EachAnswerDependsOnItsSegmentAlone) {
+  RandomStream random(4, 4);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 500; ++i) {
+    const auto point = [&] {
+      return dvec3(random.uniform(-30, 30), random.uniform(-30, 30), random.uniform(-3, 15));
+    };
+    segments.push_back(segment(point(), point()));
+  }
+  const scene::Scene scene = wall_on_ground().build();
+  const std::vector<uint8_t> together = visible(scene, segments);
+  std::vector<Segment> backwards(segments.rbegin(), segments.rend());
+  std::vector<uint8_t> again = visible(scene, backwards);
+  std::reverse(again.begin(), again.end());
+  EXPECT_EQ(together, again);
+  EXPECT_EQ(visible(scene, std::span(segments).first(1))[0], together[0]);
+}
+
+TEST(HardCase, N06_SegmentInAWallsPlaneIsFiniteAndDefined) {
+  // Along the wall's plane: the surface does not block what lies in it; the ground below still does.
+  const std::vector<Segment> segments{segment({0, -30, 2}, {0, 30, 2}), segment({0, -10, 2}, {0, 10, 5}),
+                                      segment({0, 0, 2}, {0, 0, -2})};
+  EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(1, 1, 0));
+}
+
+TEST(HardCase, N07_VisibilityAtUtmCoordinatesIsTheSame) {
+  const dvec3 utm(500000.0, 5411000.0, 35.0);
+  TinyScene there;
+  there.quad(utm + dvec3(0, -20, 0), utm + dvec3(0, 20, 0), utm + dvec3(0, 20, 10), utm + dvec3(0, -20, 10))
+      .quad(utm + dvec3(-50, -50, 0), utm + dvec3(50, -50, 0), utm + dvec3(50, 50, 0),
+            utm + dvec3(-50, 50, 0));
+  RandomStream random(7, 4);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 2000; ++i) {
+    const auto point = [&] {
+      return dvec3(random.uniform(-30, 30), random.uniform(-30, 30), random.uniform(-3, 15));
+    };
+    segments.push_back(segment(point(), point()));
+  }
+  const std::vector<uint8_t> near = visible(wall_on_ground().build(), segments);
+  EXPECT_EQ(near, visible(there.build(utm), segments));
+  EXPECT_THAT(near, testing::Contains(0));
+  EXPECT_THAT(near, testing::Contains(1));
+}
+
+TEST(HardCase, N11_PointExactlyOnASurfaceIsSeenFromBothSides) {
+  const std::vector<Segment> segments{segment({5, 3, 4}, {0, 1, 2}),    // on the wall, from its front
+                                      segment({-5, 3, 4}, {0, 1, 2}),   // from its back
+                                      segment({0, 1, 2}, {5, 3, 4}),    // the other way round
+                                      segment({5, 1, 8}, {9, 4, 0}),    // a receiver on the ground
+                                      segment({5, 1, -8}, {9, 4, 0}),   // from below
+                                      segment({-5, 1, 8}, {9, 4, 0})};  // with the wall between
+  EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(1, 1, 1, 1, 1, 0));
+}
+
+TEST(HardCase, N12_TransmitterFiveMillimetresFromAWallKeepsItsPaths) {
+  // In front of the wall it sees the front alone, at the local origin and 10 km from it.
+  for (const double shift : {0.0, 300.0, 10000.0}) {
+    const dvec3 there(0, shift, 0);
+    TinyScene tiny;
+    tiny.quad(there + dvec3(shift, -20, 0), there + dvec3(shift, 20, 0), there + dvec3(shift, 20, 10),
+              there + dvec3(shift, -20, 10));
+    const auto at = [&](double x, double y, double z) { return there + dvec3(shift + x, y, z); };
+    const std::vector<Segment> segments{
+        segment(at(0.005, 0, 5), at(30, 5, 2)),      // away from the wall
+        segment(at(0.005, 0, 5), at(0.005, 15, 5)),  // along it
+        segment(at(0.005, 0, 5), at(-30, 5, 2)),     // through it
+        segment(at(-0.005, 0, 5), at(30, 5, 2)),     // from 5 mm behind it
+        segment(at(-0.005, 0, 5), at(-30, 5, 2)),
+    };
+    EXPECT_THAT(visible(tiny.build(), segments), ElementsAre(1, 1, 0, 0, 1)) << "at " << shift << " m";
+    // The reflection at that very wall.
+    Segment down = segment(at(0.005, 0, 5), at(0, 0.001, 5)), up = segment(at(0, 0.001, 5), at(30, 6, 5));
+    down.facet_b = 0;
+    up.facet_a = 0;
+    EXPECT_THAT(visible(tiny.build(), std::vector{down, up}), ElementsAre(1, 1)) << "at " << shift << " m";
+  }
+}
+
+TEST(HardCase, N23_TwoWallsFourMillimetresApartHideWhatIsBehind) {
+  TinyScene tiny;
+  tiny.quad({0, -20, 0}, {0, 20, 0}, {0, 20, 10}, {0, -20, 10})
+      .quad({-0.004, -20, 0}, {-0.004, 20, 0}, {-0.004, 20, 10}, {-0.004, -20, 10});
+  Segment front = segment({9, 0, 5}, {0, 1, 5}), back = segment({9, 0, 5}, {-0.004, 1, 5}), between = front;
+  front.facet_b = 0;
+  back.facet_b = 1;
+  between.a = {-0.004, 0.5, 5};
+  between.facet_a = 1;
+  between.facet_b = 0;
+  EXPECT_THAT(visible(tiny.build(), std::vector{front, back, between}), ElementsAre(1, 0, 1));
+}
+
+TEST(HardCase, N64_EverythingIsVisibleInAnEmptyScene) {
+  EXPECT_THAT(visible(TinyScene().build(), std::vector{segment({0, 0, 0}, {1, 2, 3})}), ElementsAre(1));
+}
+
+}  // namespace
+}  // namespace greatx::rf
