@@ -146,10 +146,14 @@ class Merger {
     taken_[seed] = true;
     for (size_t next = 0; next < group.triangles.size(); ++next) {
       edges_.for_each_neighbour(group.triangles[next], [&](uint32_t neighbour) {
-        if (taken_[neighbour] || !faces_along(plane, neighbour) || !lies_in(plane, neighbour)) return;
+        if (taken_[neighbour]) return;
+        // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own badly.
+        PlaneFit trial = plane;
+        if (!fixed) trial.add(doubled_area_normals_[neighbour], centroid(neighbour));
+        if (!faces_along(trial, neighbour) || !lies_in(trial, neighbour)) return;
+        plane = trial;
         taken_[neighbour] = true;
         group.triangles.push_back(neighbour);
-        if (!fixed) plane.add(doubled_area_normals_[neighbour], centroid(neighbour));
       });
     }
     return group;

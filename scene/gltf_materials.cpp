@@ -83,8 +83,9 @@ PbrMaterial read_pbr(const tinygltf::Material& source, const json& document, con
   pbr.base_color = color_of<vec4>(metallic_roughness.baseColorFactor, what + ", baseColorFactor");
   pbr.metallic = in_range(metallic_roughness.metallicFactor, 1.0, what + ", metallicFactor");
   pbr.roughness = in_range(metallic_roughness.roughnessFactor, 1.0, what + ", roughnessFactor");
-  pbr.emissive =
-      color_of<vec3>(source.emissiveFactor, what + ", emissiveFactor") * emissive_strength(document, what);
+  if (!source.emissiveFactor.empty())
+    pbr.emissive = color_of<vec3>(source.emissiveFactor, what + ", emissiveFactor");
+  pbr.emissive *= emissive_strength(document, what);
   pbr.normal_scale = static_cast<float>(source.normalTexture.scale);
   pbr.double_sided = source.doubleSided;
   pbr.base_color_texture =

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a material's radio properties come from: name, extension, sidecar.
+#include "tests/scene/gltf_writer.h"
+
+namespace greatx::scene {
+namespace {
+
+using test::expect_user_error;
+using test::GltfWriter;
+using test::json;
+using test::TemporaryFolder;
+
+GltfWriter quad_with(json material) {
+  GltfWriter writer;
+  writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.material(std::move(material)));
+  return writer;
+}
+
+json with_extension(json fields, const std::string& name = "paint") {
+  return {{"name", name}, {"extensions", {{"GREATX_radio_material", std::move(fields)}}}};
+}
+
+RadioMaterial load_extension(json fields) {
+  return *quad_with(with_extension(std::move(fields))).load().materials.at(0).radio;
+}
+
+Material load_with_sidecar(const std::string& yaml, json material) {
+  const TemporaryFolder folder;
+  LoadOptions options;
+  options.radio_materials = folder.write("radio.yaml", yaml);
+  return quad_with(std::move(material)).load(options).materials.at(0);
+}
+
+TEST(RadioMaterial, ItuNameInTheFile) {
+  for (const char* name : {"itu_concrete", "itu_concrete.001", "ITU-Concrete", "mat-itu_concrete"}) {
+    const Model model = quad_with({{"name", name}}).load();
+    ASSERT_TRUE(model.materials.at(0).radio) << name;
+    const RadioMaterial& radio = *model.materials[0].radio;
+    EXPECT_EQ(radio.layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, concrete");
+    EXPECT_EQ(radio.layers[0].thickness_m, 0.0);  // a half-space
+    EXPECT_EQ(radio.scattering_coefficient, 0.0);
+  }
+}
+
+TEST(RadioMaterial, ExtensionWithEveryField) {
+  const Model model = quad_with(with_extension({{"itu", "brick"},
+                                                {"thickness_m", 0.24},
+                                                {"extrapolate", true},
+                                                {"scattering_coefficient", 0.3},
+                                                {"pattern", "backscattering"},
+                                                {"pattern_exponent", 5},
+                                                {"backscatter_exponent", 6},
+                                                {"backscatter_share", 0.25},
+                                                {"cross_polarization", 0.1},
+                                                {"roughness_m", 0.002},
+                                                {"reflectance_905nm", 0.4},
+                                                {"reflectance_1550nm", 0.35}}))
+                          .load();
+  const Material& material = model.materials.at(0);
+  ASSERT_TRUE(material.radio);
+  EXPECT_EQ(material.radio->layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, brick");
+  EXPECT_TRUE(material.radio->layers[0].medium.extrapolate);
+  EXPECT_EQ(material.radio->layers[0].thickness_m, 0.24);
+  EXPECT_EQ(material.radio->scattering_coefficient, 0.3);
+  EXPECT_EQ(material.radio->pattern, ScatteringPattern::backscattering);
+  EXPECT_EQ(material.radio->pattern_exponent, 5.0);
+  EXPECT_EQ(material.radio->backscatter_exponent, 6.0);
+  EXPECT_EQ(material.radio->backscatter_share, 0.25);
+  EXPECT_EQ(material.radio->cross_polarization, 0.1);
+  EXPECT_EQ(material.radio->roughness_m, 0.002);
+  EXPECT_EQ(material.reflectance_905nm, 0.4f);
+  EXPECT_EQ(material.reflectance_1550nm, 0.35f);
+}
+
+TEST(RadioMaterial, ExplicitRowsAndPermittivity) {
+  const json row = {{"a", 5.0}, {"b", -0.1}, {"c", 0.02}, {"d", 0.9}, {"min_hz", 1e9}, {"max_hz", 1e11}};
+  for (const RadioMaterial& radio : {load_extension(row), load_extension({{"rows", json::array({row})}})}) {
+    ASSERT_EQ(radio.layers.at(0).medium.rows.size(), 1u);
+    EXPECT_EQ(radio.layers[0].medium.source, "explicit a, b, c, d");
+    EXPECT_EQ(radio.layers[0].medium.rows[0].b, -0.1);
+    EXPECT_EQ(radio.layers[0].medium.rows[0].max_hz, 1e11);
+  }
+  const RadioMaterial constant = load_extension({{"relative_permittivity", 4.0}, {"conductivity", 0.02}});
+  for (const double hertz : {1e6, 28e9, 1e12}) {
+    const auto eta = relative_permittivity(constant.layers.at(0).medium, hertz, "paint");
+    EXPECT_EQ(eta.real(), 4.0);
+    EXPECT_NEAR(eta.imag() * hertz, -0.02 / (2 * 3.14159265358979 * 8.8541878128e-12), 1.0);
+  }
+}
+
+TEST(RadioMaterial, LayersInOrder) {
+  const json glass = {{"itu", "glass"}, {"thickness_m", 0.006}};
+  const json air = {{"relative_permittivity", 1.0}, {"conductivity", 0.0}, {"thickness_m", 0.012}};
+  const RadioMaterial pane =
+      load_extension({{"layers", {glass, air, {{"itu", "glass"}, {"thickness_m", 0.004}}}}});
+  ASSERT_EQ(pane.layers.size(), 3u);
+  EXPECT_EQ(pane.layers[0].thickness_m, 0.006);
+  EXPECT_EQ(pane.layers[1].medium.source, "explicit permittivity");
+  EXPECT_EQ(pane.layers[2].thickness_m, 0.004);
+}
+
+TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
+  const auto refuse = [](json fields, std::vector<std::string> parts) {
+    parts.insert(parts.end(), {"test.glb", "paint"});
+    expect_user_error([&] { load_extension(fields); }, parts);
+  };
+  refuse({{"itu", "unobtanium"}}, {"GREATX_radio_material.itu", "unobtanium", "concrete"});
+  refuse({{"itu", "concrete"}, {"thickness_m", 0.0}}, {"thickness_m", "above 0"});
+  refuse({{"itu", "concrete"}, {"thickness_m", -0.1}}, {"thickness_m", "-0.1"});
+  refuse({{"itu", "concrete"}, {"thickness_m", "0.1 m"}}, {"thickness_m", "'0.1 m'"});
+  refuse({{"itu", "concrete"}, {"scattering_coefficient", 1.5}},
+         {"scattering_coefficient", "from 0 to 1", "1.5"});
+  refuse({{"itu", "concrete"}, {"cross_polarization", -0.1}}, {"cross_polarization"});
+  refuse({{"itu", "concrete"}, {"pattern", "spiky"}}, {"pattern", "spiky", "lambertian"});
+  refuse({{"itu", "concrete"}, {"pattern_exponent", 2.5}}, {"pattern_exponent", "whole number"});
+  refuse({{"itu", "concrete"}, {"roughness_m", -1}}, {"roughness_m"});
+  refuse({{"itu", "concrete"}, {"reflectance_905nm", 2}}, {"reflectance_905nm"});
+  refuse({{"itu", "concrete"}, {"thicknes_m", 0.1}}, {"unknown key 'thicknes_m'", "thickness_m"});
+  refuse({{"itu", "concrete"}, {"relative_permittivity", 4}, {"conductivity", 0}}, {"given twice"});
+  refuse({{"relative_permittivity", 4}}, {"conductivity", "missing"});
+  refuse({{"relative_permittivity", 0.5}, {"conductivity", 0}}, {"relative_permittivity", "1 or more"});
+  refuse({{"a", 4}, {"b", 0}, {"c", 0.1}, {"d", 0}}, {"missing", "max_hz"});
+  refuse({{"a", 4}, {"b", 0}, {"c", 0.1}, {"d", 0}, {"min_hz", 2e9}, {"max_hz", 1e9}},
+         {"min_hz below max_hz"});
+  refuse({{"rows", json::array()}}, {"rows", "a list of rows"});
+  refuse({{"layers", json::array()}}, {"layers"});
+  const json no_thickness = {{"itu", "glass"}}, no_medium = {{"thickness_m", 0.1}};
+  const json good = {{"itu", "glass"}, {"thickness_m", 0.1}};
+  refuse({{"layers", json::array({no_thickness})}}, {"layers[0]", "thickness_m"});
+  refuse({{"layers", json::array({no_medium})}}, {"layers[0]", "needs a medium"});
+  refuse({{"layers", json::array({good})}, {"itu", "glass"}}, {"layers exclude"});
+  refuse({{"thickness_m", 0.1}}, {"need a medium"});
+  refuse({{"scattering_coefficient", 0.1}}, {"need a medium"});
+  refuse(json::array(), {"expected a map"});
+}
+
+TEST(RadioMaterial, UsedMaterialsWithoutRadioAreListedInOneError) {
+  GltfWriter writer;
+  writer.add_triangles("house", test::unit_quad(), test::quad_indices(),
+                       writer.material({{"name", "stucco"}}));
+  writer.add_triangles("street", test::unit_quad(), test::quad_indices(),
+                       writer.material({{"name", "tar \"new\""}}));
+  writer.add_triangles("ok", test::unit_quad(), test::quad_indices(), writer.itu_material());
+  writer.add_triangles("odd", test::unit_quad(), test::quad_indices(), writer.itu_material("itu_unobtanium"));
+  writer.material({{"name", "unused"}});
+  const json bare = {{"attributes", {{"POSITION", writer.vec3s(test::unit_quad())}}},
+                     {"indices", writer.indices32(test::quad_indices())}};
+  writer.root({{"name", "bare"}, {"mesh", writer.mesh("bare", json::array({bare}))}});
+  expect_user_error(
+      [&] { writer.load(); },
+      {"test.glb", "4 materials", "\nmaterials:", "\n  \"stucco\": { itu: ", "\"tar \\\"new\\\"\": {",
+       "mesh 'house'", "mesh 'street'", "\"default_material\": {", "'unobtanium' is no material"});
+  try {
+    writer.load();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("unused")));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\"itu_concrete\"")));
+  }
+  LoadOptions optical;
+  optical.optical_only = true;
+  const Model model = writer.load(optical);
+  EXPECT_EQ(model.materials.size(), 5u);  // the unused one is not kept
+  EXPECT_FALSE(model.materials.at(0).radio);
+}
+
+TEST(RadioSidecar, TheLinesOfTheErrorAreTheCure) {
+  const GltfWriter writer = quad_with({{"name", "tar \"new\""}});
+  std::string message;
+  try {
+    writer.load();
+  } catch (const UserError& error) {
+    message = error.what();
+  }
+  const TemporaryFolder folder;
+  LoadOptions options;
+  options.radio_materials = folder.write("radio.yaml", message.substr(message.find("materials:")));
+  EXPECT_EQ(writer.load(options).materials.at(0).radio->layers.at(0).thickness_m, 0.3);
+}
+
+TEST(RadioSidecar, ExactNameBeatsGlobAndFirstGlobWins) {
+  const std::string yaml =
+      "materials:\n"
+      "  \"pa*\": { itu: wood, thickness_m: 0.02 }\n"
+      "  \"*\": { itu: glass }\n"
+      "  paint: { itu: metal }\n";
+  EXPECT_EQ(load_with_sidecar(yaml, {{"name", "paint"}}).radio->layers.at(0).medium.source,
+            "ITU-R P.2040-4 Table 3, metal");
+  EXPECT_EQ(load_with_sidecar(yaml, {{"name", "pane"}}).radio->layers.at(0).medium.source,
+            "ITU-R P.2040-4 Table 3, wood");
+  EXPECT_EQ(load_with_sidecar(yaml, {{"name", "other"}}).radio->layers.at(0).medium.source,
+            "ITU-R P.2040-4 Table 3, glass");
+}
+
+TEST(RadioSidecar, LaysOverNameAndExtension) {
+  const Material named =
+      load_with_sidecar("materials:\n  itu_marble: { thickness_m: 0.3 }\n", {{"name", "itu_marble"}});
+  EXPECT_EQ(named.radio->layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, marble");
+  EXPECT_EQ(named.radio->layers[0].thickness_m, 0.3);
+  const Material over =
+      load_with_sidecar("materials:\n  paint: { itu: glass, reflectance_905nm: 0.1 }\n",
+                        with_extension({{"itu", "brick"}, {"scattering_coefficient", 0.2}}));
+  EXPECT_EQ(over.radio->layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, glass");
+  EXPECT_EQ(over.radio->scattering_coefficient, 0.2);
+  EXPECT_EQ(over.reflectance_905nm, 0.1f);
+}
+
+TEST(RadioSidecar, ErrorsHaveFileAndLine) {
+  const auto refuse = [](const std::string& yaml, const std::vector<std::string>& parts) {
+    expect_user_error([&] { load_with_sidecar(yaml, {{"name", "paint"}}); }, parts);
+  };
+  refuse("materials:\n  paint:\n    itu: concrete\n    colour: red\n",
+         {"radio.yaml:4", "unknown key 'colour'", "materials.paint"});
+  // An entry that the model does not use is checked as well.
+  refuse("materials:\n  paint: { itu: concrete }\n  other: { itu: cheese }\n", {"radio.yaml:3", "cheese"});
+  refuse("materials:\n  paint: { itu: concrete, thickness_m: -1 }\n", {"radio.yaml:2", "thickness_m", "-1"});
+  refuse("materials:\n  paint: { itu: concrete, thickness_m: \"0.3\" }\n", {"radio.yaml:2", "'0.3'"});
+  refuse("stuff: 1\n", {"radio.yaml:1", "unknown or repeated key 'stuff'"});
+  refuse("materials:\n  - paint\n", {"radio.yaml", "a map of names or globs"});
+  refuse("materials:\n  paint: { itu: concrete\n", {"radio.yaml", "not valid YAML"});
+  refuse("materials:\n  paint: { itu: concrete }\n  paint: { itu: glass }\n",
+         {"radio.yaml:3", "given twice"});
+  refuse("", {"radio.yaml:1", "expected a map"});
+  LoadOptions missing;
+  missing.radio_materials = "/nonexistent/radio.yaml";
+  expect_user_error(
+      [&] {
+        quad_with({{"name", "paint"}}).load(missing);
+      },
+      {"/nonexistent/radio.yaml", "exist"});
+}
+
+}  // namespace
+}  // namespace greatx::scene
