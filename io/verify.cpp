@@ -159,11 +159,9 @@ void Verifier::check_row(const DatasetReader& reader, uint32_t sequence, const I
   };
   const SampleClock clock(reader.info().tick_rate, sensor.rate.empty() ? "1" : sensor.rate);
   expect("row", expected_sample, row.row);
+  expect("sample", expected_sample, row.sample);
   expect("time in ns", clock.time_ns(row.tick), row.time_ns);
-  if (!sensor.rate.empty()) {
-    expect("sample", expected_sample, row.sample);
-    expect("tick of the sample", clock.tick_of(row.sample), row.tick);
-  }
+  if (!sensor.rate.empty()) expect("tick of the sample", clock.tick_of(row.sample), row.tick);
   for (const OutputSpec& output : sensor.outputs) {
     if (is_stack(output.format)) continue;
     const std::string path = frame_path(sequence, sensor, output, row.sample);

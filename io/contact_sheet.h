@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "core/record.h"
+#include "io/dataset_reader.h"
+
+namespace greatx::io {
+
+/// One picture to look at: for the first tick, the ones at a third and two thirds, and the last, what cameras and
+/// LiDARs saw; below, the first channel over delay and frequency, and the trajectories. u8 [h, w, 3].
+Array contact_sheet(const DatasetReader& reader, uint32_t sequence = 0);
+/// The same as a PNG file.
+void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file,
+                         uint32_t sequence = 0);
+
+}  // namespace greatx::io

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a contact sheet is made of. A FramePanel is one picture per chosen moment (a column of the sheet), a
+// SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one line in panels.cpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec.h"
+#include "io/dataset_reader.h"
+#include "io/plot.h"
+
+namespace greatx::io {
+
+/// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest in time).
+struct PanelSource {
+  const DatasetReader& reader;
+  uint32_t sequence;
+  size_t sensor;
+  std::vector<IndexRow> chosen;
+  const SensorSpec& spec() const { return reader.sensors()[sensor]; }
+  bool has(std::string_view array) const;
+  Array load(const IndexRow& row, const std::string& array) const {
+    return reader.load(sequence, row, array);
+  }
+};
+
+class FramePanel {
+ public:
+  virtual ~FramePanel() = default;
+  virtual std::string title() const = 0;
+  /// Height over width of the picture, e.g. 0.75.
+  virtual double aspect() const { return 0.75; }
+  /// Draws record `row` of PanelSource::chosen: into `picture`, and its legend into `legend` below it.
+  virtual void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) = 0;
+};
+
+class SeriesPanel {
+ public:
+  virtual ~SeriesPanel() = default;
+  virtual std::string title() const = 0;
+  /// Draws plot, axes and legend inside `area`.
+  virtual void draw(Canvas& canvas, const Rect& area) = 0;
+};
+
+struct Panels {
+  std::vector<std::unique_ptr<FramePanel>> frames;
+  std::vector<std::unique_ptr<SeriesPanel>> series;
+};
+
+/// Adds the panels of one sensor; kinds that nothing is known about add none.
+void add_panels(const PanelSource& source, Panels& panels);
+
+// The makers, one for each kind (camera_panels.cpp, lidar_panel.cpp, csi_panels.cpp, pose_panel.cpp).
+void add_camera_panels(const PanelSource& source, Panels& panels);
+void add_lidar_panels(const PanelSource& source, Panels& panels);
+void add_csi_panels(const PanelSource& source, Panels& panels);
+void add_pose_panels(const PanelSource& source, Panels& panels);
+
+/// The world's orientation of a sensor at a record: that of its node from the "pose" sensor, times its mount
+/// ("body_from_sensor" of its metadata). Empty if the data set does not say.
+std::optional<dquat> world_from_sensor(const PanelSource& source, const IndexRow& row);
+/// The names of the nodes of a "pose" sensor.
+std::vector<std::string> node_names(const SensorSpec& pose);
+
+}  // namespace greatx::io
