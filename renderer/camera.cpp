@@ -13,6 +13,7 @@ namespace greatx::render {
 
 namespace {
 
+constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
 constexpr VkFormat color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat ids_format = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
@@ -33,11 +34,12 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
       scene_(&lighting.scene()),
       desc_(desc),
       effects_(lighting.effects()),
-      surface_scope_(desc.name + " surfaces"),
+      visibility_scope_(desc.name + " visibility"),
+      shade_scope_(desc.name + " shade"),
       develop_scope_(desc.name + " develop") {
   check();
   bound_primitives();
-  group_primitives();
+  sort_primitives();
   build_pipelines();
   create_images();
 }
@@ -76,79 +78,64 @@ void CameraPass::bound_primitives() {
   }
 }
 
-void CameraPass::group_primitives() {
+void CameraPass::sort_primitives() {
   const scene::Scene& scene = scene_->scene();
-  const bool color = desc_.outputs.color();
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     if (desc_.excluded_body && scene.instances[primitive.instance].body == *desc_.excluded_body) continue;
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
-    const bool glows = effects_.emissive && pbr.emissive_texture >= 0;
-    const bool textured = color && effects_.textures &&
-                          (pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || glows);
     const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
-    const bool normal_mapped = color && effects_.normal_maps && pbr.normal_texture >= 0;
-    auto group = std::ranges::find_if(groups_, [&](const Group& g) {
-      return g.textured == textured && g.masked == masked && g.normal_mapped == normal_mapped;
-    });
-    if (group == groups_.end()) {
-      groups_.push_back({});
-      group = std::prev(groups_.end());
-      group->textured = textured;
-      group->masked = masked;
-      group->normal_mapped = normal_mapped;
-    }
-    group->primitives.push_back(i);
+    (masked ? masked_ : opaque_).push_back(i);
+    textured_ |=
+        pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
+    normal_mapped_ |= pbr.normal_texture >= 0;
+    emissive_ |= pbr.emissive != vec3(0.0f);
   }
 }
 
 void CameraPass::build_pipelines() {
   gpu::Device& device = scene_->device();
-  const bool color = desc_.outputs.color(), ids = desc_.outputs.ids();
-  gpu::GraphicsDesc desc;
-  desc.bindings = scene::GpuScene::bindings(false);
-  if (color) {
-    for (const gpu::Binding& binding : SceneLighting::bindings()) desc.bindings.push_back(binding);
-    desc.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-    desc.color_formats.push_back(color_format);
+  gpu::GraphicsDesc draw;
+  draw.bindings = scene::GpuScene::bindings(false);
+  draw.push_constant_bytes = sizeof(shared::CameraConstants);
+  draw.color_formats = {visibility_format};
+  draw.depth_format = depth_format;
+  draw.samples = static_cast<VkSampleCountFlagBits>(desc_.msaa);
+  if (!opaque_.empty()) {
+    draw.vertex_shader = "camera/visibility.vert";
+    draw.fragment_shader = "camera/visibility.frag";
+    visibility_opaque_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
   }
-  if (ids) desc.color_formats.push_back(ids_format);
-  desc.push_constant_bytes = sizeof(shared::CameraConstants);
-  desc.textures = &scene_->textures();
-  desc.depth_format = depth_format;
-  desc.samples = static_cast<VkSampleCountFlagBits>(desc_.msaa);
-  desc.vertex_shader = "camera/surface.vert";
-  desc.fragment_shader = !color ? "camera/surface_ids.frag"
-                         : ids  ? "camera/surface.frag"
-                                : "camera/surface_color.frag";
+  if (!masked_.empty()) {
+    draw.vertex_shader = "camera/visibility_masked.vert";
+    draw.fragment_shader = "camera/visibility_masked.frag";
+    draw.textures = &scene_->textures();
+    visibility_masked_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility masked");
+  }
 
-  std::vector<uint32_t> effects(shared::surface_spec_count);
-  effects[shared::spec_sun] = effects_.sun;
-  effects[shared::spec_sky] = effects_.sky;
-  effects[shared::spec_static_shadows] = effects_.static_shadows;
-  effects[shared::spec_moving_shadows] = effects_.moving_shadows;
-  effects[shared::spec_emissive] = effects_.emissive;
-  effects[shared::spec_lights] = effects_.punctual_lights;
-  effects[shared::spec_specular] = effects_.specular;
-  effects[shared::spec_multisampled] = desc_.msaa > 1;
-  for (Group& group : groups_) {
-    desc.specialization = effects;
-    desc.specialization[shared::spec_textures] = group.textured;
-    desc.specialization[shared::spec_normal_maps] = group.normal_mapped;
-    desc.specialization[shared::spec_alpha_mask] = group.masked;
-    group.pipeline = gpu::GraphicsPipeline(
-        device, desc,
-        fmt::format("{} surface{}{}{}", desc_.name, group.textured ? " textured" : "",
-                    group.normal_mapped ? " normal-mapped" : "", group.masked ? " masked" : ""));
-  }
-  if (color && effects_.sky) {
-    desc.specialization = effects;
-    desc.vertex_shader = "camera/sky.vert";
-    desc.fragment_shader = ids ? "camera/sky.frag" : "camera/sky_color.frag";
-    desc.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    desc.depth_write = false;
-    sky_ = gpu::GraphicsPipeline(device, desc, desc_.name + " sky");
-  }
+  gpu::ComputeDesc shade;
+  shade.shader = desc_.msaa > 1 ? "camera/shade_multisampled.comp" : "camera/shade.comp";
+  shade.bindings = scene::GpuScene::bindings(false);
+  for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  shade.bindings.push_back({shared::visibility_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
+  shade.bindings.push_back({shared::shade_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  shade.bindings.push_back({shared::shade_ids_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  shade.push_constant_bytes = sizeof(shared::CameraConstants);
+  shade.textures = &scene_->textures();
+  shade.specialization.resize(shared::shade_spec_count);
+  shade.specialization[shared::spec_color] = desc_.outputs.color();
+  shade.specialization[shared::spec_ids] = desc_.outputs.ids();
+  shade.specialization[shared::spec_sun] = effects_.sun;
+  shade.specialization[shared::spec_sky] = effects_.sky;
+  shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
+  shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_textures] = effects_.textures && textured_;
+  shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && normal_mapped_;
+  shade.specialization[shared::spec_emissive] = effects_.emissive && emissive_;
+  shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
+  shade.specialization[shared::spec_specular] = effects_.specular;
+  shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
 
   gpu::ComputeDesc develop;
   develop.shader = "camera/develop.comp";
@@ -174,40 +161,38 @@ void CameraPass::create_images() {
                       {.format = format,
                        .width = wanted ? desc_.width : 1,
                        .height = wanted ? desc_.height : 1,
+                       .mip_levels = 1,
                        .samples = static_cast<VkSampleCountFlagBits>(samples),
                        .usage = usage},
                       fmt::format("{} {}", desc_.name, what));
   };
-  constexpr VkImageUsageFlags target = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   constexpr VkImageUsageFlags kept =
-      target | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  const bool color = desc_.outputs.color(), ids = desc_.outputs.ids();
-  color_ = image(color_format, 1, kept, "radiance", color);
-  ids_ = image(ids_format, 1, kept, "ids", ids);
+      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  visibility_ = image(visibility_format, desc_.msaa,
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, "visibility", true);
   depth_ = image(depth_format, desc_.msaa, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth", true);
-  if (desc_.msaa > 1 && color)
-    color_samples_ = image(color_format, desc_.msaa, target, "radiance samples", true);
-  if (desc_.msaa > 1 && ids) ids_samples_ = image(ids_format, desc_.msaa, target, "id samples", true);
+  color_ = image(color_format, 1, kept, "radiance", desc_.outputs.color());
+  ids_ = image(ids_format, 1, kept, "ids", desc_.outputs.ids());
+  texel_sampler_ = gpu::Sampler(device, {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
 }
 
-std::vector<uint32_t> CameraPass::visible(const Group& group, const CameraView& view) {
+std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {
   const scene::Scene& scene = scene_->scene();
   struct Drawn {
     double nearest;
     uint32_t primitive;
   };
   std::vector<Drawn> drawn;
-  drawn.reserve(group.primitives.size());
-  for (const uint32_t i : group.primitives) {
+  drawn.reserve(primitives.size());
+  for (const uint32_t i : primitives) {
     const uint32_t body = scene.instances[scene.primitives[i].instance].body;
     const dvec3 center = lighting_->body_poses()[body].apply(spheres_[i].center) - view.eye;
-    if (view.outside(center, spheres_[i].radius)) {
-      ++culled_;
-      continue;
-    }
+    if (view.outside(center, spheres_[i].radius)) continue;
     drawn.push_back({glm::dot(view.forward, center) - spheres_[i].radius, i});
   }
-  // Front to back: what is hidden is never shaded. The order is total, so ties come out the same every time.
+  culled_ += static_cast<uint32_t>(primitives.size() - drawn.size());
+  drawn_ += static_cast<uint32_t>(drawn.size());
+  // Front to back: what is hidden costs a depth test only. The order is total, so ties come out the same every time.
   std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) {
     return a.nearest != b.nearest ? a.nearest < b.nearest : a.primitive < b.primitive;
   });
@@ -238,58 +223,57 @@ gpu::Slice CameraPass::upload_lights(gpu::TickSlot& slot, const CameraView& view
 }
 
 void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor) {
-  record_surfaces(slot, CameraView(desc_, local_from_sensor, lighting_->shadows().frame()));
+  const CameraView view(desc_, local_from_sensor, lighting_->shadows().frame());
+  record_visibility(*slot.cmd, view);
+  record_shading(slot, view);
   record_develop(slot);
 }
 
-void CameraPass::record_surfaces(gpu::TickSlot& slot, const CameraView& view) {
-  const bool color = desc_.outputs.color(), ids = desc_.outputs.ids(), multisampled = desc_.msaa > 1;
-  gpu::Cmd& cmd = *slot.cmd;
-  std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
-  if (color) {
-    for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
-    descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lights(slot, view)));
-  }
-
-  const auto scope = cmd.scope(surface_scope_);
-  gpu::RenderTargets targets;
-  const auto add_target = [&](gpu::Image& samples, gpu::Image& result, VkClearColorValue clear) {
-    cmd.transition(result, gpu::ImageUse::color_target, true);
-    if (multisampled) cmd.transition(samples, gpu::ImageUse::color_target, true);
-    targets.color.push_back({.image = multisampled ? &samples : &result,
-                             .resolve = multisampled ? &result : nullptr,
-                             .clear = clear,
-                             .keep = false});
-  };
-  if (color) add_target(color_samples_, color_, {.float32 = {0.0f, 0.0f, 0.0f, 1.0f}});
-  if (ids) add_target(ids_samples_, ids_, {.uint32 = {0x7f800000u, 0u, 0u, 0u}});  // +inf, nothing
+void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
+  const auto scope = cmd.scope(visibility_scope_);
+  cmd.transition(visibility_, gpu::ImageUse::color_target, true);
   cmd.transition(depth_, gpu::ImageUse::depth_target, true);
+  gpu::RenderTargets targets;
+  targets.color.push_back(
+      {.image = &visibility_, .resolve = nullptr, .clear = {.uint32 = {0, 0, 0, 0}}, .keep = false});
   targets.depth = &depth_;
   targets.width = desc_.width;
   targets.height = desc_.height;
-
   drawn_ = culled_ = 0;
   cmd.begin_rendering(targets);
-  for (const Group& group : groups_) {
-    const std::vector<uint32_t> primitives = visible(group, view);
-    if (primitives.empty()) continue;
-    cmd.bind(group.pipeline);
-    cmd.push(descriptors);
+  const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
+    const std::vector<uint32_t> order = visible(primitives, view);
+    if (order.empty()) return;
+    cmd.bind(with);
+    cmd.push(scene_->raster_descriptors());
     cmd.constants(view.constants);
-    cmd.bind_indices(scene_->indices());
-    for (const uint32_t i : primitives) {
+    for (const uint32_t i : order) {
       const scene::Primitive& primitive = scene_->scene().primitives[i];
-      cmd.draw_indexed(primitive.first_index, primitive.index_count, i);
+      cmd.draw_range(primitive.first_index, primitive.index_count, i);
     }
-    drawn_ += static_cast<uint32_t>(primitives.size());
-  }
-  if (sky_) {
-    cmd.bind(sky_);
-    cmd.push(descriptors);
-    cmd.constants(view.constants);
-    cmd.draw(3);
-  }
+  };
+  draw_all(visibility_opaque_, opaque_);
+  draw_all(visibility_masked_, masked_);
   cmd.end_rendering();
+}
+
+void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope(shade_scope_);
+  cmd.transition(visibility_, gpu::ImageUse::sampled);
+  cmd.transition(color_, gpu::ImageUse::storage, true);
+  cmd.transition(ids_, gpu::ImageUse::storage, true);
+  std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
+  for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
+  descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lights(slot, view)));
+  descriptors.push_back(gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color_));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_ids_binding, ids_));
+  cmd.bind(shade_);
+  cmd.push(descriptors);
+  cmd.constants(view.constants);
+  cmd.dispatch((desc_.width + shared::shade_group_width - 1) / shared::shade_group_width,
+               (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
 }
 
 void CameraPass::record_develop(gpu::TickSlot& slot) {
@@ -311,8 +295,8 @@ void CameraPass::record_develop(gpu::TickSlot& slot) {
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(develop_scope_);
-  cmd.transition(color_, gpu::ImageUse::storage, !outputs.color());
-  cmd.transition(ids_, gpu::ImageUse::storage, !outputs.ids());
+  cmd.transition(color_, gpu::ImageUse::storage);
+  cmd.transition(ids_, gpu::ImageUse::storage);
   cmd.bind(develop_);
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   descriptors.push_back(gpu::Descriptor::storage(shared::develop_color_binding, color_));

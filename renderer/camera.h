@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pinhole camera: radiance, planar depth and ids from one draw of the scene. docs/camera.md has the conventions.
+// A pinhole camera. The scene is drawn once, into a picture of which triangle each sample sees; a compute pass turns
+// that into radiance, planar depth and ids; another develops and packs them. docs/camera.md has the conventions.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,12 +78,6 @@ class CameraPass {
   uint32_t culled() const { return culled_; }
 
  private:
-  /// Primitives that one pipeline draws.
-  struct Group {
-    bool textured = false, masked = false, normal_mapped = false;
-    std::vector<uint32_t> primitives;
-    gpu::GraphicsPipeline pipeline;
-  };
   /// Bounding sphere of a primitive in its body's frame.
   struct Sphere {
     dvec3 center{0.0};
@@ -93,12 +89,13 @@ class CameraPass {
 
   void check() const;
   void bound_primitives();
-  void group_primitives();
+  void sort_primitives();
   void build_pipelines();
   void create_images();
-  std::vector<uint32_t> visible(const Group& group, const CameraView& view);
+  std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
   gpu::Slice upload_lights(gpu::TickSlot& slot, const CameraView& view) const;
-  void record_surfaces(gpu::TickSlot& slot, const CameraView& view);
+  void record_visibility(gpu::Cmd& cmd, const CameraView& view);
+  void record_shading(gpu::TickSlot& slot, const CameraView& view);
   void record_develop(gpu::TickSlot& slot);
 
   const SceneLighting* lighting_;
@@ -106,13 +103,15 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::vector<Sphere> spheres_;
-  std::vector<Group> groups_;
-  gpu::GraphicsPipeline sky_;
-  gpu::ComputePipeline develop_;
-  gpu::Image color_samples_, ids_samples_, depth_;  ///< samples: only with msaa > 1
+  std::vector<uint32_t> opaque_, masked_;                             ///< primitives
+  bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< what their materials need
+  gpu::GraphicsPipeline visibility_opaque_, visibility_masked_;
+  gpu::ComputePipeline shade_, develop_;
+  gpu::Image visibility_, depth_;  ///< multisampled if msaa is
+  gpu::Sampler texel_sampler_;
   gpu::Image color_, ids_;
   std::vector<Readback> readbacks_;  ///< by slot
-  std::string surface_scope_, develop_scope_;
+  std::string visibility_scope_, shade_scope_, develop_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
 };
 

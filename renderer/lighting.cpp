@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/lighting.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -20,7 +21,7 @@ void check(const Lighting& lighting) {
   in_range("length of the sun's direction", glm::length(lighting.sun_direction), 1.0 - 1e-6, 1.0 + 1e-6);
   in_range("sun illuminance (lux)", lighting.sun_illuminance_lux, 0.0, 1e6);
   in_range("sky illuminance (lux)", lighting.sky_illuminance_lux, 0.0, 1e6);
-  in_range("turbidity", lighting.turbidity, 1.7, 10.0);
+  in_range("turbidity", lighting.turbidity, 1.1, 10.0);
   in_range("ground albedo", lighting.ground_albedo, 0.0, 1.0);
   in_range("static shadow map (texels)", lighting.static_shadow_texels, 64, 16384);
   in_range("moving shadow tile (texels)", lighting.moving_shadow_texels, 16, 2048);
@@ -51,6 +52,13 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   effects_.moving_shadows = effects_.moving_shadows && shadows_.tile_count() > 0;
   body_poses_.resize(scene.scene().bodies.size());
   bake(lighting);
+  std::vector<uint32_t> triangle_primitives(scene.scene().triangle_count());
+  for (uint32_t i = 0; i < scene.scene().primitives.size(); ++i) {
+    const scene::Primitive& primitive = scene.scene().primitives[i];
+    std::fill_n(triangle_primitives.begin() + primitive.first_index / 3, primitive.index_count / 3, i);
+  }
+  triangle_primitives_ = gpu::upload_buffer(scene.device(), std::as_bytes(std::span(triangle_primitives)),
+                                            "primitives of triangles");
 }
 
 void SceneLighting::bake(const Lighting& lighting) {
@@ -110,6 +118,7 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
 std::vector<gpu::Binding> SceneLighting::bindings() {
   return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::triangle_primitives_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
           {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::moving_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
@@ -119,6 +128,7 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   std::vector<gpu::Descriptor> all = shadows_.descriptors();
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  all.push_back(gpu::Descriptor::buffer(shared::triangle_primitives_binding, triangle_primitives_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;
 }

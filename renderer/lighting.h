@@ -16,7 +16,7 @@
 namespace greatx::render {
 
 enum class SkyModel {
-  preetham,  ///< clear sky (Preetham, Shirley, Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999)
+  clear,    ///< renderer/atmosphere.h
   uniform,  ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
 
@@ -27,9 +27,9 @@ struct Lighting {
   double sun_illuminance_lux =
       100000.0;  ///< on a surface facing the sun; no light while the sun is below the horizon
   double sky_illuminance_lux = 15000.0;  ///< on level ground from the sky alone
-  SkyModel sky_model = SkyModel::preetham;
-  double turbidity = 3.0;                ///< haziness, 2 (very clear) to 10 (hazy); Preetham only
-  double ground_albedo = 0.15;           ///< of what lies below the horizon beyond the scene; Preetham only
+  SkyModel sky_model = SkyModel::clear;
+  double turbidity = 2.0;                ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
+  double ground_albedo = 0.15;           ///< of what lies below the horizon beyond the scene; clear sky only
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 512;   ///< edge of a moving body's tile, at most
 
@@ -66,7 +66,7 @@ class SceneLighting {
   /// Poses of the tick being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
   const ShadowMaps& shadows() const { return shadows_; }
-  /// Bindings and descriptors of light.glsl, without the lamps (each camera has its own).
+  /// Bindings and descriptors that every camera's shading shares, without the lamps (each camera has its own).
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;
 
@@ -78,7 +78,8 @@ class SceneLighting {
   ShadowMaps shadows_;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;
-  gpu::Buffer block_;  ///< GpuLighting
+  gpu::Buffer block_;                ///< GpuLighting
+  gpu::Buffer triangle_primitives_;  ///< uint [triangles]: the primitive of each
   std::vector<Pose> body_poses_;
 };
 

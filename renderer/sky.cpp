@@ -12,64 +12,6 @@ namespace greatx::render {
 
 namespace {
 
-/// Perez et al.'s five coefficients, linear in the turbidity (Preetham et al. 1999, appendix A.2).
-struct Perez {
-  double a, b, c, d, e;
-  double operator()(double cos_theta, double gamma) const {
-    const double cos_gamma = std::cos(gamma);
-    return (1.0 + a * std::exp(b / cos_theta)) * (1.0 + c * std::exp(d * gamma) + e * cos_gamma * cos_gamma);
-  }
-};
-
-Perez perez_luminance(double t) {
-  return {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-          -0.0670 * t + 0.3703};
-}
-Perez perez_x(double t) {
-  return {-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-          -0.0033 * t + 0.0452};
-}
-Perez perez_y(double t) {
-  return {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-          -0.0109 * t + 0.0529};
-}
-
-/// Chromaticity at the zenith (Preetham et al. 1999, appendix A.2), sun at zenith angle s.
-double zenith_x(double t, double s) {
-  return t * t * (((0.00166 * s - 0.00375) * s + 0.00209) * s) +
-         t * (((-0.02903 * s + 0.06377) * s - 0.03202) * s + 0.00394) +
-         (((0.11693 * s - 0.21196) * s + 0.06052) * s + 0.25886);
-}
-double zenith_y(double t, double s) {
-  return t * t * (((0.00275 * s - 0.00610) * s + 0.00317) * s) +
-         t * (((-0.04214 * s + 0.08970) * s - 0.04153) * s + 0.00516) +
-         (((0.15346 * s - 0.26756) * s + 0.06670) * s + 0.26688);
-}
-
-/// CIE xyY to linear Rec. 709 (IEC 61966-2-1), kept at luminance Y where the colour is out of gamut.
-dvec3 from_xy_luminance(double x, double y, double luminance_y) {
-  const double big_x = x / y * luminance_y, big_z = (1.0 - x - y) / y * luminance_y;
-  const dvec3 rgb = glm::max(dvec3(3.2406 * big_x - 1.5372 * luminance_y - 0.4986 * big_z,
-                                   -0.9689 * big_x + 1.8758 * luminance_y + 0.0415 * big_z,
-                                   0.0557 * big_x - 0.2040 * luminance_y + 1.0570 * big_z),
-                             dvec3(0.0));
-  const double now = luminance(rgb);
-  return now > 0.0 ? rgb * (luminance_y / now) : dvec3(luminance_y);
-}
-
-/// Colour of the sun through the atmosphere, luminance 1: Rayleigh and aerosol attenuation along Kasten's air mass
-/// (Preetham et al. 1999, appendix A.1) at 610, 550 and 465 nm, of a source of 5800 K.
-dvec3 sun_color(double turbidity, double elevation) {
-  const double mass = 1.0 / (std::sin(elevation) + 0.15 * std::pow(degrees(elevation) + 3.885, -1.253));
-  const double beta = 0.04608 * turbidity - 0.04586;
-  const dvec3 micrometres(0.610, 0.550, 0.465), source(1.00, 0.97, 0.93);
-  dvec3 color;
-  for (int i = 0; i < 3; ++i)
-    color[i] = source[i] * std::exp(-mass * (0.008735 * std::pow(micrometres[i], -4.08) +
-                                             beta * std::pow(micrometres[i], -1.3)));
-  return color / luminance(color);
-}
-
 /// Calls visit(direction, solid angle) over a product rule of the sphere that has the horizon on a cell border.
 template <typename F>
 void over_sphere(F&& visit) {
@@ -138,51 +80,67 @@ dvec3 blurred(const std::vector<dvec3>& base, uint32_t size, const dvec3& direct
 
 double luminance(const dvec3& color) { return glm::dot(color, dvec3(0.2126, 0.7152, 0.0722)); }
 
+namespace {
+/// What the sky looks like when the sun is below a degree is outside the model: it keeps the colours of sunset.
+double modelled_elevation(const Lighting& lighting) {
+  return std::max(std::asin(glm::clamp(lighting.sun_direction.z, -1.0, 1.0)), radians(1.0));
+}
+
+/// What the air scatters onto level ground, per channel, for a sun of illuminance 1 above it.
+dvec3 on_level_ground(const Atmosphere& air, const dvec3& to_sun) {
+  dvec3 sum(0.0);
+  over_sphere([&](const dvec3& d, double solid_angle) {
+    if (d.z > 0.0) sum += air.radiance(d.z, glm::clamp(glm::dot(d, to_sun), -1.0, 1.0)) * (d.z * solid_angle);
+  });
+  return sum;
+}
+
+/// The colour that pictures show as white: of a white card on the ground under a clear sky, the sun 45 degrees high.
+/// Daylight thus looks neutral, evening warm and shade blue.
+dvec3 daylight() {
+  const double sine = std::sqrt(0.5);
+  const Atmosphere air(2.0, 0.25 * pi, 0.15);
+  const dvec3 total = air.sun_transmittance() * sine + on_level_ground(air, {sine, 0.0, sine});
+  return total / luminance(total);
+}
+}  // namespace
+
 Sky::Sky(const Lighting& lighting)
-    : model_(lighting.sky_model), turbidity_(lighting.turbidity), illuminance_(lighting.sky_illuminance_lux) {
-  // The model's clear sky ends at sunset; a lower sun keeps the colours of the horizon.
-  const double elevation = std::max(std::asin(glm::clamp(lighting.sun_direction.z, -1.0, 1.0)), radians(1.0));
+    : model_(lighting.sky_model),
+      illuminance_(lighting.sky_illuminance_lux),
+      atmosphere_(lighting.turbidity, modelled_elevation(lighting), lighting.ground_albedo),
+      white_(daylight()) {
+  const double elevation = modelled_elevation(lighting);
   const dvec2 ground(lighting.sun_direction);
   const dvec2 heading = glm::length(ground) > 1e-9 ? glm::normalize(ground) : dvec2(1.0, 0.0);
   sun_direction_ = dvec3(heading * std::cos(elevation), std::sin(elevation));
   if (lighting.sun_direction.z > 0.0) {
-    const dvec3 color = model_ == SkyModel::preetham ? sun_color(turbidity_, elevation) : dvec3(1.0);
-    sun_illuminance_ = lighting.sun_illuminance_lux * color;
+    const dvec3 color = model_ == SkyModel::clear ? atmosphere_.sun_transmittance() / white_ : dvec3(1.0);
+    sun_illuminance_ = lighting.sun_illuminance_lux / luminance(color) * color;
   }
   if (model_ == SkyModel::uniform) {
     ground_ = dvec3(illuminance_ / pi);
     return;
   }
-  double on_ground = 0.0;
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) on_ground += luminance(preetham(d)) * d.z * solid_angle;
-  });
-  scale_ = illuminance_ / on_ground;
-  dvec3 total = sun_illuminance_ * std::max(lighting.sun_direction.z, 0.0);
-  over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) total += scale_ * preetham(d) * d.z * solid_angle;
-  });
-  ground_ = lighting.ground_albedo / pi * total;
+  const dvec3 on_ground = on_level_ground(atmosphere_, sun_direction_) / white_;
+  scale_ = illuminance_ / luminance(on_ground);
+  ground_ = lighting.ground_albedo / pi *
+            (sun_illuminance_ * std::max(lighting.sun_direction.z, 0.0) + scale_ * on_ground);
 }
 
-dvec3 Sky::preetham(const dvec3& direction) const {
-  const double sun_zenith = std::acos(glm::clamp(sun_direction_.z, -1.0, 1.0));
-  const double gamma = std::acos(glm::clamp(glm::dot(direction, sun_direction_), -1.0, 1.0));
-  const double cos_theta = std::max(direction.z, 0.01);
-  const auto relative = [&](const Perez& perez) { return perez(cos_theta, gamma) / perez(1.0, sun_zenith); };
-  const double x = zenith_x(turbidity_, sun_zenith) * relative(perez_x(turbidity_));
-  const double y = zenith_y(turbidity_, sun_zenith) * relative(perez_y(turbidity_));
-  return from_xy_luminance(x, y, std::max(relative(perez_luminance(turbidity_)), 0.0));
+dvec3 Sky::above(const dvec3& direction) const {
+  return atmosphere_.radiance(direction.z, glm::clamp(glm::dot(direction, sun_direction_), -1.0, 1.0)) /
+         white_;
 }
 
 dvec3 Sky::radiance(const dvec3& direction) const {
   if (model_ == SkyModel::uniform) return ground_;
-  if (direction.z > 0.0) return scale_ * preetham(direction);
-  // Haze over the horizon: the sky's lowest ring fades into the ground over four degrees.
-  const double fade = glm::smoothstep(0.0, 0.07, -direction.z);
+  if (direction.z > 0.0) return scale_ * above(direction);
+  // Haze over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
+  const double fade = glm::smoothstep(0.0, 0.2, -direction.z);
   const double level = std::hypot(direction.x, direction.y);
   const dvec3 horizon = level > 1e-6 ? dvec3(direction.x / level, direction.y / level, 0.0) : dvec3(1, 0, 0);
-  return glm::mix(scale_ * preetham(horizon), ground_, fade);
+  return glm::mix(scale_ * above(horizon), ground_, fade);
 }
 
 std::array<dvec3, 9> sky_irradiance(const Sky& sky) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "renderer/atmosphere.h"
 #include "renderer/lighting.h"
 
 namespace greatx::render {
@@ -29,11 +30,12 @@ class Sky {
   double illuminance() const { return illuminance_; }
 
  private:
-  dvec3 preetham(const dvec3& direction) const;  ///< not yet scaled
+  dvec3 above(const dvec3& direction) const;  ///< not yet scaled
 
   SkyModel model_;
-  double turbidity_;
   double illuminance_;  ///< of the sky on level ground
+  Atmosphere atmosphere_;
+  dvec3 white_;  ///< what is shown as white
   double scale_ = 1.0;
   dvec3
       sun_direction_;  ///< raised to the horizon if below: what the sky looks like then is outside the model

@@ -4,7 +4,8 @@
 // What arrives at a surface point: sun with its shadows, sky, lamps.
 #ifndef GREATX_CAMERA_LIGHT_GLSL
 #define GREATX_CAMERA_LIGHT_GLSL
-#include "camera/surface_interface.glsl"
+#include "camera/effects.glsl"
+#include "camera/visibility_view.glsl"
 #include "shared/brdf.h"
 
 layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };

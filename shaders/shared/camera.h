@@ -15,23 +15,27 @@ const uint lights_binding = 6u;         // storage: GpuLights, this tick's
 const uint environment_binding = 7u;    // sampled: octahedral map of the sky, a roughness per mip level
 const uint static_shadow_binding = 8u;  // sampled with comparison
 const uint moving_shadow_binding = 9u;  // sampled with comparison
+const uint visibility_binding = 10u;    // sampled, unsigned, multisampled or not: triangle + 1
+const uint triangle_primitives_binding = 11u;  // storage: the primitive of each triangle
+const uint shade_color_binding = 12u;          // storage image rgba16f
+const uint shade_ids_binding = 13u;            // storage image rg32ui: planar depth's bits, primitive + 1
 // The developing pass.
 const uint develop_color_binding = 4u;  // storage image rgba16f
 const uint develop_ids_binding = 5u;    // storage image rg32ui
 
-// Specialization constants of the surface pipelines: one for each effect of the plan.
-const uint spec_sun = 0u;
-const uint spec_sky = 1u;
-const uint spec_static_shadows = 2u;
-const uint spec_moving_shadows = 3u;
-const uint spec_textures = 4u;
-const uint spec_normal_maps = 5u;
-const uint spec_alpha_mask = 6u;
-const uint spec_emissive = 7u;
-const uint spec_lights = 8u;
-const uint spec_specular = 9u;
-const uint spec_multisampled = 10u;
-const uint surface_spec_count = 11u;
+// Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
+const uint spec_color = 0u;
+const uint spec_ids = 1u;
+const uint spec_sun = 2u;
+const uint spec_sky = 3u;
+const uint spec_static_shadows = 4u;
+const uint spec_moving_shadows = 5u;
+const uint spec_textures = 6u;
+const uint spec_normal_maps = 7u;
+const uint spec_emissive = 8u;
+const uint spec_lights = 9u;
+const uint spec_specular = 10u;
+const uint shade_spec_count = 11u;
 // Of the developing pipeline.
 const uint develop_spec_rgb = 0u;
 const uint develop_spec_hdr = 1u;
@@ -41,6 +45,8 @@ const uint develop_spec_semantic = 4u;
 const uint develop_spec_material = 5u;
 const uint develop_spec_count = 6u;
 
+const uint shade_group_width = 8u;
+const uint shade_group_height = 8u;
 const uint develop_group_size = 64u;
 /// Pixels that one invocation of the developing pass packs into whole words.
 const uint develop_pixels = 4u;
@@ -52,7 +58,7 @@ const uint environment_levels = 6u;
 /// Radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
 const float emissive_nits = 1000.0f;
 
-/// Push constants of the surface and sky pipelines. Positions are taken relative to the eye before anything is
+/// Push constants of the visibility and shading pipelines. Positions are taken relative to the eye before anything is
 /// rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a float.
 struct CameraConstants {
   vec3 eye_high;

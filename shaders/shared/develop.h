@@ -12,26 +12,23 @@ using glm::clamp;
 using glm::max;
 using glm::min;
 using glm::mix;
+using std::exp;
 using std::pow;
 }  // namespace greatx::shared
 #endif
 
 GREATX_SHARED_BEGIN
 
-/// Khronos PBR Neutral tone mapper (Khronos Group, 2024): keeps colours up to 0.76 as they are, rolls brighter ones
-/// off towards white. Linear Rec. 709 in and out, [0, inf) to [0, 1).
+/// The response of film to light: 1 - exp(-1.6 x) of the brightest channel, which lifts the middle and has no end; the
+/// others keep their ratio to it, and fade towards white as it saturates (as in Khronos' PBR Neutral tone mapper, 2024).
+/// Linear Rec. 709 in and out, [0, inf) to [0, 1).
 GREATX_FUNCTION vec3 tone_map(vec3 color) {
-  const float start_compression = 0.8f - 0.04f;
+  const float response = 1.6f;
   const float desaturation = 0.15f;
-  float x = min(color.x, min(color.y, color.z));
-  float offset = x < 0.08f ? x - 6.25f * x * x : 0.04f;
-  color = color - vec3(offset);
-  float peak = max(color.x, max(color.y, color.z));
-  if (peak < start_compression) return color;
-  float d = 1.0f - start_compression;
-  float new_peak = 1.0f - d * d / (peak + d - start_compression);
+  float peak = max(max(color.x, max(color.y, color.z)), 1e-9f);
+  float new_peak = 1.0f - exp(-response * peak);
   color = color * (new_peak / peak);
-  float g = 1.0f - 1.0f / (desaturation * (peak - new_peak) + 1.0f);
+  float g = 1.0f - 1.0f / (desaturation * max(peak - new_peak, 0.0f) + 1.0f);
   return mix(color, vec3(new_peak), g);
 }
 

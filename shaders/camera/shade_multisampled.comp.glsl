@@ -2,7 +2,5 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Depth and ids alone.
-#define GREATX_IDS
-#include "camera/surface_frag.glsl"
+#define GREATX_MULTISAMPLED
+#include "camera/shade_comp.glsl"

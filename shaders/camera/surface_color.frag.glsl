@@ -1,8 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// SPDX-FileCopyrightText: 2026 The greatx authors
-// SPDX-License-Identifier: Apache-2.0
-//
-// Radiance alone.
-#define GREATX_COLOR
-#include "camera/surface_frag.glsl"

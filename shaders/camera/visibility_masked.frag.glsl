@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which triangle a sample sees, where the alpha mask leaves it.
+#include "camera/mask.glsl"
+
+layout(location = 0) flat in uint in_triangle;
+layout(location = 1) flat in uint in_material;
+layout(location = 2) in vec2 in_uv;
+layout(location = 0) out uint out_triangle;
+
+void main() {
+  if (masked_away(in_material, in_uv)) discard;
+  out_triangle = in_triangle;
+}
