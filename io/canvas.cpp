@@ -86,6 +86,10 @@ void Canvas::blend(int x, int y, Color color, double alpha) {
   if (x < clip_.x || y < clip_.y || x >= clip_.right() || y >= clip_.bottom()) return;
   uint8_t* const pixel = pixels_.data() + (static_cast<size_t>(y) * width_ + x) * 3;
   const uint8_t channels[] = {color.r, color.g, color.b};
+  if (alpha >= 1.0) {
+    std::copy_n(channels, 3, pixel);
+    return;
+  }
   for (int i = 0; i < 3; ++i)
     pixel[i] =
         static_cast<uint8_t>(std::lround(pixel[i] + (channels[i] - pixel[i]) * std::clamp(alpha, 0.0, 1.0)));

@@ -52,20 +52,22 @@ class LidarPanel : public FramePanel {
     draw_length(canvas, picture, ring, ring * pixels);
     canvas.unclip();
     draw_color_bar(
-        canvas, legend, height_, [](double t) { return turbo(0.08 + 0.84 * t); }, "m high");
+        canvas, legend, height_, [](double t) { return turbo(0.08 + 0.84 * t); },
+        north_up_ ? "m height" : "m above");
   }
 
  private:
   std::vector<dvec3> turned(const IndexRow& row) {
     const Array array = source_.load(row, "points");
     const std::span<const float> values = array.as<float>();
-    const std::optional<dquat> turn = world_from_sensor(source_, row);
-    north_up_ = north_up_ && turn.has_value();
-    // Without a pose: forward (x) up, left (y) left.
-    const dquat rotation = turn.value_or(glm::angleAxis(glm::radians(90.0), dvec3(0, 0, 1)));
+    const std::optional<Pose> pose = world_from_sensor(source_, row);
+    north_up_ = north_up_ && pose.has_value();
+    // Without a pose: forward (x) up, left (y) left. Heights are the world's, or above the sensor.
+    const dquat rotation = pose ? pose->orientation : glm::angleAxis(glm::radians(90.0), dvec3(0, 0, 1));
+    const dvec3 up(0.0, 0.0, pose ? pose->position.z : 0.0);
     std::vector<dvec3> points;
     for (size_t i = 0; i + 3 < values.size(); i += 4)
-      points.push_back(rotation * dvec3(values[i], values[i + 1], values[i + 2]));
+      points.push_back(rotation * dvec3(values[i], values[i + 1], values[i + 2]) + up);
     return points;
   }
   void draw_north(Canvas& canvas, const Rect& picture) const {

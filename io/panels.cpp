@@ -21,6 +21,19 @@ constexpr Maker makers[] = {
     {"pose", add_pose_panels},
 };
 
+/// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
+Pose mount_of(const SensorSpec& sensor) {
+  const nlohmann::json metadata = nlohmann::json::parse(sensor.metadata_json, nullptr, false);
+  Pose mount;
+  if (!metadata.is_object() || !metadata.contains("body_from_sensor")) return mount;
+  const nlohmann::json& json = metadata["body_from_sensor"];
+  const auto p = json.value("position_m", std::vector<double>{0, 0, 0});
+  const auto q = json.value("orientation_wxyz", std::vector<double>{1, 0, 0, 0});
+  if (p.size() == 3) mount.position = {p[0], p[1], p[2]};
+  if (q.size() == 4) mount.orientation = dquat(q[0], q[1], q[2], q[3]);
+  return mount;
+}
+
 }  // namespace
 
 bool PanelSource::has(std::string_view array) const {
@@ -42,11 +55,14 @@ std::vector<std::string> node_names(const SensorSpec& pose) {
   return names;
 }
 
-std::optional<dquat> world_from_sensor(const PanelSource& source, const IndexRow& row) {
+std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {
   const std::vector<SensorSpec>& sensors = source.reader.sensors();
-  const auto pose = std::find_if(sensors.begin(), sensors.end(), [](const SensorSpec& s) {
-    return s.kind == "pose" && std::any_of(s.arrays.begin(), s.arrays.end(),
-                                           [](const ArraySpec& a) { return a.name == "orientation"; });
+  const auto has = [](const SensorSpec& sensor, const char* name) {
+    return std::any_of(sensor.arrays.begin(), sensor.arrays.end(),
+                       [&](const ArraySpec& array) { return array.name == name; });
+  };
+  const auto pose = std::find_if(sensors.begin(), sensors.end(), [&](const SensorSpec& s) {
+    return s.kind == "pose" && has(s, "position") && has(s, "orientation");
   });
   if (pose == sensors.end()) return std::nullopt;
   const std::vector<std::string> names = node_names(*pose);
@@ -58,15 +74,11 @@ std::optional<dquat> world_from_sensor(const PanelSource& source, const IndexRow
   const auto at =
       std::find_if(rows.begin(), rows.end(), [&](const IndexRow& r) { return r.tick == row.tick; });
   if (at == rows.end()) return std::nullopt;
+  const Array positions = source.reader.load(source.sequence, *at, "position");
   const Array orientations = source.reader.load(source.sequence, *at, "orientation");
+  const double* const p = positions.as<double>().data() + 3 * (found - names.begin());
   const double* const q = orientations.as<double>().data() + 4 * (found - names.begin());
-  const dquat world_from_body(q[0], q[1], q[2], q[3]);
-  const nlohmann::json metadata = nlohmann::json::parse(source.spec().metadata_json, nullptr, false);
-  const nlohmann::json mount =
-      metadata.is_object() ? metadata.value("body_from_sensor", nlohmann::json()) : nullptr;
-  if (!mount.is_object() || !mount.contains("orientation_wxyz")) return world_from_body;
-  const auto m = mount["orientation_wxyz"].get<std::vector<double>>();
-  return m.size() == 4 ? world_from_body * dquat(m[0], m[1], m[2], m[3]) : world_from_body;
+  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source.spec());
 }
 
 }  // namespace greatx::io

@@ -62,9 +62,9 @@ void add_lidar_panels(const PanelSource& source, Panels& panels);
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
 
-/// The world's orientation of a sensor at a record: that of its node from the "pose" sensor, times its mount
+/// A sensor's pose in the world at a record: that of its node from the "pose" sensor, times its mount
 /// ("body_from_sensor" of its metadata). Empty if the data set does not say.
-std::optional<dquat> world_from_sensor(const PanelSource& source, const IndexRow& row);
+std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
 /// The names of the nodes of a "pose" sensor.
 std::vector<std::string> node_names(const SensorSpec& pose);
 
