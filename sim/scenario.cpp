@@ -107,7 +107,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   return scenario;
 }
 
-Scenario load_scenario(const std::filesystem::path& file) {
+Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::exists(file, error))
@@ -118,7 +118,8 @@ Scenario load_scenario(const std::filesystem::path& file) {
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw_user_error("{}: expected a readable scenario file, found one that cannot be read", name);
-  Scenario scenario = parse_scenario(text.str(), name, std::filesystem::absolute(file).parent_path());
+  Scenario scenario = parse_scenario(
+      text.str(), name, folder.empty() ? std::filesystem::absolute(file).parent_path() : std::filesystem::absolute(folder));
   scenario.file = std::filesystem::absolute(file).lexically_normal();
   return scenario;
 }

@@ -209,7 +209,8 @@ struct Scenario {
 /// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
 /// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
 /// sensors).
-Scenario load_scenario(const std::filesystem::path& file);
+/// Relative paths are taken from `folder`; empty: from the scenario's own.
+Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& folder = {});
 /// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::filesystem::path& folder);

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/session.h"
+#include "apps/summary.h"
+#include "io/dataset_writer.h"
+#include "sim/simulator.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct Options {
+  ScenarioOptions scenario;
+  RunOptions run;
+  int64_t warm_up = 5;
+  bool discard = false, json = false;
+};
+
+using Clock = std::chrono::steady_clock;
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+struct Discard : RecordSink {
+  void write(Packet) override {}
+};
+
+/// A folder of its own below the temporary folder, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder()
+      : path_(std::filesystem::temp_directory_path() / fmt::format("greatx-bench-{}", getpid())) {}
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+nlohmann::json distribution(std::vector<double> samples) {
+  if (samples.empty()) return {{"count", 0}};
+  std::sort(samples.begin(), samples.end());
+  return {{"count", samples.size()},
+          {"min", samples.front()},
+          {"median", samples[samples.size() / 2]},
+          {"max", samples.back()}};
+}
+
+void print(const nlohmann::json& result) {
+  const auto row = [](const std::string& name, const nlohmann::json& d) {
+    if (d["count"].get<size_t>() == 0) return;
+    std::cout << fmt::format("  {:<28} {:9.2f} {:9.2f} {:9.2f}   x {}\n", name, d["min"].get<double>(),
+                             d["median"].get<double>(), d["max"].get<double>(), d["count"].get<size_t>());
+  };
+  std::cout << fmt::format(
+      "{} on {} ({})\nset-up {:.0f} ms, first packet after {:.0f} ms, peak memory {:.0f} MiB\n",
+      result["scenario"].get<std::string>(), result["device"].get<std::string>(),
+      result["driver"].get<std::string>(), result["setup_ms"].get<double>(),
+      result["first_packet_ms"].get<double>(), result["peak_rss_bytes"].get<double>() / (1 << 20));
+  std::cout << fmt::format("  {:<28} {:>9} {:>9} {:>9}   (ms)\n", "", "min", "median", "max");
+  row(result["written"].get<bool>() ? "full tick, written" : "full tick, discarded", result["tick_ms"]);
+  for (const auto& [name, pass] : result["pass_ms"].items()) row("  gpu " + name, pass);
+}
+
+void run(const Options& options) {
+  const Clock::time_point begin = Clock::now();
+  sim::Scenario scenario = load_scenario(options.scenario);
+  const sim::World world = sim::load_world(scenario);
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  gpu::Device device(options.run.device_options());
+  sim::Simulator simulator(device, scenario, world, plan);
+  ScratchFolder scratch;
+  Discard discard;
+  std::unique_ptr<io::DatasetWriter> writer;
+  if (!options.discard) {
+    writer = std::make_unique<io::DatasetWriter>(
+        scratch.path(), dataset_info(scenario, world, plan, device, simulator.sensors()));
+    writer->begin_sequence(0);
+  }
+  RecordSink& sink = writer ? static_cast<RecordSink&>(*writer) : discard;
+  simulator.keep_pass_samples(true);
+  simulator.start(0);
+  const double setup_ms = milliseconds_since(begin);
+
+  install_interrupt_handler();
+  Progress progress("bench", scenario.ticks, options.json);
+  std::vector<double> ticks;
+  double first_packet_ms = 0.0;
+  size_t passes_to_drop = 0;
+  for (int64_t i = 0;; ++i) {
+    const Clock::time_point tick_begin = Clock::now();
+    const bool more = simulator.step(sink);
+    if (i == 1) first_packet_ms = milliseconds_since(begin);
+    if (!more || interrupted()) break;
+    if (i >= options.warm_up) ticks.push_back(milliseconds_since(tick_begin));
+    passes_to_drop = static_cast<size_t>(options.warm_up);
+    progress.update(std::min(simulator.next_tick(), scenario.ticks));
+  }
+  const Clock::time_point drain_begin = Clock::now();
+  if (writer) writer->end_sequence();
+  const double drain_ms = milliseconds_since(drain_begin);
+  check_validation(device);
+
+  const sim::RunStatistics statistics = simulator.statistics();
+  nlohmann::json result = summary_of(statistics, device, milliseconds_since(begin) / 1000.0);
+  result["scenario"] = scenario.name;
+  result["written"] = !options.discard;
+  result["warm_up"] = options.warm_up;
+  result["setup_ms"] = setup_ms;
+  result["first_packet_ms"] = first_packet_ms;
+  result["drain_ms"] = drain_ms;
+  result["tick_ms"] = distribution(ticks);
+  result["pass_ms"] = nlohmann::json::object();
+  for (const auto& [name, pass] : statistics.passes) {
+    std::vector<double> samples = pass.samples;
+    samples.erase(samples.begin(),
+                  samples.begin() + static_cast<std::ptrdiff_t>(std::min(samples.size(), passes_to_drop)));
+    if (!samples.empty()) result["pass_ms"][name] = distribution(std::move(samples));
+  }
+  if (options.json)
+    std::cout << result.dump(2) << '\n';
+  else
+    print(result);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("bench", "time a scenario: every pass and the full tick, end to end");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("--warm-up", options->warm_up, "ticks that are run and not counted")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--discard", options->discard, "simulate only: encode and write nothing");
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

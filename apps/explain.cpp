@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.h"
+#include "apps/session.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct Options {
+  ScenarioOptions scenario;
+  bool json = false;
+};
+
+void run(const Options& options) {
+  const sim::Scenario scenario = load_scenario(options.scenario);
+  const sim::World world = sim::load_world(scenario);
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  if (options.json) {
+    nlohmann::json json{{"scenario", scenario.name}, {"effects", nlohmann::json::array()}};
+    for (const sim::Effect* effect : plan.all())
+      json["effects"].push_back({{"name", effect->name},
+                                 {"on", effect->on},
+                                 {"switchable", effect->switchable},
+                                 {"reason", effect->reason},
+                                 {"bound", effect->bound}});
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
+  std::cout << fmt::format("{}: {} triangles, {} facets, {} instances, {} bodies\n", scenario.name,
+                           world.scene.triangle_count(), world.scene.facets.size(),
+                           world.scene.instances.size(), world.scene.bodies.size());
+  for (const sim::Effect* effect : plan.all())
+    std::cout << fmt::format("  {:<4} {:<24}{} {}{}\n", effect->on ? "on" : "off", effect->name,
+                             effect->switchable ? " " : "*", effect->reason,
+                             effect->bound.empty() ? "" : " — " + effect->bound);
+  std::cout << "* follows from the sensors; the others can be switched under `effects:` in the scenario\n";
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "explain", "say which effects a scenario calls for, why, and what the others could change");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

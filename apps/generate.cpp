@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/session.h"
+#include "apps/summary.h"
+#include "io/dataset_writer.h"
+#include "sim/simulator.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct Options {
+  ScenarioOptions scenario;
+  RunOptions run;
+  std::string output = "out/dataset";
+  bool resume = false, json = false, quiet = false;
+  uint32_t threads = 0;
+};
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Runs what is left of the data set. Returns false if it was interrupted; what was simulated is kept.
+bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const sim::Scenario& scenario,
+                   bool quiet, Clock::time_point begin, double& first_packet_s) {
+  const io::DatasetWriter::Position position = writer.resume_position();
+  Progress progress(scenario.name, scenario.ticks * scenario.sequences, quiet);
+  for (uint32_t sequence = position.sequence; sequence < scenario.sequences; ++sequence) {
+    writer.begin_sequence(sequence);
+    simulator.start(sequence, sequence == position.sequence ? position.next_tick : 0);
+    while (simulator.step(writer)) {
+      if (first_packet_s == 0.0 && simulator.statistics().packets > 0) first_packet_s = seconds_since(begin);
+      progress.update(scenario.ticks * sequence + std::min(simulator.next_tick(), scenario.ticks));
+      if (!interrupted()) continue;
+      simulator.drain(writer);
+      writer.flush();
+      return false;
+    }
+    writer.end_sequence();
+  }
+  writer.finish();
+  return true;
+}
+
+void run(const Options& options) {
+  const Clock::time_point begin = Clock::now();
+  const sim::Scenario scenario = load_scenario(options.scenario);
+  const sim::World world = sim::load_world(scenario);
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  gpu::Device device(options.run.device_options());
+  sim::Simulator simulator(device, scenario, world, plan);
+  io::DatasetWriter writer(options.output, dataset_info(scenario, world, plan, device, simulator.sensors()),
+                           {options.threads, options.resume});
+  if (writer.resume_position().finished) {
+    if (options.json)
+      std::cout << nlohmann::json{{"output", options.output}, {"finished", true}, {"ticks", 0}}.dump(2)
+                << '\n';
+    else if (!options.quiet)
+      std::cout << options.output << ": complete already, nothing to do\n";
+    return;
+  }
+  install_interrupt_handler();
+  double first_packet_s = 0.0;
+  const bool complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
+  device.wait_idle();
+  check_validation(device);
+
+  nlohmann::json summary = summary_of(simulator.statistics(), device, seconds_since(begin));
+  summary["first_packet_seconds"] = first_packet_s;
+  summary["output"] = options.output;
+  summary["finished"] = complete;
+  summary["files"] = writer.stats().files;
+  summary["bytes"] = writer.stats().bytes;
+  if (options.json)
+    std::cout << summary.dump(2) << '\n';
+  else if (!options.quiet)
+    std::cout << summary_text(summary)
+              << fmt::format("{} {}\n", complete ? "wrote" : "interrupted:", options.output);
+  if (!complete)
+    throw_user_error("{}: interrupted; the whole packets so far are kept, --resume goes on", options.output);
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("generate", "run a scenario and write its data set");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("-o,--output", options->output, "folder of the data set")->capture_default_str();
+  command->add_flag("--resume", options->resume,
+                    "go on with an unfinished data set; the finished one has the same bytes");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads that encode and write; 0: one per processor. Changes no byte")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print one JSON object with the run's summary");
+  command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "apps/commands.h"
+#include "core/error.h"
+
+namespace {
+
+/// Everything but results goes to stderr, so that --json prints one object and nothing else on stdout.
+void set_up_logging() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("greatx"));
+  spdlog::set_pattern("%^%l%$: %v");
+  spdlog::set_level(std::getenv("GREATX_DEBUG") != nullptr ? spdlog::level::debug : spdlog::level::info);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace greatx;
+  set_up_logging();
+  CLI::App app{
+      "greatx simulates sensing and communication in one scene on one clock: RGB, depth, ids, LiDAR and "
+      "channel state "
+      "information, aligned to the tick and the pixel."};
+  app.set_version_flag("--version", "greatx " GREATX_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "greatx COMMAND --help tells more. Exit codes: 0 success, 1 faulty input or data, 2 device or "
+      "program.");
+  apps::add_info(app);
+  apps::add_generate(app);
+  apps::add_inspect(app);
+  apps::add_verify(app);
+  apps::add_scene(app);
+  apps::add_explain(app);
+  apps::add_bench(app);
+  try {
+    app.parse(argc, argv);
+    return apps::exit_success;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? apps::exit_success : apps::exit_user;
+  } catch (const apps::Failed& failed) {
+    return failed.code;
+  } catch (const UserError& error) {
+    std::cerr << "greatx: error: " << error.what() << '\n';
+    return apps::exit_user;
+  } catch (const std::exception& error) {
+    std::cerr << "greatx: internal error: " << error.what() << '\n';
+    return apps::exit_internal;
+  }
+}

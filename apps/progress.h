@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace greatx::apps {
+
+/// A line on stderr with a bar, the rate and the time left; silent when stderr is no terminal.
+class Progress {
+ public:
+  Progress(std::string what, int64_t total, bool quiet);
+  ~Progress();
+  void update(int64_t done);
+
+ private:
+  std::string what_;
+  int64_t total_, first_ = -1;
+  bool visible_;
+  std::chrono::steady_clock::time_point begin_, last_;
+};
+
+/// True after Ctrl-C or SIGTERM, once installed: long work stops after the tick it is in.
+bool interrupted();
+void install_interrupt_handler();
+
+}  // namespace greatx::apps

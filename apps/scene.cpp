@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/commands.h"
+#include "core/error.h"
+#include "scene/build.h"
+#include "scene/generator/generate.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct GenerateCommand {
+  scene::GenerateOptions options;
+  std::string output;
+};
+
+void generate(const GenerateCommand& command) {
+  const std::vector<std::byte> glb = scene::generate_glb(command.options);
+  std::ofstream out(command.output, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+  out.close();
+  if (!out) throw_user_error("{}: cannot be written", command.output);
+  std::cout << fmt::format("wrote {} ({:.1f} KiB)\n", command.output,
+                           static_cast<double>(glb.size()) / 1024.0);
+}
+
+struct InfoCommand {
+  std::string file;
+  scene::LoadOptions options;
+};
+
+void info(const InfoCommand& command) {
+  const scene::Model model = scene::load_model(command.file, command.options);
+  const scene::Scene scene =
+      scene::build_scene({{"", &model, {}, dvec3(1.0), false, {}}}, {command.file, {}});
+  const dvec3 size = scene.bounds.size(), center = scene.bounds.center() + scene.origin;
+  std::cout << fmt::format("{}\n  {} triangles, {} facets, {} instances, {} lights, {} textures\n",
+                           command.file, scene.triangle_count(), scene.facets.size(), scene.instances.size(),
+                           scene.lights.size(), scene.textures.size());
+  std::cout << fmt::format("  {:.2f} x {:.2f} x {:.2f} m around ({:.2f}, {:.2f}, {:.2f})\n", size.x, size.y,
+                           size.z, center.x, center.y, center.z);
+  for (const scene::Material& material : scene.materials) {
+    const std::string radio =
+        !material.radio ? "no radio properties"
+                        : fmt::format("{}, {} layers, {:.3f} m", material.radio->layers[0].medium.source,
+                                      material.radio->layers.size(), material.radio->layers[0].thickness_m);
+    const vec4& color = material.pbr.base_color;
+    const float luminance = 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b;
+    std::cout << fmt::format("  material {:<28} {}; reflectance {:.2f} (905 nm{}), {:.2f} (1550 nm{})\n",
+                             material.name, radio, material.reflectance_905nm.value_or(luminance),
+                             material.reflectance_905nm ? "" : ", from the base colour",
+                             material.reflectance_1550nm.value_or(luminance),
+                             material.reflectance_1550nm ? "" : ", from the base colour");
+  }
+  for (const std::string& note : scene.notes) std::cout << "  note: " << note << '\n';
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("scene", "make a scene or an object, or describe a file");
+  command->require_subcommand(1);
+  for (const std::string& kind : scene::generator_kinds()) {
+    CLI::App* maker = command->add_subcommand(kind, fmt::format("generate: {}", kind));
+    auto options = std::make_shared<GenerateCommand>();
+    options->options.kind = kind;
+    options->output = kind + ".glb";
+    maker->add_option("--seed", options->options.seed, "every choice follows from it")->capture_default_str();
+    maker->add_option("--size", options->options.size_m, "edge of the square, m")->capture_default_str();
+    if (const std::vector<std::string> variants = scene::generator_variants(kind); !variants.empty())
+      maker->add_option("--variant", options->options.variant, fmt::format("{}", fmt::join(variants, ", ")));
+    maker->add_option("-o,--output", options->output, "file to write")->capture_default_str();
+    maker->callback([options] { generate(*options); });
+  }
+  CLI::App* describe = command->add_subcommand("info", "describe a glTF file as greatx sees it");
+  auto options = std::make_shared<InfoCommand>();
+  describe->add_option("FILE", options->file, ".gltf or .glb")->required();
+  describe->add_option("--radio-materials", options->options.radio_materials,
+                       "YAML with radio properties (docs/materials.md)");
+  describe->add_flag("--optical-only", options->options.optical_only,
+                     "accept materials without radio properties");
+  describe->callback([options] { info(*options); });
+}
+
+}  // namespace greatx::apps

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/summary.h"
+
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+
+namespace greatx::apps {
+
+uint64_t peak_rss_bytes() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Device& device, double seconds) {
+  const gpu::Counters& counters = device.counters();
+  nlohmann::json summary;
+  summary["ticks"] = statistics.ticks;
+  summary["submits"] = counters.submits;
+  summary["packets"] = statistics.packets;
+  summary["seconds"] = seconds;
+  summary["ticks_per_second"] = seconds > 0.0 ? static_cast<double>(statistics.ticks) / seconds : 0.0;
+  summary["peak_rss_bytes"] = peak_rss_bytes();
+  summary["device"] = device.info().name;
+  summary["driver"] = device.info().driver;
+  summary["records"] = statistics.records;
+  summary["counters"] = statistics.counters;
+  summary["gpu"] = {{"pipelines_built", counters.pipelines_built},
+                    {"pipelines", counters.pipelines},
+                    {"passes", counters.passes},
+                    {"dispatches", counters.dispatches},
+                    {"draws", counters.draws},
+                    {"setup_submits", counters.setup_submits},
+                    {"tlas_builds", counters.tlas_builds},
+                    {"tlas_refits", counters.tlas_refits}};
+  summary["pass_ms"] = nlohmann::json::object();
+  for (const auto& [name, pass] : statistics.passes)
+    summary["pass_ms"][name] = {{"count", pass.count},
+                                {"mean", pass.milliseconds / static_cast<double>(pass.count)}};
+  const sim::Consistency& c = statistics.consistency;
+  summary["consistency"] = {
+      {"depth_vs_ray", {{"compared", c.depth_pixels}, {"max_relative_error", c.depth_error}}},
+      {"lidar_vs_depth", {{"compared", c.lidar_beams}, {"max_relative_error", c.lidar_error}}},
+      {"line_of_sight_delay_vs_distance",
+       {{"compared", c.line_of_sight_paths}, {"max_relative_error", c.line_of_sight_error}}}};
+  return summary;
+}
+
+std::string summary_text(const nlohmann::json& summary) {
+  std::string text = fmt::format(
+      "{} ticks, {} submits, {} packets in {:.2f} s ({:.2f} ticks/s), peak memory {:.0f} MiB, {}\n",
+      summary["ticks"].get<int64_t>(), summary["submits"].get<uint64_t>(), summary["packets"].get<int64_t>(),
+      summary["seconds"].get<double>(), summary["ticks_per_second"].get<double>(),
+      summary["peak_rss_bytes"].get<double>() / (1 << 20), summary["device"].get<std::string>());
+  text += "GPU time per pass, ms:\n";
+  for (const auto& [name, pass] : summary["pass_ms"].items())
+    text += fmt::format("  {:<28} {:8.2f}  x {}\n", name, pass["mean"].get<double>(),
+                        pass["count"].get<uint64_t>());
+  text += "One world:\n";
+  for (const auto& [name, check] : summary["consistency"].items())
+    text += fmt::format("  {:<32} {:9} compared, largest relative difference {:.2e}\n", name,
+                        check["compared"].get<uint64_t>(), check["max_relative_error"].get<double>());
+  return text;
+}
+
+}  // namespace greatx::apps
