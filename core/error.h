@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Three tiers (CONTRIBUTING.md): bad input throws UserError, a broken contract throws ContractError through
-// GREATX_CHECK, a failed Vulkan call throws gpu::VulkanError. All derive from std::exception and reach main().
+// GREATX_CHECK, a failed Vulkan call throws gpu::VulkanError. All derive from std::exception and reach
+// main().
 #pragma once
 
 #include <stdexcept>
@@ -51,8 +52,8 @@ namespace detail {
 }  // namespace greatx
 
 /// GREATX_CHECK(condition, "format", values...): holds in every build; prints the values when it does not.
-#define GREATX_CHECK(condition, ...)                                                                    \
-  do {                                                                                                  \
-    if (!(condition)) [[unlikely]]                                                                      \
-      ::greatx::detail::check_failed(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__));       \
+#define GREATX_CHECK(condition, ...)                                                              \
+  do {                                                                                            \
+    if (!(condition)) [[unlikely]]                                                                \
+      ::greatx::detail::check_failed(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)); \
   } while (false)

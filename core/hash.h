@@ -23,8 +23,7 @@ class Sha256 {
   Sha256& update(std::span<const std::byte> bytes);
   Sha256& update(std::string_view text);
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  Sha256& update_value(const T& value) {
+  requires std::is_trivially_copyable_v<T> Sha256& update_value(const T& value) {
     return update(std::as_bytes(std::span<const T, 1>(&value, 1)));
   }
   /// 64 lower-case hexadecimal digits of what was fed so far; more may follow.

@@ -8,12 +8,14 @@
 
 namespace greatx {
 
-/// A host-side stream of counter-based random numbers (shaders/shared/random.h): the n-th draw of a stream depends
-/// on (seed, stream, sequence, n) only.
+/// A host-side stream of counter-based random numbers (shaders/shared/random.h): the n-th draw of a stream
+/// depends on (seed, stream, sequence, n) only.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, uint32_t stream, uint32_t sequence = 0)
-      : key_(static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)), stream_(stream), sequence_(sequence) {}
+      : key_(static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)),
+        stream_(stream),
+        sequence_(sequence) {}
 
   uint64_t bits() {
     const glm::uvec4 word = shared::philox4x32(glm::uvec4(draw_++, stream_, sequence_, 0x67747821u), key_);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What flows out of the simulator: a Packet per tick, with one Record of every sensor that fired; each Record
-// holds the arrays that its SensorSpec declared before the run. A RecordSink (io/: the data set's writer; tests:
-// a vector) takes packets in order of ticks.
+// holds the arrays that its SensorSpec declared before the run. A RecordSink (io/: the data set's writer;
+// tests: a vector) takes packets in order of ticks.
 #pragma once
 
 #include <algorithm>
@@ -26,15 +26,40 @@ size_t size_of(DType dtype);
 /// NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
 std::string_view numpy_name(DType dtype);
 
-template <typename T> struct DTypeOf;
-template <> struct DTypeOf<uint8_t> { static constexpr DType value = DType::u8; };
-template <> struct DTypeOf<uint16_t> { static constexpr DType value = DType::u16; };
-template <> struct DTypeOf<uint32_t> { static constexpr DType value = DType::u32; };
-template <> struct DTypeOf<int32_t> { static constexpr DType value = DType::i32; };
-template <> struct DTypeOf<int64_t> { static constexpr DType value = DType::i64; };
-template <> struct DTypeOf<float> { static constexpr DType value = DType::f32; };
-template <> struct DTypeOf<double> { static constexpr DType value = DType::f64; };
-template <> struct DTypeOf<std::complex<float>> { static constexpr DType value = DType::complex64; };
+template <typename T>
+struct DTypeOf;
+template <>
+struct DTypeOf<uint8_t> {
+  static constexpr DType value = DType::u8;
+};
+template <>
+struct DTypeOf<uint16_t> {
+  static constexpr DType value = DType::u16;
+};
+template <>
+struct DTypeOf<uint32_t> {
+  static constexpr DType value = DType::u32;
+};
+template <>
+struct DTypeOf<int32_t> {
+  static constexpr DType value = DType::i32;
+};
+template <>
+struct DTypeOf<int64_t> {
+  static constexpr DType value = DType::i64;
+};
+template <>
+struct DTypeOf<float> {
+  static constexpr DType value = DType::f32;
+};
+template <>
+struct DTypeOf<double> {
+  static constexpr DType value = DType::f64;
+};
+template <>
+struct DTypeOf<std::complex<float>> {
+  static constexpr DType value = DType::complex64;
+};
 
 /// A dense array in C order, little endian, that owns its bytes.
 struct Array {
@@ -48,7 +73,8 @@ struct Array {
   template <typename T>
   static Array of(std::vector<int64_t> shape, std::span<const T> values) {
     Array array(DTypeOf<T>::value, std::move(shape));
-    GREATX_CHECK(array.bytes.size() == values.size_bytes(), "{} bytes for {}", array.bytes.size(), values.size_bytes());
+    GREATX_CHECK(array.bytes.size() == values.size_bytes(), "{} bytes for {}", array.bytes.size(),
+                 values.size_bytes());
     std::copy_n(reinterpret_cast<const std::byte*>(values.data()), values.size_bytes(), array.bytes.begin());
     return array;
   }
@@ -67,7 +93,7 @@ struct Array {
 
 /// One array that a sensor delivers with every record.
 struct ArraySpec {
-  std::string name;            ///< e.g. "rgb", "points", "cfr"
+  std::string name;  ///< e.g. "rgb", "points", "cfr"
   DType dtype = DType::f32;
   std::vector<int64_t> shape;  ///< of one record; a first axis of -1 varies from record to record
   std::string unit;            ///< e.g. "m", "1", "s"
@@ -77,17 +103,19 @@ struct ArraySpec {
 /// How arrays become files.
 enum class FileFormat {
   npy_stack,    ///< one .npy per sequence, records stacked along a new first axis
-  npy_ragged,   ///< one .npy per sequence, records concatenated along their first axis, plus NAME_offsets.npy [records+1]
+  npy_ragged,   ///< one .npy per sequence, records concatenated along their first axis, plus NAME_offsets.npy
+                ///< [records+1]
   npy_frame,    ///< one .npy per record
   png,          ///< u8 [h, w, 3] as 8-bit RGB, or [h, w] as grey; u16 [h, w] as 16-bit grey
   png_depth24,  ///< f32 metres [h, w] as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1)
   exr,          ///< f32 [h, w] as one channel "Z", [h, w, 3] as R, G, B
-  ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n] properties
+  ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n]
+                ///< properties
 };
 
 /// One file series of a sensor.
 struct OutputSpec {
-  std::string name;                 ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
+  std::string name;  ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
   FileFormat format = FileFormat::npy_stack;
   std::vector<std::string> arrays;  ///< names of the ArraySpecs that it holds; all formats but ply hold one
 };
@@ -106,8 +134,8 @@ struct SensorSpec {
 struct Record {
   uint32_t sensor = 0;  ///< index into the SensorSpecs
   int64_t tick = 0;
-  int64_t time_ns = 0;  ///< exact time of the tick, rounded to nanoseconds
-  int64_t sample = 0;   ///< k: the sensor's own count
+  int64_t time_ns = 0;        ///< exact time of the tick, rounded to nanoseconds
+  int64_t sample = 0;         ///< k: the sensor's own count
   std::vector<Array> arrays;  ///< in the order of SensorSpec::arrays
 };
 
@@ -121,7 +149,8 @@ struct Packet {
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
-  /// Packets come in ascending order of ticks. May block to bound memory. Throws if the packet cannot be kept.
+  /// Packets come in ascending order of ticks. May block to bound memory. Throws if the packet cannot be
+  /// kept.
   virtual void write(Packet packet) = 0;
 };
 

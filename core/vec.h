@@ -25,7 +25,7 @@ using glm::vec4;
 
 /// A rigid transform `parent_from_child`: p_parent = position + orientation * p_child.
 struct Pose {
-  dvec3 position{0.0};                     ///< metres
+  dvec3 position{0.0};                    ///< metres
   dquat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit, w x y z
 
   dvec3 apply(const dvec3& point) const { return position + orientation * point; }

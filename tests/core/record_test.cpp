@@ -28,8 +28,10 @@ TEST(Pose, ComposesAndInverts) {
   EXPECT_LT(glm::length((a * b).apply(point) - a.apply(b.apply(point))), 1e-12);
   EXPECT_LT(glm::length((a * a.inverse()).apply(point) - point), 1e-12);
   // Yaw turns x towards y, positive pitch turns x downwards (right-handed about y).
-  EXPECT_LT(glm::length(orientation_from_yaw_pitch_roll(pi / 2, 0, 0) * dvec3(1, 0, 0) - dvec3(0, 1, 0)), 1e-12);
-  EXPECT_LT(glm::length(orientation_from_yaw_pitch_roll(0, pi / 2, 0) * dvec3(1, 0, 0) - dvec3(0, 0, -1)), 1e-12);
+  EXPECT_LT(glm::length(orientation_from_yaw_pitch_roll(pi / 2, 0, 0) * dvec3(1, 0, 0) - dvec3(0, 1, 0)),
+            1e-12);
+  EXPECT_LT(glm::length(orientation_from_yaw_pitch_roll(0, pi / 2, 0) * dvec3(1, 0, 0) - dvec3(0, 0, -1)),
+            1e-12);
 }
 
 }  // namespace
