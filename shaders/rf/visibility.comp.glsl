@@ -40,17 +40,26 @@ bool blocks(GpuSegment segment, GpuPrimitive primitive, uint triangle) {
   return !lies_on(segment.a, plane.normal, plane.point) && !lies_on(segment.b, plane.normal, plane.point);
 }
 
-bool visible(GpuSegment segment) {
-  vec3 direction = segment.b - segment.a;
-  if (direction == vec3(0.0)) return true;  // nothing fits between a point and itself
+bool blocked_along(GpuSegment segment, vec3 origin, vec3 direction) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, 0xff, segment.a, 0.0,
-                        direction, 1.0);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
+                        origin, 0.0, direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     if (blocks(segment, primitive, candidate_triangle(query, primitive))) rayQueryConfirmIntersectionEXT(query);
   }
-  return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+  return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
+}
+
+bool visible(GpuSegment segment) {
+  vec3 direction = segment.b - segment.a;
+  if (direction == vec3(0.0)) return true;  // nothing fits between a point and itself
+  if (blocked_along(segment, segment.a, direction)) return false;
+  for (uint which = 0u; which < rays_beside; ++which) {  // lib/trace.glsl: watertight whatever the driver
+    Ray beside = ray_beside(segment.a, direction, which);
+    if (blocked_along(segment, beside.origin, beside.direction)) return false;
+  }
+  return true;
 }
 
 void main() {

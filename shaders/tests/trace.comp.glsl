@@ -17,10 +17,11 @@ void main() {
   if (index >= count) return;
   TraceTestRay ray = rays[index];
   TraceTestResult result;
-  Hit hit = trace_closest(ray.origin, ray.t_min, ray.direction, ray.t_max);
+  result.plain_triangle = triangle_or_none(trace_closest(ray.origin, ray.t_min, ray.direction, ray.t_max));
+  Hit hit = trace_closest_watertight(ray.origin, ray.t_min, ray.direction, ray.t_max);
   result.triangle = triangle_or_none(hit);
   result.t = hit.t;
-  result.any = trace_any(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_facet, no_facet) ? 1u : 0u;
+  result.any = trace_any_watertight(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_facet, no_facet) ? 1u : 0u;
   Hit except = trace_closest_except(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_body, ray.skip_facet, false);
   result.except_triangle = triangle_or_none(except);
   result.except_t = except.t;

@@ -22,11 +22,12 @@ struct TraceTestRay {
 };
 
 struct TraceTestResult {
-  uint triangle;         // trace_closest; trace_test_none: nothing
+  uint plain_triangle;   // trace_closest; trace_test_none: nothing
+  uint triangle;         // trace_closest_watertight
   float t;
   uint next_triangle;    // trace_closest from just beyond that hit
   float next_t;
-  uint any;              // trace_any with skip_facet
+  uint any;              // trace_any_watertight with skip_facet
   uint except_triangle;  // trace_closest_except with skip_facet and skip_body
   float except_t;
   vec3 point;            // hit_point
@@ -40,6 +41,6 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::TraceTestRay) == 40);
-static_assert(sizeof(greatx::shared::TraceTestResult) == 72);
+static_assert(sizeof(greatx::shared::TraceTestResult) == 76);
 #endif
 #endif

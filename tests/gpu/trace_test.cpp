@@ -249,6 +249,35 @@ TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
   EXPECT_EQ(leaked, 0);
 }
 
+TEST(Trace, RaysInGeneralDirectionsDoNotLeakThroughTheDriver) {
+  // A closed room of 2400 tiles from inside: what the LiDAR and the search for candidates rely on.
+  TinyScene tiny;
+  const auto tiles = [&](const dvec3& corner, const dvec3& u, const dvec3& v) {
+    for (int i = 0; i < 20; ++i)
+      for (int j = 0; j < 20; ++j) {
+        const dvec3 a = corner + u * (i / 20.0) + v * (j / 20.0);
+        tiny.quad(a, a + u / 20.0, a + u / 20.0 + v / 20.0, a + v / 20.0);
+      }
+  };
+  const dvec3 x(7, 0, 0), y(0, 5, 0), z(0, 0, 3);
+  for (const auto& [u, v, w] : {std::tuple{x, y, z}, {y, z, x}, {z, x, y}}) {
+    tiles(dvec3(0.0), u, v);
+    tiles(w, u, v);
+  }
+  RandomStream random(11, 1);
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 65536; ++i)
+    rays.push_back(ray({random.uniform(0.5, 6.5), random.uniform(0.5, 4.5), random.uniform(0.5, 2.5)},
+                       random_direction(random)));
+  size_t leaked = 0, differ = 0;
+  for (const TraceTestResult& result : trace(tiny.build(), rays)) {
+    leaked += result.plain_triangle == none;
+    differ += result.plain_triangle != result.triangle;
+  }
+  EXPECT_EQ(leaked, 0u);
+  EXPECT_EQ(differ, 0u);
+}
+
 TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
   TinyScene tiny;
   tiny.box({-1, -1, -1}, {1, 1, 1}).quad({-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0});
