@@ -90,6 +90,7 @@ TEST(SampleTimes, SampleAtInvertsTickOfForManyRates) {
       int64_t next = 0;
       for (int64_t tick = 0; tick < 5000; ++tick) {
         const bool fires = times.tick_of(next) == tick;
+        ASSERT_EQ(times.first_at_or_after(tick), next) << tick_rate.str() << " " << rate.str() << " " << tick;
         ASSERT_EQ(times.sample_at(tick), fires ? next : -1)
             << tick_rate.str() << " " << rate.str() << " " << tick;
         next += fires;
