@@ -156,8 +156,9 @@ void add_park(GlbWriter& writer, const Block& block, CityFurniture& furniture, R
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) {
       if (i == 2 || j == 2) continue;
-      const auto jitter = [&] { return random.uniform(-0.045, 0.045); };
-      furniture.tree(at(0.1 + 0.2 * i + jitter(), 0.1 + 0.2 * j + jitter()), z, random);
+      const double u = 0.1 + 0.2 * i + random.uniform(-0.045, 0.045);
+      const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
+      furniture.tree(at(u, v), z, random);
     }
   for (int i = 0; i < 4; ++i) {
     const double angle = pi / 4 + pi / 2 * i;

@@ -132,18 +132,34 @@ Style make_style(int floors, RandomStream& random) {
   return style;
 }
 
-/// Boxes of plant and the head of the stairs, sunk a little into the roof.
-void add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& spots, const dvec2& along, double roof_z,
-                   RandomStream& random) {
+bool inside(const std::vector<dvec2>& polygon, const dvec2& p) {
+  bool odd = false;
+  for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const dvec2 a = polygon[i], b = polygon[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) odd = !odd;
+  }
+  return odd;
+}
+
+/// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and apart.
+void add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof, const std::vector<dvec2>& spots,
+                   const dvec2& along, double roof_z, RandomStream& random) {
   const int sheet = material("roof_equipment"), concrete = material("concrete");
   const dvec2 across(-along.y, along.x);
   const size_t count = 1 + random.below(static_cast<uint32_t>(spots.size()));
+  std::vector<dvec2> taken;
   for (size_t i = 0; i < count; ++i) {
-    const dvec2 half(random.uniform(1.1, 1.9), random.uniform(0.9, 1.4));
+    const dvec2 half{random.uniform(1.1, 1.9), random.uniform(0.9, 1.4)};  // braces: in this order
     const double height = i == 0 ? 2.5 : random.uniform(1.1, 1.9);
     std::vector<dvec2> corners;
     for (const dvec2& c : {dvec2(-1, -1), dvec2(1, -1), dvec2(1, 1), dvec2(-1, 1)})
       corners.push_back(snap(spots[i] + along * (c.x * half.x) + across * (c.y * half.y)));
+    const bool fits =
+        std::all_of(corners.begin(), corners.end(), [&](const dvec2& c) { return inside(roof, c); });
+    const bool apart = std::all_of(taken.begin(), taken.end(),
+                                   [&](const dvec2& other) { return glm::length(other - spots[i]) > 5.0; });
+    if (!fits || !apart) continue;
+    taken.push_back(spots[i]);
     const int side = i == 0 ? concrete : sheet;
     mesh.prism(side, side, corners, roof_z - 0.2, roof_z + height);
   }
@@ -154,7 +170,6 @@ struct Site {
   std::vector<dvec2> spots;
   std::vector<bool> alley;  ///< whether edge i looks at a neighbour
   dvec2 along;
-  bool convex = true;
 };
 
 MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream& random) {
@@ -189,7 +204,11 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
   };
   MeshBuilder mesh;
   add_ring_solid(mesh, solid);
-  add_equipment(mesh, site.spots, site.along, top, random);
+  std::vector<dvec2> spots = site.spots;
+  if (tower)
+    for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of its smaller roof
+  const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
+  add_equipment(mesh, roof_edge, spots, site.along, top, random);
   return mesh;
 }
 
@@ -226,7 +245,6 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, R
     }
     for (const dvec2& p : shape.spots) site.spots.push_back(place(p));
     site.along = glm::normalize(at(1, lot.v0) - at(0, lot.v0));
-    site.convex = shape.convex;
 
     const double nearness = 1.0 - std::min(1.0, glm::length(center) / std::max(plan.half_m, 150.0));
     const bool tower = roomy && shape.convex && random.uniform() < 0.2 + 0.45 * nearness;

@@ -11,64 +11,63 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A row across the street: `cuts` are fractions of its width from 0 to 1, cell i lies between cuts i and i + 1.
+constexpr double frame_side_m = 0.15;  ///< what stays whole along the kerbs, and
+constexpr double frame_end_m = 0.7;    ///< at both ends, so that neighbours meet a street in single edges
+
+/// A row across the street within the frame: `cuts` are fractions of the street's width, cell i lies between cuts i
+/// and i + 1.
 struct Row {
   double length_m = 0.0;
   std::vector<double> cuts;
   std::vector<bool> marked;
 };
 
-Row plain_row(double length) { return {length, {0.0, 1.0}, {false}}; }
+/// Marks [first, second] of each pair of `marks` (fractions, ascending).
+Row make_row(double length, double width, const std::vector<std::pair<double, double>>& marks) {
+  Row row{length, {frame_side_m / width}, {}};
+  for (const auto& [from, to] : marks) {
+    row.cuts.insert(row.cuts.end(), {from, to});
+    row.marked.insert(row.marked.end(), {false, true});
+  }
+  row.cuts.push_back(1.0 - frame_side_m / width);
+  row.marked.push_back(false);
+  return row;
+}
 
 /// Dashes (or solid lines) of 0.12 m around `lines`, fractions of the width.
 Row line_row(double length, double width, const std::vector<double>& lines) {
-  Row row{length, {0.0}, {}};
-  for (const double line : lines) {
-    row.cuts.insert(row.cuts.end(), {line - 0.06 / width, line + 0.06 / width});
-    row.marked.insert(row.marked.end(), {false, true});
-  }
-  row.cuts.push_back(1.0);
-  row.marked.push_back(false);
-  return row;
+  std::vector<std::pair<double, double>> marks;
+  for (const double line : lines) marks.emplace_back(line - 0.06 / width, line + 0.06 / width);
+  return make_row(length, width, marks);
 }
 
 /// Bars of 0.5 m, 0.6 m apart, along the direction of travel.
 Row zebra_row(double width) {
   const int bars = static_cast<int>((width - 0.6) / 1.1);
-  Row row{3.0, {0.0}, {}};
   const double first = 0.5 * (width - 1.1 * bars + 0.6);
-  for (int i = 0; i < bars; ++i) {
-    row.cuts.insert(row.cuts.end(), {(first + 1.1 * i) / width, (first + 1.1 * i + 0.5) / width});
-    row.marked.insert(row.marked.end(), {false, true});
-  }
-  row.cuts.push_back(1.0);
-  row.marked.push_back(false);
-  return row;
+  std::vector<std::pair<double, double>> marks;
+  for (int i = 0; i < bars; ++i)
+    marks.emplace_back((first + 1.1 * i) / width, (first + 1.1 * i + 0.5) / width);
+  return make_row(3.0, width, marks);
 }
 
+/// What lies between the two ends of the frame, `length` apart.
 std::vector<Row> make_rows(const Street& street, double length, double width, RandomStream& random) {
-  std::vector<Row> head, tail;
-  const auto end_rows = [&](bool junction, std::vector<Row>& rows) {
-    rows.push_back(plain_row(0.7));
-    if (!junction || (!street.avenue && random.uniform() < 0.5)) return;
-    rows.push_back(zebra_row(width));
-    rows.push_back(plain_row(1.5));
-  };
-  end_rows(street.junction[0], head);
-  end_rows(street.junction[1], tail);
-  std::reverse(tail.begin(), tail.end());
-  double used = 0.0;
-  for (const Row& row : head) used += row.length_m;
-  for (const Row& row : tail) used += row.length_m;
+  const Row plain = make_row(1.5, width, {});
+  const auto crossing = [&](bool junction) { return junction && (street.avenue || random.uniform() >= 0.5); };
+  const bool head = crossing(street.junction[0]), tail = crossing(street.junction[1]);
+  std::vector<Row> rows;
+  if (head) rows = {zebra_row(width), plain};
+  const double used = (head ? 4.5 : 0.0) + (tail ? 4.5 : 0.0);
   // Dashes of 3 m every 9 m, stretched to fit; an avenue has a solid line in the middle and two dashed ones.
   const int dashes = std::max(1, static_cast<int>((length - used + 6.0) / 9.0));
   const double unit = (length - used) / (3.0 * dashes - 2.0);
-  std::vector<Row> rows = head;
   for (int i = 0; i < dashes; ++i) {
-    if (i > 0) rows.push_back(street.avenue ? line_row(2 * unit, width, {0.5}) : plain_row(2 * unit));
+    if (i > 0)
+      rows.push_back(street.avenue ? line_row(2 * unit, width, {0.5}) : make_row(2 * unit, width, {}));
     rows.push_back(line_row(unit, width, street.avenue ? std::vector{0.27, 0.5, 0.73} : std::vector{0.5}));
   }
-  rows.insert(rows.end(), tail.begin(), tail.end());
+  if (tail) rows.insert(rows.end(), {plain, zebra_row(width)});
   return rows;
 }
 
@@ -104,7 +103,7 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
       0.5 * (glm::length(street.left[1] - street.left[0]) + glm::length(street.right[1] - street.right[0]));
   const double width =
       0.5 * (glm::length(street.left[0] - street.right[0]) + glm::length(street.left[1] - street.right[1]));
-  const std::vector<Row> rows = make_rows(street, length, width, random);
+  const std::vector<Row> rows = make_rows(street, length - 2.0 * frame_end_m, width, random);
   const int asphalt = material("asphalt"), paint = material("road_marking");
 
   // The points on the boundary below row i: the cuts of both rows that meet there.
@@ -127,9 +126,11 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
       if (cut >= from - 1e-9 && cut <= to + 1e-9) points.push_back(point(along, cut));
     return points;
   };
-  double start = 0.0;
+  double start = frame_end_m / length;
+  Chain inner_left{point(start, cuts[0].front())}, inner_right{point(start, cuts[0].back())};
+  zip(road, asphalt, {street.left[0], street.right[0]}, chain(0, start, 0.0, 1.0));
   for (size_t i = 0; i < rows.size(); ++i) {
-    const double end = i + 1 == rows.size() ? 1.0 : start + rows[i].length_m / length;
+    const double end = start + rows[i].length_m / length;
     for (size_t cell = 0; cell + 1 < rows[i].cuts.size(); ++cell) {
       const double from = rows[i].cuts[cell], to = rows[i].cuts[cell + 1];
       const bool marked = rows[i].marked[cell];
@@ -137,7 +138,12 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
           chain(i + 1, end, from, to));
     }
     start = end;
+    inner_left.push_back(point(start, cuts[i + 1].front()));
+    inner_right.push_back(point(start, cuts[i + 1].back()));
   }
+  zip(road, asphalt, chain(rows.size(), start, 0.0, 1.0), {street.left[1], street.right[1]});
+  zip(road, asphalt, inner_left, {street.left[0], street.left[1]});
+  zip(road, asphalt, {street.right[0], street.right[1]}, inner_right);
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ class Country {
   }
 
  private:
+  dvec2 find_pond();
   void choose_sites();
   /// Fields of a band that are not for crops, by row.
   std::vector<Field> reserved(const std::array<int, 2>& band) const;
@@ -84,6 +85,29 @@ bool Country::near_site(const dvec2& point, double margin) const {
          std::abs(point.y - terrain_.road_y(point.x)) < road_half_width_m + verge_m + margin;
 }
 
+dvec2 Country::find_pond() {
+  // Of random places the first that is clear of road and farms, or else the one that is clearest.
+  const double limit = terrain_.half() - pond_.outer_m - 4.0;
+  dvec2 best(0.0);
+  double best_room = -1e9;
+  for (int attempt = 0; attempt < 100 && best_room < 0.0; ++attempt) {
+    const double x = random_.uniform(-limit, limit), y = random_.uniform(-limit, limit);
+    const dvec2 center = snap(dvec2(x, y));
+    double room = 1e9;
+    for (double along = -pond_.outer_m; along <= pond_.outer_m; along += 4.0) {
+      const dvec2 road(x + along, terrain_.road_y(x + along));
+      room = std::min(room, glm::length(center - road) - pond_.outer_m - road_half_width_m - verge_m);
+    }
+    for (const Site& farm : farms_)
+      room = std::min(room, glm::length(center - farm.center) - pond_.outer_m - farm.inner_m - 4.0);
+    if (room > best_room) {
+      best_room = room;
+      best = center;
+    }
+  }
+  return best;
+}
+
 void Country::choose_sites() {
   // A farm on each side of the road, and a pond away from both.
   const double half = terrain_.half();
@@ -103,15 +127,13 @@ void Country::choose_sites() {
     farms_.push_back(farm);
   }
   for (const Site& farm : farms_) terrain_.flatten(farm);
-  pond_.center = beside_road(-reach * random_.uniform(0.5, 0.7), std::min(0.74 * half, 112.0), side);
   pond_.inner_m = std::min(9.0, 0.1 * half);
   pond_.outer_m = 3.2 * pond_.inner_m;
-  const double limit = half - pond_.outer_m - 4.0;
-  pond_.center = snap(glm::clamp(pond_.center, dvec2(-limit), dvec2(limit)));
+  pond_.center = find_pond();
   double shore = 1e9;
   for (const dvec2& p : regular_polygon(24, pond_.outer_m, pond_.center))
     shore = std::min(shore, terrain_.height(p));
-  pond_.level = snap(shore - 3.0);  // of the bed; the water stands 2 m above it
+  pond_.level = snap(shore - 3.0);  // of the bed; the water stands 1.7 m above it
   terrain_.flatten(pond_);
   for (const double sign : {-1.0, 1.0})
     woods_.emplace_back(random_.uniform(-0.75, 0.75) * half, sign * 0.72 * half);
@@ -183,8 +205,8 @@ void Country::add_ground() {
   terrain_.add_surface(road,
                        [&](int, int column) { return column == south ? material("country_road") : -1; });
   // A disc that reaches into the banks all round: the shore is where they meet.
-  water.flat_polygon(material("water"), regular_polygon(20, 0.86 * pond_.outer_m, pond_.center),
-                     pond_.level + 2.0, true);
+  water.flat_polygon(material("water"), regular_polygon(20, 0.9 * pond_.outer_m, pond_.center),
+                     pond_.level + 1.7, true);
   add("terrain", land, SemanticClass::ground);
   add("road", road, SemanticClass::road);
   add("pond", water, SemanticClass::water);

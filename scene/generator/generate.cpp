@@ -25,7 +25,7 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{{"city", 100, 1000, {}},
-                                      {"country", 100, 2000, {}},
+                                      {"country", 160, 2000, {}},
                                       {"mast", 0, 0, {}},
                                       {"car", 0, 0, {"hatchback", "van"}},
                                       {"quadrotor", 0, 0, {"medium", "small", "large"}}};

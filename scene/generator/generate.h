@@ -16,7 +16,7 @@ struct GenerateOptions {
   std::string kind;   ///< one of generator_kinds()
   uint64_t seed = 1;  ///< of "city" and "country"; the other kinds look the same for every seed
   double size_m =
-      300;  ///< edge of the square of "city" (100...1000) and "country" (100...2000); unused otherwise
+      300;  ///< edge of the square of "city" (100...1000) and "country" (160...2000); unused otherwise
   std::string variant;  ///< one of generator_variants(kind); empty: the first of them
 };
 

@@ -49,7 +49,7 @@ std::vector<MaterialSpec> make_library() {
   return {
       // name, texture, tile, bays, colour, roughness, metallic, emissive, radio
       {"asphalt", "asphalt", dvec2(5.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
-      {"asphalt_lot", "asphalt", dvec2(5.0), 0, vec3(1.35f / 1.4f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"asphalt_lot", "asphalt", dvec2(5.0), 0, vec3(0.96f), 0.95f, 0.0f, vec3(0), asphalt_ground},
       {"country_road", "asphalt", dvec2(5.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
       {"road_marking", "", dvec2(1.0), 0, vec3(0.72f), 0.7f, 0.0f, vec3(0), asphalt_ground},
       {"pavement", "pavement", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_ground},
@@ -104,7 +104,7 @@ std::vector<MaterialSpec> make_library() {
       {"bark", "bark", dvec2(1.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), trunk},
       {"leaves_green", "leaves", dvec2(3.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), canopy},
       {"leaves_dark", "leaves", dvec2(3.0), 0, vec3(0.62f, 0.74f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
-      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(1.25f / 1.3f, 1.0f, 0.6f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(0.96f, 1.0f, 0.6f), 1.0f, 0.0f, vec3(0), canopy},
       {"hedge", "leaves", dvec2(2.0), 0, vec3(0.7f, 0.8f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
 
       {"painted_metal", "", dvec2(1.0), 0, vec3(0.1f, 0.12f, 0.13f), 0.45f, 0.0f, vec3(0), sheet_metal},

@@ -230,7 +230,7 @@ MeshBuilder make_mast() {
   const std::array<double, 4> levels{0.1, 8.5, 16.5, 24.2};
   for (size_t i = 0; i < 3; ++i) {
     const double radius = 0.42 - 0.09 * static_cast<double>(i);
-    mesh.prism(steel, steel, regular_polygon(10, radius), levels[i], levels[i + 1]);
+    mesh.prism(steel, steel, regular_polygon(10, radius), levels[i] - (i == 0 ? 0.0 : 0.05), levels[i + 1]);
     mesh.prism(steel, steel, regular_polygon(10, radius + 0.1, dvec2(0.0), 0.2),
                levels[i] + (i == 0 ? 0.1 : -0.08), levels[i] + (i == 0 ? 0.22 : 0.08));
   }

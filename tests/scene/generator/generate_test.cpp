@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/generate.h"
+
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "scene/build.h"
+#include "scene/generator/materials.h"
+#include "scene/generator/mesh_builder.h"
+#include "scene/generator/png_encoder.h"
+#include "scene/generator/textures.h"
+#include "tests/scene/generator/soup.h"
+
+namespace greatx::scene {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string message_of(const GenerateOptions& options) {
+  try {
+    generate_glb(options);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Generate, SameSeedSameBytesOtherSeedOtherBytes) {
+  for (const char* kind : {"city", "country"}) {
+    const auto first = generate_glb({.kind = kind, .seed = 7, .size_m = 200});
+    EXPECT_EQ(first, generate_glb({.kind = kind, .seed = 7, .size_m = 200})) << kind;
+    EXPECT_NE(first, generate_glb({.kind = kind, .seed = 8, .size_m = 200})) << kind;
+    EXPECT_NE(first, generate_glb({.kind = kind, .seed = 7ull + (1ull << 32), .size_m = 200})) << kind;
+  }
+  EXPECT_EQ(generate_glb({.kind = "car", .seed = 1}), generate_glb({.kind = "car", .seed = 2}));
+}
+
+TEST(Generate, EmptyVariantIsTheFirst) {
+  for (const std::string kind : {"car", "quadrotor"}) {
+    const std::vector<std::string> variants = generator_variants(kind);
+    const auto first = generate_glb({.kind = kind, .variant = variants[0]});
+    EXPECT_EQ(generate_glb({.kind = kind}), first);
+    for (size_t i = 1; i < variants.size(); ++i)
+      EXPECT_NE(generate_glb({.kind = kind, .variant = variants[i]}), first);
+  }
+}
+
+TEST(Generate, NamesWhatIsAllowed) {
+  EXPECT_THAT(generator_kinds(), ElementsAre("city", "country", "mast", "car", "quadrotor"));
+  EXPECT_THAT(message_of({.kind = "town"}),
+              AllOf(HasSubstr("city, country, mast, car, quadrotor"), HasSubstr("town")));
+  EXPECT_THAT(message_of({.kind = ""}), HasSubstr("city, country"));
+  EXPECT_THAT(message_of({.kind = "car", .variant = "tank"}),
+              AllOf(HasSubstr("hatchback, van"), HasSubstr("tank")));
+  EXPECT_THAT(message_of({.kind = "quadrotor", .variant = "huge"}), HasSubstr("medium, small, large"));
+  EXPECT_THAT(message_of({.kind = "city", .variant = "x"}), HasSubstr("has none"));
+  EXPECT_THAT(message_of({.kind = "city", .size_m = 99}), AllOf(HasSubstr("100 to 1000"), HasSubstr("99")));
+  EXPECT_THAT(message_of({.kind = "city", .size_m = 1001}), HasSubstr("100 to 1000"));
+  EXPECT_THAT(message_of({.kind = "country", .size_m = 2001}), HasSubstr("160 to 2000"));
+  EXPECT_THAT(message_of({.kind = "city", .size_m = std::numeric_limits<double>::quiet_NaN()}),
+              HasSubstr("nan"));
+  EXPECT_THROW(generator_variants("town"), UserError);
+}
+
+TEST(Generate, ContainerIsWellFormed) {
+  const auto glb = generate_glb({.kind = "quadrotor"});
+  const auto word = [&](size_t at) {
+    uint32_t value = 0;
+    std::memcpy(&value, glb.data() + at, 4);
+    return value;
+  };
+  ASSERT_EQ(word(0), 0x46546C67u);  // "glTF"
+  EXPECT_EQ(word(4), 2u);
+  EXPECT_EQ(word(8), glb.size());
+  EXPECT_EQ(word(16), 0x4E4F534Au);  // "JSON"
+  const uint32_t json_bytes = word(12);
+  EXPECT_EQ(json_bytes % 4, 0u);
+  EXPECT_EQ(word(20 + json_bytes + 4), 0x004E4942u);  // "BIN\0"
+  EXPECT_EQ(28 + json_bytes + word(20 + json_bytes), glb.size());
+  const char* const text = reinterpret_cast<const char*>(glb.data()) + 20;
+  const auto document = nlohmann::json::parse(text, text + json_bytes);
+  EXPECT_EQ(document["asset"]["version"], "2.0");
+  for (const auto& view : document["bufferViews"]) EXPECT_EQ(view["byteOffset"].get<size_t>() % 4, 0u);
+}
+
+TEST(Generate, CityStaysWithinItsBudget) {
+  for (const uint64_t seed : {1u, 2u, 3u}) {
+    const auto glb = generate_glb({.kind = "city", .seed = seed, .size_m = 300});
+    EXPECT_LE(glb.size(), 2u << 20) << "seed " << seed;
+    const Model model = load_model("city.glb", glb, {});
+    const Scene scene = build_scene({{.name = "", .model = &model, .pose = {}}}, {.name = "city"});
+    EXPECT_LE(scene.triangle_count(), 25000u) << "seed " << seed;
+    EXPECT_LE(scene.facets.size(), 6000u) << "seed " << seed;
+    EXPECT_GT(scene.facets.size(), 3000u) << "seed " << seed;
+    // All of the street is one mirror.
+    size_t road_facets = 0;
+    for (const Facet& facet : scene.facets) {
+      if (scene.instances[facet.instance].name != "road") continue;
+      ++road_facets;
+      EXPECT_NEAR(facet.normal.z, 1.0, 1e-12);
+    }
+    EXPECT_EQ(road_facets, 1u);
+  }
+}
+
+TEST(Generate, EveryMaterialHoldsFrom1To40GHz) {
+  for (const std::string& kind : generator_kinds()) {
+    const Soup soup = load_soup({.kind = kind, .seed = 3, .size_m = 200});
+    ASSERT_FALSE(soup.model.materials.empty());
+    for (const Material& material : soup.model.materials) {
+      ASSERT_TRUE(material.radio.has_value()) << material.name;
+      for (const double frequency : {1e9, 3.5e9, 28e9, 40e9})
+        for (const RadioLayer& layer : material.radio->layers) {
+          const std::complex<double> eta = relative_permittivity(layer.medium, frequency, material.name);
+          EXPECT_GE(eta.real(), 1.0) << material.name;
+          EXPECT_LE(eta.imag(), 0.0) << material.name;
+        }
+      EXPECT_LE(glm::length(glm::max(vec3(material.pbr.base_color), vec3(0.0f))), std::sqrt(3.0f))
+          << material.name;
+    }
+  }
+}
+
+TEST(Generate, LibraryNamesAreUniqueAndTexturesExist) {
+  std::set<std::string> names, textures;
+  for (const generator::MaterialSpec& spec : generator::material_library()) {
+    EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
+    if (spec.texture.empty() || !textures.insert(spec.texture).second) continue;
+    const generator::Picture picture = generator::make_texture(spec.texture);
+    EXPECT_EQ(picture.rgb.size(), 3ull * picture.width * picture.height) << spec.texture;
+    // Not one flat colour.
+    EXPECT_GT(std::set<uint8_t>(picture.rgb.begin(), picture.rgb.end()).size(), 8u) << spec.texture;
+  }
+  EXPECT_THROW(generator::material("unobtainium"), ContractError);
+  EXPECT_THROW(generator::make_texture("unobtainium"), ContractError);
+}
+
+TEST(Png, RoundTripsThroughTheLoadersDecoder) {
+  // Two colours: a palette, hence exact.
+  std::vector<uint8_t> rgb;
+  for (int i = 0; i < 6 * 5; ++i)
+    for (const int c : {i % 7 == 0 ? 200 : 10, 20, 30}) rgb.push_back(static_cast<uint8_t>(c));
+  const auto png = generator::encode_png(6, 5, rgb);
+  EXPECT_EQ(static_cast<int>(png[1]), 'P');
+  EXPECT_EQ(static_cast<int>(png[25]), 3);  // IHDR's colour type: palette
+  // More than 256 colours at any quantisation down to 5 bits: stays RGB.
+  rgb.clear();
+  for (int i = 0; i < 64 * 64; ++i)
+    for (const int c : {i % 32 * 8, i / 32 % 32 * 8, i / 1024 * 60}) rgb.push_back(static_cast<uint8_t>(c));
+  EXPECT_EQ(static_cast<int>(generator::encode_png(64, 64, rgb)[25]), 2);
+  EXPECT_THROW(generator::encode_png(3, 3, rgb), ContractError);
+}
+
+TEST(Triangulate, ConcavePolygonKeepsItsArea) {
+  const std::vector<dvec2> u{{0, 0}, {6, 0}, {6, 5}, {4, 5}, {4, 2}, {2, 2}, {2, 5}, {0, 5}};  // 30 - 6
+  double area = 0.0;
+  const auto triangles = generator::triangulate(u);
+  EXPECT_EQ(triangles.size(), u.size() - 2);
+  for (const auto& t : triangles) {
+    const dvec2 a = u[t[1]] - u[t[0]], b = u[t[2]] - u[t[0]];
+    const double signed_area = 0.5 * (a.x * b.y - a.y * b.x);
+    EXPECT_GT(signed_area, 0.0);
+    area += signed_area;
+  }
+  EXPECT_DOUBLE_EQ(area, 24.0);
+  const std::vector<dvec2> clockwise(u.rbegin(), u.rend());
+  EXPECT_THROW(generator::triangulate(clockwise), ContractError);
+}
+
+TEST(Inset, MovesEachEdgeByItsDistance) {
+  const std::vector<dvec2> square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  EXPECT_THAT(generator::inset(square, std::vector<double>{1, 2, 3, 4}),
+              ElementsAre(dvec2(4, 1), dvec2(8, 1), dvec2(8, 7), dvec2(4, 7)));
+}
+
+}  // namespace
+}  // namespace greatx::scene
