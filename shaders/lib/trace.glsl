@@ -109,18 +109,19 @@ Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) 
 }
 #endif
 
-/// Rays beside the given one, some roundings of the traversal away at every distance: 2^-21 of the distance to the side
-/// plus 2^-22 of the origin's coordinates, 0.05 mm at 100 m. Two of them at a right angle, so that whatever edge the
-/// first ray runs along, one leaves it; and towards no axis in particular, since edges follow the axes.
+/// The given ray, then two beside it, some roundings of the traversal away at every distance: 2^-21 of the distance to
+/// the side plus 2^-22 of the origin's coordinates, 0.05 mm at 100 m. At a right angle, so that whatever edge the first
+/// ray runs along, one leaves it; and towards no axis in particular, since edges follow the axes.
 struct Ray {
   vec3 origin, direction;
 };
-const uint rays_beside = 2u;
-Ray ray_beside(vec3 origin, vec3 direction, uint which) {
+const uint looks = 3u;
+Ray look(vec3 origin, vec3 direction, uint which) {
+  if (which == 0u) return Ray(origin, direction);
   float size = length(direction);
   vec3 side = cross(direction, vec3(0.36, -0.48, 0.8));
   if (dot(side, side) < 0.01 * size * size) side = cross(direction, vec3(-0.64, 0.6, 0.48));
-  if (which == 1u) side = cross(direction / size, side);
+  if (which == 2u) side = cross(direction / size, side);
   side = normalize(side);
   vec3 magnitude = abs(origin);
   float reach = max(max(magnitude.x, magnitude.y), magnitude.z);
@@ -130,13 +131,13 @@ Ray ray_beside(vec3 origin, vec3 direction, uint which) {
 /// trace_closest, watertight whatever the driver: something on another facet and clearly nearer along a ray beside it is
 /// what the ray has slipped past.
 Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_max) {
-  Hit hit = trace_closest(origin, t_min, direction, t_max);
-  for (uint which = 0u; which < rays_beside; ++which) {
-    Ray beside = ray_beside(origin, direction, which);
-    Hit second = trace_closest(beside.origin, t_min, beside.direction, hit.t);
-    if (!second.hit) continue;
-    bool other = !hit.hit || scene_facet(second.triangle) != scene_facet(hit.triangle);
-    if (other && second.t < hit.t * (1.0 - 1.5258789e-5)) hit = second;
+  Hit hit = no_hit(t_max);
+  for (uint which = 0u; which < looks; ++which) {  // one query in a loop: drivers compile it once
+    Ray ray = look(origin, direction, which);
+    Hit found = trace_closest(ray.origin, t_min, ray.direction, hit.t);
+    if (!found.hit) continue;
+    bool other = !hit.hit || scene_facet(found.triangle) != scene_facet(hit.triangle);
+    if (which == 0u || (other && found.t < hit.t * (1.0 - 1.5258789e-5))) hit = found;
   }
   return hit;
 }
@@ -155,10 +156,9 @@ bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
-  if (trace_any(origin, t_min, direction, t_max, skip_facet_a, skip_facet_b)) return true;
-  for (uint which = 0u; which < rays_beside; ++which) {
-    Ray beside = ray_beside(origin, direction, which);
-    if (trace_any(beside.origin, t_min, beside.direction, t_max, skip_facet_a, skip_facet_b)) return true;
+  for (uint which = 0u; which < looks; ++which) {
+    Ray ray = look(origin, direction, which);
+    if (trace_any(ray.origin, t_min, ray.direction, t_max, skip_facet_a, skip_facet_b)) return true;
   }
   return false;
 }
@@ -187,8 +187,9 @@ vec3 geometric_normal(Corners corners) {
 }
 
 /// Where a hit is, from its barycentric coordinates: far more exact than origin + t * direction, whose error grows with
-/// the distance travelled. `error` bounds each coordinate: three products and two sums of |coordinate| at 2^-24 each,
-/// plus those of a body's pose (M. Pharr et al., "Physically Based Rendering", 4th ed., section 6.8.5).
+/// the distance travelled. `error` bounds each coordinate by seven roundings: of the products, the sums and the first
+/// barycentric coordinate (M. Pharr et al., "Physically Based Rendering", 4th ed., section 6.8.5). The pose of a moving
+/// body adds some more, which trace_leaving makes good.
 struct HitPoint {
   vec3 position;
   vec3 error;

@@ -54,10 +54,9 @@ bool blocked_along(GpuSegment segment, vec3 origin, vec3 direction) {
 bool visible(GpuSegment segment) {
   vec3 direction = segment.b - segment.a;
   if (direction == vec3(0.0)) return true;  // nothing fits between a point and itself
-  if (blocked_along(segment, segment.a, direction)) return false;
-  for (uint which = 0u; which < rays_beside; ++which) {  // lib/trace.glsl: watertight whatever the driver
-    Ray beside = ray_beside(segment.a, direction, which);
-    if (blocked_along(segment, beside.origin, beside.direction)) return false;
+  for (uint which = 0u; which < looks; ++which) {  // lib/trace.glsl: watertight whatever the driver
+    Ray ray = look(segment.a, direction, which);
+    if (blocked_along(segment, ray.origin, ray.direction)) return false;
   }
   return true;
 }
