@@ -52,8 +52,8 @@ double radical_inverse(uint32_t bits) {
 
 /// Radiance around `direction`, weighted as GGX reflects it when looked at head-on (Karis, "Real Shading in Unreal
 /// Engine 4", 2013: n = v = r).
-dvec3 blurred(const std::vector<dvec3>& base, uint32_t size, const dvec3& direction, double roughness) {
-  constexpr uint32_t samples = 64;
+dvec3 blurred(const std::vector<dvec3>& base, uint32_t size, const dvec3& direction, double roughness,
+              uint32_t samples) {
   const double alpha = roughness * roughness;
   const dvec3 up = std::abs(direction.z) < 0.99 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
   const dvec3 x = glm::normalize(glm::cross(up, direction)), y = glm::cross(direction, x);
@@ -98,10 +98,13 @@ dvec3 on_level_ground(const Atmosphere& air, const dvec3& to_sun) {
 /// The colour that pictures show as white: of a white card on the ground under a clear sky, the sun 45 degrees high.
 /// Daylight thus looks neutral, evening warm and shade blue.
 dvec3 daylight() {
-  const double sine = std::sqrt(0.5);
-  const Atmosphere air(2.0, 0.25 * pi, 0.15);
-  const dvec3 total = air.sun_transmittance() * sine + on_level_ground(air, {sine, 0.0, sine});
-  return total / luminance(total);
+  static const dvec3 white = [] {
+    const double sine = std::sqrt(0.5);
+    const Atmosphere air(2.0, 0.25 * pi, 0.15);
+    const dvec3 total = air.sun_transmittance() * sine + on_level_ground(air, {sine, 0.0, sine});
+    return total / luminance(total);
+  }();
+  return white;
 }
 }  // namespace
 
@@ -201,7 +204,9 @@ EnvironmentMap bake_environment(const Sky& sky, uint32_t size, uint32_t levels) 
     texels.reserve(size_t(edge) * edge * 4);
     for (uint32_t i = 0; i < edge * edge; ++i) {
       const dvec3 direction = octahedral_direction((i % edge + 0.5) / edge, (i / edge + 0.5) / edge);
-      const dvec3 value = level == 0 ? base[i] : blurred(base, size, direction, double(level) / (levels - 1));
+      const dvec3 value =
+          level == 0 ? base[i]
+                     : blurred(base, size, direction, double(level) / (levels - 1), level == 1 ? 24 : 64);
       for (int c = 0; c < 3; ++c) texels.push_back(glm::packHalf1x16(float(std::min(value[c], 65504.0))));
       texels.push_back(glm::packHalf1x16(1.0f));
     }

@@ -15,7 +15,7 @@
 #ifdef __cplusplus
 namespace greatx::shared {
 using glm::clamp;
-using glm::exp2;
+using glm::dot;
 using glm::max;
 using glm::min;
 using glm::mix;
@@ -57,12 +57,23 @@ GREATX_FUNCTION vec3 schlick_fresnel(vec3 f0, float one_minus_cos) {
   return f0 + (vec3(1.0f) - f0) * (s * s * one_minus_cos);
 }
 
-/// Scale of F0 and offset that give the specular lobe's directional albedo: E_ss(F0) = F0 x + y.
-/// Analytic fit of the split sum (Karis, "Physically Based Shading on Mobile", 2014, after Lazarov 2013).
+/// Scale of F0 and offset that give the directional albedo of a single bounce: E_ss(F0) = F0 x + y (the split sum of
+/// Karis, "Real Shading in Unreal Engine 4", 2013). Polynomials fitted by least squares to this header's own lobe on
+/// n.v = .02, .05, .1 ... 1 and roughness .05 ... 1: rms .01, at most .06 where both are small.
 GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
-  vec4 r = roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
-  float a004 = min(r.x * r.x, exp2(-9.28f * n_dot_v)) * r.x + r.y;
-  return vec2(-1.04f, 1.04f) * a004 + vec2(r.z, r.w);
+  float r = roughness, u = 1.0f - n_dot_v, u2 = u * u, u5 = u2 * u2 * u;
+  vec4 p = vec4(1.0f, r, r * r, r * r * r);
+  float e0 = dot(p, vec4(-4.898510f, 19.392632f, -25.271610f, 10.732605f));
+  float e1 = dot(p, vec4(21.557946f, -109.687165f, 156.616098f, -70.463709f));
+  float e2 = dot(p, vec4(-25.609111f, 154.674327f, -241.176599f, 114.568377f));
+  float e3 = dot(p, vec4(8.961386f, -64.118487f, 106.530581f, -52.509684f));
+  float whole = 1.0f + r * r * (e0 + n_dot_v * (e1 + n_dot_v * (e2 + n_dot_v * e3)));  // of a white conductor
+  float y5 = dot(p, vec4(1.616073f, -3.050597f, -0.256109f, 1.814167f));
+  float y2 = dot(p, vec4(-0.261276f, 1.749049f, -2.617528f, 1.128633f));
+  float y1 = dot(p, vec4(0.072480f, -0.461911f, 0.730696f, -0.340329f));
+  float y9 = dot(p, vec4(-0.274115f, -1.779675f, 6.147730f, -4.179556f));
+  float y = clamp(u * y1 + u2 * y2 + u5 * y5 + u5 * u2 * u2 * y9, 0.0f, 1.0f);
+  return vec2(clamp(whole, 0.1f, 1.0f) - y, y);
 }
 
 /// What a surface is made of at a point and how it answers in the direction of the eye.

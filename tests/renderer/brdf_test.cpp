@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/shared/brdf.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "renderer/camera.h"
+#include "renderer/sky.h"
+#include "shaders/shared/develop.h"
+
+namespace greatx {
+namespace {
+
+using shared::Reflectance;
+
+struct Sums {
+  double specular = 0.0, with_diffuse = 0.0;
+};
+
+/// Integral of the BRDF times the cosine over the hemisphere, in a white world: the share of light sent on.
+Sums directional_albedo(const Reflectance& r) {
+  constexpr int rings = 1000, sectors = 96;
+  const double sin_v = std::sqrt(1.0 - double(r.n_dot_v) * r.n_dot_v);
+  Sums sums;
+  for (int i = 0; i < rings; ++i) {
+    // Denser towards the horizon's opposite, where a smooth surface's lobe is narrow: equal steps of the angle.
+    const double theta = 0.5 * pi * (i + 0.5) / rings, sine = std::sin(theta), cosine = std::cos(theta);
+    for (int k = 0; k < sectors; ++k) {
+      const double phi = pi * (k + 0.5) / sectors;  // the other half is its mirror image
+      const dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine), v(-sin_v, 0.0, r.n_dot_v);
+      const dvec3 h = glm::normalize(l + v);
+      const float f = shared::specular_brdf(r, float(cosine), float(h.z), float(glm::dot(l, h))).x;
+      sums.specular += f * cosine * sine * (0.5 * pi / rings) * (2.0 * pi / sectors);
+    }
+  }
+  sums.with_diffuse = sums.specular + r.diffuse.x;
+  return sums;
+}
+
+TEST(Brdf, DistributionIsNormalised) {
+  for (const float roughness : {0.2f, 0.5f, 1.0f}) {
+    double sum = 0.0;
+    constexpr int steps = 20000;
+    for (int i = 0; i < steps; ++i) {
+      const double theta = 0.5 * pi * (i + 0.5) / steps;
+      sum += shared::ggx_distribution(float(std::cos(theta)), shared::alpha_from_roughness(roughness)) *
+             std::cos(theta) * std::sin(theta) * 2.0 * pi * (0.5 * pi / steps);
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-3) << roughness;
+  }
+}
+
+TEST(Brdf, SendsOnNoMoreThanItReceives) {
+  // The albedo is an analytic fit (a few per cent); beyond that no angle and roughness may gain energy, and white
+  // surfaces lose little: the multiple-scattering terms are there.
+  for (const float metallic : {0.0f, 1.0f})
+    for (const float roughness : {0.3f, 0.5f, 0.8f, 1.0f})
+      for (const float n_dot_v : {0.2f, 0.5f, 0.8f, 1.0f}) {
+        const Sums sums =
+            directional_albedo(shared::reflectance_of(vec3(1.0f), metallic, roughness, n_dot_v));
+        EXPECT_LE(sums.with_diffuse, 1.03) << metallic << " " << roughness << " " << n_dot_v;
+        EXPECT_GE(sums.with_diffuse, 0.93) << metallic << " " << roughness << " " << n_dot_v;
+      }
+}
+
+TEST(Brdf, FitOfTheAlbedoAgreesWithTheIntegral) {
+  for (const float roughness : {0.3f, 0.6f, 1.0f})
+    for (const float n_dot_v : {0.3f, 0.7f, 1.0f}) {
+      const Reflectance r = shared::reflectance_of(vec3(1.0f), 0.0f, roughness, n_dot_v);
+      EXPECT_NEAR(directional_albedo(r).specular, r.albedo.x, 0.03) << roughness << " " << n_dot_v;
+    }
+}
+
+TEST(Brdf, FresnelEndsAtOne) {
+  EXPECT_FLOAT_EQ(shared::schlick_fresnel(vec3(0.04f), 0.0f).x, 0.04f);
+  EXPECT_FLOAT_EQ(shared::schlick_fresnel(vec3(0.04f), 1.0f).x, 1.0f);
+}
+
+TEST(Develop, IsMonotoneAndEndsBelowWhite) {
+  float before = -1.0f;
+  for (float x = 0.0f; x < 100.0f; x += 0.01f) {
+    const vec3 y = shared::tone_map(vec3(x));
+    EXPECT_GE(y.x, before - 1e-6f);
+    EXPECT_LE(y.x, 1.0f);
+    EXPECT_EQ(y.x, y.z);
+    before = y.x;
+  }
+}
+
+TEST(Develop, SrgbBytes) {
+  // IEC 61966-2-1: 18 % grey is 118, the linear part's end 10.
+  EXPECT_EQ(shared::srgb_byte(0.18f), 118u);
+  EXPECT_EQ(shared::srgb_byte(0.0031308f), 10u);
+  EXPECT_EQ(shared::srgb_byte(-1.0f), 0u);
+  EXPECT_EQ(shared::srgb_byte(1e9f), 255u);
+}
+
+TEST(Exposure, SaturationOfSunnySixteen) { EXPECT_DOUBLE_EQ(render::saturation_luminance(15.0), 39321.6); }
+
+TEST(Sky, LightsLevelGroundAsAsked) {
+  for (const double elevation : {-5.0, 3.0, 30.0, 90.0}) {
+    render::Lighting lighting;
+    lighting.sun_direction = render::Lighting::direction(0.3, radians(elevation));
+    lighting.sky_illuminance_lux = 12345.0;
+    const render::Sky sky(lighting);
+    double sum = 0.0;
+    constexpr int rings = 400, sectors = 200;
+    for (int i = 0; i < rings; ++i)
+      for (int k = 0; k < sectors; ++k) {
+        const double z = (i + 0.5) / rings, phi = 2.0 * pi * (k + 0.5) / sectors, r = std::sqrt(1.0 - z * z);
+        const dvec3 radiance = sky.radiance({r * std::cos(phi), r * std::sin(phi), z});
+        EXPECT_TRUE(radiance.x >= 0.0 && radiance.y >= 0.0 && radiance.z >= 0.0);
+        sum += render::luminance(radiance) * z * 2.0 * pi / (rings * sectors);
+      }
+    EXPECT_NEAR(sum / 12345.0, 1.0, 0.01) << elevation;
+    EXPECT_NEAR(render::luminance(sky.sun_illuminance()), elevation > 0.0 ? 100000.0 : 0.0, 1e-6);
+    const auto sh = render::sky_irradiance(sky);
+    EXPECT_NEAR(render::luminance(sh[0] + sh[2] + 2.0 * sh[6]) * pi, 12345.0, 1e-6);
+  }
+}
+
+TEST(Sky, BlueAboveWarmSunInTheEvening) {
+  render::Lighting lighting;
+  lighting.sun_direction = render::Lighting::direction(0.0, radians(50.0));
+  const dvec3 zenith = render::Sky(lighting).radiance({0, 0, 1});
+  EXPECT_GT(zenith.z, 1.5 * zenith.x);
+  lighting.sun_direction = render::Lighting::direction(0.0, radians(5.0));
+  const dvec3 evening = render::Sky(lighting).sun_illuminance();
+  EXPECT_GT(evening.x, 2.0 * evening.z);
+}
+
+TEST(Sky, UniformSkyIsUniform) {
+  render::Lighting lighting;
+  lighting.sky_model = render::SkyModel::uniform;
+  const render::Sky sky(lighting);
+  const auto sh = render::sky_irradiance(sky);
+  EXPECT_NEAR(sh[0].x, 15000.0 / pi, 1e-4 * 15000.0);
+  for (size_t i = 1; i < sh.size(); ++i) EXPECT_NEAR(sh[i].x, 0.0, 1e-4 * 15000.0);
+  EXPECT_NEAR(sky.radiance({0, 0, -1}).x, 15000.0 / pi, 1e-9);
+}
+
+}  // namespace
+}  // namespace greatx

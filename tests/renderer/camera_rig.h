@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene, its light and one camera, ready to take pictures in a test.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/units.h"
+#include "renderer/camera.h"
+#include "renderer/lighting.h"
+#include "renderer/sky.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx::test {
+
+/// A square pinhole camera of 90 degrees that delivers everything.
+inline render::CameraDesc plain_camera(uint32_t size = 64, uint32_t msaa = 1) {
+  render::CameraDesc desc;
+  desc.width = desc.height = size;
+  desc.fx = desc.fy = 0.5 * size;
+  desc.cx = desc.cy = 0.5 * size;
+  desc.msaa = msaa;
+  desc.outputs.hdr = true;
+  return desc;
+}
+
+/// Small shadow maps, so that tests are quick.
+inline render::Lighting plain_light(double sun_azimuth_deg = 0.0, double sun_elevation_deg = 90.0) {
+  render::Lighting lighting;
+  lighting.sun_direction = render::Lighting::direction(radians(sun_azimuth_deg), radians(sun_elevation_deg));
+  lighting.static_shadow_texels = 512;
+  lighting.moving_shadow_texels = 128;
+  return lighting;
+}
+
+inline render::CameraEffects lambertian() {
+  render::CameraEffects effects;
+  effects.specular = false;
+  return effects;
+}
+
+inline scene::Material optical_material(const std::string& name, float gray, float metallic = 0.0f,
+                                        float roughness = 1.0f) {
+  scene::Material material;
+  material.name = name;
+  material.pbr.base_color = vec4(vec3(gray), 1.0f);
+  material.pbr.metallic = metallic;
+  material.pbr.roughness = roughness;
+  return material;
+}
+
+/// Looks along x (yaw 0); pitch is positive downwards.
+inline Pose look(const dvec3& position, double yaw_deg = 0.0, double pitch_deg = 0.0, double roll_deg = 0.0) {
+  return {position, orientation_from_yaw_pitch_roll(radians(yaw_deg), radians(pitch_deg), radians(roll_deg))};
+}
+
+class CameraRig {
+ public:
+  CameraRig(scene::Scene scene, const render::Lighting& lighting, const render::CameraDesc& desc,
+            const render::CameraEffects& effects = {})
+      : scene_(std::make_unique<scene::Scene>(std::move(scene))),
+        gpu_(device(), *scene_, {.acceleration_structure = false, .textures = true}),
+        lighting_(gpu_, lighting, effects),
+        camera_(lighting_, desc),
+        ring_(device(), 2, 1 << 16, 1 << 20) {}
+
+  gpu::TickSlot& record(const Pose& sensor, std::vector<Pose> moving = {}) {
+    moving.insert(moving.begin(), Pose{});
+    moving.resize(scene_->bodies.size());
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_.record_update(slot, moving);
+    lighting_.record(slot, moving);
+    camera_.record(slot, sensor);
+    ring_.submit(slot);
+    return slot;
+  }
+  render::CameraImages collect(const gpu::TickSlot& slot) {
+    ring_.wait(slot);
+    return camera_.collect(slot);
+  }
+  /// `moving`: poses of bodies 1, 2, ...
+  render::CameraImages shoot(const Pose& sensor, const std::vector<Pose>& moving = {}) {
+    return collect(record(sensor, moving));
+  }
+  const render::CameraPass& camera() const { return camera_; }
+  const scene::Scene& scene() const { return *scene_; }
+
+ private:
+  std::unique_ptr<scene::Scene> scene_;
+  scene::GpuScene gpu_;
+  render::SceneLighting lighting_;
+  render::CameraPass camera_;
+  gpu::TickRing ring_;
+};
+
+inline double luminance_at(const render::CameraImages& images, size_t pixel) {
+  return render::luminance(
+      dvec3(images.hdr[3 * pixel], images.hdr[3 * pixel + 1], images.hdr[3 * pixel + 2]));
+}
+
+/// The ray through a pixel's centre in the sensor's frame (x forward, y left, z up), planar depth 1.
+inline dvec3 pixel_ray(const render::CameraDesc& desc, uint32_t column, uint32_t row) {
+  return {1.0, -(column + 0.5 - desc.cx) / desc.fx, -(row + 0.5 - desc.cy) / desc.fy};
+}
+
+}  // namespace greatx::test
