@@ -169,7 +169,7 @@ class NodeReader {
     }
     if (const auto found = semantic_class_from_name(node_name(index))) return found;
     const int mesh = file_.model.nodes[index].mesh;
-    if (mesh >= 0 && static_cast<size_t>(mesh) < file_.model.meshes.size() && !inherited) {
+    if (mesh >= 0 && static_cast<size_t>(mesh) < file_.model.meshes.size()) {
       if (const auto found = semantic_class_from_name(file_.model.meshes[static_cast<size_t>(mesh)].name))
         return found;
     }
