@@ -23,16 +23,12 @@ dmat4 linear_of(const dmat4& affine) {
   return linear;
 }
 
-/// `reference`_from_mesh, where `reference` is a point of the world: the large numbers of a position in UTM cancel here,
-/// in fp64, before anything is multiplied by them.
+/// Where a mesh goes: world_from_mesh about `reference`, a point of the world, or body_from_mesh for a moving body. The
+/// large numbers of a position in UTM cancel here, in fp64, before anything is multiplied by them.
 dmat4 place(const Placement& placement, const ModelInstance& instance, const dvec3& reference) {
-  dmat4 scaled(1.0);
-  for (int axis = 0; axis < 3; ++axis) scaled[axis][axis] = placement.scale[axis];
-  dvec3 offset(0.0);
-  if (!placement.moving) {
-    scaled = glm::mat4_cast(placement.pose.orientation) * scaled;
-    offset = placement.pose.position - reference;
-  }
+  dmat4 scaled = glm::mat4_cast(placement.pose.orientation);
+  for (int axis = 0; axis < 3; ++axis) scaled[axis] *= placement.scale[axis];
+  const dvec3 offset = placement.moving ? placement.pose.position : placement.pose.position - reference;
   dmat4 placed = scaled * linear_of(instance.model_from_mesh);
   placed[3] = dvec4(offset + glm::dmat3(scaled) * dvec3(instance.model_from_mesh[3]), 1.0);
   return placed;

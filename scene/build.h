@@ -14,7 +14,7 @@ namespace greatx::scene {
 struct Placement {
   std::string name;            ///< prefix of its instances' names; may be empty
   const Model* model = nullptr;
-  Pose pose;                   ///< world_from_model; ignored for a moving body (its node's pose places it)
+  Pose pose;                   ///< world_from_model; of a moving body: body_from_model
   dvec3 scale{1.0};
   bool moving = false;         ///< true: becomes a body of its own, called `name`
   std::optional<SemanticClass> semantic_class;  ///< overrides the file's

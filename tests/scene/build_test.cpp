@@ -154,7 +154,7 @@ TEST(BuildScene, MovingBodiesKeepTheirOwnFrame) {
   Placement moving = placement_of(car, "car");
   moving.moving = true;
   moving.scale = dvec3(2.0);
-  moving.pose.position = dvec3(100.0, 0.0, 0.0);  // a node's pose places it
+  moving.pose.position = dvec3(0.0, 0.0, 0.5);  // in the body's frame, whatever the origin
   moving.semantic_class = SemanticClass::vehicle;
   Placement second = moving;
   second.name = "taxi";
@@ -163,8 +163,8 @@ TEST(BuildScene, MovingBodiesKeepTheirOwnFrame) {
   ASSERT_EQ(scene.bodies.size(), 3u);
   EXPECT_EQ(scene.body_index("car"), 1u);
   EXPECT_EQ(scene.body_index("taxi"), 2u);
-  EXPECT_EQ(scene.bodies[1].bounds.min, dvec3(0, -2, 0));
-  EXPECT_EQ(scene.bodies[1].bounds.max, dvec3(2, 0, 2));
+  EXPECT_EQ(scene.bodies[1].bounds.min, dvec3(0, -2, 0.5));
+  EXPECT_EQ(scene.bodies[1].bounds.max, dvec3(2, 0, 2.5));
   EXPECT_EQ(scene.bounds.size(), dvec3(1, 0, 1));  // of what stands still
   ASSERT_EQ(scene.instances.size(), 3u);
   EXPECT_EQ(scene.instances[0].name, "ground/wall");
@@ -258,6 +258,7 @@ TEST(BuildScene, LightsMoveWithTheirPlacement) {
   Placement moving = placement;
   moving.moving = true;
   moving.name = "car";
+  moving.pose = Pose();
   const Scene scene = build_scene({placement, moving}, options);
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[0].name, "post/lamp");
