@@ -58,10 +58,13 @@ std::vector<JournalEntry> parse_journal(const std::string& text) {
     const std::string_view checksum(text.data() + end - checksum_size, checksum_size);
     if (fmt::format("\t{:08x}", crc(line)) != checksum) break;
     const Json json = Json::parse(line);
-    if (json.contains("end"))
-      entries.push_back({end_from(json), end + 1});
-    else
-      entries.push_back({packet_from(json), end + 1});
+    JournalEntry& entry = entries.emplace_back();
+    entry.end = end + 1;
+    if (json.contains("end")) {
+      entry.entry = end_from(json);
+    } else {
+      entry.entry = packet_from(json);
+    }
     start = end + 1;
   }
   return entries;

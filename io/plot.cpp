@@ -85,8 +85,11 @@ void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std
 
 void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color (*map)(double),
                     const std::string& unit) {
-  const std::string low = fmt::format("{:.3g}", scale.low);
-  const std::string high = fmt::format("{:.3g} {}", scale.high, unit);
+  const auto end_text = [&](double value) {
+    if (std::abs(value) < 1e-3 * (scale.high - scale.low)) return std::string("0");
+    return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+  };
+  const std::string low = end_text(scale.low), high = end_text(scale.high) + " " + unit;
   const int text_y = rect.y + (rect.height - text_height) / 2;
   canvas.text(rect.x, text_y, low, theme::text_scale, theme::dim);
   canvas.text(rect.right(), text_y, high, theme::text_scale, theme::dim, Align::right);

@@ -5,6 +5,7 @@
 // that was never interrupted.
 #include <csignal>
 #include <functional>
+#include <memory>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,11 +43,14 @@ int in_child(const std::function<int()>& action) {
 
 class Resume : public testing::Test {
  protected:
-  void SetUp() override {
-    DatasetWriter writer(whole(), info_);
-    ASSERT_TRUE(write_sample_run(writer, info_));
+  /// The run that was never interrupted, written once.
+  static void SetUpTestSuite() {
+    whole_folder = std::make_unique<TemporaryFolder>();
+    DatasetWriter writer(whole(), sample_info());
+    ASSERT_TRUE(write_sample_run(writer, sample_info()));
   }
-  std::filesystem::path whole() const { return folder_.path() / "whole"; }
+  static void TearDownTestSuite() { whole_folder.reset(); }
+  static std::filesystem::path whole() { return whole_folder->path() / "whole"; }
   std::filesystem::path cut() const { return folder_.path() / "cut"; }
 
   /// A run killed after `packets` packets, the last of them perhaps on their way.
@@ -70,6 +74,9 @@ class Resume : public testing::Test {
 
   const DatasetInfo info_ = sample_info();
   TemporaryFolder folder_;
+
+ private:
+  inline static std::unique_ptr<TemporaryFolder> whole_folder;
 };
 
 TEST_F(Resume, AKilledRunLeavesWholeRecordsAndIsFinishedToTheSameBytes) {
