@@ -37,7 +37,8 @@ struct Lighting {
   static dvec3 direction(double azimuth, double elevation);
 };
 
-/// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded.
+/// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
+/// alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;
   bool sky = true;             ///< as background, ambient light and reflection

@@ -63,10 +63,6 @@ vec2 inside(vec2 b) {
   return b / max(b.x + b.y, 1.0);
 }
 
-vec2 mix_uv(uvec3 vertices, vec2 b) {
-  return scene_uv(vertices.x) * (1.0 - b.x - b.y) + scene_uv(vertices.y) * b.x + scene_uv(vertices.z) * b.y;
-}
-
 /// Where textures are read, and how wide a pixel is there.
 struct Footprint {
   vec2 uv, dx, dy;
@@ -80,7 +76,7 @@ vec4 texel(int index, Footprint at) {
 vec3 surface_radiance(Seen seen, vec3 ray) {
   GpuPrimitive primitive = scene_primitive(seen.primitive);
   GpuMaterial material = scene_material(primitive.material);
-  vec2 b = inside(barycentrics(seen, ray));
+  vec2 center = barycentrics(seen, ray), b = inside(center);
   vec3 p = seen.p0 + seen.e1 * b.x + seen.e2 * b.y;
   vec3 v = -normalize(p);
   // A surface is solid from both sides: its normals look at the side that the eye is on.
@@ -95,9 +91,11 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   vec3 glow = emissive_on ? material.emissive * emissive_nits : vec3(0.0);
   if (textures_on || normal_maps_on) {
     Footprint at;
-    at.uv = mix_uv(seen.vertices, b);
-    at.dx = mix_uv(seen.vertices, barycentrics(seen, ray + camera.ray_x)) - mix_uv(seen.vertices, barycentrics(seen, ray));
-    at.dy = mix_uv(seen.vertices, barycentrics(seen, ray + camera.ray_y)) - mix_uv(seen.vertices, barycentrics(seen, ray));
+    vec2 uv0 = scene_uv(seen.vertices.x);
+    mat2 along = mat2(scene_uv(seen.vertices.y) - uv0, scene_uv(seen.vertices.z) - uv0);
+    at.uv = uv0 + along * b;
+    at.dx = along * (barycentrics(seen, ray + camera.ray_x) - center);
+    at.dy = along * (barycentrics(seen, ray + camera.ray_y) - center);
     if (textures_on) {
       if (material.base_color_texture >= 0) base_color *= texel(material.base_color_texture, at).rgb;
       if (material.metallic_roughness_texture >= 0) {
@@ -121,7 +119,7 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   Reflectance r = lambertian_reflectance(base_color);
   if (specular_on) r = reflectance_of(base_color, metallic, roughness, dot(n, v));
   vec3 radiance = glow;
-  if (sun_on) {
+  if (sun_on && dot(n, lighting.sun_direction) > 0.0) {
     vec3 direct = reflect_light(r, n, v, lighting.sun_direction, lighting.sun_illuminance);
     radiance += direct * sun_visibility(p, geometric);
   }
@@ -157,6 +155,12 @@ void look(inout Center center, Seen seen, vec3 ray) {
   if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.primitive + 1u);
 }
 
+/// The triangle's rim where it comes closest to the centre.
+Center rim_of(Seen seen, vec3 ray) {
+  vec2 b = inside(barycentrics(seen, ray));
+  return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.primitive + 1u);
+}
+
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, picture_size()))) return;
@@ -167,7 +171,7 @@ void main() {
   uint ids[sample_count];
   for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, at, s).r;
   vec3 radiance = vec3(0.0);
-  Center center = Center(infinity, 0u);
+  Center center = Center(infinity, 0u), first = center;
   bool sky = false;
   uint left = (1u << sample_count) - 1u;  // samples not yet accounted for
   while (left != 0u) {
@@ -182,15 +186,12 @@ void main() {
     } else {
       Seen seen = see(id - 1u);
       if (ids_on) look(center, seen, ray);
+      if (ids_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
       if (color_on) radiance += weight * surface_radiance(seen, ray);
     }
   }
-  if (ids_on && center.id == 0u && !sky) {
-    // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
-    Seen seen = see(ids[0] - 1u);
-    vec2 b = inside(barycentrics(seen, ray));
-    center = Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.primitive + 1u);
-  }
+  // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
+  if (center.id == 0u && !sky) center = first;
   if (color_on) imageStore(color_image, at, vec4(min(radiance * camera.exposure, vec3(65504.0)), 1.0));
   if (ids_on) imageStore(ids_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
 }

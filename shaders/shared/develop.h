@@ -19,11 +19,11 @@ using std::pow;
 
 GREATX_SHARED_BEGIN
 
-/// The response of film to light: 1 - exp(-1.6 x) of the brightest channel, which lifts the middle and has no end; the
+/// The response of film to light: 1 - exp(-2.2 x) of the brightest channel, which lifts the middle and has no end; the
 /// others keep their ratio to it, and fade towards white as it saturates (as in Khronos' PBR Neutral tone mapper, 2024).
 /// Linear Rec. 709 in and out, [0, inf) to [0, 1).
 GREATX_FUNCTION vec3 tone_map(vec3 color) {
-  const float response = 1.6f;
+  const float response = 2.2f;
   const float desaturation = 0.15f;
   float peak = max(max(color.x, max(color.y, color.z)), 1e-9f);
   float new_peak = 1.0f - exp(-response * peak);
