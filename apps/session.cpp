@@ -18,8 +18,7 @@ void ScenarioOptions::add_to(CLI::App& command) {
       .add_option("SCENARIO", scenario,
                   fmt::format("scenario file (.yaml), or an embedded one: {}", fmt::join(names, ", ")))
       ->capture_default_str();
-  command.add_option("--assets", assets,
-                     "folder that the scenario's relative paths start from [its own folder]");
+  command.add_option("--assets", assets, "folder to look in for files that are not beside the scenario");
   command.add_option("--seed", seed, "instead of the scenario's seed");
   command.add_option("--ticks", ticks, "instead of the scenario's length")->check(CLI::PositiveNumber);
   command.add_option("--sequences", sequences, "instead of the scenario's number of sequences")
@@ -39,7 +38,7 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
   const auto embedded = std::find_if(embedded_scenarios().begin(), embedded_scenarios().end(),
                                      [&](const EmbeddedScenario& s) { return s.name == options.scenario; });
   if (embedded != embedded_scenarios().end()) {
-    scenario = sim::parse_scenario(std::string(embedded->text), std::string(embedded->name) + ".yaml",
+    scenario = sim::parse_scenario(std::string(embedded->text), std::string(embedded->name) + ".yaml", ".",
                                    options.assets);
   } else {
     const std::filesystem::path file = options.scenario;

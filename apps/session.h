@@ -21,7 +21,7 @@ namespace greatx::apps {
 /// Options that choose and change a scenario.
 struct ScenarioOptions {
   std::string scenario = "city";  ///< a file, or the name of an embedded one
-  std::string assets;             ///< where its relative paths start; empty: its own folder
+  std::string assets;             ///< where its relative paths are looked for, beside its own folder
   std::optional<uint64_t> seed;
   std::optional<int64_t> ticks;
   std::optional<uint32_t> sequences;

@@ -37,7 +37,7 @@ function(greatx_test NAME)
   target_link_libraries(test_${NAME} PRIVATE greatx_options ${ARG_LINK} greatx_test_support GTest::gtest GTest::gmock)
   set_property(GLOBAL APPEND PROPERTY GREATX_TEST_PROGRAMS test_${NAME})
   gtest_discover_tests(test_${NAME} TEST_FILTER "*HardCase*" TEST_LIST hard_${NAME}
-                       PROPERTIES LABELS "hard;${NAME}" DISCOVERY_TIMEOUT 60)
+                       PROPERTIES LABELS "hard\\;${NAME}" DISCOVERY_TIMEOUT 60)
   gtest_discover_tests(test_${NAME} TEST_FILTER "-*HardCase*" TEST_LIST plain_${NAME}
                        PROPERTIES LABELS "${NAME}" DISCOVERY_TIMEOUT 60)
 endfunction()

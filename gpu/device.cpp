@@ -156,6 +156,32 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
+const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& select) {
+  if (devices.empty()) throw UserError(no_vulkan_help);
+  const DeviceInfo* chosen = nullptr;
+  for (const DeviceInfo& info : devices) {
+    const bool named =
+        select == std::to_string(info.index) || lower(info.name).find(lower(select)) != std::string::npos;
+    if (!select.empty() && named) {
+      chosen = &info;
+      break;
+    }
+    if (select.empty() && info.usable() && (chosen == nullptr || preference(info) > preference(*chosen)))
+      chosen = &info;
+  }
+  if (chosen != nullptr && chosen->usable()) return *chosen;
+  std::string table;
+  for (const DeviceInfo& info : devices)
+    table += fmt::format("\n  {}: {} ({}): {}", info.index, info.name, info.driver,
+                         info.usable() ? "usable" : fmt::format("lacks {}", fmt::join(info.missing(), ", ")));
+  if (chosen != nullptr)
+    throw_user_error("device '{}' lacks what greatx needs; the devices are:{}", chosen->name, table);
+  if (!select.empty())
+    throw_user_error("no Vulkan device matches '{}'; expected an index or a part of a name of:{}", select,
+                     table);
+  throw_user_error("no Vulkan device has what greatx needs:{}", table);
+}
+
 Device::Device(const DeviceOptions& options) {
   create_instance(options.validation || environment_flag("GREATX_VALIDATION"));
   const char* environment = std::getenv("GREATX_DEVICE");
@@ -196,37 +222,10 @@ void Device::create_instance(bool validation) {
 
 void Device::choose_physical(const std::string& select) {
   const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
-  if (devices.empty()) throw UserError(no_vulkan_help);
   std::vector<DeviceInfo> infos;
   for (uint32_t i = 0; i < devices.size(); ++i) infos.push_back(describe(devices[i], i));
-
-  const DeviceInfo* chosen = nullptr;
-  for (const DeviceInfo& info : infos) {
-    if (!select.empty()) {
-      if (select == std::to_string(info.index) || lower(info.name).find(lower(select)) != std::string::npos) {
-        chosen = &info;
-        break;
-      }
-    } else if (info.usable() && (chosen == nullptr || preference(info) > preference(*chosen))) {
-      chosen = &info;
-    }
-  }
-  if (chosen == nullptr || !chosen->usable()) {
-    std::string table;
-    for (const DeviceInfo& info : infos)
-      table +=
-          fmt::format("\n  {}: {} ({}): {}", info.index, info.name, info.driver,
-                      info.usable() ? "usable" : fmt::format("lacks {}", fmt::join(info.missing(), ", ")));
-    if (chosen == nullptr && !select.empty())
-      throw_user_error("no Vulkan device matches '{}'; expected an index or a part of a name of:{}", select,
-                       table);
-    throw_user_error(
-        "{} has what greatx needs:{}",
-        chosen != nullptr ? fmt::format("'{}' is not a device that", chosen->name) : "no Vulkan device",
-        table);
-  }
-  info_ = *chosen;
-  physical_ = devices[chosen->index];
+  info_ = choose_device(infos, select);
+  physical_ = devices[info_.index];
 }
 
 void Device::create_logical() {

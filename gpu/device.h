@@ -40,6 +40,11 @@ struct DeviceInfo {
 /// Every Vulkan device of the machine. Throws UserError if there is no Vulkan loader or driver at all.
 std::vector<DeviceInfo> list_devices();
 
+/// Which of `devices` to use: the one that `select` names (index, or part of the name, case-insensitive), else the usable
+/// one of the best type. Throws UserError listing every device and what it lacks if there is none, or if the one that
+/// was named lacks something.
+const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& select);
+
 /// Messages of the validation layer, kept for the tests and the program's end; outlives the device.
 class ValidationLog {
  public:

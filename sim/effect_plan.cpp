@@ -17,7 +17,8 @@ namespace {
 /// What the scene has that some effect needs.
 struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
-  bool textures = false, normal_maps = false, alpha_mask = false, emissive = false;
+  bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
+       emissive = false;
   size_t lights = 0;
   double lamp_illuminance_lux = 0.0;  ///< the most that a lamp throws on the ground, see lamp_illuminance
 };
@@ -49,6 +50,9 @@ Offers offers_of(const scene::Scene& scene) {
     (moving ? offers.moving_triangles : offers.static_triangles) = true;
     offers.textures |= pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 ||
                        pbr.emissive_texture >= 0 || pbr.normal_texture >= 0;
+    const scene::Material& material = scene.materials[primitive.material];
+    offers.reflectance_textures |=
+        pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
     offers.normal_maps |= pbr.normal_texture >= 0;
     offers.alpha_mask |= pbr.alpha_mode == scene::AlphaMode::mask;
     offers.emissive |= pbr.emissive != vec3(0.0f);
@@ -200,6 +204,12 @@ void plan_lidar(EffectPlan& plan, Planner& planner, const Offers& offers, const 
                                          !lidar              ? "no LiDAR"
                                          : offers.alpha_mask ? "materials have holes"
                                                              : "no material has holes");
+  plan.lidar_textures =
+      planner.decide("lidar_textures", lidar && offers.reflectance_textures,
+                     !lidar ? "no LiDAR"
+                     : offers.reflectance_textures
+                         ? "textures shade reflectances that come from the base colour"
+                         : "every textured material states its reflectance, or none has a texture");
   plan.lidar_sweep_motion =
       planner.decide("lidar_sweep_motion", asks.sweep,
                      !lidar       ? "no LiDAR"
@@ -261,6 +271,7 @@ std::vector<Effect*> EffectPlan::all() {
           &punctual_lights,
           &lidar,
           &lidar_alpha_mask,
+          &lidar_textures,
           &lidar_sweep_motion,
           &channel,
           &line_of_sight,

@@ -30,7 +30,7 @@ struct EffectPlan {
   Effect camera, rgb, depth, ids, hdr, sun, sky, static_shadows, moving_shadows, textures, normal_maps,
       alpha_mask, emissive, punctual_lights;
   // LiDAR.
-  Effect lidar, lidar_alpha_mask, lidar_sweep_motion;
+  Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion;
   // Radio.
   Effect channel, line_of_sight, reflection, moving_reflectors, doppler;
   // The check that the modalities see one world.

@@ -23,6 +23,7 @@ render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan,
   desc.wavelength_nm = static_cast<uint32_t>(config.wavelength_nm);
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   desc.alpha_mask = plan.lidar_alpha_mask.on;
+  desc.textured_reflectance = plan.lidar_textures.on;
   return desc;
 }
 

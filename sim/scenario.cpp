@@ -80,9 +80,9 @@ void check_names(const Field& root, const Scenario& scenario) {
 
 }  // namespace
 
-Scenario parse_scenario(const std::string& text, const std::string& name,
-                        const std::filesystem::path& folder) {
-  const Field root = Field::parse(text, name, folder);
+Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                        const std::filesystem::path& assets) {
+  const Field root = Field::parse(text, name, folder, assets);
   const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "tick_rate_hz",
                             "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});
   map.require("greatx", "1 (the format's version)").choice({"1"});
@@ -107,7 +107,7 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   return scenario;
 }
 
-Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& folder) {
+Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets) {
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::exists(file, error))
@@ -118,8 +118,7 @@ Scenario load_scenario(const std::filesystem::path& file, const std::filesystem:
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw_user_error("{}: expected a readable scenario file, found one that cannot be read", name);
-  Scenario scenario = parse_scenario(
-      text.str(), name, folder.empty() ? std::filesystem::absolute(file).parent_path() : std::filesystem::absolute(folder));
+  Scenario scenario = parse_scenario(text.str(), name, std::filesystem::absolute(file).parent_path(), assets);
   scenario.file = std::filesystem::absolute(file).lexically_normal();
   return scenario;
 }

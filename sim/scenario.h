@@ -163,6 +163,8 @@ struct NodeConfig {
   std::string name;
   Trajectory trajectory;
   std::optional<ModelSource> model;  ///< a mesh that follows the node
+  Mount model_mount;                 ///< body_from_model
+  dvec3 model_scale{1.0};
   std::optional<std::string> semantic_class;
   std::vector<SensorConfig> sensors;
   SourceLocation where;
@@ -209,10 +211,10 @@ struct Scenario {
 /// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
 /// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
 /// sensors).
-/// Relative paths are taken from `folder`; empty: from the scenario's own.
-Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& folder = {});
+/// A relative path that does not exist beside the scenario is looked for in `assets`, if that is not empty.
+Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets = {});
 /// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
-Scenario parse_scenario(const std::string& text, const std::string& name,
-                        const std::filesystem::path& folder);
+Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                        const std::filesystem::path& assets = {});
 
 }  // namespace greatx::sim

@@ -19,7 +19,13 @@ NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rat
   node.name = name.name();
   if (node.name == "static") name.fail("a name other than 'static', which is the world that never moves");
   node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, references);
-  if (const auto f = map.find("model")) node.model = parse_model_source(FieldMap(*f, {"file", "generate"}));
+  if (const auto f = map.find("model")) {
+    const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale"});
+    node.model = parse_model_source(model);
+    if (const auto g = model.find("position_m")) node.model_mount.position_m = g->vector3();
+    if (const auto g = model.find("rotation_deg")) node.model_mount.rotation = g->angles_deg();
+    if (const auto g = model.find("scale")) node.model_scale = parse_scale(*g);
+  }
   if (const auto f = map.find("class")) {
     node.semantic_class = parse_semantic_class(*f);
     if (!node.model) f->fail("a 'model' beside 'class'", "none");

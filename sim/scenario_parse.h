@@ -25,6 +25,8 @@ size_t kind_of(const Field& field, std::string_view key, std::initializer_list<s
 Rational rate_of(const Field& field, const Rational& tick_rate_hz);
 /// `file` or `generate` of `map`, exactly one of them.
 ModelSource parse_model_source(const FieldMap& map);
+/// One factor or three, none of them 0.
+dvec3 parse_scale(const Field& field);
 /// One of the semantic classes' names (scene::semantic_class_names).
 std::string parse_semantic_class(const Field& field);
 

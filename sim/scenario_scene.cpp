@@ -43,13 +43,6 @@ Generated parse_generated(const Field& field) {
   return generated;
 }
 
-dvec3 parse_scale(const Field& field) {
-  const dvec3 scale = field.is_scalar() ? dvec3(field.number()) : field.vector3();
-  if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0)
-    field.fail("scale factors other than 0", fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
-  return scale;
-}
-
 StaticObject parse_object(const Field& field) {
   const FieldMap map(field, {"name", "file", "generate", "position_m", "rotation_deg", "scale", "class"});
   StaticObject object;
@@ -80,6 +73,13 @@ std::string parse_semantic_class(const Field& field) {
         fmt::format("a semantic class ({})", fmt::join(semantic_classes, ", ")),
         fmt::format("'{}'{}", name, suggestion(name, {semantic_classes.begin(), semantic_classes.end()})));
   return name;
+}
+
+dvec3 parse_scale(const Field& field) {
+  const dvec3 scale = field.is_scalar() ? dvec3(field.number()) : field.vector3();
+  if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0)
+    field.fail("scale factors other than 0", fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
+  return scale;
 }
 
 ModelSource parse_model_source(const FieldMap& map) {

@@ -65,15 +65,16 @@ bool is_name(const std::string& text) {
 Field::Field(std::shared_ptr<const Source> source, YAML::Node node, std::string path, int line)
     : source_(std::move(source)), node_(std::move(node)), path_(std::move(path)), line_(line) {}
 
-Field Field::parse(const std::string& text, const std::string& file_name,
-                   const std::filesystem::path& folder) {
+Field Field::parse(const std::string& text, const std::string& file_name, const std::filesystem::path& folder,
+                   const std::filesystem::path& assets) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1)
       throw_user_error_at({file_name, line_of(documents[1], 0)}, "expected one YAML document, found {}",
                           documents.size());
     const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
-    return Field(std::make_shared<const Source>(Source{file_name, folder}), root, "", line_of(root, 1));
+    return Field(std::make_shared<const Source>(Source{file_name, folder, assets}), root, "",
+                 line_of(root, 1));
   } catch (const YAML::Exception& error) {
     throw_user_error_at({file_name, error.mark.is_null() ? 0 : error.mark.line + 1},
                         "expected well-formed YAML, found a fault: {}", error.msg);
@@ -190,8 +191,10 @@ std::vector<Field> Field::list(const std::string& of_what, size_t least) const {
 
 std::filesystem::path Field::file() const {
   if (!node_.IsScalar() || node_.Scalar().empty()) fail("a file's path");
-  const auto path = std::filesystem::absolute(source_->folder / node_.Scalar()).lexically_normal();
   std::error_code error;
+  auto path = std::filesystem::absolute(source_->folder / node_.Scalar()).lexically_normal();
+  if (!source_->assets.empty() && !std::filesystem::exists(path, error))
+    path = std::filesystem::absolute(source_->assets / node_.Scalar()).lexically_normal();
   if (!std::filesystem::exists(path, error)) fail("an existing file", fmt::format("no '{}'", path.string()));
   if (!std::filesystem::is_regular_file(path, error))
     fail("a regular file", fmt::format("'{}', which is none", path.string()));

@@ -28,7 +28,7 @@ class Field {
  public:
   /// The root of the one document in `text`. Throws UserError with the line if it is not well-formed YAML.
   static Field parse(const std::string& text, const std::string& file_name,
-                     const std::filesystem::path& folder);
+                     const std::filesystem::path& folder, const std::filesystem::path& assets = {});
 
   SourceLocation where() const { return {source_->file_name, line_}; }
   const std::string& path() const { return path_; }
@@ -56,7 +56,7 @@ class Field {
   size_t choice(std::initializer_list<std::string_view> choices) const;
   /// Items with at least `least` of them; `of_what` names them in messages, e.g. "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
-  /// An existing regular file, absolute; relative ones are taken from the scenario's folder.
+  /// An existing regular file, absolute; relative ones are looked for in the scenario's folder, then among the assets.
   std::filesystem::path file() const;
 
  private:
@@ -64,6 +64,7 @@ class Field {
   struct Source {
     std::string file_name;
     std::filesystem::path folder;
+    std::filesystem::path assets;  ///< empty: none
   };
   Field(std::shared_ptr<const Source> source, YAML::Node node, std::string path, int line);
   std::string describe() const;

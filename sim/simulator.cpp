@@ -24,7 +24,8 @@ constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever anothe
 constexpr size_t lidar_comparisons = 1024;
 
 scene::GpuSceneOptions gpu_scene_options(const EffectPlan& plan) {
-  return {plan.acceleration_structure.on, plan.textures.on || plan.alpha_mask.on || plan.lidar_alpha_mask.on};
+  return {plan.acceleration_structure.on,
+          plan.textures.on || plan.alpha_mask.on || plan.lidar_alpha_mask.on || plan.lidar_textures.on};
 }
 
 render::CameraEffects camera_effects(const EffectPlan& plan) {

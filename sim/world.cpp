@@ -75,12 +75,11 @@ World load_world(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes) {
     if (!node.model) continue;
     models.push_back(load(*node.model, scenario.scene));
-    scene::Placement placement{
-        node.name,  &models.back(),     {},
-        dvec3(1.0), !never_moves(node), semantic_class(node.semantic_class, node.where)};
+    Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
     if (const auto* fixed = std::get_if<StaticTrajectory>(&node.trajectory))
-      placement.pose = {fixed->position_m, orientation_of(fixed->rotation)};
-    placements.push_back(placement);
+      pose = Pose{fixed->position_m, orientation_of(fixed->rotation)} * pose;
+    placements.push_back({node.name, &models.back(), pose, node.model_scale, !never_moves(node),
+                          semantic_class(node.semantic_class, node.where)});
   }
   world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
   for (const NodeConfig& node : scenario.nodes)

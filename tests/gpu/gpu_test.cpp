@@ -50,6 +50,46 @@ TEST(Devices, UnknownSelectionListsWhatThereIs) {
   }
 }
 
+DeviceInfo made_up(uint32_t index, const std::string& name, const std::string& type, bool ray_query) {
+  DeviceInfo info;
+  info.index = index;
+  info.name = name;
+  info.type = type;
+  info.capabilities = {{"rayQuery", "tracing rays", true, ray_query}};
+  return info;
+}
+
+TEST(Devices, TheBestUsableTypeIsChosen) {
+  const std::vector<DeviceInfo> devices{made_up(0, "Soft", "cpu", true),
+                                        made_up(1, "Blind", "discrete", false),
+                                        made_up(2, "Small", "integrated", true)};
+  EXPECT_EQ(choose_device(devices, "").name, "Small");
+  EXPECT_EQ(choose_device(devices, "soft").name, "Soft");
+  EXPECT_EQ(choose_device(devices, "2").name, "Small");
+}
+
+TEST(Devices, WithoutRayQueryIsRefusedByName) {
+  const std::vector<DeviceInfo> devices{made_up(0, "Blind", "discrete", false)};
+  for (const char* select : {"", "blind"}) {
+    try {
+      choose_device(devices, select);
+      FAIL() << "a device without ray query was chosen";
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("lacks rayQuery"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("Blind"));
+    }
+  }
+}
+
+TEST(Devices, NoneAtAllSaysWhatToInstall) {
+  try {
+    choose_device({}, "");
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no Vulkan driver found: install"));
+  }
+}
+
 TEST(Validation, AMessageIsCaught) {
   Device& device = test::device();
   const Buffer small(device, 16, Memory::device, "small");

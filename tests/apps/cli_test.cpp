@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// greatx as a user runs it: exit codes, messages, data sets on disk, interruption, threads.
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string read_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
+Outcome greatx(const std::string& arguments, const std::string& before = "") {
+  std::string folder = (fs::temp_directory_path() / "greatx-cli-XXXXXX").string();
+  EXPECT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string command =
+      fmt::format("{} exec '{}' {} >{}/out 2>{}/err", before, GREATX_PROGRAM, arguments, folder, folder);
+  const int status = std::system(fmt::format("/bin/sh -c \"{}\"", command).c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                  read_file(folder + "/out"), read_file(folder + "/err")};
+  fs::remove_all(folder);
+  return outcome;
+}
+
+constexpr const char* small_scenario = R"(greatx: 1
+name: small
+seed: 3
+ticks: 6
+tick_rate_hz: 10
+scene: {generate: {kind: city, seed: 3, size_m: 100}}
+nodes:
+  - name: bs
+    trajectory: {type: static, position_m: [3, 4, 30]}
+    sensors: [{name: panel, type: antenna, polarization: slant, rows: 2, columns: 2}]
+  - name: uav
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, {t_s: 1, position_m: [10, 5, 45]}]}
+    model: {generate: {kind: quadrotor}}
+    sensors:
+      - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, mount: {rotation_deg: [0, 40, 0]}}
+      - {name: lidar, type: lidar, rate_hz: 5, channels: 8, elevation_min_deg: -60, elevation_max_deg: -10, azimuth_steps: 64}
+      - {name: antenna, type: antenna}
+channels:
+  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2, rays: 20000}
+)";
+
+/// A folder of its own with the small scenario in it.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string folder = (fs::temp_directory_path() / "greatx-test-XXXXXX").string();
+    ASSERT_NE(mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+    write("small.yaml", small_scenario);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// The small scenario with one piece of text replaced.
+  std::string changed(const std::string& from, const std::string& to) const {
+    std::string text = small_scenario;
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    write("changed.yaml", text);
+    return path("changed.yaml");
+  }
+  Outcome generate(const std::string& output, const std::string& more = "",
+                   const std::string& before = "") const {
+    return greatx(fmt::format("generate {} -o {} {}", path("small.yaml"), path(output), more), before);
+  }
+  std::string manifest(const std::string& output) const {
+    return read_file(folder_ / output / "manifest.json");
+  }
+  /// Starts generating in the background; returns the process.
+  pid_t start(const std::string& output, const std::string& more = "") const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    std::vector<std::string> arguments{"greatx",     "generate", path("small.yaml"), "-o",
+                                       path(output), "-q",       "--ticks",          "400"};
+    if (!more.empty()) arguments.push_back(more);
+    std::vector<char*> raw;
+    for (std::string& argument : arguments) raw.push_back(argument.data());
+    raw.push_back(nullptr);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(126);
+    execv(GREATX_PROGRAM, raw.data());
+    _exit(127);
+  }
+  /// Waits until a few packets are committed.
+  void await_packets(const std::string& output) const {
+    const fs::path frame = folder_ / output / "sequence_0000/uav/camera/rgb/000004.png";
+    for (int i = 0; i < 600 && !fs::exists(frame); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_TRUE(fs::exists(frame));
+  }
+  fs::path folder_;
+};
+
+TEST_F(Cli, HelpIsThereForEveryCommand) {
+  EXPECT_THAT(greatx("--help").out, HasSubstr("generate"));
+  for (const char* command : {"info", "generate", "inspect", "verify", "scene", "explain", "bench"}) {
+    const Outcome help = greatx(std::string(command) + " --help");
+    EXPECT_EQ(help.code, 0) << command;
+    EXPECT_THAT(help.out, HasSubstr("--help")) << command;
+  }
+  EXPECT_EQ(greatx("").code, 1);
+  EXPECT_EQ(greatx("simulate").code, 1);
+}
+
+TEST_F(Cli, InfoListsTheDevices) {
+  const Outcome info = greatx("info --json");
+  ASSERT_EQ(info.code, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_FALSE(json["devices"].empty());
+  EXPECT_FALSE(json["devices"][0]["capabilities"].empty());
+}
+
+TEST_F(Cli, GenerateVerifyInspect) {
+  const Outcome made = generate("a", "--json --validation");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto summary = nlohmann::json::parse(made.out);
+  EXPECT_EQ(summary["ticks"], 6);
+  EXPECT_EQ(summary["submits"], 6);
+  EXPECT_EQ(summary["packets"], 6);
+  EXPECT_EQ(summary["records"]["uav/lidar"], 3);
+  EXPECT_LT(summary["consistency"]["depth_vs_ray"]["max_relative_error"], 1e-4);
+  EXPECT_GT(summary["peak_rss_bytes"], 0);
+
+  const Outcome verified = greatx("verify " + path("a"));
+  EXPECT_EQ(verified.code, 0) << verified.out;
+  const Outcome inspected = greatx("inspect --json " + path("a"));
+  EXPECT_EQ(inspected.code, 0) << inspected.err;
+  EXPECT_TRUE(nlohmann::json::parse(inspected.out).contains("sensors"));
+  EXPECT_TRUE(fs::exists(folder_ / "a/contact_sheet.png"));
+  EXPECT_EQ(greatx("verify " + path("a")).code, 0) << "the contact sheet is no foreign file";
+
+  fs::resize_file(folder_ / "a/sequence_0000/uav/camera/rgb/000002.png", 100);
+  const Outcome damaged = greatx("verify " + path("a"));
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_THAT(damaged.out, HasSubstr("000002.png"));
+}
+
+TEST_F(Cli, FinishedDataSetsAreNotOverwritten) {
+  ASSERT_EQ(generate("a", "-q").code, 0);
+  const std::string before = manifest("a");
+  const Outcome again = generate("a", "-q");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, HasSubstr(path("a")));
+  EXPECT_EQ(generate("a", "-q --resume").code, 0) << "nothing to do";
+  EXPECT_EQ(manifest("a"), before);
+}
+
+TEST_F(Cli, HardCaseN63AnyNumberOfThreadsGivesTheSameBytes) {
+  ASSERT_EQ(generate("one", "-q --threads 1", "LP_NUM_THREADS=1").code, 0);
+  ASSERT_EQ(generate("two", "-q --threads 2", "LP_NUM_THREADS=2").code, 0);
+  ASSERT_EQ(generate("many", "-q --threads 16", "LP_NUM_THREADS=16").code, 0);
+  EXPECT_FALSE(manifest("one").empty());
+  EXPECT_EQ(manifest("one"), manifest("two"));
+  EXPECT_EQ(manifest("one"), manifest("many"));
+}
+
+TEST_F(Cli, KilledRunsAreFinishedToTheSameBytes) {
+  const pid_t child = start("killed");
+  await_packets("killed");
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_THAT(greatx("verify " + path("killed")).out, HasSubstr("unfinished"));
+  ASSERT_EQ(greatx(fmt::format("inspect {}", path("killed"))).code, 0) << "whole packets can be looked at";
+  const Outcome other = generate("killed", "-q --resume --ticks 40");
+  EXPECT_EQ(other.code, 1) << "another length is another run";
+  const Outcome resumed = generate("killed", "-q --resume --ticks 400");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  ASSERT_EQ(generate("whole", "-q --ticks 400").code, 0);
+  EXPECT_EQ(manifest("killed"), manifest("whole"));
+}
+
+TEST_F(Cli, InterruptionEndsAfterTheTick) {
+  const pid_t child = start("stopped");
+  await_packets("stopped");
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(generate("stopped", "-q --resume --ticks 400").code, 0);
+  EXPECT_EQ(greatx("verify " + path("stopped")).code, 0);
+}
+
+TEST_F(Cli, ExplainGivesAReasonForEveryEffect) {
+  const Outcome explained = greatx("explain --json " + path("small.yaml"));
+  ASSERT_EQ(explained.code, 0) << explained.err;
+  for (const auto& effect : nlohmann::json::parse(explained.out)["effects"])
+    EXPECT_FALSE(effect["reason"].get<std::string>().empty()) << effect["name"];
+}
+
+TEST_F(Cli, BenchTimesTicksAndPasses) {
+  const Outcome bench = greatx(fmt::format("bench {} --json --warm-up 1", path("small.yaml")));
+  ASSERT_EQ(bench.code, 0) << bench.err;
+  const auto json = nlohmann::json::parse(bench.out);
+  EXPECT_GT(json["tick_ms"]["median"], 0.0);
+  EXPECT_GE(json["tick_ms"]["max"], json["tick_ms"]["min"]);
+  EXPECT_TRUE(json["pass_ms"].contains("uav/lidar"));
+}
+
+TEST_F(Cli, ScenesAreWrittenAndDescribed) {
+  ASSERT_EQ(greatx(fmt::format("scene car --variant van -o {}", path("van.glb"))).code, 0);
+  const Outcome described = greatx("scene info " + path("van.glb"));
+  EXPECT_EQ(described.code, 0) << described.err;
+  EXPECT_THAT(described.out, HasSubstr("triangles"));
+}
+
+// ------------------------------------------------------------------------------------------------- bad input
+
+void expect_user_error(const Outcome& outcome, const std::string& part) {
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("greatx: error: "));
+  EXPECT_THAT(outcome.err, HasSubstr(part));
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(Cli, FaultyScenarios) {
+  const auto fails = [&](const std::string& from, const std::string& to, const std::string& part) {
+    expect_user_error(greatx(fmt::format("generate {} -o {}", changed(from, to), path("bad"))), part);
+    EXPECT_FALSE(fs::exists(folder_ / "bad")) << "nothing is begun: " << part;
+  };
+  expect_user_error(greatx("generate " + path("absent.yaml")), "absent.yaml");
+  fails("ticks: 6", "ticks: [", "changed.yaml:");
+  fails("seed: 3", "sead: 3", "changed.yaml:3: sead");
+  fails("ticks: 6", "ticks: six", "changed.yaml:4: ticks");
+  fails("rate_hz: 5", "rate_hz: -5", "rate_hz");
+  fails("rate_hz: 5", "rate_hz: 11", "rate_hz");
+  fails("max_depth: 2", "carrier_hz: 500e9", "concrete");
+  fails("[uav/antenna]", "[uav/antena]", "uav/antena");
+  fails("channels:", "effects: {reflexion: on}\nchannels:", "reflexion");
+}
+
+TEST_F(Cli, FaultySceneFiles) {
+  const auto with = [&](const std::string& file) {
+    return greatx(fmt::format("explain {}", changed("scene: {generate: {kind: city, seed: 3, size_m: 100}}",
+                                                    "scene: {file: " + file + "}")));
+  };
+  expect_user_error(with("absent.glb"), "absent.glb");
+  write("torn.glb", "glTF");
+  expect_user_error(with("torn.glb"), "torn.glb");
+  ASSERT_EQ(greatx(fmt::format("scene mast -o {}", path("mast.glb"))).code, 0);
+  fs::resize_file(folder_ / "mast.glb", fs::file_size(folder_ / "mast.glb") / 2);
+  expect_user_error(with("mast.glb"), "mast.glb");
+}
+
+TEST_F(Cli, UnwritableOutput) {
+  write("file", "not a folder");
+  expect_user_error(generate("file/out", "-q"), "file/out");
+}
+
+TEST_F(Cli, AFullDiskSaysHowToGoOn) {
+  // No file may grow beyond 64 blocks: the stacks of CSI reach that long before the end.
+  const Outcome full = generate("full", "-q --ticks 3000", "trap '' XFSZ; ulimit -f 64;");
+  EXPECT_EQ(full.code, 1) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("--resume"));
+}
+
+TEST_F(Cli, WithoutAVulkanDriver) {
+  const std::string none = "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json";
+  expect_user_error(greatx("info", none), "no Vulkan driver found: install one");
+  expect_user_error(generate("none", "-q", none), "no Vulkan driver found");
+  expect_user_error(generate("none", "-q --device 'no such thing'"),
+                    "no Vulkan device matches 'no such thing'");
+}
+
+}  // namespace

@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole tick on small generated scenes, under validation.
+#include "sim/simulator.h"
+
+#include <cstring>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace greatx::sim {
+namespace {
+
+struct Keep : RecordSink {
+  std::vector<Packet> packets;
+  void write(Packet packet) override { packets.push_back(std::move(packet)); }
+};
+
+/// What a run delivered and what it did on the GPU.
+struct Outcome {
+  std::vector<SensorSpec> sensors;
+  std::vector<Packet> packets;
+  RunStatistics statistics;
+  gpu::Counters counters;  ///< differences over the run
+  EffectPlan plan;
+
+  const Array& array(size_t packet, const std::string& sensor, const std::string& name) const {
+    for (const Record& record : packets.at(packet).records) {
+      const SensorSpec& spec = sensors[record.sensor];
+      if (spec.name != sensor) continue;
+      for (size_t i = 0; i < spec.arrays.size(); ++i)
+        if (spec.arrays[i].name == name) return record.arrays[i];
+    }
+    throw std::runtime_error(sensor + " has no " + name);
+  }
+  bool built(const std::string& part) const {
+    return std::any_of(counters.pipelines.begin(), counters.pipelines.end(),
+                       [&](const std::string& pipeline) { return pipeline.find(part) != std::string::npos; });
+  }
+};
+
+Outcome run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0) {
+  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
+  const World world = load_world(scenario);
+  Outcome result;
+  result.plan = make_effect_plan(scenario, world.scene);
+  gpu::Device& device = test::device();
+  const gpu::Counters before = device.counters();
+  Keep keep;
+  {
+    Simulator simulator(device, scenario, world, result.plan);
+    result.sensors = simulator.sensors();
+    simulator.start(sequence, first_tick);
+    while (simulator.step(keep)) {
+    }
+    result.statistics = simulator.statistics();
+  }
+  result.packets = std::move(keep.packets);
+  gpu::Counters& after = result.counters;
+  after = device.counters();
+  after.pipelines.erase(after.pipelines.begin(),
+                        after.pipelines.begin() + static_cast<std::ptrdiff_t>(before.pipelines.size()));
+  after.submits -= before.submits;
+  after.dispatches -= before.dispatches;
+  after.passes -= before.passes;
+  after.tlas_builds -= before.tlas_builds;
+  after.tlas_refits -= before.tlas_refits;
+  return result;
+}
+
+void expect_same(const Array& a, const Array& b, const std::string& what) {
+  EXPECT_EQ(a.shape, b.shape) << what;
+  EXPECT_TRUE(a.bytes == b.bytes) << what;
+}
+
+/// Every record of `sensor` that both runs have.
+void expect_same_sensor(const Outcome& a, const Outcome& b, const std::string& sensor) {
+  ASSERT_EQ(a.packets.size(), b.packets.size());
+  const auto spec =
+      std::find_if(a.sensors.begin(), a.sensors.end(), [&](const SensorSpec& s) { return s.name == sensor; });
+  ASSERT_NE(spec, a.sensors.end());
+  for (size_t i = 0; i < a.packets.size(); ++i)
+    for (const ArraySpec& array : spec->arrays)
+      expect_same(a.array(i, sensor, array.name), b.array(i, sensor, array.name), sensor + "." + array.name);
+}
+
+const std::string head = "greatx: 1\nname: test\nseed: 5\nticks: 3\ntick_rate_hz: 10\n";
+const std::string city = "scene: {generate: {kind: city, seed: 3, size_m: 100}}\n";
+const std::string bs =
+    "  - name: bs\n    trajectory: {type: static, position_m: [3, 4, 30]}\n"
+    "    sensors: [{name: panel, type: antenna, polarization: vh, rows: 2, columns: 2}]\n";
+const std::string camera =
+    "      - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, mount: "
+    "{rotation_deg: [0, 40, 0]}}\n";
+const std::string lidar =
+    "      - {name: lidar, type: lidar, rate_hz: 10, channels: 8, elevation_min_deg: -60, elevation_max_deg: "
+    "-10, azimuth_steps: 64}\n";
+const std::string antenna = "      - {name: antenna, type: antenna, mount: {position_m: [0, 0, -0.5]}}\n";
+
+const std::string bs_isotropic =
+    "  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 0]}\n    sensors: [{name: panel, type: "
+    "antenna}]\n";
+
+std::string uav(const std::string& sensors, const std::string& more = "") {
+  return "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, "
+         "{t_s: 1, position_m: [10, 5, 45]}]}\n" +
+         more + (sensors.empty() ? "" : "    sensors:\n" + sensors);
+}
+std::string channel(const std::string& more = "") {
+  return "channels:\n  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, "
+         "bandwidth_hz: 20e6, "
+         "max_depth: 2, rays: 20000" +
+         more + "}\n";
+}
+const std::string uav_model = "    model: {generate: {kind: quadrotor, variant: large}}\n";
+
+TEST(Simulator, OneSubmissionATickAndWholePackets) {
+  const Outcome r = run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  EXPECT_EQ(r.statistics.ticks, 3);
+  EXPECT_EQ(r.statistics.packets, 3);
+  EXPECT_EQ(r.counters.submits, 3u);
+  for (const Packet& packet : r.packets) {
+    ASSERT_EQ(packet.records.size(), r.sensors.size());
+    for (const Record& record : packet.records) {
+      EXPECT_EQ(record.tick, packet.tick);
+      EXPECT_EQ(record.time_ns, packet.tick * 100'000'000);
+      ASSERT_EQ(record.arrays.size(), r.sensors[record.sensor].arrays.size());
+    }
+  }
+}
+
+TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
+  std::string yaml = head + city + "nodes:\n" + uav(camera + lidar);
+  yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 9");
+  yaml.replace(yaml.find("lidar, rate_hz: 10"), 18, "lidar, rate_hz: 4 ");
+  const Outcome r = run(yaml);
+  std::vector<int64_t> lidar_ticks;
+  for (const Packet& packet : r.packets)
+    for (const Record& record : packet.records)
+      if (r.sensors[record.sensor].kind == "lidar") lidar_ticks.push_back(record.tick);
+  EXPECT_THAT(lidar_ticks, testing::ElementsAre(0, 3, 5, 8));  // round(k * 2.5), half up
+}
+
+TEST(Consistency, ModalitiesSeeOneWorld) {
+  const Outcome r = run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  const Consistency& c = r.statistics.consistency;
+  EXPECT_GT(c.depth_pixels, 100u);
+  EXPECT_LT(c.depth_error, 1e-4);
+  EXPECT_GT(c.lidar_beams, 20u);
+  EXPECT_LT(c.lidar_error, 1e-4);
+  EXPECT_GT(c.line_of_sight_paths, 0u);
+  EXPECT_LT(c.line_of_sight_error, 1e-12);
+}
+
+TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
+  const Outcome alone = run(head + city + "nodes:\n" + uav(camera) + "effects: {consistency: off}\n");
+  EXPECT_FALSE(alone.built("lidar"));
+  EXPECT_FALSE(alone.built("candidate"));
+  EXPECT_FALSE(alone.built("visibility segments"));
+  EXPECT_FALSE(alone.built("probe"));
+  EXPECT_EQ(alone.counters.tlas_builds, 0u) << "nothing traces rays";
+}
+
+TEST(Plan, OtherSensorsChangeNoByte) {
+  const Outcome all =
+      run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(camera, uav_model)), "uav/camera");
+  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(lidar, uav_model)), "uav/lidar");
+  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(antenna, uav_model) + channel()), "csi");
+}
+
+TEST(Plan, LineOfSightAloneSearchesNoReflection) {
+  std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
+  yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
+  const Outcome r = run(yaml);
+  EXPECT_FALSE(r.plan.reflection.on);
+  EXPECT_FALSE(r.built("candidate"));
+  EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0],
+            r.array(0, "csi", "line_of_sight").as<uint8_t>()[0]);
+}
+
+TEST(Plan, AStaticSceneIsNeverRefitted) {
+  const Outcome still = run(head + city + "nodes:\n" + uav(lidar));
+  EXPECT_EQ(still.counters.tlas_builds, 1u);
+  EXPECT_EQ(still.counters.tlas_refits, 0u);
+  EXPECT_FALSE(still.plan.scene_motion.on);
+  const Outcome moving = run(head + city + "nodes:\n" + uav(lidar, uav_model));
+  EXPECT_EQ(moving.counters.tlas_refits, 2u);
+}
+
+TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {
+  const std::string base = head + city + "nodes:\n" + uav(camera);
+  const Outcome automatic = run(base);
+  EXPECT_FALSE(automatic.plan.normal_maps.on);
+  const Outcome forced = run(base + "effects: {normal_maps: on, alpha_mask: on, moving_shadows: on}\n");
+  EXPECT_TRUE(forced.plan.normal_maps.on);
+  expect_same_sensor(automatic, forced, "uav/camera");
+
+  // Lamps by day: within 1 % of the light, that is one step of 8 bits or two.
+  const Outcome lamps = run(base + "effects: {punctual_lights: on}\n");
+  EXPECT_FALSE(automatic.plan.punctual_lights.on);
+  expect_same(automatic.array(0, "uav/camera", "depth"), lamps.array(0, "uav/camera", "depth"), "depth");
+  const auto a = automatic.array(0, "uav/camera", "rgb").as<uint8_t>(),
+             b = lamps.array(0, "uav/camera", "rgb").as<uint8_t>();
+  for (size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 2) << i;
+}
+
+TEST(Plan, NamesThatAreNoneAndSwitchesThatCannotBe) {
+  try {
+    run(head + city + "nodes:\n" + uav(camera) + "effects: {shadow: on}\n");
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'shadow' is no effect; expected one of"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("static_shadows"));
+  }
+  EXPECT_THROW(run(head + city + "nodes:\n" + uav(camera) + "effects: {camera: off}\n"), UserError);
+}
+
+TEST(Search, EveryTickFindsWhatOnceFinds) {
+  const std::string base = head + city + "nodes:\n" + bs + uav(antenna);
+  const Outcome once = run(base + channel(", search: once")),
+                always = run(base + channel(", search: every_tick"));
+  EXPECT_GT(once.array(1, "csi", "path_count").as<int32_t>()[0], 0);
+  expect_same_sensor(once, always, "csi");
+  EXPECT_EQ(always.counters.submits, 3u) << "looking ahead takes no submission of its own";
+}
+
+TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
+  std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
+  const Outcome down = run(yaml);
+  yaml.replace(yaml.find("tx: bs/panel, rx: [uav/antenna]"), 31, "tx: uav/antenna, rx: [bs/panel]");
+  const Outcome up = run(yaml);
+  // The same source, the same candidates: the same paths the other way round.
+  for (size_t i = 0; i < 3; ++i) {
+    auto delays_down = down.array(i, "csi", "delay").as<double>(),
+         delays_up = up.array(i, "csi", "delay").as<double>();
+    std::vector<double> a(delays_down.begin(), delays_down.end()), b(delays_up.begin(), delays_up.end());
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    ASSERT_EQ(a.size(), b.size());
+    for (size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-12 * a[k]);
+  }
+}
+
+// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is level: a nose that
+// points up would tilt the receiver's polarization.
+TEST(Channel, FreeSpaceIsFriis) {
+  const std::string yaml =
+      head + "nodes:\n" + bs_isotropic +
+      "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, "
+      "{t_s: 1, position_m: [10, 5, 40]}]}\n    sensors:\n" +
+      antenna + channel();
+  const Outcome r = run(yaml);
+  const auto h = r.array(0, "csi", "cfr").as<std::complex<float>>();
+  const double delay = r.array(0, "csi", "delay").as<double>()[0];
+  const double friis = speed_of_light / 3.5e9 / (4 * pi * speed_of_light * delay);
+  for (const std::complex<float>& value : h)
+    EXPECT_NEAR(static_cast<double>(std::abs(value)) / friis, 1.0, 1e-6);
+}
+
+TEST(Simulator, SequencesDifferAndRepeat) {
+  const std::string yaml = head + city +
+                           "sequences: 2\nnodes:\n  - name: uav\n    trajectory: {type: bezier, box: {min_m: "
+                           "[-30, -30, 40], max_m: [30, 30, 60]}, offset_m: [5, 5, 5]}\n    sensors:\n" +
+                           lidar;
+  const Outcome first = run(yaml, 0), again = run(yaml, 0), second = run(yaml, 1);
+  expect_same_sensor(first, again, "poses");
+  expect_same_sensor(first, again, "uav/lidar");
+  EXPECT_FALSE(first.array(0, "poses", "position").bytes == second.array(0, "poses", "position").bytes);
+}
+
+TEST(Simulator, StartingLaterGivesTheSameRest) {
+  const std::string yaml =
+      head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel();
+  const Outcome whole = run(yaml), rest = run(yaml, 0, 1);
+  ASSERT_EQ(rest.packets.size(), 2u);
+  for (size_t i = 0; i < rest.packets.size(); ++i)
+    for (size_t s = 0; s < rest.sensors.size(); ++s) {
+      EXPECT_EQ(rest.packets[i].records[s].sample, whole.packets[i + 1].records[s].sample);
+      for (size_t a = 0; a < rest.sensors[s].arrays.size(); ++a)
+        expect_same(rest.packets[i].records[s].arrays[a], whole.packets[i + 1].records[s].arrays[a],
+                    rest.sensors[s].arrays[a].name);
+    }
+}
+
+TEST(HardCase, N07_AtUtmCoordinatesTheSameOutput) {
+  const auto at = [&](const dvec3& shift) {
+    const auto v = [&](double x, double y, double z) {
+      return fmt::format("[{}, {}, {}]", x + shift.x, y + shift.y, z + shift.z);
+    };
+    return head +
+           "scene: {objects: [{name: city, generate: {kind: city, seed: 3, size_m: 100}, position_m: " +
+           v(0, 0, 0) + "}]}\nnodes:\n" +
+           "  - name: bs\n    trajectory: {type: static, position_m: " + v(3, 4, 30) +
+           "}\n    sensors: [{name: panel, type: antenna}]\n" +
+           "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: " +
+           v(-20, -15, 40) + "}, {t_s: 1, position_m: " + v(10, 5, 45) + "}]}\n    sensors:\n" + camera +
+           lidar + antenna + channel();
+  };
+  const Outcome here = run(at(dvec3(0.0))), there = run(at({500000.0, 5400000.0, 120.0}));
+  expect_same(here.array(0, "uav/camera", "instance"), there.array(0, "uav/camera", "instance"), "instance");
+  expect_same(here.array(0, "uav/camera", "depth"), there.array(0, "uav/camera", "depth"), "depth");
+  expect_same(here.array(0, "uav/lidar", "points"), there.array(0, "uav/lidar", "points"), "points");
+  const auto a = here.array(1, "csi", "delay").as<double>(), b = there.array(1, "csi", "delay").as<double>();
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 0u);
+  for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(speed_of_light * a[i], speed_of_light * b[i], 1e-9);
+}
+
+TEST(HardCase, N64_NothingToSeeIsEmptyAndFinite) {
+  const Outcome r = run(head +
+                        "nodes:\n  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 0]}\n    "
+                        "sensors: [{name: panel, type: antenna}]\n" +
+                        uav(camera + lidar + antenna) + channel());
+  EXPECT_EQ(r.array(0, "uav/lidar", "points").shape[0], 0);
+  for (const float z : r.array(0, "uav/camera", "depth").as<float>())
+    EXPECT_EQ(z, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0], 1);
+  const Outcome nobody = run(head + "nodes: []\n");
+  EXPECT_EQ(nobody.packets.size(), 0u);
+}
+
+}  // namespace
+}  // namespace greatx::sim
