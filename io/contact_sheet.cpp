@@ -23,14 +23,12 @@ struct Moment {
   int64_t tick, time_ns;
 };
 
-bool has_frames(const SensorSpec& sensor) { return sensor.kind == "camera" || sensor.kind == "lidar"; }
-
 /// First, one third, two thirds, last of the records of the sensor that the rows follow.
 std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequence) {
   for (const bool frames_only : {true, false}) {
     for (size_t s = 0; s < reader.sensors().size(); ++s) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
-      if (rows.empty() || (frames_only && !has_frames(reader.sensors()[s]))) continue;
+      if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s].kind))) continue;
       std::vector<Moment> moments;
       std::set<size_t> taken;
       for (const size_t third : {0, 1, 2, 3}) {
@@ -60,7 +58,7 @@ Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::ve
   for (size_t s = 0; s < reader.sensors().size(); ++s) {
     const SensorSpec& sensor = reader.sensors()[s];
     const std::vector<IndexRow> rows = reader.records_of(sequence, s);
-    if (rows.empty() || (!has_frames(sensor) && !drawn.insert(sensor.kind).second)) continue;
+    if (rows.empty() || (!has_frame_panels(sensor.kind) && !drawn.insert(sensor.kind).second)) continue;
     add_panels({reader, sequence, s, nearest(rows, moments)}, panels);
   }
   return panels;

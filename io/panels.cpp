@@ -12,13 +12,15 @@ namespace {
 
 struct Maker {
   std::string_view kind;
+  bool
+      frames;  ///< a picture per moment, drawn for every sensor of the kind; else over time, for the first one only
   void (*add)(const PanelSource&, Panels&);
 };
 constexpr Maker makers[] = {
-    {"camera", add_camera_panels},
-    {"lidar", add_lidar_panels},
-    {"csi", add_csi_panels},
-    {"pose", add_pose_panels},
+    {"camera", true, add_camera_panels},
+    {"lidar", true, add_lidar_panels},
+    {"csi", false, add_csi_panels},
+    {"pose", false, add_pose_panels},
 };
 
 /// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
@@ -44,6 +46,11 @@ bool PanelSource::has(std::string_view array) const {
 void add_panels(const PanelSource& source, Panels& panels) {
   for (const Maker& maker : makers)
     if (maker.kind == source.spec().kind) maker.add(source, panels);
+}
+
+bool has_frame_panels(std::string_view kind) {
+  return std::any_of(std::begin(makers), std::end(makers),
+                     [&](const Maker& maker) { return maker.kind == kind && maker.frames; });
 }
 
 std::vector<std::string> node_names(const SensorSpec& pose) {

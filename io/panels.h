@@ -55,6 +55,8 @@ struct Panels {
 
 /// Adds the panels of one sensor; kinds that nothing is known about add none.
 void add_panels(const PanelSource& source, Panels& panels);
+/// Whether sensors of the kind are drawn moment by moment.
+bool has_frame_panels(std::string_view kind);
 
 // The makers, one for each kind (camera_panels.cpp, lidar_panel.cpp, csi_panels.cpp, pose_panel.cpp).
 void add_camera_panels(const PanelSource& source, Panels& panels);
