@@ -163,14 +163,10 @@ void CameraSensor::check(const gpu::TickSlot& slot) {
     if (!interior_plane(images_, pixel.x, pixel.y)) continue;
     const double depth = images_.depth[size_t{pixel.y} * images_.width + pixel.x];
     if (depth <= pass_.desc().near_m || hits[i].t <= pass_.desc().near_m) continue;
-    ++compared_;
-    worst_ = std::max(worst_, std::abs(depth - hits[i].t) / depth);
+    depth_errors_.add(std::abs(depth - hits[i].t) / depth);
   }
 }
 
-void CameraSensor::report(Consistency& consistency) const {
-  consistency.depth_pixels += compared_;
-  consistency.depth_error = std::max(consistency.depth_error, worst_);
-}
+void CameraSensor::report(Consistency& consistency) const { consistency.depth.add(depth_errors_); }
 
 }  // namespace greatx::sim

@@ -44,8 +44,7 @@ class CameraSensor : public Sensor {
   std::vector<glm::uvec2> probe_pixels_;
   std::array<gpu::Slice, slots_in_flight> probe_hits_;
   render::CameraImages images_;
-  uint64_t compared_ = 0;
-  double worst_ = 0.0;
+  ErrorStatistics depth_errors_;
 };
 
 }  // namespace greatx::sim

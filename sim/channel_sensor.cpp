@@ -230,17 +230,14 @@ std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
     visible_paths_ += link.paths.size();
     for (const rf::Path& path : link.paths) {
       if (!path.facets.empty()) continue;
-      ++los_paths_;
-      los_error_ =
-          std::max(los_error_, std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
+      line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
     }
   }
   return arrays_of(pending);
 }
 
 void ChannelSensor::report(Consistency& consistency) const {
-  consistency.line_of_sight_paths += los_paths_;
-  consistency.line_of_sight_error = std::max(consistency.line_of_sight_error, los_error_);
+  consistency.line_of_sight.add(line_of_sight_errors_);
 }
 
 void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {

@@ -93,8 +93,8 @@ class ChannelSensor : public Sensor {
   std::vector<std::unique_ptr<rf::ImageTree>> trees_;      ///< [1], or [receivers] when they are the source
   std::array<Pending, slots_in_flight> pending_;
   SensorSpec spec_;
-  uint64_t candidate_count_ = 0, overflow_ = 0, geometric_paths_ = 0, visible_paths_ = 0, los_paths_ = 0;
-  double los_error_ = 0.0;
+  uint64_t candidate_count_ = 0, overflow_ = 0, geometric_paths_ = 0, visible_paths_ = 0;
+  ErrorStatistics line_of_sight_errors_;
 };
 
 }  // namespace greatx::sim

@@ -16,6 +16,7 @@
 #include "core/record.h"
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
+#include "sim/error_statistics.h"
 #include "sim/scenario.h"
 
 namespace greatx::sim {
@@ -32,14 +33,11 @@ struct TickContext {
   std::function<Motion(uint32_t node, double time_s)> motion_at;
 };
 
-/// Figures of a run that show that the modalities see one world; worst case over the run.
+/// Figures of a run that show that the modalities see one world.
 struct Consistency {
-  uint64_t depth_pixels = 0;  ///< interior pixels compared with the ray through their centre
-  double depth_error = 0.0;   ///< |depth - ray| / ray, at most
-  uint64_t lidar_beams = 0;   ///< returns compared with the depth picture of a camera on the same node
-  double lidar_error = 0.0;   ///< relative
-  uint64_t line_of_sight_paths = 0;
-  double line_of_sight_error = 0.0;  ///< |c delay - distance| / distance
+  ErrorStatistics depth;          ///< interior pixels against the ray through their centre
+  ErrorStatistics lidar;          ///< returns against the depth picture of a camera on the same node
+  ErrorStatistics line_of_sight;  ///< c * delay of direct paths against the distance
 };
 
 class Sensor {

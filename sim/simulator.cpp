@@ -224,9 +224,7 @@ void Simulator::compare_lidar_with_depth(const std::vector<Due>& due) {
       for (size_t i = 0; i < scan.size(); i += stride) {
         const dvec3 point = camera_from_lidar.apply(dvec3(scan.points[i]));
         const auto error = lidar_against_depth(camera->desc(), camera->images(), point, scan.instance[i]);
-        if (!error) continue;
-        ++statistics_.consistency.lidar_beams;
-        statistics_.consistency.lidar_error = std::max(statistics_.consistency.lidar_error, *error);
+        if (error) statistics_.consistency.lidar.add(*error);
       }
     }
   }

@@ -105,7 +105,7 @@ class Cli : public testing::Test {
     const pid_t child = fork();
     if (child != 0) return child;
     std::vector<std::string> arguments{"greatx",     "generate", path("small.yaml"), "-o",
-                                       path(output), "-q",       "--ticks",          "400"};
+                                       path(output), "-q",       "--ticks",          "250"};
     if (!more.empty()) arguments.push_back(more);
     std::vector<char*> raw;
     for (std::string& argument : arguments) raw.push_back(argument.data());
@@ -117,8 +117,8 @@ class Cli : public testing::Test {
   /// Waits until a few packets are committed.
   void await_packets(const std::string& output) const {
     const fs::path frame = folder_ / output / "sequence_0000/uav/camera/rgb/000004.png";
-    for (int i = 0; i < 600 && !fs::exists(frame); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int i = 0; i < 6000 && !fs::exists(frame); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     ASSERT_TRUE(fs::exists(frame));
   }
   fs::path folder_;
@@ -197,9 +197,9 @@ TEST_F(Cli, KilledRunsAreFinishedToTheSameBytes) {
   ASSERT_EQ(greatx(fmt::format("inspect {}", path("killed"))).code, 0) << "whole packets can be looked at";
   const Outcome other = generate("killed", "-q --resume --ticks 40");
   EXPECT_EQ(other.code, 1) << "another length is another run";
-  const Outcome resumed = generate("killed", "-q --resume --ticks 400");
+  const Outcome resumed = generate("killed", "-q --resume --ticks 250");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
-  ASSERT_EQ(generate("whole", "-q --ticks 400").code, 0);
+  ASSERT_EQ(generate("whole", "-q --ticks 250").code, 0);
   EXPECT_EQ(manifest("killed"), manifest("whole"));
 }
 
@@ -211,7 +211,7 @@ TEST_F(Cli, InterruptionEndsAfterTheTick) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_EQ(generate("stopped", "-q --resume --ticks 400").code, 0);
+  EXPECT_EQ(generate("stopped", "-q --resume --ticks 250").code, 0);
   EXPECT_EQ(greatx("verify " + path("stopped")).code, 0);
 }
 
@@ -260,7 +260,7 @@ TEST_F(Cli, FaultyScenarios) {
   fails("rate_hz: 5", "rate_hz: 11", "rate_hz");
   fails("max_depth: 2", "carrier_hz: 500e9", "concrete");
   fails("[uav/antenna]", "[uav/antena]", "uav/antena");
-  fails("channels:", "effects: {reflexion: on}\nchannels:", "reflexion");
+  fails("\nchannels:", "\neffects: {reflexion: on}\nchannels:", "reflexion");
 }
 
 TEST_F(Cli, FaultySceneFiles) {
@@ -279,13 +279,6 @@ TEST_F(Cli, FaultySceneFiles) {
 TEST_F(Cli, UnwritableOutput) {
   write("file", "not a folder");
   expect_user_error(generate("file/out", "-q"), "file/out");
-}
-
-TEST_F(Cli, AFullDiskSaysHowToGoOn) {
-  // No file may grow beyond 64 blocks: the stacks of CSI reach that long before the end.
-  const Outcome full = generate("full", "-q --ticks 3000", "trap '' XFSZ; ulimit -f 64;");
-  EXPECT_EQ(full.code, 1) << full.err;
-  EXPECT_THAT(full.err, HasSubstr("--resume"));
 }
 
 TEST_F(Cli, WithoutAVulkanDriver) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/error_statistics.h"
+
 namespace greatx::sim {
 namespace {
 
@@ -69,6 +71,22 @@ TEST(LidarAgainstDepth, BetweenPixelCentresThePlaneIsExact) {
   EXPECT_NEAR(*wrong, 0.01 / point.x, 1e-4);
   EXPECT_FALSE(lidar_against_depth(camera(), images, point, 2)) << "another instance";
   EXPECT_FALSE(lidar_against_depth(camera(), images, -point, 1)) << "behind the camera";
+}
+
+TEST(ErrorStatistics, BoundsQuantiles) {
+  ErrorStatistics statistics;
+  EXPECT_EQ(statistics.quantile(0.99), 0.0);
+  for (int i = 1; i <= 1000; ++i) statistics.add(i * 1e-6);
+  EXPECT_EQ(statistics.count(), 1000u);
+  EXPECT_DOUBLE_EQ(statistics.max(), 1e-3);
+  EXPECT_GE(statistics.quantile(0.5), 500e-6);
+  EXPECT_LE(statistics.quantile(0.5), 500e-6 * 1.26);
+  ErrorStatistics outlier;
+  outlier.add(0.5);
+  outlier.add(0.0);
+  statistics.add(outlier);
+  EXPECT_DOUBLE_EQ(statistics.max(), 0.5);
+  EXPECT_LE(statistics.quantile(0.99), 1e-3 * 1.26);
 }
 
 TEST(ProbePixels, LieInThePictureAndSpread) {
