@@ -182,7 +182,7 @@ struct ChannelConfig {
   uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
   uint32_t max_depth = 3;       ///< reflections per path
-  uint32_t rays = 1u << 18;     ///< launched per search for candidates
+  uint32_t rays = 1u << 19;     ///< launched per search for candidates
   std::string search = "auto";  ///< auto, once (from a static end), every_tick
   SourceLocation where;
 };
