@@ -2,10 +2,21 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds greatx (Release) and generates the embedded default scenario into out/demo.
+# Installs what is missing, builds greatx (Release), generates the embedded default scenario into out/demo and draws its
+# contact sheet. Run again, it does only what is left to do; arguments go to `greatx generate`.
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/setup.sh
 scripts/build.sh release greatx
-build/release/greatx generate --output out/demo --resume "$@"
-build/release/greatx inspect out/demo
+
+demo() { build/release/greatx generate --output out/demo --resume "$@"; }
+if ! demo "$@"; then
+  # A demo that an older greatx, another driver or other arguments made cannot be gone on with: it is kept beside.
+  demo "$@" 2>&1 | grep -q 'another run' || exit 1
+  number=1
+  while [ -e "out/demo.$number" ]; do number=$((number + 1)); done
+  mv out/demo "out/demo.$number"
+  echo "out/demo is of another run: kept as out/demo.$number, generating anew"
+  demo "$@"
+fi
+build/release/greatx inspect out/demo | tail -n 1

@@ -126,43 +126,6 @@ Descriptor Descriptor::acceleration(uint32_t slot, const AccelerationStructure& 
   return descriptor;
 }
 
-Timestamps::Timestamps(Device& device, uint32_t max_scopes) : device_(&device), max_scopes_(max_scopes) {
-  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-  info.queryCount = 2 * max_scopes;
-  GREATX_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &pool_));
-  vkResetQueryPool(device.handle(), pool_, 0, 2 * max_scopes);
-}
-Timestamps::~Timestamps() {
-  if (pool_ != VK_NULL_HANDLE) vkDestroyQueryPool(device_->handle(), pool_, nullptr);
-}
-Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
-Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
-  std::swap(device_, other.device_);
-  std::swap(pool_, other.pool_);
-  std::swap(max_scopes_, other.max_scopes_);
-  std::swap(names_, other.names_);
-  return *this;
-}
-
-void Timestamps::reset() {
-  vkResetQueryPool(device_->handle(), pool_, 0, 2 * max_scopes_);
-  names_.clear();
-}
-
-std::vector<PassTime> Timestamps::read() const {
-  std::vector<uint64_t> stamps(2 * names_.size());
-  if (names_.empty()) return {};
-  GREATX_VK(vkGetQueryPoolResults(device_->handle(), pool_, 0, static_cast<uint32_t>(stamps.size()),
-                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
-                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-  const double milliseconds = static_cast<double>(device_->limits().timestampPeriod) * 1e-6;
-  std::vector<PassTime> times;
-  for (size_t i = 0; i < names_.size(); ++i)
-    times.push_back({names_[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * milliseconds});
-  return times;
-}
-
 Cmd::Scope::Scope(Cmd& cmd, std::string_view name) : cmd_(cmd), index_(~0u) {
   ++cmd.device_->counters().passes;
   if (const auto begin = cmd.device_->functions().begin_label; begin != nullptr) {
@@ -366,58 +329,5 @@ void Cmd::generate_mipmaps(Image& image) {
   pipeline_barrier(handle_, image_barrier(image, target, sampled, last, 1));
   image.use_ = ImageUse::sampled;
 }
-
-Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::string_view name,
-                     VkBufferUsageFlags extra_usage) {
-  Buffer buffer(device, bytes.size(), Memory::device, name, extra_usage);
-  if (bytes.empty()) return buffer;
-  const Buffer staging(device, bytes.size(), Memory::upload, "staging");
-  std::memcpy(staging.slice().mapped, bytes.data(), bytes.size());
-  submit_setup(device, [&](Cmd& cmd) { cmd.copy(staging.slice().part(0, bytes.size()), buffer.slice()); });
-  return buffer;
-}
-
-namespace detail {
-
-SetupSubmission::SetupSubmission(Device& device) : device_(device), cmd_(device, VK_NULL_HANDLE, nullptr) {
-  VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool.queueFamilyIndex = device.queue_family();
-  GREATX_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_));
-  VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  allocate.commandPool = pool_;
-  allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  allocate.commandBufferCount = 1;
-  VkCommandBuffer handle = VK_NULL_HANDLE;
-  GREATX_VK(vkAllocateCommandBuffers(device.handle(), &allocate, &handle));
-  const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  GREATX_VK(vkCreateFence(device.handle(), &fence, nullptr, &fence_));
-  VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  GREATX_VK(vkBeginCommandBuffer(handle, &begin));
-  cmd_ = Cmd(device, handle, nullptr);
-}
-
-SetupSubmission::~SetupSubmission() {
-  vkDestroyFence(device_.handle(), fence_, nullptr);
-  vkDestroyCommandPool(device_.handle(), pool_, nullptr);
-}
-
-void SetupSubmission::submit_and_wait() {
-  // Everything written here is seen by every later submission and by the host.
-  cmd_.barrier({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
-               {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-                VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT});
-  GREATX_VK(vkEndCommandBuffer(cmd_.handle()));
-  VkCommandBufferSubmitInfo command{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-  command.commandBuffer = cmd_.handle();
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &command;
-  GREATX_VK(vkQueueSubmit2(device_.queue(), 1, &submit, fence_));
-  GREATX_VK(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX));
-  ++device_.counters().setup_submits;
-}
-
-}  // namespace detail
 
 }  // namespace greatx::gpu

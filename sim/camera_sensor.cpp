@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "sim/consistency.h"
+#include "sim/sensor_metadata.h"
 
 namespace greatx::sim {
 
@@ -112,10 +111,7 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
   metadata["exposure_ev100"] = config.exposure_ev100;
   metadata["depth"] = "planar";
   metadata["optical_frame"] = "x right, y down, z forward";
-  metadata["body_from_sensor"] = {
-      {"position_m", {mount_.position.x, mount_.position.y, mount_.position.z}},
-      {"orientation_wxyz",
-       {mount_.orientation.w, mount_.orientation.x, mount_.orientation.y, mount_.orientation.z}}};
+  metadata["body_from_sensor"] = json_of(mount_);
   spec_.metadata_json = metadata.dump();
 }
 

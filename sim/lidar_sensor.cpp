@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/lidar_sensor.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/units.h"
+#include "sim/sensor_metadata.h"
 
 namespace greatx::sim {
 
@@ -73,10 +72,7 @@ void LidarSensor::describe() {
   metadata["max_range_m"] = desc.max_range_m;
   metadata["wavelength_nm"] = desc.wavelength_nm;
   metadata["frame"] = "x forward, y left, z up";
-  metadata["body_from_sensor"] = {
-      {"position_m", {mount_.position.x, mount_.position.y, mount_.position.z}},
-      {"orientation_wxyz",
-       {mount_.orientation.w, mount_.orientation.x, mount_.orientation.y, mount_.orientation.z}}};
+  metadata["body_from_sensor"] = json_of(mount_);
   spec_.metadata_json = metadata.dump();
 }
 

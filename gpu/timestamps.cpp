@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "gpu/cmd.h"
+
+namespace greatx::gpu {
+
+Timestamps::Timestamps(Device& device, uint32_t max_scopes) : device_(&device), max_scopes_(max_scopes) {
+  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = 2 * max_scopes;
+  GREATX_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &pool_));
+  vkResetQueryPool(device.handle(), pool_, 0, 2 * max_scopes);
+}
+Timestamps::~Timestamps() {
+  if (pool_ != VK_NULL_HANDLE) vkDestroyQueryPool(device_->handle(), pool_, nullptr);
+}
+Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
+Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(pool_, other.pool_);
+  std::swap(max_scopes_, other.max_scopes_);
+  std::swap(names_, other.names_);
+  return *this;
+}
+
+void Timestamps::reset() {
+  vkResetQueryPool(device_->handle(), pool_, 0, 2 * max_scopes_);
+  names_.clear();
+}
+
+std::vector<PassTime> Timestamps::read() const {
+  std::vector<uint64_t> stamps(2 * names_.size());
+  if (names_.empty()) return {};
+  GREATX_VK(vkGetQueryPoolResults(device_->handle(), pool_, 0, static_cast<uint32_t>(stamps.size()),
+                                  stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t),
+                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const double milliseconds = static_cast<double>(device_->limits().timestampPeriod) * 1e-6;
+  std::vector<PassTime> times;
+  for (size_t i = 0; i < names_.size(); ++i)
+    times.push_back({names_[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * milliseconds});
+  return times;
+}
+
+}  // namespace greatx::gpu
