@@ -29,15 +29,20 @@ function(greatx_library NAME)
   target_link_libraries(greatx_${NAME} PUBLIC greatx_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
-# greatx_test(NAME SOURCES ... LINK ...): a GoogleTest program, each test of it known to ctest.
-# Tests whose name has "HardCase" get the label "hard"; those of a program that needs a device run one at a time.
+# greatx_test(NAME SOURCES ... LINK ...): a GoogleTest program, each test of it known to ctest under the label NAME; those
+# whose name has "HardCase" have the label "hard" as well.
 function(greatx_test NAME)
-  cmake_parse_arguments(ARG "GPU" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${NAME} ${ARG_SOURCES})
   target_link_libraries(test_${NAME} PRIVATE greatx_options ${ARG_LINK} greatx_test_support GTest::gtest GTest::gmock)
-  set_property(GLOBAL APPEND PROPERTY GREATX_TEST_PROGRAMS test_${NAME})
-  gtest_discover_tests(test_${NAME} TEST_FILTER "*HardCase*" TEST_LIST hard_${NAME}
-                       PROPERTIES LABELS "hard\\;${NAME}" DISCOVERY_TIMEOUT 60)
-  gtest_discover_tests(test_${NAME} TEST_FILTER "-*HardCase*" TEST_LIST plain_${NAME}
-                       PROPERTIES LABELS "${NAME}" DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_FILTER "*HardCase*" TEST_LIST hard_${NAME} DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${NAME} TEST_FILTER "-*HardCase*" TEST_LIST plain_${NAME} DISCOVERY_TIMEOUT 60)
+  # Read by ctest after the lists: gtest_discover_tests() itself cannot pass a list of two labels on.
+  set(labels ${CMAKE_CURRENT_BINARY_DIR}/labels_${NAME}.cmake)
+  file(WRITE ${labels}
+       "foreach(test IN LISTS hard_${NAME})\n  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"hard;${NAME}\")\n"
+       "endforeach()\n"
+       "foreach(test IN LISTS plain_${NAME})\n  set_tests_properties(\"\${test}\" PROPERTIES LABELS ${NAME})\n"
+       "endforeach()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
 endfunction()
