@@ -52,6 +52,11 @@ RadioSurfaces::RadioSurfaces(std::vector<RadioSurface> surfaces, double carrier_
   GREATX_CHECK(carrier_hz > 0.0, "carrier {} Hz", carrier_hz);
 }
 
+const RadioSurface& RadioSurfaces::surface(uint32_t material) const {
+  GREATX_CHECK(material < surfaces_.size(), "material {} of {}", material, surfaces_.size());
+  return surfaces_[material];
+}
+
 FresnelCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
   GREATX_CHECK(material < surfaces_.size() && !surfaces_[material].front.empty(),
                "material {} of {} has no surface", material, surfaces_.size());

@@ -44,6 +44,8 @@ class RadioSurfaces {
   double wavelength_m() const { return wavelength_m_; }
   /// `from_front`: the wave comes from the side that the facet's normal points to.
   FresnelCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
+  /// The wall of a material, by its index in the scene; without layers if no facet has it.
+  const RadioSurface& surface(uint32_t material) const;
 
  private:
   std::vector<RadioSurface> surfaces_;  ///< [materials]; no layers: no facet has it

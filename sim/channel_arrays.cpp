@@ -30,6 +30,26 @@ nlohmann::json describe_array(const rf::AntennaArray& array) {
   return json;
 }
 
+/// How an antenna sits on its node.
+nlohmann::json describe_mount(const Pose& mount) {
+  const dquat& q = mount.orientation;
+  return {{"position_m", {mount.position.x, mount.position.y, mount.position.z}},
+          {"orientation_wxyz", {q.w, q.x, q.y, q.z}}};
+}
+
+/// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
+nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
+  nlohmann::json walls = nlohmann::json::array();
+  for (uint32_t material = 0; material < scene.materials.size(); ++material) {
+    nlohmann::json layers;
+    for (const rf::DielectricLayer& layer : surfaces.surface(material).front)
+      layers.push_back({{"relative_permittivity", {layer.eta.real(), layer.eta.imag()}},
+                        {"thickness_m", layer.thickness_m}});
+    walls.push_back({{"material", scene.materials[material].name}, {"layers", std::move(layers)}});
+  }
+  return walls;
+}
+
 /// Rows of one per-path array, filled path by path.
 template <typename T>
 class PathArray {
@@ -104,10 +124,14 @@ void ChannelSensor::describe() {
   metadata["time_convention"] = "e^{+j omega t}";
   metadata["transmitter"] = describe_array(transmitter_.array);
   metadata["transmitter"]["name"] = config_.transmitter;
+  metadata["transmitter"]["body_from_antenna"] = describe_mount(transmitter_.mount);
   for (size_t r = 0; r < receivers_.size(); ++r) {
     metadata["receivers"].push_back(describe_array(receivers_[r].array));
     metadata["receivers"].back()["name"] = config_.receivers[r];
+    metadata["receivers"].back()["body_from_antenna"] = describe_mount(receivers_[r].mount);
   }
+  metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
+  metadata["walls"] = describe_walls(world_.scene, surfaces_);
   constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from the receivers",
                                       "every tick"};
   metadata["search"] = {{"when", searches[static_cast<uint32_t>(search_)]}, {"rays", config_.rays}};

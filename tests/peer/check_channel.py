@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Recomputes a data set's channels from its paths and its paths' fields from their vertices; prints the largest
+differences and fails if one is beyond its bound. Usage: check_channel.py DATASET [CHANNEL]"""
+import sys
+
+import numpy as np
+
+import model
+from dataset import C, Channel
+
+
+class Worst:
+    """The largest of each named difference, its bound and where it was."""
+
+    def __init__(self):
+        self.rows = {}
+
+    def add(self, name, value, bound, where):
+        value = float(np.max(value, initial=0.0))
+        count, worst, least, at = self.rows.get(name, (0, -1.0, bound, ""))
+        # Bounds may differ from one comparison to the next: the one nearest to its bound (or over it) is shown.
+        nearer = not value * least <= worst * bound if bound > 0 else not value <= worst
+        self.rows[name] = (count + 1, *((value, bound, where) if nearer else (worst, least, at)))
+
+    def failed(self):
+        bad = 0
+        for name, (count, worst, bound, at) in self.rows.items():
+            wrong = not worst <= bound
+            bad += wrong
+            print(f"{'FAIL' if wrong else 'ok':4} {name:48} {worst:9.2e} <= {bound:.0e}  ({count} compared; {at})")
+        return bad
+
+
+def wall_of(channel, material):
+    return [(complex(*layer["relative_permittivity"]), layer["thickness_m"])
+            for layer in channel.meta["walls"][material]["layers"]]
+
+
+def check_walls(channel, worst):
+    for wall in channel.meta["walls"]:
+        name = wall["material"].removeprefix("itu_")
+        if wall["layers"] and wall["material"].startswith("itu_") and name in model.ITU:
+            eta = complex(*wall["layers"][0]["relative_permittivity"])
+            ours = model.permittivity(name, channel.meta["carrier_hz"])
+            worst.add("permittivity of ITU materials, relative", abs(eta - ours) / abs(ours), 1e-9, wall["material"])
+
+
+def check_path(channel, p, i, tx, rx, worst, where):
+    count = int(p["interaction"][i].sum())
+    points = np.vstack([tx, p["vertex"][i][:count], rx])
+    segments = np.diff(points, axis=0)
+    length = np.linalg.norm(segments, axis=1).sum()
+    worst.add("no vertex beyond the last interaction", 0 if np.isnan(p["vertex"][i][count:]).all() else 1, 0, where)
+    worst.add("delay * c over the polyline's length, relative", abs(p["delay"][i] * C - length) / length, 1e-12, where)
+    if count == 0:
+        worst.add("line of sight: delay * c over the poses' distance", abs(p["delay"][i] * C - length) / length, 1e-12, where)
+    if np.linalg.norm(segments, axis=1).min() < 1e-3:
+        return  # both reflections of a corner: directions between them are rounding
+    for name, d in (("departure", segments[0]), ("arrival", -segments[-1])):
+        error = np.linalg.norm(model.direction(p[name][i]) - model.unit(d))
+        worst.add(f"{name} over the vertices, rad", error, 1e-9 * max(1, 100 / np.linalg.norm(d)), where)
+    walls = [wall_of(channel, m - 1) for m in p["object_material"][i][:count]]
+    ours = model.transfer(points, walls, C / channel.meta["carrier_hz"])
+    stored = p["transfer"][i].astype(complex)
+    worst.add(f"transfer, {count} reflections, relative", np.abs(stored - ours).max() / np.abs(ours).max(), 1e-6, where)
+
+
+def check_record(channel, record, worst):
+    meta, p = channel.meta, channel.paths(record)
+    tick, row, _ = channel.records[record]
+    stored = channel.response(record)
+    tx, tx_turn = channel.end(record, meta["transmitter"])
+    worst.add("path_count", abs(channel.path_count[row].sum() - len(p["rx"])), 0, f"tick {tick}")
+    for r, description in enumerate(meta["receivers"]):
+        rx, rx_turn = channel.end(record, description)
+        mine = np.flatnonzero(p["rx"] == r)
+        q = {name: array[mine] for name, array in p.items()}
+        where = f"tick {tick}, {description['name']}"
+        for i in range(len(mine)):
+            check_path(channel, q, i, tx, rx, worst, f"{where}, path {i}")
+        a = model.amplitudes(meta, tx_turn, description, rx_turn, q["transfer"].astype(complex), q["departure"],
+                             q["arrival"], q["delay"])
+        h = model.response(meta, a, q["delay"], q["doppler"])
+        energy = np.sum(np.abs(h)**2)
+        if len(mine) == 0:
+            worst.add("no path: |H|", np.abs(stored[r]), 0, where)
+            continue
+        worst.add("NMSE of H", np.sum(np.abs(h[:, :, :, :] - stored[r][:, 0])**2) / energy, 1e-12, where)
+        scale = np.abs(a).max()
+        worst.add("amplitude, over the largest", np.abs(a - q["amplitude"]).max() / scale, 1e-6, where)
+        gain = np.sum(np.abs(a)**2) / (a.shape[1] * a.shape[2])
+        worst.add("path_gain, relative", abs(gain - channel.path_gain[row, r]) / gain, 1e-6, where)
+        direct = (q["interaction"].sum(1) == 0).any()
+        worst.add("line_of_sight flag", abs(int(direct) - int(channel.line_of_sight[row, r])), 0, where)
+        keys = [tuple(f) for f in q["facet"]]
+        worst.add("paths with the same facets", len(keys) - len(set(keys)), 0, where)
+
+
+def check_doppler(channel, worst):
+    """Doppler against differences of the delay (fourth order), paths matched by their facets. Bound: 1 mHz, four
+    times what central differences of second order say otherwise, and the jump between the one-sided ones (way-points,
+    where a lever turns with the velocity, have one)."""
+    tables = []
+    for record in range(len(channel)):
+        p = channel.paths(record)
+        tables.append({(r, *f): (tau, nu) for r, f, tau, nu in zip(p["rx"], map(tuple, p["facet"]), p["delay"], p["doppler"])})
+    carrier = channel.meta["carrier_hz"]
+    for record in range(2, len(channel) - 2):
+        ticks = [channel.records[record + o][0] for o in (-2, -1, 0, 1, 2)]
+        if len(set(np.diff(ticks))) != 1:
+            continue
+        step = (ticks[1] - ticks[0]) / channel.tick_rate
+        for key, (tau, nu) in tables[record].items():
+            if all(key in tables[record + o] for o in (-2, -1, 1, 2)):
+                m2, m1, p1, p2 = (tables[record + o][key][0] for o in (-2, -1, 1, 2))
+                slope = (8 * (p1 - m1) - (p2 - m2)) / (12 * step)
+                kink = (-3 * tau + 4 * p1 - p2) - (3 * tau - 4 * m1 + m2)
+                uncertain = (4 * abs(slope - (p1 - m1) / (2 * step)) + abs(kink) / (2 * step)) * carrier
+                where = f"tick {ticks[2]}, {nu:.3f} Hz, facets {[int(f) for f in key[1:]]}"
+                worst.add("Doppler over differences of the delay, Hz", abs(nu + carrier * slope), 1e-3 + uncertain, where)
+
+
+def main():
+    channel = Channel(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None)
+    worst = Worst()
+    check_walls(channel, worst)
+    for record in range(len(channel)):
+        check_record(channel, record, worst)
+    check_doppler(channel, worst)
+    return 1 if worst.failed() else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""A channel model of its own: from ITU-R P.2040-4, TR 38.901 section 7 and docs/channel.md, not from rf/."""
+import numpy as np
+
+from dataset import C
+
+EPSILON_0 = 8.8541878128e-12
+# P.2040-4, Table 3: (a, b, c, d, from GHz, to GHz), rows that hold below 100 GHz.
+ITU = {
+    "concrete": (5.24, 0, .0462, .7822, 1, 100), "brick": (3.91, 0, .0238, .16, 1, 40),
+    "plasterboard": (2.73, 0, .0085, .9395, 1, 100), "wood": (1.99, 0, .0047, 1.0718, .001, 100),
+    "glass": (6.31, 0, .0036, 1.3394, .1, 100), "ceiling_board": (1.48, 0, .0011, 1.075, 1, 100),
+    "chipboard": (2.58, 0, .0217, .78, 1, 100), "plywood": (2.71, 0, .33, 0, 1, 40),
+    "marble": (7.074, 0, .0055, .9262, 1, 60), "metal": (1, 0, 1e7, 0, 1, 100),
+    "asphalt_concrete": (4.83, 0, .0108, 1.3969, 1, 40), "very_dry_ground": (3, 0, .00015, 2.52, 1, 10),
+    "medium_dry_ground": (15, -.1, .035, 1.63, 1, 10), "wet_ground": (30, -.4, .15, 1.30, 1, 10),
+}
+
+
+def permittivity(itu_name, frequency):
+    a, b, c, d, low, high = ITU[itu_name]
+    ghz = frequency / 1e9
+    assert low <= ghz <= high
+    return a * ghz**b - 1j * c * ghz**d / (2 * np.pi * frequency * EPSILON_0)
+
+
+def unit(v):
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def direction(zenith_azimuth):
+    t, p = zenith_azimuth[..., 0], zenith_azimuth[..., 1]
+    return np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], -1)
+
+
+def basis(d):
+    """theta-hat and phi-hat at a direction [3]."""
+    t, p = np.arctan2(np.hypot(d[0], d[1]), d[2]), np.arctan2(d[1], d[0])
+    return (np.array([np.cos(t) * np.cos(p), np.cos(t) * np.sin(p), -np.sin(t)]),
+            np.array([-np.sin(p), np.cos(p), 0.0]))
+
+
+def fresnel(wall, cosine, wavelength):
+    """(r_TE, r_TM) of a wall: [(eta, thickness), ...], by the impedance of a chain of lines (Pozar, 2.5): a way of its
+    own, neither eq. 43 of P.2040 nor its recursion. Thickness 0 in the last layer: half-space, else vacuum behind."""
+    def admittances(eta):
+        n = np.sqrt(complex(eta) - 1 + cosine**2)
+        n = -n if n.imag > 0 else n
+        return n, n, eta / n if n != 0 else 0j  # normal component; TE and TM admittance over that of vacuum
+    layers = [(complex(e), t) for e, t in wall]
+    if layers[-1][1] > 0:
+        layers.append((1 + 0j, 0.0))
+    _, y_te, y_tm = admittances(layers[-1][0])
+    for eta, thickness in reversed(layers[:-1]):
+        n, line_te, line_tm = admittances(eta)
+        tan = np.tan(2 * np.pi / wavelength * n * thickness)
+        y_te = line_te * (y_te + 1j * line_te * tan) / (line_te + 1j * y_te * tan)
+        y_tm = line_tm * (y_tm + 1j * line_tm * tan) / (line_tm + 1j * y_tm * tan)
+    # TM as P.2040 has it: the sign of the reflected field on k x s, which is that of H.
+    return (cosine - y_te) / (cosine + y_te), -(1 / cosine - y_tm) / (1 / cosine + y_tm)
+
+
+def transfer(points, walls, wavelength):
+    """2x2 transfer of a path through points [n + 2, 3] with n walls, world basis of departure and arrival. The normals
+    are the bisectors: nothing of the scene is needed."""
+    k = unit(np.diff(points, axis=0))
+    dyad = np.eye(3, dtype=complex)
+    for i, wall in enumerate(walls):
+        normal = unit(k[i + 1] - k[i])
+        cosine = abs(k[i] @ normal)
+        te, tm = fresnel(wall, cosine, wavelength)
+        across = np.cross(k[i], normal)
+        if np.linalg.norm(across) < 1e-8:
+            across = np.cross(k[i], [1, 0, 0] if abs(k[i][0]) < .5 else [0, 1, 0])
+        s = unit(across)
+        dyad = (te * np.outer(s, s) + tm * np.outer(np.cross(k[i + 1], s), np.cross(k[i], s))) @ dyad
+    length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+    return np.array(basis(-k[-1])) @ dyad @ np.array(basis(k[0])).T / length
+
+
+SLANTS = {"v": (0,), "h": (90,), "vh": (0, 90), "slant": (45, -45)}
+
+
+def array_response(antenna, turn, d, wavelength):
+    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase."""
+    own = turn.T @ d
+    own_theta, own_phi = basis(own)
+    zenith = np.arctan2(np.hypot(own[0], own[1]), own[2])
+    gain = 1.0
+    if antenna["pattern"] == "half_wave_dipole":
+        gain = np.sqrt(1.6409223770) * np.cos(np.pi / 2 * np.cos(zenith)) / np.sin(zenith)
+    to_world = np.array(basis(d)) @ turn
+    out = []
+    for row in range(antenna["rows"]):
+        for column in range(antenna["columns"]):
+            y = (column - (antenna["columns"] - 1) / 2) * antenna["column_spacing_m"]
+            z = (row - (antenna["rows"] - 1) / 2) * antenna["row_spacing_m"]
+            phase = np.exp(2j * np.pi * (own[1] * y + own[2] * z) / wavelength)
+            for slant in np.radians(SLANTS[antenna["polarization"]]):
+                out.append(to_world @ (gain * (np.cos(slant) * own_theta + np.sin(slant) * own_phi)) * phase)
+    return np.array(out)
+
+
+def amplitudes(meta, tx_turn, rx, rx_turn, transfers, departures, arrivals, delays):
+    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}."""
+    wavelength = C / meta["carrier_hz"]
+    out = []
+    for t, d, a, tau in zip(transfers, departures, arrivals, delays):
+        from_tx = array_response(meta["transmitter"], tx_turn, direction(d), wavelength)
+        at_rx = array_response(rx, rx_turn, direction(a), wavelength)
+        # The patterns are real: their conjugate, which leaves the phases of the elements alone, is themselves.
+        out.append(wavelength / (4 * np.pi) * (at_rx @ t @ from_tx.T) * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1)))
+    shape = (0, rx["ports"], meta["transmitter"]["ports"])
+    return np.array(out) if out else np.zeros(shape, complex)
+
+
+def response(meta, amplitude, delays, dopplers):
+    """[rx_ant, tx_ant, time, subcarrier]."""
+    f = (np.arange(meta["subcarriers"]) + meta["first_subcarrier"]) * meta["subcarrier_spacing_hz"]
+    t = np.arange(meta["time_samples"]) * (meta["time_spacing_s"] if meta["doppler_in_time_samples"] else 0)
+    over_f = np.exp(-2j * np.pi * np.outer(delays, f))
+    over_t = np.exp(2j * np.pi * np.outer(dopplers, t))
+    return np.einsum("prs,pt,pk->rstk", amplitude, over_t, over_f, optimize=True)
