@@ -160,14 +160,16 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
   if (devices.empty()) throw UserError(no_vulkan_help);
   const DeviceInfo* chosen = nullptr;
   for (const DeviceInfo& info : devices) {
-    const bool named =
-        select == std::to_string(info.index) || lower(info.name).find(lower(select)) != std::string::npos;
-    if (!select.empty() && named) {
+    if (!select.empty()) {
+      // An index is no part of a name: "1" is not the llvmpipe whose name says LLVM 15.
+      if (select == std::to_string(info.index)) {
+        chosen = &info;
+        break;
+      }
+      if (chosen == nullptr && lower(info.name).find(lower(select)) != std::string::npos) chosen = &info;
+    } else if (info.usable() && (chosen == nullptr || preference(info) > preference(*chosen))) {
       chosen = &info;
-      break;
     }
-    if (select.empty() && info.usable() && (chosen == nullptr || preference(info) > preference(*chosen)))
-      chosen = &info;
   }
   if (chosen != nullptr && chosen->usable()) return *chosen;
   std::string table;

@@ -68,6 +68,14 @@ TEST(Devices, TheBestUsableTypeIsChosen) {
   EXPECT_EQ(choose_device(devices, "2").name, "Small");
 }
 
+TEST(Devices, AnIndexGoesBeforeAPartOfAName) {
+  const std::vector<DeviceInfo> devices{made_up(0, "llvmpipe (LLVM 15.0.6, 256 bits)", "cpu", true),
+                                        made_up(1, "Real", "discrete", true)};
+  EXPECT_EQ(choose_device(devices, "1").name, "Real");
+  EXPECT_EQ(choose_device(devices, "0").name, devices[0].name);
+  EXPECT_EQ(choose_device(devices, "256").name, devices[0].name);
+}
+
 TEST(Devices, WithoutRayQueryIsRefusedByName) {
   const std::vector<DeviceInfo> devices{made_up(0, "Blind", "discrete", false)};
   for (const char* select : {"", "blind"}) {
