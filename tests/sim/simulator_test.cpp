@@ -5,7 +5,7 @@
 #include "sim/simulator.h"
 
 #include <cstring>
-#include <map>
+#include <numeric>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -311,6 +311,60 @@ TEST(HardCase, N07_AtUtmCoordinatesTheSameOutput) {
   ASSERT_EQ(a.size(), b.size());
   ASSERT_GT(a.size(), 0u);
   for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(speed_of_light * a[i], speed_of_light * b[i], 1e-9);
+}
+
+TEST(HardCase, N25_AReceiverAloneIsTheSameAmongAHundred) {
+  std::string nodes, all;
+  for (int i = 0; i < 100; ++i) {
+    nodes += fmt::format(
+        "  - name: user{0}\n    trajectory: {{type: static, position_m: [{1}, {2}, {3}]}}\n    sensors: "
+        "[{{name: "
+        "antenna, type: antenna}}]\n",
+        i, -45 + 9.1 * (i % 10), -45 + 9.3 * (i / 10), 1.5 + 0.5 * i);
+    all += fmt::format("{}user{}/antenna", i == 0 ? "" : ", ", i);
+  }
+  const auto with = [&](const std::string& receivers) {
+    std::string yaml = head + city + "nodes:\n" + bs + nodes + channel();
+    yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 1");
+    yaml.replace(yaml.find("uav/antenna"), 11, receivers);
+    return run(yaml);
+  };
+  const Outcome together = with(all);
+  const auto counts = together.array(0, "csi", "path_count").as<int32_t>();
+  ASSERT_EQ(counts.size(), 100u);
+  const auto cfr = together.array(0, "csi", "cfr").as<std::complex<float>>();
+  const auto delays = together.array(0, "csi", "delay").as<double>();
+  int reflected = 0;
+  for (const size_t receiver : {0u, 37u, 58u, 99u}) {
+    const Outcome alone = with(fmt::format("user{}/antenna", receiver));
+    const auto own = alone.array(0, "csi", "cfr").as<std::complex<float>>();
+    ASSERT_EQ(own.size() * 100, cfr.size());
+    EXPECT_EQ(std::memcmp(own.data(), cfr.data() + receiver * own.size(), own.size_bytes()), 0) << receiver;
+    const auto own_delays = alone.array(0, "csi", "delay").as<double>();
+    ASSERT_EQ(own_delays.size(), static_cast<size_t>(counts[receiver])) << receiver;
+    const size_t first = static_cast<size_t>(std::accumulate(counts.begin(), counts.begin() + receiver, 0));
+    EXPECT_TRUE(std::equal(own_delays.begin(), own_delays.end(), delays.begin() + first)) << receiver;
+    reflected += counts[receiver] > 1;
+  }
+  EXPECT_GT(reflected, 1) << "the comparison is to have reflections in it";
+}
+
+TEST(HardCase, N64_NoPathIsZeroAndFinite) {
+  // The receiver is under the ground, and only the direct path is asked for.
+  std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
+  yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
+  yaml.replace(yaml.find("[-20, -15, 40]"), 14, "[-20, -15, -40]");
+  yaml.replace(yaml.find("[10, 5, 45]"), 11, "[10, 5, -45]");
+  const Outcome r = run(yaml);
+  ASSERT_EQ(r.packets.size(), 3u);
+  EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0], 0);
+  EXPECT_EQ(r.array(0, "csi", "line_of_sight").as<uint8_t>()[0], 0);
+  EXPECT_EQ(r.array(0, "csi", "path_gain").as<double>()[0], 0.0);
+  for (const char* ragged : {"delay", "amplitude", "vertex"})
+    EXPECT_EQ(r.array(0, "csi", ragged).shape[0], 0) << ragged;
+  const auto response = r.array(0, "csi", "cfr").as<std::complex<float>>();
+  EXPECT_EQ(response.size(), 8u * 16u);
+  for (const std::complex<float>& value : response) EXPECT_EQ(value, std::complex<float>(0.0f));
 }
 
 TEST(HardCase, N64_NothingToSeeIsEmptyAndFinite) {
