@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PNG (ISO/IEC 15948), made for speed: one IDAT, libdeflate, and one scanline filter out of None, Sub and Up.
-// The same pixels always give the same bytes.
+// PNG (ISO/IEC 15948) by libpng, set for speed: zlib's level 1, the filter Up in every line. The same pixels always give
+// the same bytes (of one libpng and zlib).
 #pragma once
 
 #include "core/record.h"
@@ -13,7 +13,8 @@ namespace greatx::io {
 /// u8 [h, w, 3] as 8-bit RGB; u8 [h, w] as 8-bit grey; u16 [h, w] as 16-bit grey; u32 [h, w] as 16-bit grey if every
 /// value fits, otherwise UserError.
 Bytes encode_png(const Array& image);
-/// 8-bit RGB and grey, 16-bit grey, not interlaced; `name` stands for the file in messages. Throws UserError.
+/// 8-bit RGB and grey, 16-bit grey, not interlaced; `name` stands for the file in messages. Throws UserError,
+/// also for whatever libpng only warns of.
 Array decode_png(std::span<const std::byte> file, const std::string& name);
 
 /// Depth in metres as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1), rounded to nearest.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every encoder against a decoder, an independent one where there is one (stb for PNG, OpenEXR for EXR, NumPy in
-// numpy_test.cpp).
+// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in numpy_test.cpp).
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A picture with flat areas, gradients and noise, so that every filter is chosen somewhere.
+/// A picture with flat areas, gradients and noise.
 template <typename T>
 Array test_picture(std::vector<int64_t> shape) {
   Array image(DTypeOf<T>::value, std::move(shape));
@@ -168,6 +168,21 @@ TEST(Exr, RgbIsExact) {
     EXPECT_EQ(back.shape, image.shape);
     EXPECT_EQ(back.bytes, image.bytes);
   }
+}
+
+TEST(Exr, SamePixelsGiveTheSameBytesInEveryThread) {
+  Array depth(DType::f32, {100, 60});
+  RandomStream random(9, 1);
+  for (float& value : depth.as<float>()) value = static_cast<float>(random.below(1000));
+  const Bytes first = encode_exr(depth);
+  std::vector<Bytes> others(4);
+  std::vector<std::thread> threads;
+  for (Bytes& other : others) threads.emplace_back([&] { other = encode_exr(depth); });
+  for (std::thread& thread : threads) thread.join();
+  for (const Bytes& other : others) EXPECT_EQ(other, first);
+  const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
+  for (const char* attribute : {"capDate", "utcOffset", "owner"})
+    EXPECT_EQ(text.find(attribute), text.npos) << attribute;
 }
 
 TEST(Exr, BrokenFileIsAUserError) {
