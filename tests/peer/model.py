@@ -35,7 +35,8 @@ def direction(zenith_azimuth):
 
 
 def basis(d):
-    """theta-hat and phi-hat at a direction [3]."""
+    """theta-hat and phi-hat at a direction [3]; at the poles phi = 0, whatever the sign of its zeros."""
+    d = np.where(np.abs(d) < 1e-15, 0.0, d)
     t, p = np.arctan2(np.hypot(d[0], d[1]), d[2]), np.arctan2(d[1], d[0])
     return (np.array([np.cos(t) * np.cos(p), np.cos(t) * np.sin(p), -np.sin(t)]),
             np.array([-np.sin(p), np.cos(p), 0.0]))
