@@ -53,7 +53,7 @@ struct TlasInstance {
   const Blas* blas = nullptr;
   dmat4 local_from_body{1.0};
   uint32_t custom_index = 0;  ///< 24 bits
-  uint32_t mask = 0xff;      ///< 8 bits
+  uint32_t mask = 0xff;       ///< 8 bits
 };
 
 /// The top level over a fixed number of instances.

@@ -30,11 +30,6 @@ struct FeatureUse {
 
 const FeatureUse feature_uses[] = {
     GREATX_FEATURE(core.features, shaderInt64, "buffer addresses in shaders"),
-    GREATX_FEATURE(core.features, multiDrawIndirect, "drawing the scene in one call"),
-    GREATX_FEATURE(core.features, drawIndirectFirstInstance, "the primitive's index in each draw"),
-    GREATX_FEATURE(core.features, depthClamp, "shadow casters behind the light's near plane"),
-    GREATX_FEATURE(core.features, independentBlend, "colour and ids in one draw"),
-    GREATX_FEATURE(v11, shaderDrawParameters, "the primitive's index in each draw"),
     GREATX_FEATURE(v12, bufferDeviceAddress, "buffers by address"),
     GREATX_FEATURE(v12, scalarBlockLayout, "structs shared by C++ and shaders"),
     GREATX_FEATURE(v12, timelineSemaphore, "counting ticks in flight"),

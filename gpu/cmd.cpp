@@ -70,20 +70,6 @@ void pipeline_barrier(VkCommandBuffer cmd, const VkImageMemoryBarrier2& barrier)
   vkCmdPipelineBarrier2(cmd, &info);
 }
 
-bool is_integer(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_R32_UINT:
-    case VK_FORMAT_R32G32_UINT:
-    case VK_FORMAT_R32G32B32A32_UINT:
-    case VK_FORMAT_R16_UINT:
-    case VK_FORMAT_R16G16_UINT:
-    case VK_FORMAT_R16G16B16A16_UINT:
-      return true;
-    default:
-      return false;
-  }
-}
-
 VkBufferImageCopy whole_mip(const Image& image, VkDeviceSize offset, uint32_t mip) {
   VkBufferImageCopy region{};
   region.bufferOffset = offset;
@@ -230,27 +216,14 @@ void Cmd::draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t firs
   ++device_->counters().draws;
 }
 
-void Cmd::draw_indexed_indirect(const Slice& commands, uint32_t count) {
-  vkCmdDrawIndexedIndirect(handle_, commands.buffer, commands.offset, count,
-                           sizeof(VkDrawIndexedIndirectCommand));
-  ++device_->counters().draws;
-}
-
 void Cmd::begin_rendering(const RenderTargets& targets) {
   std::vector<VkRenderingAttachmentInfo> color;
   for (const ColorTarget& target : targets.color) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = target.image->view();
     info.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    if (target.resolve != nullptr) {
-      info.resolveMode = is_integer(target.image->desc().format) ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT
-                                                                 : VK_RESOLVE_MODE_AVERAGE_BIT;
-      info.resolveImageView = target.resolve->view();
-      info.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    }
-    info.loadOp = target.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
-    info.storeOp =
-        target.resolve != nullptr ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     info.clearValue.color = target.clear;
     color.push_back(info);
   }
@@ -258,7 +231,7 @@ void Cmd::begin_rendering(const RenderTargets& targets) {
   if (targets.depth != nullptr) {
     depth.imageView = targets.depth->view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    depth.loadOp = targets.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     depth.clearValue.depthStencil = {targets.clear_depth, 0};
   }

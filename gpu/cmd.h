@@ -31,8 +31,6 @@ inline constexpr Sync transfer_write{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS
 inline constexpr Sync transfer_read{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 inline constexpr Sync host_read{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
 inline constexpr Sync host_write{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
-inline constexpr Sync indirect_read{VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
 inline constexpr Sync shader_read{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
                                       VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
@@ -67,16 +65,13 @@ struct Descriptor {
 
 struct ColorTarget {
   Image* image = nullptr;
-  Image* resolve = nullptr;  ///< for multisampled images: averaged (floats) or sample zero (integers)
   VkClearColorValue clear{};
-  bool keep = false;  ///< load what is there instead of clearing
 };
 
 struct RenderTargets {
   std::vector<ColorTarget> color;
   Image* depth = nullptr;
   float clear_depth = 0.0f;  ///< reversed depth: far is 0
-  bool keep_depth = false;
   uint32_t width = 0, height = 0;
 };
 
@@ -148,8 +143,6 @@ class Cmd {
   /// Without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is `first_instance`.
   void draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance);
   void draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance);
-  /// `count` VkDrawIndexedIndirectCommands at `commands`.
-  void draw_indexed_indirect(const Slice& commands, uint32_t count);
 
   void begin_rendering(const RenderTargets& targets);
   void end_rendering();

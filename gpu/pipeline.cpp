@@ -203,7 +203,6 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsDesc& desc, std
   viewport.viewportCount = 1;
   viewport.scissorCount = 1;
   VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-  raster.depthClampEnable = desc.depth_clamp;
   raster.polygonMode = VK_POLYGON_MODE_FILL;
   raster.cullMode = desc.cull;
   raster.frontFace = desc.front_face;

@@ -105,7 +105,6 @@ struct GraphicsDesc {
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER;  ///< reversed depth
   bool depth_write = true;
   float depth_bias_constant = 0.0f, depth_bias_slope = 0.0f;
-  bool depth_clamp = false;
 };
 
 /// Viewport and scissor are dynamic; Cmd::begin_rendering sets them.

@@ -143,8 +143,7 @@ VkImageAspectFlags Image::aspect() const { return aspect_of(desc_.format); }
 
 Sampler::Sampler(Device& device, const SamplerDesc& desc, std::string_view name) : device_(&device) {
   const VkFilter filter = desc.linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-  const auto address = [&](bool repeat) {
-    if (desc.border_white) return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+  const auto address = [](bool repeat) {
     return repeat ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   };
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
@@ -157,7 +156,6 @@ Sampler::Sampler(Device& device, const SamplerDesc& desc, std::string_view name)
   info.maxLod = desc.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
   info.compareEnable = desc.compare_greater_or_equal;
   info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
   GREATX_VK(vkCreateSampler(device.handle(), &info, nullptr, &sampler_));
   device.set_name(VK_OBJECT_TYPE_SAMPLER, reinterpret_cast<uint64_t>(sampler_), name);
 }

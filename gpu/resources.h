@@ -113,7 +113,6 @@ struct SamplerDesc {
   bool repeat_u = true, repeat_v = true;
   bool mipmaps = false;
   bool compare_greater_or_equal = false;  ///< a shadow map's comparison sampler
-  bool border_white = false;              ///< outside the image: opaque white instead of repeat or clamp
 };
 
 class Sampler {

@@ -15,7 +15,7 @@ constexpr uint32_t max_scopes = 256;
 
 Arena::Arena(Device& device, Memory memory, VkDeviceSize bytes, std::string name)
     : device_(&device), memory_(memory), name_(std::move(name)) {
-  blocks_.emplace_back(device, bytes, memory, name_, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+  blocks_.emplace_back(device, bytes, memory, name_);
 }
 
 Slice Arena::allocate(VkDeviceSize bytes) {
@@ -26,7 +26,7 @@ Slice Arena::allocate(VkDeviceSize bytes) {
   }
   if (block_ == blocks_.size()) {
     blocks_.emplace_back(*device_, std::max(size, 2 * blocks_.back().size()), memory_,
-                         fmt::format("{} block {}", name_, block_), VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+                         fmt::format("{} block {}", name_, block_));
     ++growths_;
   }
   const Slice slice = blocks_[block_].slice().part(used_, size);

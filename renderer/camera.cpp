@@ -234,8 +234,7 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   cmd.transition(visibility_, gpu::ImageUse::color_target, true);
   cmd.transition(depth_, gpu::ImageUse::depth_target, true);
   gpu::RenderTargets targets;
-  targets.color.push_back(
-      {.image = &visibility_, .resolve = nullptr, .clear = {.uint32 = {0, 0, 0, 0}}, .keep = false});
+  targets.color.push_back({.image = &visibility_, .clear = {.uint32 = {0, 0, 0, 0}}});
   targets.depth = &depth_;
   targets.width = desc_.width;
   targets.height = desc_.height;

@@ -116,12 +116,8 @@ void ShadowMaps::build_static(bool alpha_mask) {
   gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
     const auto scope = cmd.scope("static shadow");
     cmd.transition(static_map_, gpu::ImageUse::depth_target, true);
-    cmd.begin_rendering({.color = {},
-                         .depth = &static_map_,
-                         .clear_depth = 0.0f,
-                         .keep_depth = false,
-                         .width = size,
-                         .height = size});
+    cmd.begin_rendering(
+        {.color = {}, .depth = &static_map_, .clear_depth = 0.0f, .width = size, .height = size});
     const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
       if (primitives.empty()) return;
       cmd.bind(with);
@@ -202,12 +198,8 @@ void ShadowMaps::record(gpu::TickSlot& slot, std::span<const Pose> body_poses, c
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope("moving shadow");
   cmd.transition(moving_map_, gpu::ImageUse::depth_target, true);
-  cmd.begin_rendering({.color = {},
-                       .depth = &moving_map_,
-                       .clear_depth = 0.0f,
-                       .keep_depth = false,
-                       .width = map_size,
-                       .height = map_size});
+  cmd.begin_rendering(
+      {.color = {}, .depth = &moving_map_, .clear_depth = 0.0f, .width = map_size, .height = map_size});
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   descriptors.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block));
   descriptors.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
