@@ -13,8 +13,8 @@ namespace greatx::io {
 namespace {
 
 constexpr int compression_level = 1;  // of zlib; 2 takes 12 % longer for 3 % less
-constexpr int filter =
-    PNG_FILTER_UP;  // one for all lines: letting libpng choose takes longer and gains nothing
+// In all lines: libpng's own choice takes 12 % (pictures) to 80 % (ids) longer for 2 % less at best.
+constexpr int filter = PNG_FILTER_UP;
 constexpr size_t idat_bytes = 1 << 16;
 constexpr uint32_t largest_side = (1 << 24) - 1;
 
@@ -24,7 +24,6 @@ struct Layout {
   size_t row_bytes() const {
     return size_t{width} * (color_type == PNG_COLOR_TYPE_RGB ? 3 : 1) * static_cast<size_t>(bit_depth / 8);
   }
-  bool operator==(const Layout&) const = default;
 };
 
 /// What libpng's callbacks share. libpng leaves a failed call by longjmp, so the functions that call setjmp below own
@@ -97,7 +96,7 @@ bool write_png(Session& session, const Layout& layout, const std::byte* pixels) 
   return true;
 }
 
-/// Up to the pixels. Warnings are errors: a file of a data set has nothing to warn about.
+/// Everything before the pixels. Warnings are errors: a file of a data set has nothing to warn about.
 bool read_header(Session& session, Layout& layout, bool& interlaced) {
   session.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_error);
   if (session.png != nullptr) session.info = png_create_info_struct(session.png);
