@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/channel_sensor.h"
+#include "sim/sensor_metadata.h"
 
 namespace greatx::sim {
 
@@ -28,13 +29,6 @@ nlohmann::json describe_array(const rf::AntennaArray& array) {
   json["ports"] = array.port_count();
   json["port_order"] = "(row * columns + column) * polarizations + polarization";
   return json;
-}
-
-/// How an antenna sits on its node.
-nlohmann::json describe_mount(const Pose& mount) {
-  const dquat& q = mount.orientation;
-  return {{"position_m", {mount.position.x, mount.position.y, mount.position.z}},
-          {"orientation_wxyz", {q.w, q.x, q.y, q.z}}};
 }
 
 /// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
@@ -124,11 +118,11 @@ void ChannelSensor::describe() {
   metadata["time_convention"] = "e^{+j omega t}";
   metadata["transmitter"] = describe_array(transmitter_.array);
   metadata["transmitter"]["name"] = config_.transmitter;
-  metadata["transmitter"]["body_from_antenna"] = describe_mount(transmitter_.mount);
+  metadata["transmitter"]["body_from_antenna"] = json_of(transmitter_.mount);
   for (size_t r = 0; r < receivers_.size(); ++r) {
     metadata["receivers"].push_back(describe_array(receivers_[r].array));
     metadata["receivers"].back()["name"] = config_.receivers[r];
-    metadata["receivers"].back()["body_from_antenna"] = describe_mount(receivers_[r].mount);
+    metadata["receivers"].back()["body_from_antenna"] = json_of(receivers_[r].mount);
   }
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
   metadata["walls"] = describe_walls(world_.scene, surfaces_);
