@@ -132,7 +132,8 @@ CandidateSearch::CandidateSearch(scene::GpuScene& scene, const CandidateSearchOp
   for (const uint32_t slot : {shared::candidates_directions_binding, shared::candidates_keys_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::CandidateConstants);
-  compute.specialization = {options.moving_bodies ? shared::static_mask | shared::moving_mask : shared::static_mask};
+  compute.specialization = {options.moving_bodies ? shared::static_mask | shared::moving_mask
+                                                  : shared::static_mask};
   pipeline_ = gpu::ComputePipeline(device, compute, "candidate search");
 }
 

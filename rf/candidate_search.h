@@ -25,7 +25,7 @@ struct CandidateSearchOptions {
   uint32_t rays = 1u << 18;
   uint32_t max_depth =
       3;  ///< reflections per candidate, 1 or more; rays * max_depth must fit a storage buffer
-  bool moving_bodies = true;  ///< false: the static world alone, as if nothing that moves were there
+  bool moving_bodies = true;     ///< false: the static world alone, as if nothing that moves were there
   uint64_t capacity = 1u << 22;  ///< at most this many candidates are kept; the rest is counted
 };
 

@@ -32,12 +32,13 @@ struct GeometricPath {
 /// A path as seen from one transmitter and one receiver (their reference points).
 struct Path {
   FacetSequence facets;
-  std::vector<dvec3> vertices;   ///< local coordinates
+  std::vector<dvec3> vertices;  ///< local coordinates
   double length_m = 0.0;
-  double delay_s = 0.0;          ///< length / c
-  double doppler_hz = 0.0;       ///< physics: nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})), sign: approaching > 0
-  dvec3 departure{0.0};          ///< unit, world axes, leaving the transmitter
-  dvec3 arrival{0.0};            ///< unit, world axes, pointing from the receiver back along the path
+  double delay_s = 0.0;  ///< length / c
+  double doppler_hz =
+      0.0;  ///< physics: nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})), sign: approaching > 0
+  dvec3 departure{0.0};  ///< unit, world axes, leaving the transmitter
+  dvec3 arrival{0.0};    ///< unit, world axes, pointing from the receiver back along the path
   /// T: field at the receiver in (theta, phi) at `arrival` per field at the transmitter in (theta, phi) at `departure`,
   /// with the spreading 1/length but without the phase e^{-j 2 pi f tau}, which the channel adds in turns.
   /// Row-major [theta_rx theta_tx, theta_rx phi_tx, phi_rx theta_tx, phi_rx phi_tx], 1/m.

@@ -12,18 +12,19 @@ namespace greatx::scene {
 
 /// A model put into the world.
 struct Placement {
-  std::string name;            ///< prefix of its instances' names; may be empty
+  std::string name;  ///< prefix of its instances' names; may be empty
   const Model* model = nullptr;
-  Pose pose;                   ///< world_from_model; of a moving body: body_from_model
+  Pose pose;  ///< world_from_model; of a moving body: body_from_model
   dvec3 scale{1.0};
-  bool moving = false;         ///< true: becomes a body of its own, called `name`
+  bool moving = false;                          ///< true: becomes a body of its own, called `name`
   std::optional<SemanticClass> semantic_class;  ///< overrides the file's
 };
 
 struct BuildOptions {
   std::string name;
   std::optional<dvec3> origin;  ///< default: the centre of the static bounds, rounded to whole metres
-  double coplanar_distance_m = 1e-4;  ///< facets: triangles merge when every corner is this close to the plane
+  double coplanar_distance_m =
+      1e-4;  ///< facets: triangles merge when every corner is this close to the plane
   double coplanar_angle_rad = 1e-4;
 };
 

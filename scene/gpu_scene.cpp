@@ -162,8 +162,8 @@ void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_pos
   if (!moved) return;
   std::vector<gpu::TlasInstance> instances;
   for (size_t i = 0; i < blas_.size(); ++i)
-    instances.push_back(
-        {&blas_[i], matrix_of(poses[blas_body_[i]]), scene_->bodies[blas_body_[i]].first_primitive,
+    instances.push_back({&blas_[i], matrix_of(poses[blas_body_[i]]),
+                         scene_->bodies[blas_body_[i]].first_primitive,
                          blas_body_[i] == 0 ? shared::static_mask : shared::moving_mask});
   const auto scope = slot.cmd->scope(tlas_.built() ? "tlas refit" : "tlas build");
   tlas_.record(*slot.cmd, instances, slot.upload.allocate(tlas_.instance_bytes()));

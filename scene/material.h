@@ -55,14 +55,14 @@ struct RadioLayer {
 };
 
 struct RadioMaterial {
-  std::vector<RadioLayer> layers;  ///< one at least; a single layer of thickness 0 is a half-space
-  double scattering_coefficient = 0.0;     ///< S in [0, 1]
+  std::vector<RadioLayer> layers;       ///< one at least; a single layer of thickness 0 is a half-space
+  double scattering_coefficient = 0.0;  ///< S in [0, 1]
   ScatteringPattern pattern = ScatteringPattern::lambertian;
-  double pattern_exponent = 4.0;           ///< alpha_R of the directive pattern
-  double backscatter_exponent = 4.0;       ///< alpha_I
-  double backscatter_share = 0.5;          ///< 1 - Lambda
-  double cross_polarization = 0.0;         ///< K_x in [0, 1]
-  double roughness_m = 0.0;                ///< rms height
+  double pattern_exponent = 4.0;      ///< alpha_R of the directive pattern
+  double backscatter_exponent = 4.0;  ///< alpha_I
+  double backscatter_share = 0.5;     ///< 1 - Lambda
+  double cross_polarization = 0.0;    ///< K_x in [0, 1]
+  double roughness_m = 0.0;           ///< rms height
 };
 
 struct Material {

@@ -14,10 +14,10 @@
 namespace greatx::scene {
 
 struct ModelPrimitive {
-  std::vector<vec3> positions;  ///< in the mesh's own frame, glTF axes (y up), as in the file
-  std::vector<vec3> normals;    ///< empty: flat normals are to be made
-  std::vector<vec4> tangents;   ///< may be empty
-  std::vector<vec2> uvs;        ///< may be empty
+  std::vector<vec3> positions;    ///< in the mesh's own frame, glTF axes (y up), as in the file
+  std::vector<vec3> normals;      ///< empty: flat normals are to be made
+  std::vector<vec4> tangents;     ///< may be empty
+  std::vector<vec2> uvs;          ///< may be empty
   std::vector<uint32_t> indices;  ///< triangles; strips and fans are unrolled, missing indices filled in
   uint32_t material = 0;
 };

@@ -27,8 +27,23 @@ namespace greatx::scene {
 
 /// What an object is; values are stable, they go to disk.
 enum class SemanticClass : uint32_t {
-  unlabeled = 0, ground = 1, road = 2, pavement = 3, lane_marking = 4, building = 5, roof = 6, window = 7,
-  vegetation = 8, pole = 9, street_lamp = 10, mast = 11, vehicle = 12, uav = 13, water = 14, furniture = 15, person = 16,
+  unlabeled = 0,
+  ground = 1,
+  road = 2,
+  pavement = 3,
+  lane_marking = 4,
+  building = 5,
+  roof = 6,
+  window = 7,
+  vegetation = 8,
+  pole = 9,
+  street_lamp = 10,
+  mast = 11,
+  vehicle = 12,
+  uav = 13,
+  water = 14,
+  furniture = 15,
+  person = 16,
 };
 const char* name_of(SemanticClass semantic_class);
 /// Every class's name, index = value.
@@ -36,8 +51,14 @@ const std::vector<std::string>& semantic_class_names();
 
 struct Bounds {
   dvec3 min{1e300}, max{-1e300};
-  void add(const dvec3& point) { min = glm::min(min, point); max = glm::max(max, point); }
-  void add(const Bounds& other) { min = glm::min(min, other.min); max = glm::max(max, other.max); }
+  void add(const dvec3& point) {
+    min = glm::min(min, point);
+    max = glm::max(max, point);
+  }
+  void add(const Bounds& other) {
+    min = glm::min(min, other.min);
+    max = glm::max(max, other.max);
+  }
   bool empty() const { return min.x > max.x; }
   dvec3 center() const { return 0.5 * (min + max); }
   dvec3 size() const { return empty() ? dvec3(0.0) : max - min; }
@@ -63,13 +84,13 @@ struct Instance {
   std::string name;  ///< unique in the scene
   SemanticClass semantic_class = SemanticClass::unlabeled;
   uint32_t body = 0;
-  Bounds bounds;     ///< in the body's frame
+  Bounds bounds;  ///< in the body's frame
 };
 
 struct Body {
   std::string name;  ///< "static", or the node's name
   uint32_t first_primitive = 0, primitive_count = 0;
-  Bounds bounds;     ///< in the body's frame
+  Bounds bounds;  ///< in the body's frame
 };
 
 /// KHR_lights_punctual, in the body's frame.
@@ -78,8 +99,8 @@ struct PunctualLight {
   std::string name;
   dvec3 position{0.0}, direction{0.0, 0.0, -1.0};
   vec3 color{1.0f};
-  float intensity = 1.0f;  ///< cd; lux for directional
-  float range_m = 0.0f;    ///< 0: unlimited
+  float intensity = 1.0f;                            ///< cd; lux for directional
+  float range_m = 0.0f;                              ///< 0: unlimited
   float inner_cone = 0.0f, outer_cone = 0.7853982f;  ///< rad
   uint32_t body = 0;
 };
@@ -101,7 +122,7 @@ struct FacetTriangle {
 
 struct Scene {
   std::string name;
-  std::string hash;  ///< SHA-256 over everything below that reaches a sensor
+  std::string hash;   ///< SHA-256 over everything below that reaches a sensor
   dvec3 origin{0.0};  ///< world position of the local origin: local = world - origin
 
   // Geometry, indexed by Primitive. Body 0 in local coordinates.
@@ -112,16 +133,16 @@ struct Scene {
   std::vector<uint32_t> indices;
   std::vector<Primitive> primitives;  ///< grouped by body, ascending
   std::vector<Instance> instances;
-  std::vector<Body> bodies;           ///< [0] is the static world, present even if empty
+  std::vector<Body> bodies;  ///< [0] is the static world, present even if empty
 
-  std::vector<Facet> facets;                    ///< grouped by body, ascending
+  std::vector<Facet> facets;  ///< grouped by body, ascending
   std::vector<FacetTriangle> facet_triangles;
-  std::vector<uint32_t> facet_of_triangle;      ///< [indices.size() / 3]
+  std::vector<uint32_t> facet_of_triangle;  ///< [indices.size() / 3]
 
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
-  Bounds bounds;  ///< of body 0
+  Bounds bounds;                   ///< of body 0
   std::vector<std::string> notes;  ///< what the loader mended or chose, for `greatx scene info`
 
   dvec3 to_local(const dvec3& world) const { return world - origin; }

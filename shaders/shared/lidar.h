@@ -8,9 +8,12 @@
 
 GREATX_SHARED_BEGIN
 
-const uint lidar_angles_binding = first_pass_binding;        // vec2[channels + steps]: cos, sin of each elevation, then azimuth
-const uint lidar_poses_binding = first_pass_binding + 1u;    // GpuBody[1 or steps]: local_from_sensor at the shot's time
-const uint lidar_returns_binding = first_pass_binding + 2u;  // LidarReturn[steps * channels], azimuth step major
+const uint lidar_angles_binding =
+    first_pass_binding;  // vec2[channels + steps]: cos, sin of each elevation, then azimuth
+const uint lidar_poses_binding =
+    first_pass_binding + 1u;  // GpuBody[1 or steps]: local_from_sensor at the shot's time
+const uint lidar_returns_binding =
+    first_pass_binding + 2u;  // LidarReturn[steps * channels], azimuth step major
 
 // A workgroup is a patch of neighbouring beams, so that the lanes that run together walk through the same boxes
 // (docs/lidar.md has the measurements).
@@ -27,7 +30,7 @@ const uint lidar_no_object = 0u;
 struct LidarConstants {
   uint channels;
   uint azimuth_steps;
-  uint pose_count;     // 1 or azimuth_steps
+  uint pose_count;  // 1 or azimuth_steps
   uint excluded_body;
   float min_range;     // m
   float max_range;     // m

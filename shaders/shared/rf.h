@@ -12,8 +12,9 @@ const uint rf_none = 0xffffffffu;  // no facet, no body
 
 // ------------------------------------------------------------------------------------------------ candidate search
 
-const uint candidates_directions_binding = first_pass_binding;   // vec3[rays], unit
-const uint candidates_keys_binding = first_pass_binding + 1u;    // uint[rays * max_depth]: facets met, then rf_none
+const uint candidates_directions_binding = first_pass_binding;  // vec3[rays], unit
+const uint candidates_keys_binding =
+    first_pass_binding + 1u;  // uint[rays * max_depth]: facets met, then rf_none
 const uint candidates_group = 64u;
 
 struct CandidateConstants {
@@ -24,13 +25,13 @@ struct CandidateConstants {
 
 // ------------------------------------------------------------------------------------------------------ visibility
 
-const uint visibility_segments_binding = first_pass_binding;     // GpuSegment[count]
-const uint visibility_planes_binding = first_pass_binding + 1u;  // GpuFacetPlane[facets]
-const uint visibility_results_binding = first_pass_binding + 2u; // uint[count]: 1 visible, 0 blocked
+const uint visibility_segments_binding = first_pass_binding;      // GpuSegment[count]
+const uint visibility_planes_binding = first_pass_binding + 1u;   // GpuFacetPlane[facets]
+const uint visibility_results_binding = first_pass_binding + 2u;  // uint[count]: 1 visible, 0 blocked
 const uint visibility_group = 64u;
 
 struct GpuSegment {
-  vec3 a, b;        // local coordinates
+  vec3 a, b;  // local coordinates
   uint facet_a, facet_b;
   uint body_a, body_b;
 };

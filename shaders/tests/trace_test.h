@@ -22,19 +22,19 @@ struct TraceTestRay {
 };
 
 struct TraceTestResult {
-  uint plain_triangle;   // trace_closest; trace_test_none: nothing
-  uint triangle;         // trace_closest_watertight
+  uint plain_triangle;  // trace_closest; trace_test_none: nothing
+  uint triangle;        // trace_closest_watertight
   float t;
-  uint next_triangle;    // trace_closest from just beyond that hit
+  uint next_triangle;  // trace_closest from just beyond that hit
   float next_t;
   uint any;              // trace_any_watertight with skip_facet
   uint except_triangle;  // trace_closest_except with skip_facet and skip_body
   float except_t;
-  vec3 point;            // hit_point
+  vec3 point;  // hit_point
   vec3 error;
-  vec3 start;            // offset_origin towards where the ray came from
-  uint bounce_triangle;  // trace_closest from there, reflected: the offset alone
-  uint leaving_triangle; // trace_leaving
+  vec3 start;             // offset_origin towards where the ray came from
+  uint bounce_triangle;   // trace_closest from there, reflected: the offset alone
+  uint leaving_triangle;  // trace_leaving
 };
 
 GREATX_SHARED_END
