@@ -43,11 +43,13 @@ bool never_moves(const NodeConfig& node) { return std::holds_alternative<StaticT
 
 /// A material without a row at the carrier is an error of the scenario, before anything runs.
 void check_radio(const Scenario& scenario, const scene::Scene& scene) {
-  for (const ChannelConfig& channel : scenario.channels) {
+  for (size_t i = 0; i < scenario.channels.size(); ++i) {
+    const ChannelConfig& channel = scenario.channels[i];
     try {
       const rf::RadioSurfaces surfaces(scene, channel.carrier_hz);
     } catch (const UserError& error) {
-      throw_user_error_at(channel.where, "channel '{}': {}", channel.name, error.what());
+      throw_user_error_at(channel.where, "channels[{}].carrier_hz: channel '{}': {}", i, channel.name,
+                          error.what());
     }
   }
 }
