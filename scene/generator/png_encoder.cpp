@@ -3,28 +3,13 @@
 #include "scene/generator/png_encoder.h"
 
 #include <array>
-#include <cstring>
-#include <string_view>
-
-#include <libdeflate.h>
+#include <png.h>
 
 #include "core/error.h"
 
 namespace greatx::scene::generator {
 
 namespace {
-
-void put_u32(std::vector<uint8_t>& out, uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<uint8_t>(value >> shift));
-}
-
-void put_chunk(std::vector<uint8_t>& out, std::string_view type, std::span<const uint8_t> data) {
-  put_u32(out, static_cast<uint32_t>(data.size()));
-  const size_t start = out.size();
-  out.insert(out.end(), type.begin(), type.end());
-  out.insert(out.end(), data.begin(), data.end());
-  put_u32(out, libdeflate_crc32(0, out.data() + start, out.size() - start));
-}
 
 struct Palette {
   std::vector<uint8_t> colors;   ///< RGB triples in order of first use
@@ -57,23 +42,6 @@ bool quantise(std::span<const uint8_t> rgb, int bits, Palette& palette) {
   return true;
 }
 
-std::vector<uint8_t> compress(std::span<const uint8_t> pixels, uint32_t row_bytes, uint32_t height) {
-  std::vector<uint8_t> filtered;
-  filtered.reserve(pixels.size() + height);
-  for (uint32_t y = 0; y < height; ++y) {
-    filtered.push_back(0);  // filter type: none
-    const auto row = pixels.subspan(static_cast<size_t>(y) * row_bytes, row_bytes);
-    filtered.insert(filtered.end(), row.begin(), row.end());
-  }
-  libdeflate_compressor* const compressor = libdeflate_alloc_compressor(6);
-  GREATX_CHECK(compressor != nullptr, "libdeflate has no memory for a compressor");
-  std::vector<uint8_t> out(libdeflate_zlib_compress_bound(compressor, filtered.size()));
-  out.resize(libdeflate_zlib_compress(compressor, filtered.data(), filtered.size(), out.data(), out.size()));
-  libdeflate_free_compressor(compressor);
-  GREATX_CHECK(!out.empty(), "libdeflate could not compress {} bytes", filtered.size());
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::byte> encode_png(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
@@ -83,19 +51,20 @@ std::vector<std::byte> encode_png(uint32_t width, uint32_t height, std::span<con
   bool indexed = false;
   for (int bits = 0; bits <= 3 && !indexed; ++bits) indexed = quantise(rgb, bits, palette);
 
-  std::vector<uint8_t> out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  std::vector<uint8_t> header;
-  put_u32(header, width);
-  put_u32(header, height);
-  // Bit depth 8, colour type 3 (palette) or 2 (RGB), deflate, adaptive filtering, no interlace.
-  header.insert(header.end(), {8, static_cast<uint8_t>(indexed ? 3 : 2), 0, 0, 0});
-  put_chunk(out, "IHDR", header);
-  if (indexed) put_chunk(out, "PLTE", palette.colors);
-  const std::span<const uint8_t> pixels = indexed ? std::span<const uint8_t>(palette.indices) : rgb;
-  put_chunk(out, "IDAT", compress(pixels, indexed ? width : 3 * width, height));
-  put_chunk(out, "IEND", {});
-  std::vector<std::byte> bytes(out.size());
-  std::memcpy(bytes.data(), out.data(), out.size());
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = height;
+  image.format = indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
+  image.colormap_entries = static_cast<uint32_t>(palette.colors.size() / 3);
+  const uint8_t* pixels = indexed ? palette.indices.data() : rgb.data();
+  const auto row_stride = static_cast<png_int_32>(indexed ? width : 3 * width);
+  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(image));
+  size_t size = bytes.size();
+  const int written =
+      png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, row_stride, palette.colors.data());
+  GREATX_CHECK(written != 0, "libpng: {}", image.message);
+  bytes.resize(size);
   return bytes;
 }
 
