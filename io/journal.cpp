@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/journal.h"
 
-#include <libdeflate.h>
+#include <zlib.h>
+
 #include <nlohmann/json.hpp>
 
 namespace greatx::io {
@@ -13,7 +14,9 @@ namespace {
 
 constexpr size_t checksum_size = 9;  // a tab and eight digits
 
-uint32_t crc(std::string_view text) { return libdeflate_crc32(0, text.data(), text.size()); }
+uint32_t crc(std::string_view text) {
+  return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
+}
 std::string sealed(const std::string& text) { return fmt::format("{}\t{:08x}\n", text, crc(text)); }
 
 JournalEnd end_from(const Json& json) {
