@@ -258,7 +258,8 @@ TEST_F(Cli, FaultyScenarios) {
   fails("ticks: 6", "ticks: six", "changed.yaml:4: ticks");
   fails("rate_hz: 5", "rate_hz: -5", "rate_hz");
   fails("rate_hz: 5", "rate_hz: 11", "rate_hz");
-  fails("max_depth: 2", "carrier_hz: 500e9", "concrete");
+  fails("max_depth: 2", "carrier_hz: 500e9",
+        "changed.yaml:19: channels[0].carrier_hz: channel 'csi': material ");
   fails("[uav/antenna]", "[uav/antena]", "uav/antena");
   fails("\nchannels:", "\neffects: {reflexion: on}\nchannels:", "reflexion");
 }
@@ -274,11 +275,52 @@ TEST_F(Cli, FaultySceneFiles) {
   ASSERT_EQ(greatx(fmt::format("scene mast -o {}", path("mast.glb"))).code, 0);
   fs::resize_file(folder_ / "mast.glb", fs::file_size(folder_ / "mast.glb") / 2);
   expect_user_error(with("mast.glb"), "mast.glb");
+  // A buffer outside the file's folder, and a material that radio does not know.
+  const std::string gltf =
+      R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "materials": [{"name": "unobtainium"}],
+    "meshes": [{"name": "wall", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "@"}]})";
+  const std::string inside =
+      "data:application/octet-stream;base64,"
+      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // (0,0,0), (1,0,0), (0,1,0)
+  const auto with_buffer = [&](const std::string& uri) {
+    std::string text = gltf;
+    write("wall.gltf", text.replace(text.find('@'), 1, uri));
+    return with("wall.gltf");
+  };
+  expect_user_error(with_buffer("../secret.bin"), "wall.gltf: buffer 0");
+  expect_user_error(with_buffer(inside), "\"unobtainium\": { itu: ");
 }
 
 TEST_F(Cli, UnwritableOutput) {
   write("file", "not a folder");
   expect_user_error(generate("file/out", "-q"), "file/out");
+}
+
+/// A real disk that is full: 120 KiB of memory, mounted in a namespace of its own.
+TEST_F(Cli, AFullDiskIsAClearErrorAndResumable) {
+  fs::create_directory(folder_ / "disk");
+  write("run.sh",
+        fmt::format("mount -t tmpfs -o size=120k none {0}/disk || exit 77\n"
+                    "{1} generate {0}/small.yaml -o {0}/disk/a -q && exit 3\n"
+                    "test $? = 1 || exit 4\n"
+                    "mount -o remount,size=8m {0}/disk\n"
+                    "{1} generate {0}/small.yaml -o {0}/disk/a -q --resume && cp -r {0}/disk/a {0}/a\n",
+                    folder_.string(), GREATX_PROGRAM));
+  const std::string log = path("log");
+  const int status = std::system(
+      fmt::format("unshare --map-root-user --mount /bin/sh {} 2>{}", path("run.sh"), log).c_str());
+  const std::string said = read_file(log);
+  if (WEXITSTATUS(status) == 77 || said.find("unshare") != std::string::npos)
+    GTEST_SKIP() << "no mount namespaces here: " << said;
+  ASSERT_EQ(WEXITSTATUS(status), 0) << said;
+  EXPECT_THAT(said, HasSubstr("cannot be written: No space left on device"));
+  EXPECT_THAT(said, HasSubstr("--resume finishes it"));
+  EXPECT_EQ(greatx("verify " + path("a")).code, 0);
+  ASSERT_EQ(generate("whole", "-q").code, 0);
+  EXPECT_EQ(manifest("a"), manifest("whole"));
 }
 
 TEST_F(Cli, WithoutAVulkanDriver) {
