@@ -48,9 +48,9 @@ class Sensor {
   virtual void start(const TickContext&) {}
   /// Adds the sensor's passes to the tick's command buffer.
   virtual void record(gpu::TickSlot& slot, const TickContext& context) = 0;
-  /// Whether record() needs results of the tick before: record_ahead() is then called at the end of each tick's command
-  /// buffer, with the scene already where it will be at the next tick that is due, and record() comes after that
-  /// submission is done.
+  /// Whether record() needs results of the submission before. record_ahead() is then called at the end of the command
+  /// buffer before each tick at which this sensor is due, with the scene already where it will be at that tick, and
+  /// record() comes after that submission is done.
   virtual bool looks_ahead() const { return false; }
   virtual void record_ahead(gpu::TickSlot&, const TickContext&) {}
   /// The arrays of the record, in the order of the spec; after the slot's submission is done.

@@ -181,9 +181,14 @@ void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vec
 
 void Simulator::record_ahead(gpu::TickSlot& slot) {
   const Moment next = moment_at(next_tick_);
-  gpu_scene_.record_update(slot, next.bodies);
-  for (const auto& sensor : sensors_)
-    if (sensor->looks_ahead()) sensor->record_ahead(slot, next.context);
+  bool updated = false;
+  for (const Due& due : schedule_.due(next_tick_)) {
+    Sensor& sensor = *sensors_[due.sensor + 1];
+    if (!sensor.looks_ahead()) continue;
+    if (!updated) gpu_scene_.record_update(slot, next.bodies);
+    updated = true;
+    sensor.record_ahead(slot, next.context);
+  }
 }
 
 void Simulator::drain(RecordSink& sink) {

@@ -231,6 +231,20 @@ TEST(Search, EveryTickFindsWhatOnceFinds) {
   EXPECT_EQ(always.counters.submits, 3u) << "looking ahead takes no submission of its own";
 }
 
+TEST(Search, EveryTickLooksAheadOnlyToTicksOfTheChannel) {
+  std::string yaml = head + city + "nodes:\n" + bs + uav(lidar + antenna) + channel(", search: every_tick");
+  yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 9");
+  const std::string rate = "rx: [uav/antenna], rate_hz: 10";
+  Outcome all = run(yaml);
+  yaml.replace(yaml.find(rate), rate.size(), "rx: [uav/antenna], rate_hz: 2.5");
+  const Outcome few = run(yaml);  // due at ticks 0, 4 and 8
+  EXPECT_EQ(few.statistics.passes.at("candidate search").count, 2u)
+      << "for ticks 4 and 8; 0 is searched before";
+  EXPECT_EQ(all.statistics.passes.at("candidate search").count, 8u);
+  for (const size_t tick : {0u, 4u, 8u})
+    expect_same(few.array(tick, "csi", "cfr"), all.array(tick, "csi", "cfr"), "cfr");
+}
+
 TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
   const Outcome down = run(yaml);
