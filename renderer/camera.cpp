@@ -218,7 +218,8 @@ gpu::Slice CameraPass::upload_lights(gpu::TickSlot& slot, const CameraView& view
       slot.upload.allocate(4 + std::max<size_t>(lights.size(), 1) * sizeof(shared::GpuLight));
   const auto count = static_cast<uint32_t>(lights.size());
   std::memcpy(slice.mapped, &count, sizeof count);
-  std::memcpy(slice.mapped + 4, lights.data(), lights.size() * sizeof(shared::GpuLight));
+  // memcpy() takes no null pointer, even for nothing.
+  if (!lights.empty()) std::memcpy(slice.mapped + 4, lights.data(), lights.size() * sizeof(shared::GpuLight));
   return slice;
 }
 
