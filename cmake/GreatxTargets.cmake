@@ -35,6 +35,7 @@ function(greatx_test NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${NAME} ${ARG_SOURCES})
   target_link_libraries(test_${NAME} PRIVATE greatx_options ${ARG_LINK} greatx_test_support GTest::gtest GTest::gmock)
+  set_property(GLOBAL APPEND PROPERTY GREATX_TEST_PROGRAMS test_${NAME})
   gtest_discover_tests(test_${NAME} TEST_FILTER "*HardCase*" TEST_LIST hard_${NAME} DISCOVERY_TIMEOUT 60)
   gtest_discover_tests(test_${NAME} TEST_FILTER "-*HardCase*" TEST_LIST plain_${NAME} DISCOVERY_TIMEOUT 60)
   # Read by ctest after the lists: gtest_discover_tests() itself cannot pass a list of two labels on.
