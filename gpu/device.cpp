@@ -191,7 +191,7 @@ Device::Device(const DeviceOptions& options) {
     choose_physical(!options.select.empty() ? options.select : environment != nullptr ? environment : "");
     create_logical();
   } catch (...) {
-    vkDestroyInstance(instance_, nullptr);  // the messenger, if any, goes with it
+    destroy_instance();
     throw;
   }
 }
@@ -200,6 +200,10 @@ Device::~Device() {
   vkDeviceWaitIdle(device_);
   vkDestroyPipelineCache(device_, pipeline_cache_, nullptr);
   vkDestroyDevice(device_, nullptr);
+  destroy_instance();
+}
+
+void Device::destroy_instance() {
   if (messenger_ != VK_NULL_HANDLE) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));

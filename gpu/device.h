@@ -124,6 +124,7 @@ class Device {
 
  private:
   void create_instance(bool validation);
+  void destroy_instance();  ///< and the messenger, before it
   void choose_physical(const std::string& select);
   void create_logical();
 
