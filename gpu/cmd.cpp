@@ -266,15 +266,6 @@ void Cmd::copy(const Slice& from, const Image& to, uint32_t mip) {
   vkCmdCopyBufferToImage(handle_, from.buffer, to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
-void Cmd::copy(const Image& from, const Image& to) {
-  VkImageCopy region{};
-  region.srcSubresource = {from.aspect(), 0, 0, 1};
-  region.dstSubresource = {to.aspect(), 0, 0, 1};
-  region.extent = {from.desc().width, from.desc().height, 1};
-  vkCmdCopyImage(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(),
-                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-}
-
 void Cmd::fill(const Slice& slice, uint32_t word) {
   vkCmdFillBuffer(handle_, slice.buffer, slice.offset, slice.size, word);
 }

@@ -25,17 +25,9 @@ namespace sync {
 inline constexpr Sync none{VK_PIPELINE_STAGE_2_NONE, 0};
 inline constexpr Sync compute_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync compute_read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-inline constexpr Sync compute_read_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync transfer_write{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 inline constexpr Sync transfer_read{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 inline constexpr Sync host_read{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
-inline constexpr Sync host_write{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_WRITE_BIT};
-inline constexpr Sync shader_read{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
-                                      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                  VK_ACCESS_2_SHADER_READ_BIT};
-inline constexpr Sync index_read{VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT};
 inline constexpr Sync build_read{
     VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
     VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
@@ -150,7 +142,6 @@ class Cmd {
   void copy(const Slice& from, const Slice& to);
   void copy(const Image& from, const Slice& to);  ///< tightly packed, mip 0; image in transfer_source
   void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
-  void copy(const Image& from, const Image& to);                    ///< same size and format
   void fill(const Slice& slice, uint32_t word);
   /// Fills mips 1.. from mip 0 (image in transfer_target, left in sampled).
   void generate_mipmaps(Image& image);
