@@ -19,18 +19,6 @@ void CandidateList::add(std::span<const uint32_t> sequence) {
   offsets.push_back(static_cast<uint32_t>(facets.size()));
 }
 
-CandidateList CandidateList::reversed() const {
-  CandidateList result;
-  std::vector<uint32_t> backwards;
-  for (size_t i = 0; i < size(); ++i) {
-    const std::span<const uint32_t> forwards = sequence(i);
-    backwards.assign(forwards.rbegin(), forwards.rend());
-    result.add(backwards);
-  }
-  result.make_canonical();
-  return result;
-}
-
 bool CandidateList::is_canonical() const {
   for (size_t i = 1; i < size(); ++i)
     if (!sequence_less(sequence(i - 1), sequence(i))) return false;
@@ -39,6 +27,8 @@ bool CandidateList::is_canonical() const {
 
 void CandidateList::make_canonical() {
   if (is_canonical()) return;
+  GREATX_CHECK(windows.empty() && wedge_offsets.empty(),
+               "{} windows, {} wedge lists would lose their sequence", windows.size(), wedge_offsets.size());
   std::vector<uint32_t> order(size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),

@@ -11,24 +11,38 @@
 
 namespace greatx::rf {
 
-/// Facet sequences from the transmitter to the receiver, flat. The empty sequence stands for the line of
-/// sight: it is looked at only if the list holds it. Canonical order: by depth, then by facet indices; no
+/// A rectangle in the plane coordinates (u, v) of a facet (PosedFacet), metres.
+struct PlaneWindow {
+  double min_u, max_u, min_v, max_v;
+  friend bool operator==(const PlaneWindow&, const PlaneWindow&) = default;
+};
+
+/// Facet sequences, flat, each from the end that was searched from (the source: transmitter or receiver) outwards:
+/// the reflecting facets alone, walls that a path passes through are none of them. The empty sequence stands for the
+/// line of sight: it is looked at only if the list holds it. Canonical order: by depth, then by facet indices; no
 /// duplicates.
 struct CandidateList {
   std::vector<uint32_t> facets;      ///< all sequences, one after the other
   std::vector<uint32_t> offsets{0};  ///< [size + 1] into facets
+  /// [size] or empty (not known): where on its last facet a sequence can be reflected at all. Never too small.
+  std::vector<PlaneWindow> windows;
+  /// [size + 1] or empty (not searched for), into `wedges`: wedges that the sequence's beam may reach, ascending.
+  std::vector<uint32_t> wedge_offsets;
+  std::vector<uint32_t> wedges;
 
   size_t size() const { return offsets.size() - 1; }
   std::span<const uint32_t> sequence(size_t index) const {
     return std::span(facets).subspan(offsets[index], offsets[index + 1] - offsets[index]);
   }
+  std::span<const uint32_t> wedges_of(size_t index) const {
+    if (wedge_offsets.empty()) return {};
+    return std::span(wedges).subspan(wedge_offsets[index], wedge_offsets[index + 1] - wedge_offsets[index]);
+  }
   /// Appends; call make_canonical() when done.
   void add(std::span<const uint32_t> sequence);
-  /// Sorts and removes duplicates, comparing whole sequences.
+  /// Sorts and removes duplicates, comparing whole sequences. For lists without windows and wedges.
   void make_canonical();
   bool is_canonical() const;
-  /// Every sequence from the other end, in canonical order.
-  CandidateList reversed() const;
   friend bool operator==(const CandidateList&, const CandidateList&) = default;
 };
 
