@@ -26,7 +26,7 @@ void check(std::span<const Path> paths, const ArrayPose& transmitter, const Arra
     bool finite = std::isfinite(path.delay_s) && std::isfinite(path.doppler_hz);
     for (const Complex& value : path.transfer)
       finite = finite && std::isfinite(value.real()) && std::isfinite(value.imag());
-    GREATX_CHECK(finite, "path of {} reflections, {} m long, is not finite", path.facets.size(),
+    GREATX_CHECK(finite, "path of {} interactions, {} m long, is not finite", path.interactions.size(),
                  path.length_m);
   }
 }

@@ -11,7 +11,13 @@
 
 namespace greatx::rf {
 
-/// The field along one path. `world` is the one that the path was solved in; velocities in m/s, local axes
+/// What acts on the field of a channel's paths; the same for all of them.
+struct FieldModel {
+  const FacetWorld* world = nullptr;  ///< the one that the paths were solved in
+  const RadioSurfaces* surfaces = nullptr;
+};
+
+/// The field along one path; velocities in m/s, local axes
 /// (those of the facets come from FacetWorld::move).
 ///
 /// - Directions follow from the longest segment by the law of reflection, so that a segment of zero length in
@@ -26,7 +32,7 @@ namespace greatx::rf {
 ///   never a product of (1 + v/c) (1e-3 Hz and 7500 m/s alike). Approaching: positive. The phase turns as
 ///   e^{+j 2 pi doppler t}.
 /// - Scattering coefficient and roughness are not applied: they belong to the diffuse effect.
-Path path_field(const GeometricPath& geometry, const FacetWorld& world, const RadioSurfaces& surfaces,
-                const dvec3& transmitter_velocity, const dvec3& receiver_velocity);
+Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
+                const dvec3& receiver_velocity);
 
 }  // namespace greatx::rf

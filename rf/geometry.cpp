@@ -30,8 +30,9 @@ bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
 
 /// Canonical order, then the first of each polyline.
 void finish(std::vector<GeometricPath>& paths) {
-  std::sort(paths.begin(), paths.end(),
-            [](const GeometricPath& a, const GeometricPath& b) { return sequence_less(a.facets, b.facets); });
+  std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
+    return interactions_less(a.interactions, b.interactions);
+  });
   size_t kept = 0;
   for (size_t i = 0; i < paths.size(); ++i) {
     const auto known = [&](const GeometricPath& other) { return same_polyline(other, paths[i]); };
@@ -52,34 +53,39 @@ ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const Candida
                candidates.size());
   build(candidates);
   update(source);
+  if (candidates.windows.empty()) return;
+  for (size_t i = 0; i < candidates.size(); ++i)
+    if (const uint32_t index = node_of_sequence_[i]; index != none) {
+      const PlaneWindow& window = candidates.windows[i];
+      Node& node = nodes_[index];
+      node.min_u = window.min_u, node.max_u = window.max_u, node.min_v = window.min_v,
+      node.max_v = window.max_v;
+    }
 }
 
 void ImageTree::build(const CandidateList& candidates) {
   std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; looked up only, never walked
   child_of.reserve(candidates.size());
   nodes_.reserve(candidates.size());
-  std::vector<uint32_t> sequence;
+  node_of_sequence_.assign(candidates.size(), none);
   for (size_t i = 0; i < candidates.size(); ++i) {
-    const auto listed = candidates.sequence(i);
-    if (listed.empty()) {
-      line_of_sight_ = true;
-      continue;
-    }
-    sequence.assign(listed.begin(), listed.end());
-    if (end_ == Source::receiver) std::reverse(sequence.begin(), sequence.end());
     uint32_t node = none;
-    for (const uint32_t facet : sequence) {
+    for (const uint32_t facet : candidates.sequence(i)) {
       GREATX_CHECK(facet < world_->facet_count(), "candidate {}: facet {} of {}", i, facet,
                    world_->facet_count());
       const uint64_t key = (uint64_t{node} << 32) | facet;
       const auto [entry, is_new] = child_of.try_emplace(key, static_cast<uint32_t>(nodes_.size()));
       if (is_new) {
-        nodes_.push_back({.slot = facet, .parent = node});
+        nodes_.push_back({.slot = facet, .parent = node, .depth = node == none ? 1 : nodes_[node].depth + 1});
         used_facets_.push_back(facet);
       }
       node = entry->second;
     }
-    nodes_[node].candidate = true;
+    node_of_sequence_[i] = node;
+    if (node == none)
+      line_of_sight_ = true;
+    else
+      nodes_[node].candidate = true;
   }
   std::sort(used_facets_.begin(), used_facets_.end());
   used_facets_.erase(std::unique(used_facets_.begin(), used_facets_.end()), used_facets_.end());
@@ -101,33 +107,54 @@ void ImageTree::update(const dvec3& source) {
     const dvec2 at = facet.plane_coordinates(before);  // mirroring keeps them
     node.u = at.x;
     node.v = at.y;
+    node.min_u = facet.min_u, node.max_u = facet.max_u, node.min_v = facet.min_v, node.max_v = facet.max_v;
   }
 }
 
-/// Does the straight line from the node's image to the target pass the bounding box of its facet? Never false
-/// for a path that exists: the test leaves more room than trace().
+uint32_t ImageTree::depth(size_t sequence) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  return node == none ? 0 : nodes_[node].depth;
+}
+
+const dvec3& ImageTree::image(size_t sequence) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  return node == none ? source_ : images_[node];
+}
+
+bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  if (node == none) return true;
+  Chain chain;
+  if (!trace(node, point, chain)) return false;
+  for (size_t i = chain.facets.size(); i-- > 0;) {
+    path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
+    path.vertices.push_back(chain.points[i]);
+  }
+  return true;
+}
+
+/// Does the straight line from the node's image to the target pass the window of its facet? Never false for a path that
+/// exists: the test leaves more room than trace().
 bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
   if (node.distance * target.distance >= 0.0) return false;  // the target is behind the mirror
-  const PosedFacet& facet = world_->facet(used_facets_[node.slot]);
   const double t = node.distance / (node.distance - target.distance);
   const double u = node.u + t * (target.u - node.u), v = node.v + t * (target.v - node.v);
   // Roundings of u and v grow with the distance to the image, not with the facet.
-  const double room = 2.0 * facet.tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
-  return u >= facet.min_u - room && u <= facet.max_u + room && v >= facet.min_v - room &&
-         v <= facet.max_v + room;
+  const double room = 2.0 * target.tolerance + 1e-12 * (std::abs(node.u) + std::abs(node.v));
+  return u >= node.min_u - room && u <= node.max_u + room && v >= node.min_v - room && v <= node.max_v + room;
 }
 
 /// Walks from the target back to the source, cutting the line to each image with that image's facet.
-bool ImageTree::trace(uint32_t leaf, const dvec3& target, GeometricPath& path) const {
-  path.facets.clear();
-  path.vertices.assign(1, target);
+bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
+  chain.facets.clear();
+  chain.points.clear();
   const PosedFacet* previous = nullptr;
   double previous_side = 0.0;
+  dvec3 from = target;
   for (uint32_t index = leaf; index != none; index = nodes_[index].parent) {
     const Node& node = nodes_[index];
     const uint32_t facet_index = used_facets_[node.slot];
     const PosedFacet& facet = world_->facet(facet_index);
-    const dvec3 from = path.vertices.back();
     const double side = node.distance > 0.0 ? -1.0 : 1.0;  // where the path is: opposite to the image
     const double behind = std::abs(node.distance);
     double before = side * facet.distance(from);
@@ -140,16 +167,11 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, GeometricPath& path) c
     if (previous && glm::length(hit - from) <= 4.0 * (facet.tolerance_m + previous->tolerance_m) &&
         !joins_as_corner(facet, side, *previous, previous_side))
       return false;
-    path.facets.push_back(facet_index);
-    path.vertices.push_back(hit);
+    chain.facets.push_back(facet_index);
+    chain.points.push_back(hit);
+    from = hit;
     previous = &facet;
     previous_side = side;
-  }
-  path.vertices.push_back(source_);
-  path.length_m = glm::length(target - images_[leaf]);
-  if (end_ == Source::transmitter) {  // built from the target back: turn round
-    std::reverse(path.facets.begin(), path.facets.end());
-    std::reverse(path.vertices.begin(), path.vertices.end());
   }
   return true;
 }
@@ -157,22 +179,32 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, GeometricPath& path) c
 std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
   std::vector<GeometricPath> paths;
   const double direct = glm::length(target - source_);
-  if (line_of_sight_ && direct > shortest_line_of_sight_m) {
-    GeometricPath path{{}, {source_, target}, direct};
-    if (end_ == Source::receiver) std::reverse(path.vertices.begin(), path.vertices.end());
-    paths.push_back(std::move(path));
-  }
+  const bool outwards = end_ == Source::transmitter;
+  const dvec3 first = outwards ? source_ : target, last = outwards ? target : source_;
+  if (line_of_sight_ && direct > shortest_line_of_sight_m) paths.push_back({{}, {first, last}, direct, 0.0});
   std::vector<TargetInFacet> targets(used_facets_.size());
   for (size_t slot = 0; slot < targets.size(); ++slot) {
     const PosedFacet& facet = world_->facet(used_facets_[slot]);
     const dvec2 at = facet.plane_coordinates(target);
-    targets[slot] = {facet.distance(target), at.x, at.y};
+    targets[slot] = {facet.distance(target), at.x, at.y, facet.tolerance_m};
   }
-  GeometricPath path;
+  Chain chain;
   for (uint32_t index = 0; index < nodes_.size(); ++index) {
     const Node& node = nodes_[index];
-    if (!node.candidate || !may_reach(node, targets[node.slot])) continue;
-    if (trace(index, target, path)) paths.push_back(path);
+    if (!node.candidate || !may_reach(node, targets[node.slot]) || !trace(index, target, chain)) continue;
+    if (outwards) {  // the chain runs from the target back
+      std::reverse(chain.facets.begin(), chain.facets.end());
+      std::reverse(chain.points.begin(), chain.points.end());
+    }
+    GeometricPath path;
+    path.vertices.push_back(first);
+    for (size_t i = 0; i < chain.facets.size(); ++i) {
+      path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
+      path.vertices.push_back(chain.points[i]);
+    }
+    path.vertices.push_back(last);
+    path.length_m = glm::length(target - images_[index]);
+    paths.push_back(std::move(path));
   }
   finish(paths);
   return paths;

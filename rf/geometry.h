@@ -40,17 +40,29 @@ enum class Source : uint32_t { transmitter, receiver };
 /// A target's paths depend on that target alone: solving it among others gives the same bits.
 class ImageTree {
  public:
-  /// `candidates`, in canonical order, run from the transmitter to the receiver whichever end the source is.
-  /// `world` is read by solve() and must outlive the tree.
+  /// `candidates`, in canonical order, run from the source, whichever end that is; their windows, if they have any, are
+  /// used as bounds. `world` is read by solve() and must outlive the tree.
   ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
             Source end = Source::transmitter);
-  /// Works the images out again: the source has moved, or a body with candidate facets has.
+  /// Works the images out again: the source has moved, or a body with candidate facets has. Windows hold for the source
+  /// and the bodies that they were searched for: they are dropped.
   void update(const dvec3& source);
   /// Every path between the source and `target`, from transmitter to receiver, in canonical order of the
   /// sequences.
   std::vector<GeometricPath> solve(const dvec3& target) const;
 
   size_t node_count() const { return nodes_.size(); }
+
+  /// The ends of chains that go on after their reflections (a diffraction, a scattering). `sequence` is an index into the
+  /// candidates that the tree was built from.
+  size_t sequence_count() const { return node_of_sequence_.size(); }
+  /// Number of reflections of a sequence.
+  uint32_t depth(size_t sequence) const;
+  /// The source, mirrored at every facet of the sequence.
+  const dvec3& image(size_t sequence) const;
+  /// The reflections by which the sequence leads from the source to `point`: appends them and their points to `path`,
+  /// outwards from the source, without the source and without `point`. False, and nothing appended, if it does not.
+  bool reach(size_t sequence, const dvec3& point, GeometricPath& path) const;
 
  private:
   static constexpr uint32_t none = ~0u;
@@ -59,22 +71,29 @@ class ImageTree {
     uint32_t slot = 0;                        ///< into used_facets_
     uint32_t parent = none;
     bool candidate = false;  ///< false: a prefix only
+    uint32_t depth = 0;
+    double min_u = 0.0, max_u = 0.0, min_v = 0.0,
+           max_v = 0.0;  ///< where its facet may reflect: the window, if known
   };
   struct TargetInFacet {
-    double distance = 0.0, u = 0.0, v = 0.0;
+    double distance = 0.0, u = 0.0, v = 0.0, tolerance = 0.0;
   };
-  void insert(std::span<const uint32_t> sequence);
   void build(const CandidateList& candidates);
   bool may_reach(const Node& node, const TargetInFacet& target) const;
-  bool trace(uint32_t leaf, const dvec3& target, GeometricPath& path) const;
+  struct Chain {  ///< from the target inwards
+    FacetSequence facets;
+    std::vector<dvec3> points;
+  };
+  bool trace(uint32_t leaf, const dvec3& target, Chain& chain) const;
 
   const FacetWorld* world_;
   dvec3 source_;
   Source end_;
   bool line_of_sight_ = false;
-  std::vector<Node> nodes_;            ///< parents before children
-  std::vector<dvec3> images_;          ///< [nodes]
-  std::vector<uint32_t> used_facets_;  ///< ascending
+  std::vector<uint32_t> node_of_sequence_;  ///< [candidates]; none: the empty sequence
+  std::vector<Node> nodes_;                 ///< parents before children
+  std::vector<dvec3> images_;               ///< [nodes]
+  std::vector<uint32_t> used_facets_;       ///< ascending
 };
 
 /// The same for a single pair: builds the tree, solves, forgets.

@@ -173,7 +173,7 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
     counts.as<int32_t>()[r] = static_cast<int32_t>(link.paths.size());
     gains.as<double>()[r] = gain / static_cast<double>(rx_ports * tx_ports);
     for (const rf::Path& path : link.paths) {
-      if (path.facets.empty()) sight.as<uint8_t>()[r] = 1;
+      if (path.interactions.empty()) sight.as<uint8_t>()[r] = 1;
       rx.push(static_cast<int32_t>(r));
       delay.push(path.delay_s);
       doppler.push(path.doppler_hz);
@@ -185,12 +185,12 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
       }
       for (const rf::Complex& t : path.transfer) transfer.push(std::complex<float>(t));
       for (size_t i = 0; i < depth; ++i) {
-        const bool there = i < path.facets.size();
-        const scene::Facet* f = there ? &world_.scene.facets[path.facets[i]] : nullptr;
+        const bool there = i < path.interactions.size();
+        const scene::Facet* f = there ? &world_.scene.facets[path.interactions[i].element] : nullptr;
         const dvec3 point = there ? path.vertices[i + 1] + world_.scene.origin : dvec3(nan);
         interaction.push(there ? 1 : 0);
         for (int c = 0; c < 3; ++c) vertex.push(point[c]);
-        facet.push(there ? path.facets[i] + 1 : 0);
+        facet.push(there ? path.interactions[i].element + 1 : 0);
         object.push(there ? f->instance + 1 : 0);
         material.push(there ? f->material + 1 : 0);
       }

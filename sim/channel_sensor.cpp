@@ -133,7 +133,7 @@ void ChannelSensor::search_from_static_ends(const TickContext& context) {
   }
   for (const End& receiver : receivers_)
     trees_.push_back(std::make_unique<rf::ImageTree>(facets_, state_of(receiver, context).position,
-                                                     search(receiver).reversed(), rf::Source::receiver));
+                                                     search(receiver), rf::Source::receiver));
 }
 
 void ChannelSensor::start(const TickContext& context) {
@@ -182,7 +182,7 @@ void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
                                                          : trees_[0]->solve(link.receiver.position);
     for (const rf::GeometricPath& path : geometric)
       link.paths.push_back(
-          rf::path_field(path, facets_, surfaces_, pending.transmitter.velocity, link.receiver.velocity));
+          rf::path_field(path, {&facets_, &surfaces_}, pending.transmitter.velocity, link.receiver.velocity));
     add_segments(link.paths, receivers_[r], segments);
     geometric_paths_ += geometric.size();
   }
@@ -193,11 +193,11 @@ void ChannelSensor::add_segments(const std::vector<rf::Path>& paths, const End& 
                                  std::vector<rf::Segment>& segments) const {
   const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
   for (const rf::Path& path : paths) {
-    const size_t count = path.facets.size();
+    const size_t count = path.interactions.size();
     for (size_t i = 0; i <= count; ++i) {
       rf::Segment segment{path.vertices[i], path.vertices[i + 1]};
-      if (i > 0) segment.facet_a = path.facets[i - 1];
-      if (i < count) segment.facet_b = path.facets[i];
+      if (i > 0) segment.facet_a = path.interactions[i - 1].element;
+      if (i < count) segment.facet_b = path.interactions[i].element;
       if (i == 0) segment.body_a = body_or_none(transmitter_.body);
       if (i == count) segment.body_b = body_or_none(receiver.body);
       segments.push_back(segment);
@@ -211,7 +211,7 @@ void ChannelSensor::drop_blocked(Pending& pending) {
   for (Link& link : pending.links) {
     std::vector<rf::Path> kept;
     for (rf::Path& path : link.paths) {
-      const size_t segments = path.facets.size() + 1;
+      const size_t segments = path.interactions.size() + 1;
       const bool clear = std::all_of(visible.begin() + static_cast<std::ptrdiff_t>(segment),
                                      visible.begin() + static_cast<std::ptrdiff_t>(segment + segments),
                                      [](uint8_t free) { return free != 0; });
@@ -229,7 +229,7 @@ std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
   for (const Link& link : pending.links) {
     visible_paths_ += link.paths.size();
     for (const rf::Path& path : link.paths) {
-      if (!path.facets.empty()) continue;
+      if (!path.interactions.empty()) continue;
       line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
     }
   }

@@ -140,7 +140,7 @@ TEST(CandidateSearch, FindsEveryImageOfAShoeBox) {
   for (int i = 0; i < 20; ++i) {
     const dvec3 target = dvec3(random.uniform(0.3, 6.7), random.uniform(0.3, 4.7), random.uniform(0.3, 2.7));
     size_t count[4] = {};
-    for (const GeometricPath& path : tree.solve(target)) ++count[path.facets.size()];
+    for (const GeometricPath& path : tree.solve(target)) ++count[path.facets().size()];
     EXPECT_THAT(count, ElementsAre(1, 6, 18, 38));
   }
 }

@@ -57,7 +57,7 @@ std::vector<Path> solve(const HandScene& hand, const dvec3& tx, const dvec3& rx,
   std::vector<Path> paths;
   for (const GeometricPath& path :
        solve_paths(world, tx, rx, exhaustive_candidates(world.facet_count(), depth)))
-    paths.push_back(path_field(path, world, surfaces, dvec3(0.0), dvec3(0.0)));
+    paths.push_back(path_field(path, {&world, &surfaces}, dvec3(0.0), dvec3(0.0)));
   return paths;
 }
 

@@ -28,7 +28,7 @@ std::vector<GeometricPath> solve_all(const HandScene& hand, const dvec3& tx, con
 bool same_bits(const std::vector<GeometricPath>& a, const std::vector<GeometricPath>& b) {
   if (a.size() != b.size()) return false;
   for (size_t i = 0; i < a.size(); ++i) {
-    if (a[i].facets != b[i].facets || a[i].vertices.size() != b[i].vertices.size()) return false;
+    if (a[i].facets() != b[i].facets() || a[i].vertices.size() != b[i].vertices.size()) return false;
     if (std::memcmp(&a[i].length_m, &b[i].length_m, sizeof(double)) != 0) return false;
     if (std::memcmp(a[i].vertices.data(), b[i].vertices.data(), a[i].vertices.size() * sizeof(dvec3)) != 0)
       return false;
@@ -38,13 +38,13 @@ bool same_bits(const std::vector<GeometricPath>& a, const std::vector<GeometricP
 
 /// Vertices on the segments between the ends, lengths that add up, angles of reflection equal.
 void expect_specular(const FacetWorld& world, const GeometricPath& path) {
-  ASSERT_EQ(path.vertices.size(), path.facets.size() + 2);
+  ASSERT_EQ(path.vertices.size(), path.facets().size() + 2);
   double sum = 0.0;
   for (size_t i = 1; i < path.vertices.size(); ++i)
     sum += glm::length(path.vertices[i] - path.vertices[i - 1]);
   EXPECT_NEAR(sum / path.length_m, 1.0, 1e-12);
-  for (size_t i = 0; i < path.facets.size(); ++i) {
-    const PosedFacet& facet = world.facet(path.facets[i]);
+  for (size_t i = 0; i < path.facets().size(); ++i) {
+    const PosedFacet& facet = world.facet(path.facets()[i]);
     const dvec3 in = glm::normalize(path.vertices[i + 1] - path.vertices[i]);
     const dvec3 out = glm::normalize(path.vertices[i + 2] - path.vertices[i + 1]);
     EXPECT_NEAR(facet.distance(path.vertices[i + 1]), 0.0, 1e-9);
@@ -124,7 +124,7 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
   ASSERT_EQ(a.size(), 63u);
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].facets, b[i].facets);
+    EXPECT_EQ(a[i].facets(), b[i].facets());
     for (size_t k = 0; k < a[i].vertices.size(); ++k)
       EXPECT_LT(glm::length(a[i].vertices[k] - b[i].vertices[k]), 1e-9);
   }
@@ -135,7 +135,7 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
   const auto c = solve_all(far, tx + off, rx + off, 3);
   ASSERT_EQ(a.size(), c.size());
   for (size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].facets, c[i].facets);
+    EXPECT_EQ(a[i].facets(), c[i].facets());
     EXPECT_NEAR(a[i].length_m, c[i].length_m, 1e-9);
     for (size_t k = 0; k < a[i].vertices.size(); ++k)
       EXPECT_LT(glm::length(a[i].vertices[k] + off - c[i].vertices[k]), 2e-9);
@@ -150,7 +150,7 @@ TEST(ImageMethodHardCase, N15_N16_EndInTheReflectingPlane) {
         std::pair{dvec3(0, 0, 0), dvec3(5, 0, 0)}}) {
     const auto paths = solve_all(hand, tx, rx, 3);
     ASSERT_EQ(paths.size(), 1u);  // the line of sight
-    EXPECT_TRUE(paths[0].facets.empty());
+    EXPECT_TRUE(paths[0].facets().empty());
   }
   // On the plane but beside the facet: the same.
   EXPECT_EQ(solve_all(hand, {80, 0, 0}, {5, 0, 2}, 2).size(), 1u);
@@ -189,7 +189,7 @@ TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
   // Exactly on the common edge, the lower index wins.
   const auto paths = solve_all(apart, {0, 4, 2}, {4, 0, 2}, 1);
   ASSERT_EQ(paths.size(), 2u);
-  EXPECT_EQ(paths[1].facets, FacetSequence{0});
+  EXPECT_EQ(paths[1].facets(), FacetSequence{0});
 }
 
 TEST(ImageMethodHardCase, N19_DuplicateFacets) {
@@ -200,9 +200,9 @@ TEST(ImageMethodHardCase, N19_DuplicateFacets) {
   hand.quad({10, -10, 0}, {10, 10, 0}, {10, 10, 5}, {10, -10, 5});
   const auto paths = solve_all(hand, {0, 1, 2}, {3, 2, 4}, 2);
   ASSERT_EQ(paths.size(), 4u);  // line of sight, ground, wall, ground and wall in one order
-  EXPECT_EQ(paths[1].facets, FacetSequence{0});
-  EXPECT_EQ(paths[2].facets, FacetSequence{3});
-  EXPECT_EQ(paths[3].facets, (FacetSequence{0, 3}));
+  EXPECT_EQ(paths[1].facets(), FacetSequence{0});
+  EXPECT_EQ(paths[2].facets(), FacetSequence{3});
+  EXPECT_EQ(paths[3].facets(), (FacetSequence{0, 3}));
 }
 
 TEST(ImageMethodHardCase, N20_CornerTie) {
@@ -228,7 +228,7 @@ TEST(ImageMethodHardCase, N20_CornerTie) {
   // Exactly representable: both orders tie to the bit, the first one is kept.
   const auto exact = solve_paths(world, {1, 1, 2}, {3, 3, 6}, exhaustive_candidates(2, 2));
   ASSERT_EQ(exact.size(), 4u);
-  EXPECT_EQ(exact[3].facets, (FacetSequence{0, 1}));
+  EXPECT_EQ(exact[3].facets(), (FacetSequence{0, 1}));
   // Off the tie, exactly one order exists.
   EXPECT_EQ(solve_paths(world, {1, 1.001, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
   EXPECT_EQ(solve_paths(world, {1, 0.999, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
@@ -239,7 +239,7 @@ TEST(ImageMethod, OuterCornerAndFlatSeamReflectOnce) {
   HandScene house;
   house.quad({0, 0, 0}, {0, -10, 0}, {0, -10, 10}, {0, 0, 10});
   house.quad({0, 0, 0}, {0, 0, 10}, {-10, 0, 10}, {-10, 0, 0});
-  for (const auto& path : solve_all(house, {1, 1, 2}, {3, 3, 6}, 3)) EXPECT_LE(path.facets.size(), 1u);
+  for (const auto& path : solve_all(house, {1, 1, 2}, {3, 3, 6}, 3)) EXPECT_LE(path.facets().size(), 1u);
   // Two facets of one plane that touch: a point on the seam is one reflection, never two.
   HandScene seam;
   seam.quad({-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0});
@@ -257,7 +257,7 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
   const FacetWorld world(hand.scene);
   for (const GeometricPath& path : paths) {
     expect_specular(world, path);
-    found[path.facets.size()].push_back(path.length_m / speed_of_light);
+    found[path.facets().size()].push_back(path.length_m / speed_of_light);
   }
   // Images at 2ml +- x: |m| counted by how many walls of that axis are crossed.
   for (int i = -4; i <= 4; ++i)
@@ -281,7 +281,7 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
     std::sort(expected[order].begin(), expected[order].end());
     for (size_t i = 0; i < counts[order]; ++i) EXPECT_NEAR(found[order][i] / expected[order][i], 1.0, 1e-12);
   }
-  for (size_t i = 1; i < paths.size(); ++i) EXPECT_TRUE(sequence_less(paths[i - 1].facets, paths[i].facets));
+  for (size_t i = 1; i < paths.size(); ++i) EXPECT_TRUE(sequence_less(paths[i - 1].facets(), paths[i].facets()));
 }
 
 TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {
@@ -360,7 +360,7 @@ TEST(ImageMethod, EitherEndMayBeTheSource) {
   ASSERT_EQ(forward.size(), backward.size());
   ASSERT_GT(forward.size(), 60u);
   for (size_t i = 0; i < forward.size(); ++i) {
-    EXPECT_EQ(forward[i].facets, backward[i].facets);
+    EXPECT_EQ(forward[i].facets(), backward[i].facets());
     EXPECT_EQ(backward[i].vertices.front(), tx);
     EXPECT_EQ(backward[i].vertices.back(), rx);
     EXPECT_NEAR(forward[i].length_m, backward[i].length_m, 1e-12);

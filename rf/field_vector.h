@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/vec.h"
+#include "rf/antenna.h"
+
+namespace greatx::rf {
+
+/// A complex field vector.
+struct FieldVector {
+  dvec3 re{0.0}, im{0.0};
+  Complex along(const dvec3& axis) const { return {glm::dot(re, axis), glm::dot(im, axis)}; }
+  void add(Complex amplitude, const dvec3& axis) {
+    re += amplitude.real() * axis;
+    im += amplitude.imag() * axis;
+  }
+};
+
+}  // namespace greatx::rf
