@@ -11,6 +11,14 @@
 
 namespace greatx::rf {
 
+/// Which effects act on the field of each path; all off: plain Fresnel reflection.
+struct FieldEffects {
+  bool roughness = false;   ///< specular part x the roughness factor of the material's rms height
+  bool scattering = false;  ///< specular part x sqrt(1 - S^2): what is scattered is not reflected
+  bool gas = false, rain = false, fog = false, foliage = false;
+  uint64_t seed = 1;  ///< of the phases of scattering patches
+};
+
 /// What acts on the field of a channel's paths; the same for all of them.
 struct FieldModel {
   const FacetWorld* world = nullptr;  ///< the one that the paths were solved in

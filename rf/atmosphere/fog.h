@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Attenuation by fog and clouds: ITU-R P.840-8 (2019), droplets below 0.1 mm (Rayleigh's approximation).
+#pragma once
+
+namespace greatx::rf {
+
+inline constexpr double fog_max_hz = 200e9;  ///< up to here droplets are small against the wavelength
+constexpr bool fog_model_covers(double frequency_hz) {
+  return frequency_hz > 0.0 && frequency_hz <= fog_max_hz;
+}
+
+/// K_l in (dB/km)/(g/m3): 0.819 f / (eps'' (1 + eta^2)), eta = (2 + eps')/eps'', with the double-Debye permittivity
+/// of liquid water (P.840-8, section 2, eq. 2 to 11). Throws UserError above 200 GHz.
+double fog_coefficient(double frequency_hz, double temperature_k);
+
+/// gamma = K_l M dB/km, M g/m3 of liquid water (P.840-8, eq. 1); 0 without fog, at any frequency.
+double fog_db_per_km(double frequency_hz, double temperature_k, double fog_g_m3);
+
+}  // namespace greatx::rf

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What stands between two points? Segments of paths, traced on the GPU in the tick's command buffer.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "gpu/pipeline.h"
+#include "gpu/tick_ring.h"
+#include "rf/facet_kind.h"
+#include "scene/gpu_scene.h"
+#include "shaders/shared/rf.h"
+
+namespace greatx::rf {
+
+/// A stretch of a path, with what its ends belong to and therefore does not stand in its way.
+struct Segment {
+  dvec3 a{0.0}, b{0.0};                ///< local coordinates, metres
+  uint32_t facet_a = shared::rf_none;  ///< a facet that the path touches in `a`; rf_none: none
+  uint32_t facet_b = shared::rf_none;
+  uint32_t body_a =
+      shared::rf_none;  ///< body that carries the node in `a` and is not to hide it; rf_none: none
+  uint32_t body_b = shared::rf_none;
+  uint32_t other_a = shared::rf_none;  ///< the second face of the wedge in `a`; rf_none: none
+  uint32_t other_b = shared::rf_none;
+  uint32_t walls = 0;  ///< FacetKind::wall that it may pass, at most shared::crossings_max
+};
+
+/// What a segment meets.
+struct Crossing {
+  bool blocked = false;  ///< by an opaque facet, or by more walls than allowed; then the rest means nothing
+  std::vector<uint32_t> walls;  ///< facets passed, ascending by index, each once
+  double foliage_m = 0.0;       ///< of its length inside foliage; overlapping volumes add up
+};
+
+/// What counts as crossed:
+/// - the facets and bodies named in the segment never count, wherever it crosses them;
+/// - nor does a surface whose plane an end lies in as far as fp32 can tell: within
+///   shared::visibility_tolerance, 0.1 mm plus 2.4e-7 of the largest coordinate (0.17 mm at 300 m, 2.5 mm at 10 km from
+///   the local origin). So a point exactly on a surface is seen from both of its sides, and a point 5 mm in front of one
+///   is seen from the front alone;
+/// - a segment from a point to itself meets nothing;
+/// - texels of alpha masks are solid.
+class CrossingPass {
+ public:
+  /// Builds the pipeline (walls and foliage are compiled in only if `kinds` has any) and uploads the facets' planes and
+  /// kinds, [facets of the scene].
+  CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds);
+
+  /// Where the answers of one batch will be; valid until its slot is begun again.
+  struct Pending {
+    gpu::Slice results;
+    uint32_t count = 0;
+  };
+
+  /// Records a batch among the scene as scene.record_update left it in this tick. Each segment's answer
+  /// depends on it alone. An empty batch records nothing.
+  [[nodiscard]] Pending record(gpu::TickSlot& slot, std::span<const Segment> segments);
+  /// In the order of the segments; after the slot's submission is done. `segments`: those that were recorded.
+  std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments) const;
+
+ private:
+  scene::GpuScene* scene_;
+  gpu::ComputePipeline pipeline_;
+  gpu::Buffer planes_;
+};
+
+}  // namespace greatx::rf

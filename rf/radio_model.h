@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a channel's paths meet: the scene as radio waves of one carrier see it, with the effects that are on.
+#pragma once
+
+#include <vector>
+
+#include "rf/facet_kind.h"
+#include "rf/facet_world.h"
+#include "rf/field.h"
+#include "rf/surfaces.h"
+#include "scene/wedges.h"
+
+namespace greatx::rf {
+
+/// Which effects act; the effect plan decides (sim/effect_plan.h).
+struct RadioEffects {
+  bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
+  bool foliage = false;
+  bool lit_region = true;   ///< diffraction where the wedge does not shade, too
+  bool free_edges = false;  ///< borders of thin plates diffract
+  FieldEffects field;       ///< roughness, scattering loss, weather: what acts on the field of each path
+};
+
+/// The kind of each facet.
+FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects);
+
+struct RadioModel {
+  RadioModel(const scene::Scene& scene, double carrier_hz, const RadioEffects& effects);
+
+  const scene::Scene* scene;
+  RadioEffects effects;
+  FacetWorld facets;
+  FacetKinds kinds;
+  RadioSurfaces surfaces;
+  std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
+
+  FieldModel field_model() const;
+};
+
+}  // namespace greatx::rf
