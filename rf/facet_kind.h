@@ -15,6 +15,7 @@ enum class FacetKind : uint8_t {
   wall =
       1,  ///< reflects and lets waves pass: a slab or several layers with vacuum behind, transmission is on
   foliage = 2,  ///< boundary of an attenuating volume: never reflects, never blocks
+  absent = 3,   ///< as if it were not there: foliage while that effect is off
 };
 
 /// [facets of the scene]

@@ -24,7 +24,7 @@ struct RadioEffects {
 };
 
 /// The kind of each facet.
-FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects);
+FacetKinds facet_kinds(const scene::Scene& scene, const RadioSurfaces& surfaces, const RadioEffects& effects);
 
 struct RadioModel {
   RadioModel(const scene::Scene& scene, double carrier_hz, const RadioEffects& effects);
@@ -32,8 +32,8 @@ struct RadioModel {
   const scene::Scene* scene;
   RadioEffects effects;
   FacetWorld facets;
-  FacetKinds kinds;
   RadioSurfaces surfaces;
+  FacetKinds kinds;
   std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
 
   FieldModel field_model() const;

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radio_model.h"
+
+namespace greatx::rf {
+
+namespace {
+
+FacetKind kind_of(const scene::Material& material, const RadioSurfaces& surfaces, uint32_t index,
+                  const RadioEffects& effects) {
+  if (material.radio && material.radio->foliage) return effects.field.foliage ? FacetKind::foliage : FacetKind::absent;
+  return effects.transmission && surfaces.penetrable(index) ? FacetKind::wall : FacetKind::opaque;
+}
+
+std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds, bool free_edges) {
+  std::vector<scene::Wedge> wedges = scene::find_wedges(scene, {.free_edges = free_edges});
+  const auto hard = [&](uint32_t facet) {
+    return facet == scene::no_facet || kinds[facet] == FacetKind::opaque || kinds[facet] == FacetKind::wall;
+  };
+  std::erase_if(wedges, [&](const scene::Wedge& w) { return !hard(w.facet_0) || !hard(w.facet_n); });
+  return wedges;
+}
+
+}  // namespace
+
+FacetKinds facet_kinds(const scene::Scene& scene, const RadioSurfaces& surfaces, const RadioEffects& effects) {
+  FacetKinds kinds;
+  kinds.reserve(scene.facets.size());
+  for (const scene::Facet& facet : scene.facets)
+    kinds.push_back(kind_of(scene.materials[facet.material], surfaces, facet.material, effects));
+  return kinds;
+}
+
+RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const RadioEffects& which)
+    : scene(&radio_scene),
+      effects(which),
+      facets(radio_scene),
+      surfaces(radio_scene, carrier_hz),
+      kinds(facet_kinds(radio_scene, surfaces, which)) {
+  if (effects.diffraction) wedges = wedges_of(radio_scene, kinds, effects.free_edges);
+}
+
+FieldModel RadioModel::field_model() const {
+  FieldModel model;
+  model.world = &facets;
+  model.surfaces = &surfaces;
+  return model;
+}
+
+}  // namespace greatx::rf
