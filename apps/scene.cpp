@@ -36,6 +36,15 @@ struct InfoCommand {
   scene::LoadOptions options;
 };
 
+std::string describe(const std::optional<scene::RadioMaterial>& radio) {
+  if (!radio) return "no radio properties";
+  if (radio->foliage && radio->foliage->attenuation_db_per_m)
+    return fmt::format("foliage, {} dB/m", *radio->foliage->attenuation_db_per_m);
+  if (radio->foliage) return "foliage, Weissberger's model";
+  return fmt::format("{}, {} layers, {:.3f} m", radio->layers[0].medium.source, radio->layers.size(),
+                     radio->layers[0].thickness_m);
+}
+
 void info(const InfoCommand& command) {
   const scene::Model model = scene::load_model(command.file, command.options);
   const scene::Scene scene =
@@ -47,10 +56,7 @@ void info(const InfoCommand& command) {
   std::cout << fmt::format("  {:.2f} x {:.2f} x {:.2f} m around ({:.2f}, {:.2f}, {:.2f})\n", size.x, size.y,
                            size.z, center.x, center.y, center.z);
   for (const scene::Material& material : scene.materials) {
-    const std::string radio =
-        !material.radio ? "no radio properties"
-                        : fmt::format("{}, {} layers, {:.3f} m", material.radio->layers[0].medium.source,
-                                      material.radio->layers.size(), material.radio->layers[0].thickness_m);
+    const std::string radio = describe(material.radio);
     const vec4& color = material.pbr.base_color;
     const float luminance = 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b;
     std::cout << fmt::format("  material {:<28} {}; reflectance {:.2f} (905 nm{}), {:.2f} (1550 nm{})\n",

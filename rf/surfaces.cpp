@@ -39,10 +39,14 @@ RadioSurfaces::RadioSurfaces(const scene::Scene& scene, double carrier_hz)
   for (const scene::Facet& facet : scene.facets) {
     GREATX_CHECK(facet.material < surfaces_.size(), "material {} of {}", facet.material, surfaces_.size());
     RadioSurface& surface = surfaces_[facet.material];
-    if (!surface.front.empty()) continue;
+    if (!surface.front.empty() || surface.foliage) continue;
     const scene::Material& material = scene.materials[facet.material];
     if (!material.radio)
       throw_user_error("material '{}' of scene '{}' has no radio properties", material.name, scene.name);
+    if (material.radio->foliage) {
+      surface.foliage = true;
+      continue;
+    }
     surface = radio_surface(*material.radio, carrier_hz, material.name);
   }
 }

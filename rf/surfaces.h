@@ -18,6 +18,7 @@ struct RadioSurface {
   /// a half-space; otherwise there is vacuum behind.
   std::vector<DielectricLayer> front;
   std::vector<DielectricLayer> back;  ///< the same wall from the other side
+  bool foliage = false;               ///< no wall at all: the boundary of an attenuating volume
 };
 
 /// The wall that a radio material describes (what the material says is what the wave meets):
@@ -35,7 +36,7 @@ RadioSurface radio_surface(const scene::RadioMaterial& material, double frequenc
 class RadioSurfaces {
  public:
   /// Every material that a facet of `scene` has must be known at `carrier_hz`; throws UserError naming it if
-  /// not.
+  /// not. Foliage has no surface and is not asked.
   RadioSurfaces(const scene::Scene& scene, double carrier_hz);
   /// `surfaces` by material index.
   RadioSurfaces(std::vector<RadioSurface> surfaces, double carrier_hz);
@@ -44,7 +45,7 @@ class RadioSurfaces {
   double wavelength_m() const { return wavelength_m_; }
   /// `from_front`: the wave comes from the side that the facet's normal points to.
   FresnelCoefficients reflect(uint32_t material, bool from_front, double cos_theta) const;
-  /// The wall of a material, by its index in the scene; without layers if no facet has it.
+  /// The wall of a material, by its index in the scene; without layers if it is foliage or no facet has it.
   const RadioSurface& surface(uint32_t material) const;
 
  private:

@@ -42,8 +42,12 @@ bool equal(const RadioMaterial& left, const RadioMaterial& right) {
   const auto same_layer = [](const RadioLayer& one, const RadioLayer& two) {
     return one.thickness_m == two.thickness_m && equal(one.medium, two.medium);
   };
-  return key(left) == key(right) && std::equal(left.layers.begin(), left.layers.end(), right.layers.begin(),
-                                               right.layers.end(), same_layer);
+  const bool same_foliage =
+      left.foliage.has_value() == right.foliage.has_value() &&
+      (!left.foliage || left.foliage->attenuation_db_per_m == right.foliage->attenuation_db_per_m);
+  return key(left) == key(right) && same_foliage &&
+         std::equal(left.layers.begin(), left.layers.end(), right.layers.begin(), right.layers.end(),
+                    same_layer);
 }
 
 bool equal(const Material& left, const Material& right) {

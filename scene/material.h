@@ -54,8 +54,17 @@ struct RadioLayer {
   double thickness_m = 0.0;
 };
 
+/// Leaves and twigs in a closed mesh: it neither reflects nor blocks, it attenuates by the depth on the way
+/// (rf/atmosphere/foliage.h).
+struct Foliage {
+  std::optional<double> attenuation_db_per_m;  ///< at every frequency; empty: Weissberger's model
+};
+
 struct RadioMaterial {
-  std::vector<RadioLayer> layers;       ///< one at least; a single layer of thickness 0 is a half-space
+  std::vector<RadioLayer>
+      layers;  ///< one at least, none of foliage; a single layer of thickness 0 is a half-space
+  std::optional<Foliage>
+      foliage;  ///< a volume instead of a surface: the fields below are then without meaning
   double scattering_coefficient = 0.0;  ///< S in [0, 1]
   ScatteringPattern pattern = ScatteringPattern::lambertian;
   double pattern_exponent = 4.0;      ///< alpha_R of the directive pattern

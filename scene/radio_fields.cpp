@@ -233,10 +233,11 @@ void read_wall(Members& members, std::optional<RadioMaterial>& radio) {
   }
   if (layers || medium) {
     if (!radio) radio.emplace();
+    radio->foliage.reset();
     radio->layers = layers ? std::move(*layers) : std::vector<RadioLayer>{{std::move(*medium), 0.0}};
   }
   if (!thickness && !extrapolate) return;
-  if (!radio) {
+  if (!radio || radio->foliage) {
     throw_user_error_at(map.where,
                         "{}: thickness_m and extrapolate need a medium (itu, rows, a/b/c/d, or "
                         "relative_permittivity + conductivity)",
@@ -263,6 +264,25 @@ std::optional<ScatteringPattern> read_pattern(Members& members) {
   refuse(*field, "lambertian, directive or backscattering");
 }
 
+/// Foliage is a volume: in one source it goes with nothing that describes a wall or its surface.
+std::optional<Foliage> read_foliage(Members& members) {
+  const Field* field = members.find("foliage");
+  if (!field) return std::nullopt;
+  for (const auto& [key, other] : members.map().members) {
+    if (key == "foliage" || key.starts_with("reflectance_")) continue;
+    throw_user_error_at(other.where, "{}: foliage has no wall and no surface: expected no '{}' beside it",
+                        members.map().path, key);
+  }
+  if (field->kind == Kind::text && field->text == "weissberger") return Foliage{};
+  const std::string expected = "weissberger or {attenuation_db_per_m: dB/m}";
+  if (field->kind != Kind::map) refuse(*field, expected);
+  Members own(*field);
+  const auto attenuation = own.number("attenuation_db_per_m", 0.0, 1000.0, "dB/m from 0 to 1000");
+  own.finish();
+  if (!attenuation) refuse(*field, expected);
+  return Foliage{attenuation};
+}
+
 void read_surface(Members& members, std::optional<RadioMaterial>& radio) {
   const auto scattering = members.unit_interval("scattering_coefficient");
   const auto pattern = read_pattern(members);
@@ -274,7 +294,7 @@ void read_surface(Members& members, std::optional<RadioMaterial>& radio) {
   const bool any_given =
       scattering || pattern || exponent || back_exponent || back_share || cross_polarization || roughness;
   if (!any_given) return;
-  if (!radio) {
+  if (!radio || radio->foliage) {
     throw_user_error_at(members.map().where,
                         "{}: these fields need a medium (itu, rows, a/b/c/d, "
                         "relative_permittivity + conductivity, or layers)",
@@ -321,6 +341,10 @@ Field field_from_json(const nlohmann::json& value, const std::string& what, cons
 RadioSources read_radio_fields(const Field& fields, const RadioSources& below) {
   Members members(fields);
   RadioSources result = below;
+  if (const auto foliage = read_foliage(members)) {
+    result.radio.emplace();
+    result.radio->foliage = foliage;
+  }
   read_wall(members, result.radio);
   read_surface(members, result.radio);
   if (const auto value = members.unit_interval("reflectance_905nm")) {

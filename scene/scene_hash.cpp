@@ -39,6 +39,10 @@ class Feeder {
 void feed(Feeder& feeder, const Bounds& bounds) { feeder.values(bounds.min, bounds.max); }
 
 void feed(Feeder& feeder, const RadioMaterial& radio) {
+  if (radio.foliage) {
+    feeder.values(static_cast<uint32_t>(radio.foliage->attenuation_db_per_m.has_value()),
+                  radio.foliage->attenuation_db_per_m.value_or(0.0));
+  }
   feeder.count(radio.layers.size());
   for (const RadioLayer& layer : radio.layers) {
     feeder.values(layer.thickness_m, static_cast<uint32_t>(layer.medium.extrapolate))
@@ -58,7 +62,7 @@ void feed(Feeder& feeder, const Material& material) {
                 pbr.base_color_texture, pbr.metallic_roughness_texture, pbr.normal_texture,
                 pbr.emissive_texture);
   feeder.values(material.reflectance_905nm.value_or(-1.0f), material.reflectance_1550nm.value_or(-1.0f));
-  feeder.values(static_cast<uint32_t>(material.radio.has_value()));
+  feeder.values(!material.radio ? 0u : material.radio->foliage ? 2u : 1u);
   if (material.radio) feed(feeder, *material.radio);
 }
 

@@ -8,8 +8,9 @@ namespace greatx::rf {
 
 double fog_coefficient(double frequency_hz, double temperature_k) {
   if (!fog_model_covers(frequency_hz))
-    throw_user_error("fog attenuation: expected a frequency of at most 200 GHz (ITU-R P.840-8), found {:g} GHz",
-                     frequency_hz / 1e9);
+    throw_user_error(
+        "fog attenuation: expected a frequency of at most 200 GHz (ITU-R P.840-8), found {:g} GHz",
+        frequency_hz / 1e9);
   GREATX_CHECK(temperature_k > 0.0, "{} K", temperature_k);
   const double f = frequency_hz / 1e9;
   const double warm = 300.0 / temperature_k - 1.0;  // theta - 1
@@ -17,7 +18,7 @@ double fog_coefficient(double frequency_hz, double temperature_k) {
   // Principal and secondary relaxation, GHz.
   const double fp = 20.20 - 146.0 * warm + 316.0 * warm * warm, fs = 39.8 * fp;
   const double x = f / fp, y = f / fs;
-  const double lost = x * (eps0 - eps1) / (1.0 + x * x) + y * (eps1 - eps2) / (1.0 + y * y);    // eps''
+  const double lost = x * (eps0 - eps1) / (1.0 + x * x) + y * (eps1 - eps2) / (1.0 + y * y);   // eps''
   const double stored = (eps0 - eps1) / (1.0 + x * x) + (eps1 - eps2) / (1.0 + y * y) + eps2;  // eps'
   const double eta = (2.0 + stored) / lost;
   return 0.819 * f / (lost * (1.0 + eta * eta));

@@ -29,8 +29,8 @@ double line_shape(double f, double f0, double delta_f, double delta) {
 double oxygen(double f, const Air& air) {
   double sum = 0.0;
   for (const OxygenLine& line : oxygen_lines()) {
-    const double strength = line.a1 * 1e-7 * air.p * std::pow(air.theta, 3.0) *
-                            std::exp(line.a2 * (1.0 - air.theta));  // eq. 3
+    const double strength =
+        line.a1 * 1e-7 * air.p * std::pow(air.theta, 3.0) * std::exp(line.a2 * (1.0 - air.theta));  // eq. 3
     const double pressure_width =
         line.a3 * 1e-4 * (air.p * std::pow(air.theta, 0.8 - line.a4) + 1.1 * air.e * air.theta);  // eq. 6a
     const double width = std::sqrt(pressure_width * pressure_width + 2.25e-6);  // eq. 6b: Zeeman splitting
@@ -44,8 +44,8 @@ double oxygen(double f, const Air& air) {
 double water_vapour(double f, const Air& air) {
   double sum = 0.0;
   for (const WaterVapourLine& line : water_vapour_lines()) {
-    const double strength = line.b1 * 1e-1 * air.e * std::pow(air.theta, 3.5) *
-                            std::exp(line.b2 * (1.0 - air.theta));  // eq. 3
+    const double strength =
+        line.b1 * 1e-1 * air.e * std::pow(air.theta, 3.5) * std::exp(line.b2 * (1.0 - air.theta));  // eq. 3
     const double pressure_width =
         line.b3 * 1e-4 *
         (air.p * std::pow(air.theta, line.b4) + line.b5 * air.e * std::pow(air.theta, line.b6));  // eq. 6a

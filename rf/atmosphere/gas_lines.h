@@ -19,10 +19,10 @@ struct OxygenLine {
 /// A row of ITU-R P.676-13, Annex 1, Table 2.
 struct WaterVapourLine {
   double f0_ghz;
-  double b1;          ///< strength, 0.1 kHz/hPa
-  double b2;          ///< its dependence on temperature
-  double b3, b4;      ///< width, 1e-4 GHz/hPa, and its dependence on temperature
-  double b5, b6;      ///< broadening by water vapour itself and its dependence on temperature
+  double b1;      ///< strength, 0.1 kHz/hPa
+  double b2;      ///< its dependence on temperature
+  double b3, b4;  ///< width, 1e-4 GHz/hPa, and its dependence on temperature
+  double b5, b6;  ///< broadening by water vapour itself and its dependence on temperature
 };
 
 std::span<const OxygenLine> oxygen_lines();             ///< 44

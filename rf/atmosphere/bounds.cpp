@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/atmosphere/bounds.h"
+
+#include <algorithm>
+
+#include "rf/atmosphere/foliage.h"
+#include "rf/atmosphere/path_attenuation.h"
+
+namespace greatx::rf {
+
+double most_gas_db(const Weather& weather, double frequency_hz, double distance_m) {
+  return path_attenuation(weather, frequency_hz, {.gas = true, .rain = false, .fog = false}).gas *
+         distance_m * 1e-3;
+}
+
+double most_rain_db(const Weather& weather, double frequency_hz, double distance_m) {
+  const PathAttenuation rain =
+      path_attenuation(weather, frequency_hz, {.gas = false, .rain = true, .fog = false});
+  return std::max(rain.rain_h, rain.rain_v) * distance_m * 1e-3;
+}
+
+double most_fog_db(const Weather& weather, double frequency_hz, double distance_m) {
+  return path_attenuation(weather, frequency_hz, {.gas = false, .rain = false, .fog = true}).fog *
+         distance_m * 1e-3;
+}
+
+double most_foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m) {
+  const double all = foliage_db(foliage, frequency_hz, depth_m);
+  return depth_m > weissberger_branch_m
+             ? std::max(all, foliage_db(foliage, frequency_hz, weissberger_branch_m))
+             : all;
+}
+
+}  // namespace greatx::rf
