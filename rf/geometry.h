@@ -52,6 +52,8 @@ class ImageTree {
   std::vector<GeometricPath> solve(const dvec3& target) const;
 
   size_t node_count() const { return nodes_.size(); }
+  const dvec3& source() const { return source_; }
+  Source end() const { return end_; }
 
   /// The ends of chains that go on after their reflections (a diffraction, a scattering). `sequence` is an index into the
   /// candidates that the tree was built from.

@@ -1,23 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All stages from candidates to fields for the links of one source (a transmitter, or a receiver that stands still) to
-// any number of targets (rf/path.h draws them). One solver per source.
+// From candidates to fields for the links of one source (a transmitter, or a receiver that stands still) to any number
+// of targets, in three steps around the GPU's answer to what stands in the way:
+//
+//   geometry(target) ─► add_segments() ─► CrossingPass ─► finish()
+//
+// Each step reads the solver and writes nothing to it: targets may be solved side by side, and a target's paths depend on
+// that target alone.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "rf/candidate_search.h"
 #include "rf/crossings.h"
 #include "rf/geometry.h"
+#include "rf/midpoints.h"
 #include "rf/path.h"
 #include "rf/radio_model.h"
-#include "rf/search/beam_search.h"
 
 namespace greatx::rf {
 
@@ -30,37 +32,49 @@ struct EndState {
 
 struct PathOptions {
   uint32_t max_depth = 3;          ///< interactions on a path, of whatever type
-  uint32_t max_transmissions = 3;  ///< walls passed, if transmission is on
-  uint32_t max_suffix = 0;       ///< reflections after a diffraction or scattering (searched at every target)
-  double patch_m = 5.0;          ///< largest side of a scattering patch
-  uint64_t max_paths = 100'000;  ///< per link: beyond, the weakest candidates are left out and counted
+  uint32_t max_transmissions = 3;  ///< of them walls passed
+  uint32_t max_reflections_after =
+      0;                  ///< of them reflections after a diffraction or scattering, on the target's side
+  double patch_m = 10.0;  ///< longest side of a scattering patch
+  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced
 };
 
-/// A link's paths, or what is known of them before the GPU has answered.
+/// A link's paths before the GPU has answered.
+struct LinkGeometry {
+  std::vector<GeometricPath> paths;  ///< canonical order; reflections, diffraction, scattering, no walls yet
+  uint64_t overflow = 0;             ///< paths beyond PathOptions::max_paths
+};
+
 class PathSolver {
  public:
+  /// `model` is read by every call and must outlive the solver.
   PathSolver(const RadioModel& model, const PathOptions& options);
 
-  /// Builds the images of `source` for these candidates (from the source's end).
+  /// Builds the images of `source` for these candidates, which run from it.
   void set_candidates(const CandidateList& candidates, const dvec3& source, Source end);
-  /// The source has moved; candidates are kept (their windows are not).
+  /// The source has moved, or bodies of the model have; candidates stay, their windows do not.
   void move_source(const dvec3& source);
 
-  /// Exact geometry of one link: every chain that exists, walls and occlusion not yet looked at. Thread-safe.
-  std::vector<GeometricPath> geometry(const dvec3& target) const;
-  /// The segments of a link's paths, one after the other, for CrossingPass. `source`, `target`: in the order
-  /// transmitter, receiver.
+  /// Every chain that exists geometrically between the source and `target`.
+  LinkGeometry geometry(const dvec3& target) const;
+  /// Appends the segments of the paths, one after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;
-  /// Walls become interactions, dark paths and those beyond max_depth go, fields of the rest. `crossings`: the answers to
-  /// add_segments' part. Canonical order.
-  std::vector<Path> finish(std::vector<GeometricPath> paths, std::span<const Crossing> crossings,
+  /// Walls become interactions; blocked paths and those beyond the bounds go; fields of the rest, in canonical order.
+  /// `crossings`: the answers to the segments of these paths.
+  std::vector<Path> finish(std::span<const GeometricPath> paths, std::span<const Crossing> crossings,
                            const EndState& transmitter, const EndState& receiver) const;
 
+  const PathOptions& options() const { return options_; }
+
  private:
+  uint32_t walls_allowed(const GeometricPath& path) const;
+
   const RadioModel* model_;
   PathOptions options_;
+  FieldModel field_;
   std::optional<ImageTree> tree_;
+  std::optional<Midpoints> midpoints_;  ///< none: neither diffraction nor scattering
 };
 
 }  // namespace greatx::rf

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/radio_model.h"
 
+#include <algorithm>
+
 namespace greatx::rf {
 
 namespace {
 
-FacetKind kind_of(const scene::Material& material, const RadioSurfaces& surfaces, uint32_t index,
-                  const RadioEffects& effects) {
-  if (material.radio && material.radio->foliage) return effects.field.foliage ? FacetKind::foliage : FacetKind::absent;
-  return effects.transmission && surfaces.penetrable(index) ? FacetKind::wall : FacetKind::opaque;
+FacetKind kind_of(const scene::Material& material, const RadioEffects& effects) {
+  if (!material.radio) return FacetKind::opaque;
+  if (material.radio->foliage) return effects.field.foliage ? FacetKind::foliage : FacetKind::absent;
+  return effects.transmission && penetrable(*material.radio) ? FacetKind::wall : FacetKind::opaque;
 }
 
 std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds, bool free_edges) {
@@ -23,11 +25,16 @@ std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds&
 
 }  // namespace
 
-FacetKinds facet_kinds(const scene::Scene& scene, const RadioSurfaces& surfaces, const RadioEffects& effects) {
+bool penetrable(const scene::RadioMaterial& material) {
+  return std::ranges::all_of(material.layers,
+                             [](const scene::RadioLayer& layer) { return layer.thickness_m > 0.0; });
+}
+
+FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects) {
   FacetKinds kinds;
   kinds.reserve(scene.facets.size());
   for (const scene::Facet& facet : scene.facets)
-    kinds.push_back(kind_of(scene.materials[facet.material], surfaces, facet.material, effects));
+    kinds.push_back(kind_of(scene.materials[facet.material], effects));
   return kinds;
 }
 
@@ -36,7 +43,7 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       effects(which),
       facets(radio_scene),
       surfaces(radio_scene, carrier_hz),
-      kinds(facet_kinds(radio_scene, surfaces, which)) {
+      kinds(facet_kinds(radio_scene, which)) {
   if (effects.diffraction) wedges = wedges_of(radio_scene, kinds, effects.free_edges);
 }
 

@@ -23,13 +23,16 @@ struct RadioEffects {
   FieldEffects field;       ///< roughness, scattering loss, weather: what acts on the field of each path
 };
 
-/// The kind of each facet.
-FacetKinds facet_kinds(const scene::Scene& scene, const RadioSurfaces& surfaces, const RadioEffects& effects);
+/// Can a wave come out on the other side: no half-space among its layers?
+bool penetrable(const scene::RadioMaterial& material);
+
+/// The kind of each facet: a function of the materials and the effects, the same for every carrier.
+FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects);
 
 struct RadioModel {
   RadioModel(const scene::Scene& scene, double carrier_hz, const RadioEffects& effects);
 
-  const scene::Scene* scene;
+  const scene::Scene* scene = nullptr;
   RadioEffects effects;
   FacetWorld facets;
   RadioSurfaces surfaces;

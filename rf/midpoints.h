@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Paths with a diffraction or a scattering in the middle: reflections from the source to a wedge or a patch (prefix),
+// reflections from there to the target (suffix). Prefixes come from the source's candidates, suffixes from a search at
+// the target; they meet at the wedge or the patch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rf/candidates.h"
+#include "rf/geometry.h"
+#include "rf/path.h"
+#include "rf/radio_model.h"
+
+namespace greatx::rf {
+
+/// A piece of a facet that scatters as a whole.
+struct Patch {
+  uint32_t facet = 0;
+  uint32_t number = 0;  ///< on its facet
+  dvec3 center{0.0};    ///< in its body's frame
+  double area_m2 = 0.0;
+};
+
+/// Cuts every facet whose material scatters into triangles with sides of at most `side_m`, in the order of its triangles.
+std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m);
+
+struct MidpointOptions {
+  uint32_t max_depth = 3;              ///< interactions on a path
+  uint32_t max_reflections_after = 0;  ///< on the target's side; more than 0: a search at every target
+  double patch_m = 10.0;
+};
+
+class Midpoints {
+ public:
+  Midpoints(const RadioModel& model, const MidpointOptions& options);
+
+  /// Which sequences reach which wedges and facets; `candidates` from the source, with wedges if diffraction is on.
+  void set_candidates(const CandidateList& candidates);
+  /// Appends every such path between the source of `tree` (built from the same candidates) and `target`, from transmitter
+  /// to receiver.
+  void solve(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const;
+
+ private:
+  struct Prefixes {  ///< [elements + 1] into `sequences`
+    std::vector<uint32_t> offsets, sequences;
+  };
+  /// A search at the target, or the empty sequence alone.
+  struct Suffixes;
+
+  const RadioModel* model_;
+  MidpointOptions options_;
+  std::vector<Patch> patches_;
+  Prefixes of_wedge_, of_facet_;
+};
+
+}  // namespace greatx::rf

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/path_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace greatx::rf {
+
+namespace {
+
+/// Facets that a path touches at a vertex and that therefore do not stand in its way there.
+struct Touched {
+  uint32_t first = shared::rf_none, second = shared::rf_none;
+};
+
+Touched touched_at(const Interaction& interaction, const std::vector<scene::Wedge>& wedges) {
+  if (interaction.type != InteractionType::diffraction) return {interaction.element, shared::rf_none};
+  const scene::Wedge& wedge = wedges[interaction.element];
+  return {wedge.facet_0, wedge.facet_n};
+}
+
+/// A wall that a segment passes.
+struct Passage {
+  uint32_t facet = 0;
+  double t = 0.0;  ///< along the segment, 0 to 1
+  dvec3 point{0.0};
+};
+
+/// Where the segment meets the planes of these walls, in its own order. Two walls in one plane met at one point (a
+/// seam, a wall that the file has twice) are one.
+std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_t>& walls, const dvec3& a,
+                              const dvec3& b) {
+  std::vector<Passage> list;
+  for (const uint32_t facet : walls) {
+    const double from = world.facet(facet).distance(a), to = world.facet(facet).distance(b);
+    // The GPU met the wall in fp32: to fp64 it may lie beyond an end by a rounding, or along the segment.
+    const double t = from == to ? 0.5 : std::clamp(from / (from - to), 0.0, 1.0);
+    list.push_back({facet, t, a + t * (b - a)});
+  }
+  std::sort(list.begin(), list.end(),
+            [](const Passage& p, const Passage& q) { return p.t != q.t ? p.t < q.t : p.facet < q.facet; });
+  const auto same_wall = [&](const Passage& p, const Passage& q) {
+    const PosedFacet &f = world.facet(p.facet), &g = world.facet(q.facet);
+    return glm::length(p.point - q.point) <= 1e-6 && glm::length(glm::cross(f.normal, g.normal)) <= 1e-9;
+  };
+  list.erase(std::unique(list.begin(), list.end(), same_wall), list.end());
+  return list;
+}
+
+/// The path with its walls as interactions; false if something blocks it.
+bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<const Crossing> crossings,
+                  GeometricPath& full) {
+  full = {{}, {path.vertices.front()}, path.length_m, 0.0};
+  full.patch_area_m2 = path.patch_area_m2;
+  for (size_t i = 0; i < crossings.size(); ++i) {
+    const Crossing& crossing = crossings[i];
+    if (crossing.blocked) return false;
+    full.foliage_m += crossing.foliage_m;
+    for (const Passage& wall : passages(world, crossing.walls, path.vertices[i], path.vertices[i + 1])) {
+      full.interactions.push_back({InteractionType::transmission, wall.facet});
+      full.vertices.push_back(wall.point);
+    }
+    if (i < path.interactions.size()) full.interactions.push_back(path.interactions[i]);
+    full.vertices.push_back(path.vertices[i + 1]);
+  }
+  return true;
+}
+
+bool less(const GeometricPath& a, const GeometricPath& b) {
+  return interactions_less(a.interactions, b.interactions);
+}
+
+}  // namespace
+
+PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
+    : model_(&model), options_(options), field_(model.field_model()) {
+  if (model.effects.diffraction || model.effects.scattering)
+    midpoints_.emplace(model,
+                       MidpointOptions{options.max_depth, options.max_reflections_after, options.patch_m});
+}
+
+void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
+  tree_.emplace(model_->facets, source, candidates, end);
+  if (midpoints_) midpoints_->set_candidates(candidates);
+}
+
+void PathSolver::move_source(const dvec3& source) {
+  GREATX_CHECK(tree_.has_value(), "the source moved to ({}, {}, {}) before it had candidates", source.x,
+               source.y, source.z);
+  tree_->update(source);
+}
+
+LinkGeometry PathSolver::geometry(const dvec3& target) const {
+  GREATX_CHECK(tree_.has_value(), "no candidates for the target at ({}, {}, {})", target.x, target.y,
+               target.z);
+  LinkGeometry link;
+  link.paths = tree_->solve(target);
+  if (!model_->effects.line_of_sight)
+    std::erase_if(link.paths, [](const GeometricPath& path) { return path.interactions.empty(); });
+  if (!model_->effects.reflection)
+    std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
+  if (midpoints_) {
+    midpoints_->solve(*tree_, target, link.paths);
+    std::sort(link.paths.begin(), link.paths.end(), less);
+  }
+  if (link.paths.size() > options_.max_paths) {
+    link.overflow = link.paths.size() - options_.max_paths;
+    link.paths.resize(options_.max_paths);
+  }
+  return link;
+}
+
+uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
+  if (!model_->effects.transmission || path.interactions.size() >= options_.max_depth) return 0;
+  const uint32_t left = options_.max_depth - static_cast<uint32_t>(path.interactions.size());
+  return std::min({left, options_.max_transmissions, shared::crossings_max});
+}
+
+void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
+                              const EndState& receiver, std::vector<Segment>& segments) const {
+  const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
+  for (const GeometricPath& path : paths) {
+    const size_t count = path.interactions.size();
+    const uint32_t walls = walls_allowed(path);
+    for (size_t i = 0; i <= count; ++i) {
+      Segment segment{.a = path.vertices[i], .b = path.vertices[i + 1], .walls = walls};
+      if (i > 0) {
+        const Touched touched = touched_at(path.interactions[i - 1], model_->wedges);
+        segment.facet_a = touched.first, segment.other_a = touched.second;
+      }
+      if (i < count) {
+        const Touched touched = touched_at(path.interactions[i], model_->wedges);
+        segment.facet_b = touched.first, segment.other_b = touched.second;
+      }
+      if (i == 0) segment.body_a = body_or_none(transmitter.body);
+      if (i == count) segment.body_b = body_or_none(receiver.body);
+      segments.push_back(segment);
+    }
+  }
+}
+
+std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
+                                     std::span<const Crossing> crossings, const EndState& transmitter,
+                                     const EndState& receiver) const {
+  std::vector<GeometricPath> lit;
+  size_t first = 0;
+  for (const GeometricPath& path : paths) {
+    const size_t count = path.interactions.size() + 1;
+    GREATX_CHECK(first + count <= crossings.size(), "{} answers for {} segments and more", crossings.size(),
+                 first + count);
+    GeometricPath full;
+    const bool clear = insert_walls(model_->facets, path, crossings.subspan(first, count), full);
+    first += count;
+    if (!clear || full.interactions.size() > options_.max_depth) continue;
+    if (full.interactions.size() - path.interactions.size() > options_.max_transmissions) continue;
+    lit.push_back(std::move(full));
+  }
+  GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());
+  std::sort(lit.begin(), lit.end(), less);
+  std::vector<Path> fields;
+  fields.reserve(lit.size());
+  for (const GeometricPath& path : lit)
+    fields.push_back(path_field(path, field_, transmitter.velocity, receiver.velocity));
+  return fields;
+}
+
+}  // namespace greatx::rf
