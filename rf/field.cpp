@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 #include "core/units.h"
+#include "rf/atmosphere/foliage.h"
 #include "rf/field_vector.h"
 
 namespace greatx::rf {
@@ -16,23 +18,61 @@ dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
   return direction - 2.0 * glm::dot(direction, normal) * normal;
 }
 
-/// Unit vectors of the segments [facets + 1], from the transmitter on.
-std::vector<dvec3> segment_directions(const GeometricPath& path, const FacetWorld& world) {
-  const size_t count = path.interactions.size() + 1;
-  std::vector<dvec3> directions(count);
-  size_t longest = 0;
-  double longest_m = 0.0;
-  for (size_t i = 0; i < count; ++i) {
-    const double length = glm::length(path.vertices[i + 1] - path.vertices[i]);
-    if (length > longest_m) longest = i, longest_m = length;
-  }
-  directions[longest] = (path.vertices[longest + 1] - path.vertices[longest]) / longest_m;
-  const auto normal = [&](size_t reflection) {
-    return world.facet(path.interactions[reflection].element).normal;
+bool bends(InteractionType type) {
+  return type == InteractionType::diffraction || type == InteractionType::scattering;
+}
+
+/// The straight runs of a path, from the transmitter on.
+struct Runs {
+  std::vector<size_t> vertices;   ///< [runs + 1] where the path turns, its ends included
+  std::vector<dvec3> directions;  ///< [runs] unit vectors
+  size_t bend = 0;  ///< the run that starts at the path's diffraction or scattering; 0: there is none
+  double before_m = 0.0, after_m = 0.0;  ///< unfolded lengths on both sides of the bend
+};
+
+/// Directions of the runs [first, last), all joined by reflections; returns the sum of their lengths.
+double set_directions(const GeometricPath& path, const FacetWorld& world, size_t first, size_t last,
+                      Runs& runs) {
+  const auto along = [&](size_t run) {
+    return path.vertices[runs.vertices[run + 1]] - path.vertices[runs.vertices[run]];
   };
-  for (size_t i = longest; i + 1 < count; ++i) directions[i + 1] = mirrored(directions[i], normal(i));
-  for (size_t i = longest; i > 0; --i) directions[i - 1] = mirrored(directions[i], normal(i - 1));
-  return directions;
+  size_t longest = first;
+  double longest_m = 0.0, sum_m = 0.0;
+  for (size_t run = first; run < last; ++run) {
+    const double length = glm::length(along(run));
+    sum_m += length;
+    if (length > longest_m) longest = run, longest_m = length;
+  }
+  GREATX_CHECK(longest_m > 0.0, "path of {} interactions with no length before or after one",
+               path.interactions.size());
+  runs.directions[longest] = along(longest) / longest_m;
+  const auto normal_before = [&](size_t run) {  // of the facet that the run starts from
+    return world.facet(path.interactions[runs.vertices[run] - 1].element).normal;
+  };
+  for (size_t run = longest; run + 1 < last; ++run)
+    runs.directions[run + 1] = mirrored(runs.directions[run], normal_before(run + 1));
+  for (size_t run = longest; run > first; --run)
+    runs.directions[run - 1] = mirrored(runs.directions[run], normal_before(run));
+  return sum_m;
+}
+
+Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
+  Runs runs;
+  runs.vertices.push_back(0);
+  for (size_t i = 0; i < path.interactions.size(); ++i) {
+    if (path.interactions[i].type == InteractionType::transmission) continue;
+    if (bends(path.interactions[i].type)) {
+      GREATX_CHECK(runs.bend == 0, "path with more than one diffraction or scattering");
+      runs.bend = runs.vertices.size();
+    }
+    runs.vertices.push_back(i + 1);
+  }
+  runs.vertices.push_back(path.vertices.size() - 1);
+  const size_t count = runs.vertices.size() - 1;
+  runs.directions.resize(count);
+  if (runs.bend > 0) runs.before_m = set_directions(path, world, 0, runs.bend, runs);
+  runs.after_m = set_directions(path, world, runs.bend, count, runs);
+  return runs;
 }
 
 /// Any unit vector perpendicular to k.
@@ -41,23 +81,94 @@ dvec3 any_perpendicular(const dvec3& k) {
   return glm::normalize(glm::cross(k, axis));
 }
 
-void reflect(FieldVector (&columns)[2], const dvec3& in, const dvec3& out, const PosedFacet& facet,
-             const RadioSurfaces& surfaces) {
-  const double towards = glm::dot(in, facet.normal);
-  const FresnelCoefficients fresnel =
-      surfaces.reflect(facet.material, towards < 0.0, std::min(1.0, std::abs(towards)));
-  // Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM to 1e-16: any s gives the
-  // same field.
-  const dvec3 across = glm::cross(in, facet.normal);
-  const double sine = glm::length(across);
-  const dvec3 s = sine > 1e-8 ? across / sine : any_perpendicular(in);
-  const dvec3 p_in = glm::cross(in, s), p_out = glm::cross(out, s);
-  for (FieldVector& field : columns) {
-    const Complex te = fresnel.r_te * field.along(s), tm = fresnel.r_tm * field.along(p_in);
-    field = {};
-    field.add(te, s);
-    field.add(tm, p_out);
+/// s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM, t_TE = t_TM to
+/// 1e-16: any s gives the same field.
+dvec3 across(const dvec3& k, const dvec3& normal) {
+  const dvec3 product = glm::cross(k, normal);
+  const double sine = glm::length(product);
+  return sine > 1e-8 ? product / sine : any_perpendicular(k);
+}
+
+/// The field of a path on its way: what unit fields along theta and phi at the transmitter have become.
+class Travelling {
+ public:
+  Travelling(const FieldModel& model, const dvec3& departure) : model_(model) {
+    columns_[0].add(1.0, theta_hat(departure));
+    columns_[1].add(1.0, phi_hat(departure));
   }
+  const FieldVector& column(int index) const { return columns_[index]; }
+
+  void through_air(const dvec3& direction, double length_m) {
+    if (model_.attenuation.none()) return;
+    for (FieldVector& field : columns_) field = model_.attenuation.after(field, direction, length_m);
+  }
+
+  void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out) {
+    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const double kept = specular_share(facet.material, cosine);
+    const dvec3 s = across(in, facet.normal);
+    map(s, glm::cross(in, s), s, glm::cross(out, s),
+        {kept * fresnel.r_te, Complex(0.0), Complex(0.0), kept * fresnel.r_tm});
+  }
+
+  void transmit(const PosedFacet& facet, const dvec3& direction) {
+    const double towards = glm::dot(direction, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const SheetTransmission sheet = model_.surfaces->transmit(facet.material, towards < 0.0, cosine);
+    const dvec3 s = across(direction, facet.normal), p = glm::cross(direction, s);
+    map(s, p, s, p, {sheet.te, Complex(0.0), Complex(0.0), sheet.tm});
+  }
+
+  void scatter(const PosedFacet& facet, const Interaction& patch, double area_m2, const dvec3& in,
+               const dvec3& out) {
+    GREATX_CHECK(area_m2 > 0.0, "patch {} of facet {} has {} m^2", patch.patch, patch.element, area_m2);
+    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const DiffuseScattering& surface = model_.surfaces->surface(facet.material).scattering;
+    const double amplitude =
+        surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
+    const ScatteringMatrix m =
+        scattering_matrix(surface.cross_polarization, model_.effects.seed, patch.element, patch.patch);
+    const Complex te = amplitude * fresnel.r_te, tm = amplitude * fresnel.r_tm;
+    const dvec3 s_in = across(in, normal), s_out = across(out, normal);
+    map(s_in, glm::cross(in, s_in), s_out, glm::cross(out, s_out),
+        {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
+  }
+
+ private:
+  /// From components on (s_in, p_in) to those on (s_out, p_out): the matrix [ss sp; ps pp], out by in.
+  void map(const dvec3& s_in, const dvec3& p_in, const dvec3& s_out, const dvec3& p_out,
+           const ScatteringMatrix& by) {
+    for (FieldVector& field : columns_) {
+      const Complex s = field.along(s_in), p = field.along(p_in);
+      field = {};
+      field.add(by.ss * s + by.sp * p, s_out);
+      field.add(by.ps * s + by.pp * p, p_out);
+    }
+  }
+
+  /// Amplitude that roughness and scattering leave to the specular reflection.
+  double specular_share(uint32_t material, double cosine) const {
+    const RadioSurface& surface = model_.surfaces->surface(material);
+    const FieldEffects& effects = model_.effects;
+    double kept = 1.0;
+    if (effects.roughness && surface.roughness_m > 0.0)
+      kept = roughness_factor(effects.roughness_model, roughness_parameter(surface.roughness_m, cosine,
+                                                                           model_.surfaces->wavelength_m()));
+    const double scattered = surface.scattering.coefficient;
+    if (effects.scattering) kept *= std::sqrt((1.0 - scattered) * (1.0 + scattered));
+    return kept;
+  }
+
+  const FieldModel& model_;
+  FieldVector columns_[2];
+};
+
+double foliage_amplitude(const FieldModel& model, double depth_m) {
+  if (!model.effects.foliage || depth_m == 0.0) return 1.0;
+  GREATX_CHECK(model.foliage.has_value(), "{} m of foliage that the field model does not know", depth_m);
+  return std::pow(10.0, -foliage_db(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
 }
 
 }  // namespace
@@ -65,11 +176,10 @@ void reflect(FieldVector (&columns)[2], const dvec3& in, const dvec3& out, const
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity) {
   const FacetWorld& world = *model.world;
-  const RadioSurfaces& surfaces = *model.surfaces;
   GREATX_CHECK(geometry.vertices.size() == geometry.interactions.size() + 2 && geometry.length_m > 0.0,
-               "path of {} facets, {} vertices, {} m", geometry.interactions.size(), geometry.vertices.size(),
-               geometry.length_m);
-  const std::vector<dvec3> directions = segment_directions(geometry, world);
+               "path of {} interactions, {} vertices, {} m", geometry.interactions.size(),
+               geometry.vertices.size(), geometry.length_m);
+  const Runs runs = runs_of(geometry, world);
 
   Path path;
   path.interactions = geometry.interactions;
@@ -77,26 +187,40 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.length_m = geometry.length_m;
   path.foliage_m = geometry.foliage_m;
   path.delay_s = geometry.length_m / speed_of_light;
-  path.departure = directions.front();
-  path.arrival = -directions.back();
+  path.departure = runs.directions.front();
+  path.arrival = -runs.directions.back();
 
-  FieldVector columns[2];  // what unit fields along theta and phi at the transmitter have become
-  columns[0].add(1.0, theta_hat(path.departure));
-  columns[1].add(1.0, phi_hat(path.departure));
+  Travelling field(model, path.departure);
   // Rate at which the path shortens, m/s (physics: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1})).
-  double closing =
-      glm::dot(transmitter_velocity, directions.front()) - glm::dot(receiver_velocity, directions.back());
-  for (size_t i = 0; i < path.interactions.size(); ++i) {
-    const uint32_t facet = path.interactions[i].element;
-    reflect(columns, directions[i], directions[i + 1], world.facet(facet), surfaces);
-    closing += glm::dot(world.velocity(facet, path.vertices[i + 1]), directions[i + 1] - directions[i]);
+  double closing = glm::dot(transmitter_velocity, runs.directions.front()) -
+                   glm::dot(receiver_velocity, runs.directions.back());
+  size_t run = 0;
+  for (size_t i = 0; i <= path.interactions.size(); ++i) {
+    const dvec3& in = runs.directions[run];
+    field.through_air(in, glm::length(path.vertices[i + 1] - path.vertices[i]));
+    if (i == path.interactions.size()) break;
+    const Interaction& interaction = path.interactions[i];
+    GREATX_CHECK(interaction.type != InteractionType::diffraction, "diffraction is not there yet");
+    const PosedFacet& facet = world.facet(interaction.element);
+    if (interaction.type == InteractionType::transmission) {
+      field.transmit(facet, in);
+      continue;
+    }
+    const dvec3& out = runs.directions[++run];
+    if (interaction.type == InteractionType::reflection) field.reflect(facet, in, out);
+    if (interaction.type == InteractionType::scattering)
+      field.scatter(facet, interaction, geometry.patch_area_m2, in, out);
+    closing += glm::dot(world.velocity(interaction.element, path.vertices[i + 1]), out - in);
   }
-  path.doppler_hz = closing / surfaces.wavelength_m();
+  path.doppler_hz = closing / model.surfaces->wavelength_m();
 
+  double spreading = 1.0 / path.length_m;
+  if (runs.bend > 0) spreading = 1.0 / (runs.before_m * runs.after_m);
+  spreading *= foliage_amplitude(model, path.foliage_m);
   const dvec3 theta = theta_hat(path.arrival), phi = phi_hat(path.arrival);
   for (int column = 0; column < 2; ++column) {
-    path.transfer[column] = columns[column].along(theta) / path.length_m;
-    path.transfer[2 + column] = columns[column].along(phi) / path.length_m;
+    path.transfer[column] = field.column(column).along(theta) * spreading;
+    path.transfer[2 + column] = field.column(column).along(phi) * spreading;
   }
   return path;
 }

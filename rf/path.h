@@ -56,9 +56,10 @@ uint64_t path_id(std::span<const Interaction> interactions);
 struct GeometricPath {
   std::vector<Interaction> interactions;
   std::vector<dvec3>
-      vertices;            ///< [interactions + 2], local coordinates: transmitter, interactions, receiver
-  double length_m = 0.0;   ///< unfolded: from the images, not by adding segments up
-  double foliage_m = 0.0;  ///< of it inside foliage
+      vertices;                ///< [interactions + 2], local coordinates: transmitter, interactions, receiver
+  double length_m = 0.0;       ///< unfolded: from the images, not by adding segments up
+  double foliage_m = 0.0;      ///< of it inside foliage
+  double patch_area_m2 = 0.0;  ///< of the patch that it is scattered at; 0: it is not
   FacetSequence facets() const { return reflecting_facets(interactions); }
 };
 

@@ -8,12 +8,24 @@
 #include "core/units.h"
 
 namespace greatx::rf {
+namespace {
+
+FresnelCoefficients fresnel(const std::vector<DielectricLayer>& layers, double wavelength_m,
+                            double cos_theta) {
+  if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space(layers[0].eta, cos_theta);
+  if (layers.size() == 1) return slab(layers[0], wavelength_m, cos_theta);
+  return multilayer(layers, wavelength_m, cos_theta);
+}
+
+}  // namespace
 
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name) {
   if (material.layers.empty())
     throw_user_error("material '{}': expected one radio layer at least", material_name);
   RadioSurface surface;
+  surface.roughness_m = material.roughness_m;
+  surface.scattering = diffuse_scattering(material, material_name);
   for (size_t i = 0; i < material.layers.size(); ++i) {
     const scene::RadioLayer& layer = material.layers[i];
     const bool last = i + 1 == material.layers.size();
@@ -61,14 +73,24 @@ const RadioSurface& RadioSurfaces::surface(uint32_t material) const {
   return surfaces_[material];
 }
 
-FresnelCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
+const std::vector<DielectricLayer>& RadioSurfaces::layers(uint32_t material, bool from_front) const {
   GREATX_CHECK(material < surfaces_.size() && !surfaces_[material].front.empty(),
                "material {} of {} has no surface", material, surfaces_.size());
-  const RadioSurface& surface = surfaces_[material];
-  const std::vector<DielectricLayer>& layers = from_front ? surface.front : surface.back;
-  if (layers.size() == 1 && layers[0].thickness_m == 0.0) return half_space(layers[0].eta, cos_theta);
-  if (layers.size() == 1) return slab(layers[0], wavelength_m_, cos_theta);
-  return multilayer(layers, wavelength_m_, cos_theta);
+  return from_front ? surfaces_[material].front : surfaces_[material].back;
+}
+
+FresnelCoefficients RadioSurfaces::reflect(uint32_t material, bool from_front, double cos_theta) const {
+  return fresnel(layers(material, from_front), wavelength_m_, cos_theta);
+}
+
+SheetTransmission RadioSurfaces::transmit(uint32_t material, bool from_front, double cos_theta) const {
+  GREATX_CHECK(penetrable(material), "material {} lets nothing through", material);
+  const std::vector<DielectricLayer>& wall = layers(material, from_front);
+  double thickness_m = 0.0;
+  for (const DielectricLayer& layer : wall) thickness_m += layer.thickness_m;
+  const FresnelCoefficients through = fresnel(wall, wavelength_m_, cos_theta);
+  const Complex phase = sheet_phase(thickness_m, wavelength_m_, cos_theta);
+  return {through.t_te * phase, through.t_tm * phase};
 }
 
 }  // namespace greatx::rf
