@@ -57,6 +57,7 @@ class Enumeration {
   static std::vector<scene::Bounds> boxes_of(std::span<const dvec3> points);
   bool push(Chain& chain, uint32_t facet) const;
   static void pop(Chain& chain);
+  const std::vector<HalfSpace>& view(const Chain& chain, Worker& worker) const;
   void descend(Chain& chain, uint32_t levels, Worker& worker) const;
   std::vector<std::pair<uint32_t, uint32_t>> first_pairs(Worker& worker) const;
   void work(const std::vector<std::pair<uint32_t, uint32_t>>& pairs, std::atomic<size_t>& next, bool reports,
@@ -134,13 +135,23 @@ void Enumeration::pop(Chain& chain) {
   chain.images.pop_back();
 }
 
-/// Tries the receivers behind the chain's last facet, then every facet that may be next, `levels` deep.
-void Enumeration::descend(Chain& chain, uint32_t levels, Worker& worker) const {
+/// What the chain's last image sees through its facet, which has come through the facets before as well. To be called
+/// at each of the chain's lengths.
+const std::vector<HalfSpace>& Enumeration::view(const Chain& chain, Worker& worker) const {
   const size_t depth = chain.facets.size();
-  ++worker.sequences[depth];
   const uint32_t last = chain.facets.back();
   std::vector<HalfSpace>& half_spaces = worker.half_spaces[depth];
   pyramid(chain.images.back(), world_.facet(last), hulls_[last], chain.sides.back(), half_spaces);
+  const std::vector<HalfSpace>& before = worker.half_spaces[depth - 1];
+  for (size_t i = 1; i < before.size(); ++i)  // [0] is the plane of that mirror itself
+    half_spaces.push_back(mirrored(before[i], world_.facet(last)));
+  return half_spaces;
+}
+
+/// Tries the receivers behind the chain's last facet, then every facet that may be next, `levels` deep.
+void Enumeration::descend(Chain& chain, uint32_t levels, Worker& worker) const {
+  ++worker.sequences[chain.facets.size()];
+  const std::vector<HalfSpace>& half_spaces = view(chain, worker);
   receiver_tree_.within(half_spaces, [&](uint32_t receiver) { try_receiver(chain, receiver, worker); });
   if (levels == 0) return;
   facet_tree_.within(half_spaces, [&](uint32_t item) {
@@ -261,8 +272,9 @@ void Enumeration::work(const std::vector<std::pair<uint32_t, uint32_t>>& pairs, 
       options_.progress(static_cast<double>(begin) / static_cast<double>(pairs.size()));
     for (size_t i = begin; i < std::min(begin + batch, pairs.size()); ++i) {
       Chain chain{{}, {}, {transmitter_}};
-      const bool pushed = push(chain, pairs[i].first) && push(chain, pairs[i].second);
-      GREATX_CHECK(pushed, "facets {} and {}", pairs[i].first, pairs[i].second);
+      push(chain, pairs[i].first);
+      view(chain, worker);
+      push(chain, pairs[i].second);
       descend(chain, options_.max_depth - 2, worker);
     }
   }

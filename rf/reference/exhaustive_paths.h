@@ -6,8 +6,8 @@
 // FacetWorld's planes and its test of a point in a facet are the same.
 //
 // Sequences are pruned by two bounds alone, neither of which can lose a path:
-// - the pyramid from the image through the convex hull of the facet that it was mirrored at: a facet (or a receiver)
-//   wholly outside of one of its sides cannot be next;
+// - pyramids: what an image sees through the convex hull of the facet that it was mirrored at, and of those before as
+//   the mirrors show them; a facet (or a receiver) wholly outside of one side of one of them cannot be next;
 // - sides: each of two consecutive facets must have a corner on the side of the other that reflects.
 // Nothing is pruned by occlusion: what stands in the way is worked out for whole paths, against all triangles.
 #pragma once

@@ -75,6 +75,11 @@ void pyramid(const dvec3& image, const PosedFacet& facet, const Hull& hull, doub
   }
 }
 
+HalfSpace mirrored(const HalfSpace& half, const PosedFacet& facet) {
+  const double along = glm::dot(half.normal, facet.normal);
+  return {half.normal - 2.0 * along * facet.normal, half.offset - 2.0 * along * facet.offset};
+}
+
 bool may_meet(const Hull& hull, const std::vector<HalfSpace>& half_spaces) {
   return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half) {
     return std::any_of(hull.corners.begin(), hull.corners.end(),

@@ -28,6 +28,9 @@ Hull convex_hull(const PosedFacet& facet, const std::vector<dvec3>& corners);
 void pyramid(const dvec3& image, const PosedFacet& facet, const Hull& hull, double side,
              std::vector<HalfSpace>& half_spaces);
 
+/// A half-space as the mirror of a facet shows it.
+HalfSpace mirrored(const HalfSpace& half, const PosedFacet& facet);
+
 /// Whether some corner lies in each of the half-spaces: false only if all of the hull is outside of one.
 bool may_meet(const Hull& hull, const std::vector<HalfSpace>& half_spaces);
 
