@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/visibility.h"
+#include "rf/crossings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -10,64 +11,121 @@ namespace greatx::rf {
 
 namespace {
 
-shared::GpuFacetPlane plane_of(const scene::Scene& scene, const scene::Facet& facet) {
+static_assert(static_cast<uint32_t>(FacetKind::wall) == shared::facet_kind_wall);
+static_assert(static_cast<uint32_t>(FacetKind::foliage) == shared::facet_kind_foliage);
+
+shared::GpuFacetPlane plane_of(const scene::Scene& scene, const scene::Facet& facet, FacetKind kind) {
   GREATX_CHECK(facet.triangle_count > 0, "facet of instance {} without triangles", facet.instance);
   const dvec3 corner = scene.facet_triangles[facet.first_triangle].corners[0];
   const dvec3 foot = corner - (glm::dot(facet.normal, corner) - facet.offset) * facet.normal;
-  return {vec3(facet.normal), vec3(foot)};
+  return {vec3(facet.normal), vec3(foot), static_cast<uint32_t>(kind), facet.body};
+}
+
+/// One box for each body that has foliage. Wider than its foliage by far more than fp32 rounds, since a line is to begin
+/// and end outside.
+std::vector<shared::GpuFoliageBox> foliage_boxes(const scene::Scene& scene, const FacetKinds& kinds) {
+  std::vector<scene::Bounds> bounds(scene.bodies.size());
+  for (size_t i = 0; i < scene.facets.size(); ++i) {
+    const scene::Facet& facet = scene.facets[i];
+    if (kinds[i] != FacetKind::foliage) continue;
+    for (uint32_t t = 0; t < facet.triangle_count; ++t)
+      for (const dvec3& corner : scene.facet_triangles[facet.first_triangle + t].corners)
+        bounds[facet.body].add(corner);
+  }
+  std::vector<shared::GpuFoliageBox> boxes;
+  for (uint32_t body = 0; body < bounds.size(); ++body) {
+    if (bounds[body].empty()) continue;
+    const dvec3 magnitude = glm::max(glm::abs(bounds[body].min), glm::abs(bounds[body].max));
+    const dvec3 room(0.1 + 1e-5 * std::max({magnitude.x, magnitude.y, magnitude.z}));
+    boxes.push_back({vec3(bounds[body].min - room), vec3(bounds[body].max + room), body});
+  }
+  return boxes;
 }
 
 bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-}  // namespace
-
-VisibilityPass::VisibilityPass(scene::GpuScene& scene) : scene_(&scene) {
-  std::vector<shared::GpuFacetPlane> planes;
-  for (const scene::Facet& facet : scene.scene().facets) planes.push_back(plane_of(scene.scene(), facet));
-  gpu::Device& device = scene.device();
-  planes_ = gpu::upload_buffer(device, std::as_bytes(std::span(planes)), "facet planes");
-
-  gpu::ComputeDesc compute;
-  compute.shader = "rf/visibility.comp";
-  compute.bindings = scene::GpuScene::bindings(true);
-  for (const uint32_t slot : {shared::visibility_segments_binding, shared::visibility_planes_binding,
-                              shared::visibility_results_binding})
-    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  compute.push_constant_bytes = sizeof(shared::VisibilityConstants);
-  pipeline_ = gpu::ComputePipeline(device, compute, "visibility");
+shared::GpuSegment row_of(const Segment& s, size_t index) {
+  GREATX_CHECK(finite(s.a) && finite(s.b), "segment {} from ({}, {}, {}) to ({}, {}, {})", index, s.a.x,
+               s.a.y, s.a.z, s.b.x, s.b.y, s.b.z);
+  GREATX_CHECK(s.walls <= shared::crossings_max, "segment {} may pass {} walls, expected at most {}", index,
+               s.walls, shared::crossings_max);
+  return {vec3(s.a), vec3(s.b), s.facet_a, s.facet_b, s.body_a, s.body_b, s.other_a, s.other_b, s.walls};
 }
 
-VisibilityPass::Pending VisibilityPass::record(gpu::TickSlot& slot, std::span<const Segment> segments) {
+}  // namespace
+
+CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds) : scene_(&scene) {
+  const std::vector<scene::Facet>& facets = scene.scene().facets;
+  GREATX_CHECK(kinds.size() == facets.size(), "kinds of {} facets, the scene has {}", kinds.size(),
+               facets.size());
+  std::vector<shared::GpuFacetPlane> planes;
+  for (size_t i = 0; i < facets.size(); ++i) planes.push_back(plane_of(scene.scene(), facets[i], kinds[i]));
+  const std::vector<shared::GpuFoliageBox> boxes = foliage_boxes(scene.scene(), kinds);
+  foliage_boxes_ = static_cast<uint32_t>(boxes.size());
+  walls_ = std::find(kinds.begin(), kinds.end(), FacetKind::wall) != kinds.end();
+  gpu::Device& device = scene.device();
+  planes_ = gpu::upload_buffer(device, std::as_bytes(std::span(planes)), "facet planes");
+  foliage_ = gpu::upload_buffer(device, std::as_bytes(std::span(boxes)), "foliage boxes");
+
+  gpu::ComputeDesc compute;
+  compute.shader = "rf/crossings.comp";
+  compute.bindings = scene::GpuScene::bindings(true);
+  for (const uint32_t slot : {shared::crossings_segments_binding, shared::crossings_planes_binding,
+                              shared::crossings_foliage_binding, shared::crossings_results_binding})
+    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  compute.push_constant_bytes = sizeof(shared::CrossingConstants);
+  compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u};
+  pipeline_ = gpu::ComputePipeline(device, compute, "crossings");
+}
+
+CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const Segment> segments) {
   if (segments.empty()) return {};
   const gpu::Slice upload = slot.upload.allocate_for<shared::GpuSegment>(segments.size());
   const std::span<shared::GpuSegment> rows = upload.as<shared::GpuSegment>();
+  uint32_t most_walls = 0;
   for (size_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
-    GREATX_CHECK(finite(s.a) && finite(s.b), "segment {} from ({}, {}, {}) to ({}, {}, {})", i, s.a.x, s.a.y,
-                 s.a.z, s.b.x, s.b.y, s.b.z);
-    rows[i] = {vec3(s.a), vec3(s.b), s.facet_a, s.facet_b, s.body_a, s.body_b};
+    rows[i] = row_of(segments[i], i);
+    most_walls = std::max(most_walls, segments[i].walls);
   }
 
   const uint32_t count = static_cast<uint32_t>(segments.size());
+  const uint32_t row_words = 1 + (foliage_boxes_ > 0 ? 1 : 0) + (walls_ ? most_walls : 0);
   gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope("visibility");
+  const auto scope = cmd.scope("crossings");
   // A few bytes a segment, each written once: straight into the memory that the host reads.
-  const gpu::Slice results = slot.readback.allocate_for<uint32_t>(count);
+  const gpu::Slice results = slot.readback.allocate_for<uint32_t>(size_t{count} * row_words);
   cmd.bind(pipeline_);
   std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
-  descriptors.push_back(gpu::Descriptor::buffer(shared::visibility_segments_binding, upload));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::visibility_planes_binding, planes_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::visibility_results_binding, results));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_segments_binding, upload));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_planes_binding, planes_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_foliage_binding, foliage_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_results_binding, results));
   cmd.push(descriptors);
-  cmd.constants(shared::VisibilityConstants{count});
-  cmd.dispatch((count + shared::visibility_group - 1) / shared::visibility_group);
-  return {results, count};
+  cmd.constants(shared::CrossingConstants{count, row_words, foliage_boxes_});
+  cmd.dispatch((count + shared::crossings_group - 1) / shared::crossings_group);
+  return {results, count, row_words};
 }
 
-std::vector<uint8_t> VisibilityPass::collect(const Pending& pending) const {
-  if (pending.count == 0) return {};
-  const std::span<const uint32_t> results = pending.results.as<const uint32_t>().first(pending.count);
-  return {results.begin(), results.end()};
+std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<const Segment> segments) const {
+  GREATX_CHECK(segments.size() == pending.count, "{} segments were recorded, {} are collected", pending.count,
+               segments.size());
+  std::vector<Crossing> crossings(pending.count);
+  if (pending.count == 0) return crossings;
+  const std::span<const uint32_t> results = pending.results.as<const uint32_t>();
+  for (size_t i = 0; i < crossings.size(); ++i) {
+    const uint32_t* row = results.data() + i * pending.row_words;
+    Crossing& crossing = crossings[i];
+    const uint32_t status = *row++;
+    crossing.blocked = status == shared::crossings_blocked;
+    if (crossing.blocked) continue;
+    crossing.foliage_open = (status & shared::crossings_foliage_open) != 0;
+    if (foliage_boxes_ > 0)
+      crossing.foliage_m =
+          glm::distance(segments[i].a, segments[i].b) * (*row++ / double{shared::crossings_foliage_one});
+    crossing.walls.assign(row, row + (status & ~shared::crossings_foliage_open));
+    std::sort(crossing.walls.begin(), crossing.walls.end());
+  }
+  return crossings;
 }
 
 }  // namespace greatx::rf

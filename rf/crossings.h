@@ -34,7 +34,9 @@ struct Segment {
 struct Crossing {
   bool blocked = false;  ///< by an opaque facet, or by more walls than allowed; then the rest means nothing
   std::vector<uint32_t> walls;  ///< facets passed, ascending by index, each once
-  double foliage_m = 0.0;       ///< of its length inside foliage; overlapping volumes add up
+  double foliage_m = 0.0;  ///< of its length inside foliage, ends inside included; overlapping volumes add up
+  /// The foliage met on the segment's line is no closed volume with its faces outwards: foliage_m is what can be told.
+  bool foliage_open = false;
 };
 
 /// What counts as crossed:
@@ -55,6 +57,7 @@ class CrossingPass {
   struct Pending {
     gpu::Slice results;
     uint32_t count = 0;
+    uint32_t row_words = 0;  ///< of each segment's result
   };
 
   /// Records a batch among the scene as scene.record_update left it in this tick. Each segment's answer
@@ -66,7 +69,9 @@ class CrossingPass {
  private:
   scene::GpuScene* scene_;
   gpu::ComputePipeline pipeline_;
-  gpu::Buffer planes_;
+  gpu::Buffer planes_, foliage_;
+  uint32_t foliage_boxes_ = 0;
+  bool walls_ = false;
 };
 
 }  // namespace greatx::rf

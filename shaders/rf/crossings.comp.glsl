@@ -2,66 +2,209 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One segment per invocation: does anything stand between its ends? The facets and bodies that the ends belong to are
-// passed over by name. So is a surface on which an end lies as far as fp32 can tell (visibility_tolerance): measured as
-// the distance of the end to the surface's plane, not along the segment, so that grazing segments need no other bound
-// and nothing is cut off the segment itself.
+// One segment per invocation: what stands between its ends? The facets and bodies that the ends belong to are passed
+// over by name. So is a surface on which an end lies as far as fp32 can tell (visibility_tolerance): measured as the
+// distance of the end to the surface's plane, not along the segment, so that grazing segments need no other bound and
+// nothing is cut off the segment itself.
+//
+// Walls are listed, opaque facets block. Foliage is left out of that, and asked for afterwards along the segments that
+// are not blocked: how much of a segment is inside needs the whole line, not the segment alone.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 #include "lib/trace.glsl"
 
-layout(local_size_x = visibility_group) in;
+layout(local_size_x = crossings_group) in;
 
-layout(set = 0, binding = visibility_segments_binding, scalar) readonly buffer SegmentsBlock { GpuSegment segments[]; };
-layout(set = 0, binding = visibility_planes_binding, scalar) readonly buffer PlanesBlock { GpuFacetPlane planes[]; };
-layout(set = 0, binding = visibility_results_binding, scalar) writeonly buffer ResultsBlock { uint results[]; };
+layout(constant_id = 0) const bool has_walls = true;
+layout(constant_id = 1) const bool has_foliage = true;
 
-layout(push_constant, scalar) uniform Constants { VisibilityConstants constants; };
+layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer SegmentsBlock { GpuSegment segments[]; };
+layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock { GpuFacetPlane planes[]; };
+layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock { GpuFoliageBox foliage[]; };
+layout(set = 0, binding = crossings_results_binding, scalar) writeonly buffer ResultsBlock { uint results[]; };
+
+layout(push_constant, scalar) uniform Constants { CrossingConstants constants; };
 
 float largest(vec3 v) {
   vec3 magnitude = abs(v);
   return max(max(magnitude.x, magnitude.y), magnitude.z);
 }
 
-bool lies_on(vec3 end, vec3 normal, vec3 point) {
-  return abs(dot(normal, end - point)) <= visibility_tolerance(max(largest(end), largest(point)));
+/// A facet's plane where its body stands.
+GpuFacetPlane posed_plane(uint facet, uint body) {
+  GpuFacetPlane plane = planes[facet];
+  if (body != 0u) {
+    plane.normal = body_direction(body, plane.normal);
+    plane.point = body_point(body, plane.point);
+  }
+  return plane;
 }
 
-bool blocks(GpuSegment segment, GpuPrimitive primitive, uint triangle) {
+bool lies_on(vec3 end, GpuFacetPlane plane) {
+  return abs(dot(plane.normal, end - plane.point)) <= visibility_tolerance(max(largest(end), largest(plane.point)));
+}
+
+/// The walls met so far, each once.
+struct Walls {
+  uint count;
+  uint facets[crossings_max];
+  float distances[crossings_max];  // from the segment's start
+};
+
+/// Whether two walls are passed in one place: parallel ones if they lie in one plane, which a segment passes but once
+/// (neighbours, duplicates); others if the segment meets their common edge. The three looks run beside each other, which
+/// shifts where they meet a wall: four times their offset allows for 60 degrees from the normal of both walls.
+bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance, float reach) {
+  GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
+  if (abs(dot(first_plane.normal, second_plane.normal)) > 0.999) return lies_on(second_plane.point, first_plane);
+  float offset = max(first_distance, second_distance) * 4.7683716e-7 + reach * 2.3841858e-7;
+  return abs(first_distance - second_distance) <= visibility_coplanar_m + 4.0 * offset;
+}
+
+/// Adds a wall; false if there are more than `most`. Of several in one place the lowest index stays.
+bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, float at, float reach) {
+  for (uint i = 0u; i < walls.count; ++i) {
+    if (walls.facets[i] == facet) return true;
+    if (same_place(walls.facets[i], walls.distances[i], plane, at, reach)) {
+      walls.facets[i] = min(walls.facets[i], facet);
+      return true;
+    }
+  }
+  if (walls.count == most) return false;
+  walls.facets[walls.count] = facet;
+  walls.distances[walls.count] = at;
+  ++walls.count;
+  return true;
+}
+
+/// Whether what is met at `at` (metres from the start) ends the segment; walls that do not are added.
+bool stops(GpuSegment segment, GpuPrimitive primitive, uint triangle, float at, inout Walls walls) {
   if (primitive.body == segment.body_a || primitive.body == segment.body_b) return false;
   uint facet = scene_facet(triangle);
   if (facet == rf_none) return true;
-  if (facet == segment.facet_a || facet == segment.facet_b) return false;
-  GpuFacetPlane plane = planes[facet];
-  if (primitive.body != 0u) {
-    plane.normal = body_direction(primitive.body, plane.normal);
-    plane.point = body_point(primitive.body, plane.point);
-  }
-  return !lies_on(segment.a, plane.normal, plane.point) && !lies_on(segment.b, plane.normal, plane.point);
+  if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a || facet == segment.other_b)
+    return false;
+  GpuFacetPlane plane = posed_plane(facet, primitive.body);
+  if (has_foliage && plane.kind == facet_kind_foliage) return false;
+  if (lies_on(segment.a, plane) || lies_on(segment.b, plane)) return false;
+  if (!has_walls || plane.kind != facet_kind_wall) return true;
+  return !add_wall(walls, segment.walls, facet, plane, at, largest(segment.a));
 }
 
-bool blocked_along(GpuSegment segment, vec3 origin, vec3 direction) {
+bool blocked_along(GpuSegment segment, Ray ray, float size, inout Walls walls) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
-                        origin, 0.0, direction, 1.0);
+                        ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (blocks(segment, primitive, candidate_triangle(query, primitive))) rayQueryConfirmIntersectionEXT(query);
+    float at = has_walls ? rayQueryGetIntersectionTEXT(query, false) * size : 0.0;
+    if (stops(segment, primitive, candidate_triangle(query, primitive), at, walls))
+      rayQueryConfirmIntersectionEXT(query);
   }
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-bool visible(GpuSegment segment) {
-  vec3 direction = segment.b - segment.a;
-  if (direction == vec3(0.0)) return true;  // nothing fits between a point and itself
-  for (uint which = 0u; which < looks; ++which) {  // lib/trace.glsl: watertight whatever the driver
-    Ray ray = look(segment.a, direction, which);
-    if (blocked_along(segment, ray.origin, ray.direction)) return false;
+bool blocked(GpuSegment segment, vec3 direction, out Walls walls) {
+  walls.count = 0u;
+  float size = has_walls ? length(direction) : 0.0;
+  for (uint which = 0u; which < looks; ++which)  // lib/trace.glsl: watertight whatever the driver
+    if (blocked_along(segment, look(segment.a, direction, which), size, walls)) return true;
+  return false;
+}
+
+/// Where the line a + u d is inside a box, in its body's frame; x > y: nowhere.
+vec2 inside_box(GpuFoliageBox box, vec3 a, vec3 d) {
+  if (box.body != 0u) {  // rigid: the inverse of its rotation is the transpose
+    GpuBody body = bodies[box.body];
+    mat3 body_from_local = mat3(body.row0.xyz, body.row1.xyz, body.row2.xyz);
+    a = body_from_local * (a - vec3(body.row0.w, body.row1.w, body.row2.w));
+    d = body_from_local * d;
   }
-  return true;
+  d = mix(d, vec3(1e-30), lessThan(abs(d), vec3(1e-30)));
+  vec3 first = (box.low - a) / d, second = (box.high - a) / d;
+  vec3 enter = min(first, second), leave = max(first, second);
+  return vec2(max(max(enter.x, enter.y), enter.z), min(min(leave.x, leave.y), leave.z));
+}
+
+/// The part of the line a + u d that holds every box it passes through; (0, 0) if no box meets the segment, 0 <= u <= 1.
+vec2 line_through_foliage(GpuSegment segment, vec3 d) {
+  vec2 part = vec2(0.0, 1.0);
+  bool near = false;
+  for (uint i = 0u; i < constants.foliage_boxes; ++i) {
+    GpuFoliageBox box = foliage[i];
+    if (box.body != 0u && (box.body == segment.body_a || box.body == segment.body_b)) continue;
+    vec2 inside = inside_box(box, segment.a, d);
+    if (inside.x > inside.y) continue;
+    part = vec2(min(part.x, inside.x), max(part.y, inside.y));
+    near = near || (inside.x < 1.0 && inside.y > 0.0);
+  }
+  return near ? part : vec2(0.0);
+}
+
+/// Sum over the line's crossings of how much of the segment lies behind each, + entering, - leaving, in units of
+/// 1 / crossings_foliage_one: integers, so that their order does not matter. `net`: times entered - times left, over the
+/// whole line, which begins and ends outside.
+int foliage_along(GpuSegment segment, Ray ray, vec2 part, out int net) {
+  int sum = 0;
+  net = 0;
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
+  while (rayQueryProceedEXT(query)) {
+    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
+    if (primitive.body == segment.body_a || primitive.body == segment.body_b) continue;
+    uint facet = scene_facet(candidate_triangle(query, primitive));
+    if (facet == rf_none || planes[facet].kind != facet_kind_foliage) continue;
+    float at = mix(part.x, part.y, rayQueryGetIntersectionTEXT(query, false));
+    int behind = int(round((1.0 - clamp(at, 0.0, 1.0)) * float(crossings_foliage_one)));
+    bool entering = dot(posed_plane(facet, primitive.body).normal, ray.direction) < 0.0;
+    sum += entering ? behind : -behind;
+    net += entering ? 1 : -1;
+  }
+  return sum;
+}
+
+/// The share of the segment inside foliage. The line is followed from outside of all foliage to outside, beyond both ends
+/// of the segment: so ends inside, or on, a volume need no rule of their own. A line that does not leave as often as it
+/// enters has slipped through an edge or met it twice: then the looks beside it decide. The first is not one of them at
+/// first, since crowns are met in their very top more often than chance would have it.
+uint foliage_share(GpuSegment segment, vec3 direction, out bool closed) {
+  closed = true;
+  vec2 part = line_through_foliage(segment, direction);
+  if (part.x == part.y) return 0u;
+  vec3 origin = segment.a + part.x * direction;
+  int sum = 0;
+  for (uint which = 0u; which < looks; ++which) {
+    int net;
+    sum = foliage_along(segment, look(origin, (part.y - part.x) * direction, (which + 1u) % looks), part, net);
+    closed = net == 0 && sum >= 0;
+    if (closed) break;
+  }
+  return uint(max(sum, 0));
 }
 
 void main() {
   uint index = gl_GlobalInvocationID.x;
-  if (index < constants.count) results[index] = visible(segments[index]) ? 1u : 0u;
+  if (index >= constants.count) return;
+  GpuSegment segment = segments[index];
+  uint row = index * constants.row_words;
+  vec3 direction = segment.b - segment.a;
+  if (direction == vec3(0.0)) {  // nothing fits between a point and itself
+    results[row] = 0u;
+    if (has_foliage) results[row + 1u] = 0u;
+    return;
+  }
+  Walls walls;
+  if (blocked(segment, direction, walls)) {
+    results[row] = crossings_blocked;
+    return;
+  }
+  uint status = walls.count;
+  if (has_foliage) {
+    bool closed;
+    results[row + 1u] = foliage_share(segment, direction, closed);
+    if (!closed) status |= crossings_foliage_open;
+  }
+  results[row] = status;
+  if (has_walls)
+    for (uint i = 0u; i < walls.count; ++i) results[row + (has_foliage ? 2u : 1u) + i] = walls.facets[i];
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio on the GPU: what rf/candidate_search.cpp, rf/visibility.cpp and shaders/rf/ agree on.
+// Radio on the GPU: what rf/candidate_search.cpp, rf/crossings.cpp and shaders/rf/ agree on.
 #ifndef GREATX_SHADERS_SHARED_RF_H
 #define GREATX_SHADERS_SHARED_RF_H
 #include "scene.h"
@@ -23,27 +23,52 @@ struct CandidateConstants {
   uint max_depth;
 };
 
-// ------------------------------------------------------------------------------------------------------ visibility
+// ------------------------------------------------------------------------------------------------------- crossings
 
-const uint visibility_segments_binding = first_pass_binding;      // GpuSegment[count]
-const uint visibility_planes_binding = first_pass_binding + 1u;   // GpuFacetPlane[facets]
-const uint visibility_results_binding = first_pass_binding + 2u;  // uint[count]: 1 visible, 0 blocked
-const uint visibility_group = 64u;
+const uint crossings_segments_binding = first_pass_binding;      // GpuSegment[count]
+const uint crossings_planes_binding = first_pass_binding + 1u;   // GpuFacetPlane[facets]
+const uint crossings_foliage_binding = first_pass_binding + 2u;  // GpuFoliageBox[foliage_boxes]
+const uint crossings_results_binding = first_pass_binding + 3u;  // uint[count * row_words]
+const uint crossings_group = 64u;
+const uint crossings_max = 8u;  // walls on a segment, at most
+
+// A row of the results: crossings_blocked, the rest undefined; or the number of walls (plus crossings_foliage_open), then,
+// if the pass has foliage, the share of the segment inside it, then, if it has walls, the facets passed.
+const uint crossings_blocked = 0xffffffffu;
+const uint crossings_foliage_open =
+    0x100u;  // flag: the line leaves foliage more or less often than it enters
+const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
+
+// rf::FacetKind, where its values matter.
+const uint facet_kind_wall = 1u;
+const uint facet_kind_foliage = 2u;
 
 struct GpuSegment {
   vec3 a, b;  // local coordinates
   uint facet_a, facet_b;
   uint body_a, body_b;
+  uint other_a, other_b;
+  uint walls;  // that it may pass, <= crossings_max
 };
 
 /// A facet's plane in its body's frame: (x - point) . normal = 0.
 struct GpuFacetPlane {
   vec3 normal;
   vec3 point;
+  uint kind;  // rf::FacetKind
+  uint body;
 };
 
-struct VisibilityConstants {
+/// All foliage of a body, in its frame, with room to spare.
+struct GpuFoliageBox {
+  vec3 low, high;
+  uint body;
+};
+
+struct CrossingConstants {
   uint count;
+  uint row_words;
+  uint foliage_boxes;
 };
 
 /// A surface this close to an end of a segment does not block it, metres: the end lies on it as far as fp32 can tell.
@@ -59,7 +84,8 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::CandidateConstants) == 20);
-static_assert(sizeof(greatx::shared::GpuSegment) == 40);
-static_assert(sizeof(greatx::shared::GpuFacetPlane) == 24);
+static_assert(sizeof(greatx::shared::GpuSegment) == 52);
+static_assert(sizeof(greatx::shared::GpuFacetPlane) == 32);
+static_assert(sizeof(greatx::shared::GpuFoliageBox) == 28);
 #endif
 #endif

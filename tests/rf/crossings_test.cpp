@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/visibility.h"
+#include "rf/crossings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,18 +15,30 @@ namespace {
 using test::TinyScene;
 using testing::ElementsAre;
 
-std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
-                             const std::vector<Pose>& bodies = {Pose{}}) {
+std::vector<Crossing> cross(const scene::Scene& scene, const FacetKinds& kinds,
+                            std::span<const Segment> segments, const std::vector<Pose>& bodies = {Pose{}}) {
   gpu::Device& device = test::device();
   scene::GpuScene gpu_scene(device, scene, {});
-  VisibilityPass pass(gpu_scene);
+  CrossingPass pass(gpu_scene, kinds);
   gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, bodies);
-  const VisibilityPass::Pending pending = pass.record(slot, segments);
+  const CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return pass.collect(pending);
+  return pass.collect(pending, segments);
+}
+
+/// Everything opaque: 1 visible, 0 blocked.
+std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
+                             const std::vector<Pose>& bodies = {Pose{}}) {
+  std::vector<uint8_t> answers;
+  for (const Crossing& crossing : cross(scene, FacetKinds(scene.facets.size()), segments, bodies)) {
+    EXPECT_TRUE(crossing.walls.empty());
+    EXPECT_EQ(crossing.foliage_m, 0.0);
+    answers.push_back(crossing.blocked ? 0 : 1);
+  }
+  return answers;
 }
 
 Segment segment(const dvec3& a, const dvec3& b) {
@@ -44,7 +56,7 @@ TinyScene wall_on_ground() {
   return tiny;
 }
 
-TEST(Visibility, WallBlocksAndTheWayAroundItDoesNot) {
+TEST(Crossings, WallBlocksAndTheWayAroundItDoesNot) {
   const std::vector<Segment> segments{
       segment({-5, 0, 2}, {5, 0, 2}),    // through the wall
       segment({-5, 0, 12}, {5, 0, 12}),  // above it
@@ -57,7 +69,7 @@ TEST(Visibility, WallBlocksAndTheWayAroundItDoesNot) {
   EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(0, 1, 0, 1, 1, 0, 1));
 }
 
-TEST(Visibility, TheFacetsOfTheEndsDoNotBlock) {
+TEST(Crossings, TheFacetsOfTheEndsDoNotBlock) {
   // A reflection at the wall, rounded to behind it.
   Segment s = segment({8, 0, 3}, {-3e-4, 1, 2});
   EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
@@ -69,7 +81,7 @@ TEST(Visibility, TheFacetsOfTheEndsDoNotBlock) {
   EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
 }
 
-TEST(Visibility, TheBodiesOfTheEndsDoNotBlock) {
+TEST(Crossings, TheBodiesOfTheEndsDoNotBlock) {
   TinyScene tiny = wall_on_ground();
   const uint32_t drone = tiny.body("drone"), car = tiny.body("car");
   tiny.object("drone", drone).box({-1, -1, -1}, {1, 1, 1});
@@ -87,7 +99,7 @@ TEST(Visibility, TheBodiesOfTheEndsDoNotBlock) {
               ElementsAre(0, 0, 1, 1, 1));
 }
 
-TEST(Visibility, FacetsOfMovingBodiesAreWhereTheBodyIs) {
+TEST(Crossings, FacetsOfMovingBodiesAreWhereTheBodyIs) {
   TinyScene tiny;
   const uint32_t car = tiny.body("car");
   tiny.object("car", car).quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
@@ -101,22 +113,22 @@ TEST(Visibility, FacetsOfMovingBodiesAreWhereTheBodyIs) {
   EXPECT_THAT(visible(tiny.build(), segments, poses), ElementsAre(0, 1, 1, 0, 1));
 }
 
-TEST(Visibility, EmptyBatchRecordsNothing) {
+TEST(Crossings, EmptyBatchRecordsNothing) {
   gpu::Device& device = test::device();
   const scene::Scene scene = wall_on_ground().build();
   scene::GpuScene gpu_scene(device, scene, {});
-  VisibilityPass pass(gpu_scene);
+  CrossingPass pass(gpu_scene, FacetKinds(scene.facets.size()));
   gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, std::vector{Pose{}});
   const uint64_t before = device.counters().dispatches;
-  EXPECT_TRUE(pass.collect(pass.record(slot, {})).empty());
+  EXPECT_TRUE(pass.collect(pass.record(slot, {}), {}).empty());
   EXPECT_EQ(device.counters().dispatches, before);
   ring.submit(slot);
   ring.wait(slot);
 }
 
-TEST(Visibility, EachAnswerDependsOnItsSegmentAlone) {
+TEST(Crossings, EachAnswerDependsOnItsSegmentAlone) {
   RandomStream random(4, 4);
   std::vector<Segment> segments;
   for (int i = 0; i < 500; ++i) {
