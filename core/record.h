@@ -20,7 +20,7 @@
 
 namespace greatx {
 
-enum class DType { u8, u16, u32, i32, i64, f32, f64, complex64 };
+enum class DType { u8, u16, u32, u64, i32, i64, f32, f64, complex64 };
 
 size_t size_of(DType dtype);
 /// NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
@@ -39,6 +39,10 @@ struct DTypeOf<uint16_t> {
 template <>
 struct DTypeOf<uint32_t> {
   static constexpr DType value = DType::u32;
+};
+template <>
+struct DTypeOf<uint64_t> {
+  static constexpr DType value = DType::u64;
 };
 template <>
 struct DTypeOf<int32_t> {

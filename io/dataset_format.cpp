@@ -36,7 +36,7 @@ constexpr FormatName format_names[] = {
 const FormatName& row_of(FileFormat format) { return format_names[static_cast<size_t>(format)]; }
 
 constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i32,
-                                DType::i64, DType::f32, DType::f64, DType::complex64};
+                                DType::i64, DType::u64, DType::f32, DType::f64, DType::complex64};
 
 void check_path(const std::string& name, const std::string& what) {
   for (size_t start = 0; start <= name.size();) {

@@ -64,7 +64,7 @@ TEST(NumPy, ReadsEveryTypeAndShape) {
   const TemporaryFolder folder;
   std::string script = "import numpy\n";
   int count = 0;
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::f32, DType::f64,
+  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32, DType::f64,
                             DType::complex64}) {
     for (const std::vector<int64_t>& shape : {std::vector<int64_t>{}, std::vector<int64_t>{5},
                                               std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
