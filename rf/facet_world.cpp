@@ -74,6 +74,8 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
       planar.offset[k] = -(planar.normal_u[k] * corner[k].x + planar.normal_v[k] * corner[k].y);
     }
     triangles_.push_back(planar);
+    const dvec3* corners = scene.facet_triangles[facet.first_triangle + t].corners;
+    corners_.push_back({corners[0], corners[1], corners[2]});
   }
   posed.triangle_count = static_cast<uint32_t>(triangles_.size()) - posed.first_triangle;
   posed.min_u = low.x, posed.max_u = high.x, posed.min_v = low.y, posed.max_v = high.y;
@@ -120,6 +122,16 @@ bool FacetWorld::contains(uint32_t index, const dvec2& at) const {
     if (inside) return true;
   }
   return false;
+}
+
+std::array<dvec3, 3> FacetWorld::corners(uint32_t index, uint32_t triangle) const {
+  const PosedFacet& facet = facets_[index];
+  GREATX_CHECK(triangle < facet.triangle_count, "facet {}: triangle {} of {}", index, triangle,
+               facet.triangle_count);
+  std::array<dvec3, 3> corners = corners_[facet.first_triangle + triangle];
+  if (facet.body == 0) return corners;  // the file's own numbers
+  for (dvec3& corner : corners) corner = motions_[facet.body].pose.apply(corner);
+  return corners;
 }
 
 dvec3 FacetWorld::velocity(uint32_t index, const dvec3& point) const {

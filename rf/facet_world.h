@@ -4,6 +4,7 @@
 // The scene's facets as they stand at this instant, ready for the image method.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,11 +41,17 @@ class FacetWorld {
   /// Puts `body` where `motion` says: pose = local_from_body, velocities in local axes. Body 0 cannot move.
   void move(uint32_t body, const Motion& motion);
 
+  /// Where `body` was put: pose = local_from_body.
+  const Motion& motion(uint32_t body) const { return motions_[body]; }
+
   uint32_t facet_count() const { return static_cast<uint32_t>(facets_.size()); }
   const PosedFacet& facet(uint32_t index) const { return facets_[index]; }
   /// Is a point of the facet's plane inside? The facet is closed: its outline, and the edges between its own
   /// triangles, are part of it, within tolerance_m.
   bool contains(uint32_t facet, const dvec2& plane_coordinates) const;
+  /// Corners of one of the facet's triangles (below its triangle_count), local coordinates, as the mesh has them: off the
+  /// facet's plane by up to the merging tolerance. Triangles without area are none of the facet's.
+  std::array<dvec3, 3> corners(uint32_t facet, uint32_t triangle) const;
   /// Velocity of the facet's body at a point, m/s.
   dvec3 velocity(uint32_t facet, const dvec3& point) const;
 
@@ -63,6 +70,7 @@ class FacetWorld {
   std::vector<BodyFacet> body_facets_;
   std::vector<PosedFacet> facets_;
   std::vector<PlanarTriangle> triangles_;
+  std::vector<std::array<dvec3, 3>> corners_;  ///< [triangles_], in the body's frame
   std::vector<Motion> motions_;  ///< [bodies]
 };
 
