@@ -27,6 +27,8 @@ nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Devic
   summary["driver"] = device.info().driver;
   summary["records"] = statistics.records;
   summary["counters"] = statistics.counters;
+  summary["notes"] = nlohmann::json::object();
+  for (const auto& [name, text] : statistics.notes) summary["notes"][name] = text;
   summary["gpu"] = {{"pipelines_built", counters.pipelines_built},
                     {"pipelines", counters.pipelines},
                     {"passes", counters.passes},
@@ -60,6 +62,11 @@ std::string summary_text(const nlohmann::json& summary) {
   for (const auto& [name, pass] : summary["pass_ms"].items())
     text += fmt::format("  {:<28} {:8.2f}  x {}\n", name, pass["mean"].get<double>(),
                         pass["count"].get<uint64_t>());
+  if (!summary["counters"].empty()) text += "Counted:\n";
+  for (const auto& [name, count] : summary["counters"].items())
+    text += fmt::format("  {:<36} {:12}\n", name, count.get<uint64_t>());
+  for (const auto& [name, note] : summary["notes"].items())
+    text += fmt::format("  {}: {}\n", name, note.get<std::string>());
   text += "One world:\n";
   for (const auto& [name, check] : summary["consistency"].items())
     text += fmt::format("  {:<32} {:9} compared, relative difference 99 % <= {:.1e}, largest {:.1e}\n", name,

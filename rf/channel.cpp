@@ -14,7 +14,7 @@
 namespace greatx::rf {
 namespace {
 
-constexpr size_t path_chunk = 128;  // paths summed at a time: their phasors stay in the cache
+constexpr size_t term_chunk = 128;  // terms summed at a time: their phasors stay in the cache
 constexpr size_t lanes = 8;         // subcarriers per block of the inner product
 
 void check(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
@@ -42,12 +42,25 @@ std::array<double, 16> sum_key(const Path& path) {
   return key;
 }
 
-std::vector<uint32_t> summing_order(std::span<const Path> paths) {
+bool spectrum_less(const TransferSpectrum& a, const TransferSpectrum& b) {
+  const auto parts = [](const std::array<Complex, 4>& t) {
+    return std::array<double, 8>{t[0].real(), t[0].imag(), t[1].real(), t[1].imag(),
+                                 t[2].real(), t[2].imag(), t[3].real(), t[3].imag()};
+  };
+  return std::lexicographical_compare(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [&](const auto& left, const auto& right) { return parts(left) < parts(right); });
+}
+
+/// `spectra`: [paths], or none.
+std::vector<uint32_t> summing_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
   std::vector<uint32_t> order(paths.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     if (paths[a].delay_s != paths[b].delay_s) return paths[a].delay_s < paths[b].delay_s;
-    return sum_key(paths[a]) < sum_key(paths[b]);
+    const auto key_a = sum_key(paths[a]), key_b = sum_key(paths[b]);
+    if (key_a != key_b || spectra.empty()) return key_a < key_b;
+    return spectrum_less(spectra[a], spectra[b]);
   });
   return order;
 }
@@ -97,10 +110,11 @@ class PairAmplitudes {
         rx_(receiver, true, carrier_hz),
         scale_(speed_of_light / carrier_hz / (4.0 * pi)) {}
   uint32_t pairs() const { return tx_.count() * rx_.count(); }
-  void operator()(const Path& path, Complex* out) {
+  void operator()(const Path& path, Complex* out) { (*this)(path, path.transfer, out); }
+  /// With t, [4], in place of the path's own transfer.
+  void operator()(const Path& path, const Complex* t, Complex* out) {
     tx_.respond(path.departure, tx_response_);
     rx_.respond(path.arrival, rx_response_);
-    const Complex* t = path.transfer;
     for (const Jones& rx : rx_response_) {
       const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
       const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
@@ -114,49 +128,58 @@ class PairAmplitudes {
   std::vector<Jones> tx_response_, rx_response_;
 };
 
-/// The phasors e^{-j 2 pi f tau} of a chunk of paths, in blocks of `lanes` subcarriers: [block][path][re,
+/// The phasors e^{-j 2 pi f tau} of a chunk of terms, in blocks of `lanes` subcarriers: [block][term][re,
 /// im][lane].
 class SubcarrierPhasors {
  public:
-  SubcarrierPhasors(const ChannelGrid& grid, size_t paths)
+  SubcarrierPhasors(const ChannelGrid& grid, size_t terms)
       : grid_(grid),
-        paths_(paths),
+        terms_(terms),
         blocks_((grid.subcarriers + lanes - 1) / lanes),
-        values_(blocks_ * paths * 2 * lanes) {}
+        values_(blocks_ * terms * 2 * lanes) {}
   size_t blocks() const { return blocks_; }
-  const double* block(size_t index) const { return values_.data() + index * paths_ * 2 * lanes; }
+  const double* block(size_t index) const { return values_.data() + index * terms_ * 2 * lanes; }
 
   /// A block's subcarriers as (first of the block) x (place in the block): two phasors, each from exactly
   /// reduced turns, and one product; no recurrence whose error grows.
-  void set(size_t path, double delay_s) {
+  void set(size_t term, double delay_s) {
     Complex place[lanes];
     for (size_t lane = 0; lane < lanes; ++lane)
       place[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid_.subcarrier_spacing_hz, delay_s));
     for (size_t index = 0; index < blocks_; ++index) {
       const double number = grid_.subcarrier_number(static_cast<uint32_t>(index * lanes));
       const Complex first = unit_phasor(-turns_of(number, grid_.subcarrier_spacing_hz, delay_s));
-      double* out = values_.data() + (index * paths_ + path) * 2 * lanes;
+      double* out = values_.data() + (index * terms_ + term) * 2 * lanes;
       for (size_t lane = 0; lane < lanes; ++lane) {
         out[lane] = first.real() * place[lane].real() - first.imag() * place[lane].imag();
         out[lanes + lane] = first.real() * place[lane].imag() + first.imag() * place[lane].real();
       }
     }
   }
+  /// Times an entry of the transfer at each subcarrier.
+  void scale(size_t term, const TransferSpectrum& spectrum, size_t entry) {
+    for (size_t k = 0; k < spectrum.size(); ++k) {
+      double* out = values_.data() + (k / lanes * terms_ + term) * 2 * lanes + k % lanes;
+      const Complex value = Complex(out[0], out[lanes]) * spectrum[k][entry];
+      out[0] = value.real();
+      out[lanes] = value.imag();
+    }
+  }
 
  private:
   ChannelGrid grid_;
-  size_t paths_, blocks_;
+  size_t terms_, blocks_;
   std::vector<double> values_;
 };
 
-/// sum[lane] += sum over paths of amplitude * phasor, in the order of the paths.
-inline void add_block(const Complex* amplitudes, const double* phasors, size_t paths, double* sum_re,
+/// sum[lane] += sum over terms of amplitude * phasor, in the order of the terms.
+inline void add_block(const Complex* amplitudes, const double* phasors, size_t terms, double* sum_re,
                       double* sum_im) {
   double re[lanes], im[lanes];
   for (size_t lane = 0; lane < lanes; ++lane) re[lane] = sum_re[lane], im[lane] = sum_im[lane];
-  for (size_t path = 0; path < paths; ++path) {
-    const double a = amplitudes[path].real(), b = amplitudes[path].imag();
-    const double* p = phasors + path * 2 * lanes;
+  for (size_t term = 0; term < terms; ++term) {
+    const double a = amplitudes[term].real(), b = amplitudes[term].imag();
+    const double* p = phasors + term * 2 * lanes;
     for (size_t lane = 0; lane < lanes; ++lane) {
       re[lane] += a * p[lane] - b * p[lanes + lane];
       im[lane] += a * p[lanes + lane] + b * p[lane];
@@ -165,27 +188,35 @@ inline void add_block(const Complex* amplitudes, const double* phasors, size_t p
   for (size_t lane = 0; lane < lanes; ++lane) sum_re[lane] = re[lane], sum_im[lane] = im[lane];
 }
 
-/// The matrix product [rows, paths] x [paths, subcarriers], rows = (pair, time). `sums` holds real and
-/// imaginary parts in blocks: [row][block][re, im][lane].
+/// The matrix product [rows, terms] x [terms, subcarriers], rows = (pair, time). A path is one term; with a spectrum it
+/// is four, one for each entry of its transfer. `sums` holds real and imaginary parts in blocks: [row][block][re,
+/// im][lane].
 class Summation {
  public:
-  Summation(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
-            const ChannelGrid& grid)
+  /// `spectra`: [paths], or none.
+  Summation(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+            const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid)
       : grid_(grid),
         amplitudes_of_(transmitter, receiver, grid.carrier_hz),
-        chunk_(std::min(path_chunk, paths.size())),
+        chunk_(std::min(term_chunk, paths.size() * (spectra.empty() ? 1 : 4))),
         phasors_(grid, chunk_) {
     check(paths, transmitter, receiver, grid.carrier_hz);
+    check_spectra(paths, spectra);
     rows_ = size_t{amplitudes_of_.pairs()} * grid.time_samples;
     sums_.assign(rows_ * phasors_.blocks() * 2 * lanes, 0.0);
     amplitudes_.resize(rows_ * chunk_);
     pair_.resize(amplitudes_of_.pairs());
-    const std::vector<uint32_t> order = summing_order(paths);
-    for (size_t first = 0; first < order.size(); first += chunk_) {
-      const size_t count = std::min(chunk_, order.size() - first);
-      for (size_t i = 0; i < count; ++i) load(i, paths[order[first + i]]);
-      add(count);
+    for (const uint32_t index : summing_order(paths, spectra)) {
+      if (spectra.empty()) load(paths[index], paths[index].transfer);
+      for (size_t entry = 0; entry < (spectra.empty() ? 0 : 4); ++entry) {
+        Complex unit[4]{};
+        unit[entry] = 1.0;
+        load(paths[index], unit);
+        phasors_.scale(loaded_ - 1, spectra[index], entry);
+      }
+      if (loaded_ == chunk_) add();
     }
+    add();
   }
 
   template <typename Value>
@@ -202,9 +233,24 @@ class Summation {
   }
 
  private:
-  void load(size_t place, const Path& path) {
+  void check_spectra(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) const {
+    GREATX_CHECK(spectra.empty() || spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(),
+                 paths.size());
+    for (const TransferSpectrum& spectrum : spectra) {
+      GREATX_CHECK(spectrum.size() == grid_.subcarriers, "a spectrum of {} subcarriers, {} in the grid",
+                   spectrum.size(), grid_.subcarriers);
+      for (const std::array<Complex, 4>& transfer : spectrum)
+        for (const Complex& value : transfer)
+          GREATX_CHECK(std::isfinite(value.real()) && std::isfinite(value.imag()),
+                       "a spectrum is not finite");
+    }
+  }
+
+  /// Puts a term into the chunk's next place.
+  void load(const Path& path, const Complex* transfer) {
+    const size_t place = loaded_++;
     phasors_.set(place, path.delay_s);
-    amplitudes_of_(path, pair_.data());
+    amplitudes_of_(path, transfer, pair_.data());
     const Complex carrier = unit_phasor(-turns_of(grid_.carrier_hz, path.delay_s));
     for (uint32_t m = 0; m < grid_.time_samples; ++m) {
       const Complex turned =
@@ -214,19 +260,20 @@ class Summation {
     }
   }
 
-  void add(size_t count) {
+  void add() {
     for (size_t block = 0; block < phasors_.blocks(); ++block)
       for (size_t row = 0; row < rows_; ++row) {
         double* sum = sums_.data() + (row * phasors_.blocks() + block) * 2 * lanes;
-        add_block(amplitudes_.data() + row * chunk_, phasors_.block(block), count, sum, sum + lanes);
+        add_block(amplitudes_.data() + row * chunk_, phasors_.block(block), loaded_, sum, sum + lanes);
       }
+    loaded_ = 0;
   }
 
   ChannelGrid grid_;
   PairAmplitudes amplitudes_of_;
-  size_t chunk_;  ///< paths at a time
+  size_t chunk_;  ///< terms at a time
   SubcarrierPhasors phasors_;
-  size_t rows_ = 0;
+  size_t rows_ = 0, loaded_ = 0;
   std::vector<double> sums_;
   std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
 };
@@ -235,12 +282,26 @@ class Summation {
 
 std::vector<std::complex<float>> frequency_response(std::span<const Path> paths, const ArrayPose& transmitter,
                                                     const ArrayPose& receiver, const ChannelGrid& grid) {
-  return Summation(paths, transmitter, receiver, grid).values<std::complex<float>>();
+  return Summation(paths, {}, transmitter, receiver, grid).values<std::complex<float>>();
 }
 
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
                                              const ArrayPose& receiver, const ChannelGrid& grid) {
-  return Summation(paths, transmitter, receiver, grid).values<Complex>();
+  return Summation(paths, {}, transmitter, receiver, grid).values<Complex>();
+}
+
+std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
+                                                    std::span<const TransferSpectrum> spectra,
+                                                    const ArrayPose& transmitter, const ArrayPose& receiver,
+                                                    const ChannelGrid& grid) {
+  return Summation(paths, spectra, transmitter, receiver, grid).values<std::complex<float>>();
+}
+
+std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
+                                             std::span<const TransferSpectrum> spectra,
+                                             const ArrayPose& transmitter, const ArrayPose& receiver,
+                                             const ChannelGrid& grid) {
+  return Summation(paths, spectra, transmitter, receiver, grid).values<Complex>();
 }
 
 ImpulseResponse impulse_response(std::span<const Path> paths, const ArrayPose& transmitter,

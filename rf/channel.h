@@ -5,6 +5,7 @@
 // response.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,20 @@ std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
 /// The same before it is rounded.
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
                                              const ArrayPose& receiver, const ChannelGrid& grid);
+
+/// The transfer of a path at each subcarrier, [subcarriers][as Path::transfer].
+using TransferSpectrum = std::vector<std::array<Complex, 4>>;
+
+/// The same for walls and air that change over the band (rf/dispersion.h): `spectra[i]` takes the place of the transfer
+/// of `paths[i]`. lambda and the arrays' phases stay the carrier's.
+std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
+                                                    std::span<const TransferSpectrum> spectra,
+                                                    const ArrayPose& transmitter, const ArrayPose& receiver,
+                                                    const ChannelGrid& grid);
+std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
+                                             std::span<const TransferSpectrum> spectra,
+                                             const ArrayPose& transmitter, const ArrayPose& receiver,
+                                             const ChannelGrid& grid);
 
 /// h(tau) = sum_i a_i delta(tau - tau_i) about the carrier, at t = 0: H(f) = sum_i a_i e^{-j 2 pi f tau_i}.
 struct ImpulseResponse {

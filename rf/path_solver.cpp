@@ -78,8 +78,9 @@ bool less(const GeometricPath& a, const GeometricPath& b) {
 PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
     : model_(&model), options_(options), field_(model.field_model()) {
   if (model.effects.diffraction || model.effects.scattering)
-    midpoints_.emplace(model,
-                       MidpointOptions{options.max_depth, options.max_reflections_after, options.patch_m});
+    midpoints_.emplace(
+        model, MidpointOptions{options.max_depth, model.effects.transmission ? options.max_transmissions : 0,
+                               options.max_reflections_after, options.patch_m});
 }
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {

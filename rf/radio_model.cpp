@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace greatx::rf {
 
 namespace {
@@ -21,6 +23,20 @@ std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds&
   };
   std::erase_if(wedges, [&](const scene::Wedge& w) { return !hard(w.facet_0) || !hard(w.facet_n); });
   return wedges;
+}
+
+/// What all foliage of the scene is: the depth inside is summed over all crowns.
+std::optional<scene::Foliage> foliage_of(const scene::Scene& scene, const FacetKinds& kinds) {
+  const scene::Material* known = nullptr;
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] != FacetKind::foliage) continue;
+    const scene::Material& material = scene.materials[scene.facets[i].material];
+    if (known != nullptr && !(*known->radio->foliage == *material.radio->foliage))
+      throw_user_error("scene '{}': expected one kind of foliage, found two: materials '{}' and '{}'",
+                       scene.name, known->name, material.name);
+    known = &material;
+  }
+  return known == nullptr ? std::nullopt : known->radio->foliage;
 }
 
 }  // namespace
@@ -51,6 +67,13 @@ FieldModel RadioModel::field_model() const {
   FieldModel model;
   model.world = &facets;
   model.surfaces = &surfaces;
+  model.effects = effects.field;
+  model.wedges = wedges;
+  const FieldEffects& field = effects.field;
+  if (field.gas || field.rain || field.fog)
+    model.attenuation =
+        path_attenuation(effects.weather, surfaces.carrier_hz(), {field.gas, field.rain, field.fog});
+  if (field.foliage) model.foliage = foliage_of(*scene, kinds);
   return model;
 }
 

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "rf/atmosphere/weather.h"
 #include "rf/facet_kind.h"
 #include "rf/facet_world.h"
 #include "rf/field.h"
@@ -20,6 +21,7 @@ struct RadioEffects {
   bool foliage = false;
   bool lit_region = true;   ///< diffraction where the wedge does not shade, too
   bool free_edges = false;  ///< borders of thin plates diffract
+  Weather weather;          ///< of gas, rain and fog, if they are on
   FieldEffects field;       ///< roughness, scattering loss, weather: what acts on the field of each path
 };
 

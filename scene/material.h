@@ -58,6 +58,7 @@ struct RadioLayer {
 /// (rf/atmosphere/foliage.h).
 struct Foliage {
   std::optional<double> attenuation_db_per_m;  ///< at every frequency; empty: Weissberger's model
+  friend bool operator==(const Foliage&, const Foliage&) = default;
 };
 
 struct RadioMaterial {

@@ -65,8 +65,8 @@ class PathArray {
 }  // namespace
 
 void ChannelSensor::describe() {
-  const int64_t receivers = static_cast<int64_t>(receivers_.size());
-  const int64_t rx_ports = receivers_[0].array.port_count(), tx_ports = transmitter_.array.port_count();
+  const int64_t receivers = static_cast<int64_t>(receiver_arrays_.size());
+  const int64_t rx_ports = receiver_arrays_[0].port_count(), tx_ports = transmitter_array_.port_count();
   const int64_t depth = std::max<uint32_t>(1, config_.max_depth);
   spec_.name = config_.name;
   spec_.kind = "csi";
@@ -99,9 +99,15 @@ void ChannelSensor::describe() {
          "[path, (zenith, azimuth)] from the receiver back along the path, world axes");
   ragged("transfer", DType::complex64, {2, 2}, "1/m",
          "[path, (theta, phi) at rx, (theta, phi) at tx] without the phase of the delay");
-  ragged("interaction", DType::u8, {depth}, "1", "[path, i] 0: none, 1: reflection");
+  ragged("id", DType::u64, {}, "1", "[path] its identity across ticks: a function of its interactions alone");
+  ragged("foliage", DType::f64, {}, "m", "[path] of its length inside foliage");
+  ragged("interaction", DType::u8, {depth}, "1",
+         "[path, i] 0: none, 1: reflection, 2: transmission, 3: diffraction, 4: scattering");
   ragged("vertex", DType::f64, {depth, 3}, "m", "[path, i, xyz] of each interaction, world; NaN: none");
-  ragged("facet", DType::u32, {depth}, "1", "[path, i] facet + 1, the path's identity across ticks; 0: none");
+  ragged("facet", DType::u32, {depth}, "1",
+         "[path, i] facet + 1 (diffraction: the wedge's first face); 0: none");
+  ragged("element", DType::u32, {depth}, "1",
+         "[path, i] wedge + 1, or the scattering facet's patch + 1; 0: none");
   ragged("object", DType::u32, {depth}, "1", "[path, i] index into instances + 1; 0: none");
   ragged("object_material", DType::u32, {depth}, "1", "[path, i] index into materials + 1; 0: none");
 
@@ -116,28 +122,43 @@ void ChannelSensor::describe() {
   metadata["non_finite"] = {"vertex"};
   metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
   metadata["time_convention"] = "e^{+j omega t}";
-  metadata["transmitter"] = describe_array(transmitter_.array);
+  metadata["transmitter"] = describe_array(transmitter_array_);
   metadata["transmitter"]["name"] = config_.transmitter;
-  metadata["transmitter"]["body_from_antenna"] = json_of(transmitter_.mount);
-  for (size_t r = 0; r < receivers_.size(); ++r) {
-    metadata["receivers"].push_back(describe_array(receivers_[r].array));
+  metadata["transmitter"]["body_from_antenna"] = json_of(paths_.transmitter().mount);
+  for (size_t r = 0; r < receiver_arrays_.size(); ++r) {
+    metadata["receivers"].push_back(describe_array(receiver_arrays_[r]));
     metadata["receivers"].back()["name"] = config_.receivers[r];
-    metadata["receivers"].back()["body_from_antenna"] = json_of(receivers_[r].mount);
+    metadata["receivers"].back()["body_from_antenna"] = json_of(paths_.receivers()[r].mount);
   }
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
-  metadata["walls"] = describe_walls(world_.scene, surfaces_);
-  constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from the receivers",
-                                      "every tick"};
-  metadata["search"] = {{"when", searches[static_cast<uint32_t>(search_)]}, {"rays", config_.rays}};
+  metadata["walls"] = describe_walls(world_.scene, paths_.model().surfaces);
+  for (const auto& [name, text] : paths_.notes()) metadata["candidates"][name] = text;
   spec_.metadata_json = metadata.dump();
 }
 
-std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
-  const size_t receivers = receivers_.size();
+/// Ids as on disk: index + 1, 0 is none.
+ChannelSensor::Where ChannelSensor::where_of(const rf::Interaction& interaction) const {
+  Where where;
+  where.type = static_cast<uint8_t>(interaction.type);
+  uint32_t facet = interaction.element;
+  if (interaction.type == rf::InteractionType::diffraction) {
+    facet = paths_.model().wedges[interaction.element].facet_0;
+    where.element = interaction.element + 1;
+  } else if (interaction.type == rf::InteractionType::scattering) {
+    where.element = interaction.patch + 1;
+  }
+  where.facet = facet + 1;
+  where.object = world_.scene.facets[facet].instance + 1;
+  where.material = world_.scene.facets[facet].material + 1;
+  return where;
+}
+
+std::vector<Array> ChannelSensor::arrays_of(const ChannelPaths::Result& result) const {
+  const size_t receivers = result.links.size();
   const size_t depth = std::max<uint32_t>(1, config_.max_depth);
-  const size_t rx_ports = receivers_[0].array.port_count(), tx_ports = transmitter_.array.port_count();
+  const size_t rx_ports = receiver_arrays_[0].port_count(), tx_ports = transmitter_array_.port_count();
   size_t paths = 0;
-  for (const Link& link : pending.links) paths += link.paths.size();
+  for (const ChannelPaths::Link& link : result.links) paths += link.paths.size();
   const auto ports = [](size_t count) { return static_cast<int64_t>(count); };
 
   Array cfr(DType::complex64, spec_.arrays[0].shape);
@@ -147,18 +168,19 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
   PathArray<std::complex<float>> amplitude(paths, {ports(rx_ports), ports(tx_ports)}),
       transfer(paths, {2, 2});
   PathArray<double> delay(paths, {}), doppler(paths, {}), departure(paths, {2}), arrival(paths, {2}),
-      vertex(paths, {ports(depth), 3});
+      vertex(paths, {ports(depth), 3}), foliage(paths, {});
   PathArray<uint8_t> interaction(paths, {ports(depth)});
-  PathArray<uint32_t> facet(paths, {ports(depth)}), object(paths, {ports(depth)}),
-      material(paths, {ports(depth)});
+  PathArray<uint64_t> id(paths, {});
+  PathArray<uint32_t> facet(paths, {ports(depth)}), element(paths, {ports(depth)}),
+      object(paths, {ports(depth)}), material(paths, {ports(depth)});
 
   rf::ChannelGrid grid{config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers,
                        config_.time_samples, doppler_ ? config_.time_spacing_s : 0.0};
-  const rf::ArrayPose transmitter{transmitter_.array, pending.transmitter.orientation};
+  const rf::ArrayPose transmitter{transmitter_array_, result.transmitter.orientation};
   size_t cfr_offset = 0;
   for (size_t r = 0; r < receivers; ++r) {
-    const Link& link = pending.links[r];
-    const rf::ArrayPose receiver{receivers_[r].array, link.receiver.orientation};
+    const ChannelPaths::Link& link = result.links[r];
+    const rf::ArrayPose receiver{receiver_arrays_[r], link.receiver.orientation};
     const auto response = rf::frequency_response(link.paths, transmitter, receiver, grid);
     std::copy(response.begin(), response.end(),
               cfr.as<std::complex<float>>().begin() + static_cast<std::ptrdiff_t>(cfr_offset));
@@ -184,15 +206,18 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
         into->push(angles.y);
       }
       for (const rf::Complex& t : path.transfer) transfer.push(std::complex<float>(t));
+      id.push(path.id());
+      foliage.push(path.foliage_m);
       for (size_t i = 0; i < depth; ++i) {
         const bool there = i < path.interactions.size();
-        const scene::Facet* f = there ? &world_.scene.facets[path.interactions[i].element] : nullptr;
         const dvec3 point = there ? path.vertices[i + 1] + world_.scene.origin : dvec3(nan);
-        interaction.push(there ? 1 : 0);
         for (int c = 0; c < 3; ++c) vertex.push(point[c]);
-        facet.push(there ? path.interactions[i].element + 1 : 0);
-        object.push(there ? f->instance + 1 : 0);
-        material.push(there ? f->material + 1 : 0);
+        const Where where = there ? where_of(path.interactions[i]) : Where{};
+        interaction.push(where.type);
+        facet.push(where.facet);
+        element.push(where.element);
+        object.push(where.object);
+        material.push(where.material);
       }
     }
   }
@@ -208,9 +233,12 @@ std::vector<Array> ChannelSensor::arrays_of(const Pending& pending) const {
   arrays.push_back(departure.take());
   arrays.push_back(arrival.take());
   arrays.push_back(transfer.take());
+  arrays.push_back(id.take());
+  arrays.push_back(foliage.take());
   arrays.push_back(interaction.take());
   arrays.push_back(vertex.take());
   arrays.push_back(facet.take());
+  arrays.push_back(element.take());
   arrays.push_back(object.take());
   arrays.push_back(material.take());
   return arrays;

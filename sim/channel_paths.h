@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The paths of one channel at a tick: from the poses of its ends to fields, without antennas and files. The channel
-// sensor and `greatx paths` are built on it.
+// sensor and `greatx paths` are built on it. Per tick: exact geometry of all candidates on the host, while the GPU is busy
+// with the tick before; what stands in the segments' way in the tick's command buffer; fields of what is lit when the
+// tick is collected.
 #pragma once
 
 #include <array>
-#include <memory>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "rf/candidate_search.h"
 #include "rf/path_solver.h"
+#include "rf/search/beam_search.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
@@ -22,7 +29,7 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
 
 /// One end of a channel: an antenna on a node, or a bare point.
 struct ChannelEnd {
-  std::string name;              ///< "node/sensor", or "receiver 17"
+  std::string name;              ///< "node/sensor", or "point 17"
   std::optional<uint32_t> node;  ///< none: a point at rest
   Pose mount;                    ///< on its node; without a node: in the world
   uint32_t body = 0;             ///< that carries the node and does not hide it; 0: none
@@ -41,16 +48,17 @@ class ChannelPaths {
     std::vector<Link> links;  ///< [receivers]
   };
 
-  /// `crossings` is shared by all channels. `points`: world positions of receivers that stand in for the channel's own
-  /// (at rest, isotropic); empty: the channel's. Throws UserError if `search: once` is asked for and no end of the channel
-  /// stands still.
+  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the channel
+  /// stands still, or diffraction is on and candidates come from rays.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, uint32_t channel,
-               std::span<const dvec3> points = {});
+               const Scenario& scenario, const World& world, uint32_t channel);
 
+  /// Points at rest, in the world, in place of the channel's receivers; before start(). May be called again between
+  /// ticks with other points: what was found for the transmitter stays.
+  void set_points(std::span<const dvec3> points);
   /// Before the first tick of a sequence: candidates from a static end (from the cache if it has them).
   void start(const TickContext& context);
-  bool looks_ahead() const;
+  bool looks_ahead() const { return search_ == Search::every_tick && rays_.has_value(); }
   void record_ahead(gpu::TickSlot& slot, const TickContext& next);
   void record(gpu::TickSlot& slot, const TickContext& context);
   Result collect(const gpu::TickSlot& slot);
@@ -58,16 +66,55 @@ class ChannelPaths {
   const ChannelEnd& transmitter() const { return transmitter_; }
   const std::vector<ChannelEnd>& receivers() const { return receivers_; }
   const rf::RadioModel& model() const { return model_; }
-  /// Candidates, overflows, paths; named without the channel.
+  /// Candidates, overflows, paths; names without the channel's.
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// How candidates are found and what that guarantees, one line each.
+  /// How candidates are found and what that guarantees: (name, text).
   std::vector<std::pair<std::string, std::string>> notes() const;
 
  private:
-  // (lead)
+  /// Where candidates come from.
+  enum class Search { none, once_from_transmitter, once_from_receivers, every_tick };
+  struct LinkInFlight {
+    rf::EndState receiver;
+    double distance_m = 0.0;
+    size_t first_segment = 0, segment_count = 0;
+    std::vector<rf::GeometricPath> paths;
+  };
+  struct InFlight {
+    rf::EndState transmitter;
+    std::vector<LinkInFlight> links;
+    std::vector<rf::Segment> segments;
+    rf::CrossingPass::Pending crossings;
+  };
+
+  ChannelEnd end_of(const std::string& name) const;
+  void choose_search(const EffectPlan& plan);
+  rf::EndState state_of(const ChannelEnd& end, const TickContext& context) const;
+  rf::CandidateList found(rf::CandidateList list, uint64_t overflow);
+  rf::CandidateList search(const dvec3& source, const TickContext& context);
+  rf::PathSolver& solver(size_t index);
+  void move_bodies(const TickContext& context);
+  void renew_candidates(const dvec3& transmitter, const TickContext& context);
+  void note_births(size_t link, const std::vector<rf::Path>& paths);
+
+  const Scenario& scenario_;
+  const World& world_;
+  const ChannelConfig& config_;
+  bool move_facets_;
   ChannelEnd transmitter_;
   std::vector<ChannelEnd> receivers_;
   rf::RadioModel model_;
+  rf::CrossingPass& crossings_;
+  Search search_ = Search::none;
+  std::optional<rf::BeamSearch> beams_;
+  std::optional<rf::CandidateSearch> rays_;
+  std::optional<rf::CandidateSearch::Pending> searching_;  ///< recorded with the tick before
+  std::vector<rf::PathSolver> solvers_;                    ///< [1], or [receivers] when they are the source
+  std::array<InFlight, slots_in_flight> in_flight_;
+  std::vector<std::vector<uint64_t>> ids_;  ///< [receivers] of the paths at the tick before, ascending
+  bool ids_known_ = false;
+  uint64_t candidate_count_ = 0, candidate_overflow_ = 0, cache_hits_ = 0, path_overflow_ = 0;
+  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0;
 };
 
 }  // namespace greatx::sim

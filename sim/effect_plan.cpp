@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/units.h"
+#include "sim/effect_planner.h"
 
 namespace greatx::sim {
 
@@ -25,12 +26,9 @@ struct Offers {
 
 /// What the scenario asks for.
 struct Asks {
-  size_t cameras = 0, lidars = 0, channels = 0;
+  size_t cameras = 0, lidars = 0;
   bool rgb = false, depth = false, ids = false, hdr = false;
   bool sweep = false;
-  uint32_t max_depth = 0, time_samples = 1;
-  bool search_every_tick = false;
-  double longest_record_s = 0.0, carrier_hz = 0.0;
 };
 
 /// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1 m (a lamp
@@ -80,45 +78,8 @@ Asks asks_of(const Scenario& scenario) {
       }
     }
   }
-  for (const ChannelConfig& channel : scenario.channels) {
-    ++asks.channels;
-    asks.max_depth = std::max(asks.max_depth, channel.max_depth);
-    asks.time_samples = std::max(asks.time_samples, channel.time_samples);
-    asks.longest_record_s =
-        std::max(asks.longest_record_s, (channel.time_samples - 1) * channel.time_spacing_s);
-    asks.carrier_hz = std::max(asks.carrier_hz, channel.carrier_hz);
-    asks.search_every_tick |= channel.search == "every_tick";
-  }
   return asks;
 }
-
-/// Applies the scenario's switches on top of the automatic decision.
-class Planner {
- public:
-  explicit Planner(const Scenario& scenario) : scenario_(scenario) {}
-
-  Effect fixed(const std::string& name, bool needed, const std::string& reason,
-               const std::string& bound = "") {
-    if (scenario_.effects.count(name) > 0 && scenario_.effects.at(name) != Switch::automatic)
-      throw_user_error("{}: effects.{}: cannot be switched: it is {} because {}; expected auto",
-                       scenario_.file.empty() ? scenario_.name : scenario_.file.string(), name,
-                       needed ? "on" : "off", reason);
-    return {name, false, needed, reason, bound};
-  }
-  Effect decide(const std::string& name, bool needed, const std::string& reason,
-                const std::string& bound = "") {
-    const auto it = scenario_.effects.find(name);
-    const Switch wish = it == scenario_.effects.end() ? Switch::automatic : it->second;
-    if (wish == Switch::on && !needed)
-      return {name, true, true, fmt::format("switched on ({})", reason), bound};
-    if (wish == Switch::off && needed)
-      return {name, true, false, fmt::format("switched off ({})", reason), bound};
-    return {name, true, needed, reason, bound};
-  }
-
- private:
-  const Scenario& scenario_;
-};
 
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
   const bool rays = plan.lidar.on || plan.channel.on || plan.consistency.on;
@@ -217,39 +178,6 @@ void plan_lidar(EffectPlan& plan, Planner& planner, const Offers& offers, const 
                                   : "sweep_s is 0: every shot at the tick");
 }
 
-/// Speeds are not known before the run: the Doppler bound is stated per m/s.
-void plan_radio(EffectPlan& plan, Planner& planner, const Offers& offers, const Asks& asks) {
-  const bool channel = asks.channels > 0;
-  const std::string none = "no channel";
-  plan.channel = planner.fixed("channel", channel, channel ? fmt::format("{} of them", asks.channels) : none);
-  plan.line_of_sight =
-      planner.decide("line_of_sight", channel, channel ? "transmitters and receivers" : none);
-  const bool reflect = channel && asks.max_depth > 0 && offers.triangles;
-  plan.reflection =
-      planner.decide("reflection", reflect,
-                     !channel              ? none
-                     : asks.max_depth == 0 ? "max_depth is 0"
-                     : offers.triangles    ? fmt::format("surfaces, up to {} reflections", asks.max_depth)
-                                           : "the scene has no surface");
-  plan.moving_reflectors = planner.decide(
-      "moving_reflectors", plan.reflection.on && offers.moving_triangles && asks.search_every_tick,
-      !plan.reflection.on        ? "no reflection"
-      : !offers.moving_triangles ? "no mesh moves"
-      : asks.search_every_tick
-          ? "candidates are searched at every tick"
-          : "candidates of the static world are searched once; moving meshes block paths but do "
-            "not reflect them (search: every_tick to have that)");
-  const bool doppler = channel && asks.time_samples > 1;
-  plan.doppler = planner.decide(
-      "doppler", doppler,
-      !channel  ? none
-      : doppler ? fmt::format("{} time samples a record", asks.time_samples)
-                : "one time sample a record: shifts are reported with the paths, phases do not turn",
-      doppler ? fmt::format("{:.3g} turns per m/s within a record",
-                            asks.longest_record_s * asks.carrier_hz / speed_of_light)
-              : "");
-}
-
 }  // namespace
 
 std::vector<Effect*> EffectPlan::all() {
@@ -277,6 +205,17 @@ std::vector<Effect*> EffectPlan::all() {
           &line_of_sight,
           &reflection,
           &moving_reflectors,
+          &transmission,
+          &diffraction,
+          &diffraction_lit_region,
+          &free_edges,
+          &scattering,
+          &roughness,
+          &gas,
+          &rain,
+          &fog,
+          &foliage,
+          &dispersion,
           &doppler,
           &consistency};
 }
@@ -293,7 +232,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene)
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);
   plan_lidar(plan, planner, offers, asks);
-  plan_radio(plan, planner, offers, asks);
+  plan_radio(plan, planner, scenario, scene);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
   plan.consistency = planner.decide(
       "consistency", check,

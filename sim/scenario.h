@@ -5,6 +5,7 @@
 // no behaviour; docs/scenario.md documents every field, docs/scenario.schema.json checks it in an editor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -63,6 +64,8 @@ struct Environment {
   double temperature_k = 288.15;
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
+  double rain_mm_h = 0.0;
+  double fog_g_m3 = 0.0;  ///< liquid water
 };
 
 // ------------------------------------------------------------------------------------------------- who moves
@@ -181,9 +184,16 @@ struct ChannelConfig {
   uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
   uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
-  uint32_t max_depth = 3;       ///< reflections per path
-  uint32_t rays = 1u << 19;     ///< launched per search for candidates
-  std::string search = "auto";  ///< auto, once (from a static end), every_tick
+  uint32_t max_depth = 3;  ///< interactions on a path: reflections, walls passed, a diffraction or scattering
+  std::optional<uint32_t> max_transmissions;  ///< of them walls passed; none given: max_depth
+  uint32_t max_reflections_after =
+      0;  ///< of them reflections between a diffraction or scattering and the searched-for end
+  double scattering_patch_m = 10.0;  ///< longest side of the pieces that scatter as one
+  uint32_t max_paths = 100'000;      ///< geometric paths of a link and tick; what is beyond is reported
+  std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
+  uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
+  std::string search = "auto";       ///< auto, once (from a static end), every_tick
+  uint32_t walls() const { return std::min(max_transmissions.value_or(max_depth), max_depth); }
   SourceLocation where;
 };
 

@@ -112,9 +112,10 @@ void parse_band(const FieldMap& map, ChannelConfig& channel) {
 
 ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                             const std::vector<NodeConfig>& nodes) {
-  const FieldMap map(field,
-                     {"name", "tx", "rx", "rate_hz", "carrier_hz", "subcarrier_spacing_hz", "bandwidth_hz",
-                      "subcarriers", "time_samples", "time_spacing_s", "max_depth", "rays", "search"});
+  const FieldMap map(
+      field, {"name", "tx", "rx", "rate_hz", "carrier_hz", "subcarrier_spacing_hz", "bandwidth_hz",
+              "subcarriers", "time_samples", "time_spacing_s", "max_depth", "max_transmissions",
+              "max_reflections_after", "scattering_patch_m", "max_paths", "candidates", "rays", "search"});
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = map.require("name", "a name").name();
@@ -131,7 +132,20 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
   if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive();
   if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
-  if (const auto f = map.find("rays")) channel.rays = f->integer32(1, 1u << 28);
+  if (const auto f = map.find("max_transmissions")) channel.max_transmissions = f->integer32(0, 8);
+  if (const auto f = map.find("max_reflections_after")) channel.max_reflections_after = f->integer32(0, 4);
+  if (const auto f = map.find("scattering_patch_m")) channel.scattering_patch_m = f->positive();
+  if (const auto f = map.find("max_paths")) channel.max_paths = f->integer32(1, 1u << 30);
+  if (const auto f = map.find("candidates")) {
+    f->choice({"beams", "rays"});
+    channel.candidates = f->text();
+  }
+  if (const auto f = map.find("rays")) {
+    channel.rays = f->integer32(1, 1u << 28);
+    if (map.find("candidates") && channel.candidates != "rays")
+      f->fail("no rays with candidates: beams", "both");
+    channel.candidates = "rays";
+  }
   if (const auto f = map.find("search")) {
     f->choice({"auto", "once", "every_tick"});
     channel.search = f->text();

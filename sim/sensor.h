@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/record.h"
@@ -59,6 +60,8 @@ class Sensor {
   virtual void report(Consistency&) const {}
   /// Adds what this sensor counted over the run: candidates, paths, overflows.
   virtual void count(std::map<std::string, uint64_t>&) const {}
+  /// Adds what the run's summary should say in words, (name, text).
+  virtual void note(std::vector<std::pair<std::string, std::string>>&) const {}
 };
 
 /// Slots of the tick ring: one in flight while the one before it is collected.

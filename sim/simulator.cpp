@@ -8,7 +8,7 @@
 
 #include "renderer/lighting.h"
 #include "renderer/probe.h"
-#include "rf/visibility.h"
+#include "rf/crossings.h"
 #include "sim/camera_sensor.h"
 #include "sim/channel_sensor.h"
 #include "sim/consistency.h"
@@ -56,7 +56,7 @@ render::Lighting lighting_of(const Environment& environment) {
 struct Simulator::Passes {
   std::unique_ptr<render::SceneLighting> lighting;
   std::unique_ptr<render::ProbePass> probe;
-  std::unique_ptr<rf::VisibilityPass> visibility;
+  std::unique_ptr<rf::CrossingPass> crossings;
 };
 
 /// A tick that was submitted and not yet collected.
@@ -88,7 +88,9 @@ Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World&
     passes_->lighting = std::make_unique<render::SceneLighting>(gpu_scene_, lighting_of(scenario.environment),
                                                                 camera_effects(plan));
   if (plan.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
-  if (plan.channel.on) passes_->visibility = std::make_unique<rf::VisibilityPass>(gpu_scene_);
+  if (plan.channel.on)
+    passes_->crossings = std::make_unique<rf::CrossingPass>(
+        gpu_scene_, rf::facet_kinds(world.scene, radio_effects(plan, scenario)));
   add_sensors();
 }
 
@@ -108,7 +110,7 @@ void Simulator::add_sensors() {
     }
   }
   for (uint32_t i = 0; i < scenario_.channels.size(); ++i)
-    add(std::make_unique<ChannelSensor>(gpu_scene_, *passes_->visibility, plan_, scenario_, world_, i),
+    add(std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, plan_, scenario_, world_, i),
         scenario_.channels[i].rate_hz);
   for (const auto& sensor : sensors_) {
     specs_.push_back(sensor->spec());
@@ -240,6 +242,7 @@ RunStatistics Simulator::statistics() const {
   for (const auto& sensor : sensors_) {
     sensor->report(statistics.consistency);
     sensor->count(statistics.counters);
+    sensor->note(statistics.notes);
   }
   return statistics;
 }

@@ -36,6 +36,8 @@ struct RunStatistics {
   std::map<std::string, int64_t> records;    ///< by sensor
   std::map<std::string, PassTotal> passes;   ///< by scope name
   std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
+  std::vector<std::pair<std::string, std::string>>
+      notes;  ///< (name, text): how candidates were found, what holds
   Consistency consistency;
 };
 
@@ -80,7 +82,7 @@ class Simulator {
   Clock clock_;
   Schedule schedule_;
   struct Passes;
-  std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, visibility, probe
+  std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, crossings, probe
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<SensorSpec> specs_;
   std::vector<std::unique_ptr<Path>> paths_;

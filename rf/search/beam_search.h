@@ -27,7 +27,8 @@ namespace greatx::rf {
 struct BeamSearchOptions {
   uint32_t max_depth = 3;  ///< reflections + walls passed
   uint32_t max_transmissions =
-      0;  ///< walls passed, on the whole path (FacetKind::wall); not more than max_depth
+      0;                      ///< walls passed, on the whole path (FacetKind::wall); not more than max_depth
+  bool moving_bodies = true;  ///< false: the static world alone (body 0), as if nothing that moves were there
   uint64_t capacity = 1u << 22;  ///< sequences kept; what is beyond is counted
   uint32_t threads = 0;          ///< 0: as many as the machine has. The result does not depend on it
 };
@@ -48,6 +49,7 @@ class BeamSearch {
   BeamSearchResult search(const dvec3& source) const;
   /// One sentence for `explain` and the run's summary.
   std::string guarantee() const;
+  const BeamSearchOptions& options() const { return options_; }
 
  private:
   const FacetWorld* world_;

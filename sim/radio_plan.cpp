@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which radio effects a scenario calls for, each with a bound on what it can change.
+#include "sim/radio_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+#include "rf/atmosphere/bounds.h"
+#include "rf/radio_model.h"
+#include "rf/roughness.h"
+#include "sim/effect_planner.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// What the channels ask for, and the largest of each.
+struct Asks {
+  size_t channels = 0;
+  uint32_t max_depth = 0, walls = 0, time_samples = 1;
+  bool every_tick = false, beams = false, rays = false;
+  double longest_record_s = 0.0, carrier_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
+};
+
+/// What the scene's surfaces are to radio.
+struct Surfaces {
+  bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
+  size_t walls = 0;            ///< materials that let waves pass
+  double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
+  std::string clearest;        ///< the material that has it
+  double roughness_m = 0.0;
+};
+
+Asks asks_of(const Scenario& scenario) {
+  Asks asks;
+  for (const ChannelConfig& channel : scenario.channels) {
+    ++asks.channels;
+    asks.max_depth = std::max(asks.max_depth, channel.max_depth);
+    asks.walls = std::max(asks.walls, channel.walls());
+    asks.time_samples = std::max(asks.time_samples, channel.time_samples);
+    asks.longest_record_s =
+        std::max(asks.longest_record_s, (channel.time_samples - 1) * channel.time_spacing_s);
+    asks.carrier_hz = std::max(asks.carrier_hz, channel.carrier_hz);
+    asks.lowest_hz = std::min(asks.lowest_hz, channel.carrier_hz);
+    asks.every_tick |= channel.search == "every_tick";
+    (channel.candidates == "rays" ? asks.rays : asks.beams) = true;
+  }
+  return asks;
+}
+
+/// -20 lg |T| at normal incidence.
+double wall_loss_db(const scene::Material& material, double frequency_hz) {
+  const rf::RadioSurface surface = rf::radio_surface(*material.radio, frequency_hz, material.name);
+  const rf::FresnelCoefficients through = rf::multilayer(surface.front, speed_of_light / frequency_hz, 1.0);
+  return -20.0 * std::log10(std::abs(through.t_te));
+}
+
+Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
+  Surfaces surfaces;
+  std::vector<bool> seen(scene.materials.size(), false);
+  for (const scene::Facet& facet : scene.facets) {
+    surfaces.triangles = true;
+    surfaces.moving |= facet.body != 0;
+    const scene::Material& material = scene.materials[facet.material];
+    if (asks.channels == 0 || seen[facet.material] || !material.radio) continue;
+    seen[facet.material] = true;
+    if (material.radio->foliage) {
+      surfaces.foliage = true;
+      continue;
+    }
+    surfaces.edges = true;
+    surfaces.scattering |= material.radio->scattering_coefficient > 0.0;
+    surfaces.roughness_m = std::max(surfaces.roughness_m, material.radio->roughness_m);
+    if (!rf::penetrable(*material.radio)) continue;
+    const double loss = wall_loss_db(material, asks.lowest_hz);
+    if (surfaces.walls++ == 0 || loss < surfaces.least_loss_db) {
+      surfaces.least_loss_db = loss;
+      surfaces.clearest = material.name;
+    }
+  }
+  return surfaces;
+}
+
+void add_trajectory(const Trajectory& trajectory, scene::Bounds& bounds) {
+  if (const auto* still = std::get_if<StaticTrajectory>(&trajectory)) bounds.add(still->position_m);
+  if (const auto* points = std::get_if<WayPointTrajectory>(&trajectory))
+    for (const WayPoint& point : points->points) bounds.add(point.position_m);
+  if (const auto* bezier = std::get_if<BezierTrajectory>(&trajectory)) {
+    if (bezier->control_points)
+      for (const dvec3& point : *bezier->control_points) bounds.add(point);
+    else
+      for (const double side : {-1.0, 1.0})
+        bounds.add((side < 0 ? bezier->min_m : bezier->max_m) + side * glm::abs(bezier->offset_m));
+  }
+  if (const auto* corridor = std::get_if<CorridorTrajectory>(&trajectory)) {
+    const dvec3 room(corridor->width_m, corridor->width_m, corridor->height_m);
+    for (const dvec3& point : corridor->center_line_m) bounds.add(point - room), bounds.add(point + room);
+  }
+}
+
+/// No path is longer: each of its segments stays in the box around the scene and its trajectories.
+double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth) {
+  scene::Bounds bounds;
+  if (!scene.bounds.empty()) {
+    bounds.add(scene.bounds.min + scene.origin);
+    bounds.add(scene.bounds.max + scene.origin);
+  }
+  for (const NodeConfig& node : scenario.nodes) add_trajectory(node.trajectory, bounds);
+  return (max_depth + 1.0) * glm::length(bounds.size());
+}
+
+/// The parts of the decision that every function below needs.
+struct Radio {
+  const Planner& planner;
+  const Asks& asks;
+  const Surfaces& surfaces;
+  bool on() const { return asks.channels > 0; }
+  /// `reason`, unless there is no channel.
+  std::string why(const std::string& reason) const { return on() ? reason : "no channel"; }
+};
+
+void plan_reflection(EffectPlan& plan, const Radio& radio) {
+  const Asks& asks = radio.asks;
+  plan.channel =
+      radio.planner.fixed("channel", radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
+  plan.line_of_sight =
+      radio.planner.decide("line_of_sight", radio.on(), radio.why("transmitters and receivers"));
+  const bool reflect = radio.on() && asks.max_depth > 0 && radio.surfaces.triangles;
+  plan.reflection = radio.planner.decide(
+      "reflection", reflect,
+      radio.why(asks.max_depth == 0         ? "max_depth is 0"
+                : !radio.surfaces.triangles ? "the scene has no surface"
+                                            : fmt::format("surfaces, up to {} reflections", asks.max_depth)),
+      !reflect    ? ""
+      : asks.rays ? "candidates from rays: what is narrower than their spacing may be missed"
+                  : "candidates from beams: none is missed");
+  plan.moving_reflectors = radio.planner.decide(
+      "moving_reflectors", plan.reflection.on && radio.surfaces.moving && asks.every_tick,
+      radio.why(!plan.reflection.on      ? "no reflection"
+                : !radio.surfaces.moving ? "no mesh moves"
+                : asks.every_tick        ? "candidates are searched at every tick"
+                                  : "candidates of the static world are searched once; moving meshes block "
+                                    "paths but do not reflect "
+                                    "them (search: every_tick to have that)"));
+}
+
+void plan_transmission(EffectPlan& plan, const Radio& radio) {
+  // A wall that takes 100 dB leaves nothing that a receiver could tell from nothing.
+  constexpr double dark_db = 100.0;
+  const Surfaces& surfaces = radio.surfaces;
+  const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
+  plan.transmission = radio.planner.decide(
+      "transmission", walls && surfaces.least_loss_db < dark_db,
+      radio.why(
+          radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
+          : surfaces.walls == 0
+              ? "no material lets waves pass: all are half-spaces (no thickness given)"
+              : fmt::format("{} materials let waves pass, up to {} walls", surfaces.walls, radio.asks.walls)),
+      walls ? fmt::format(
+                  "the clearest, {}, takes {:.2f} dB at normal incidence and {:.4g} GHz; dark from {:.0f} dB",
+                  surfaces.clearest, surfaces.least_loss_db, radio.asks.lowest_hz * 1e-9, dark_db)
+            : "");
+}
+
+/// Effects that cost a search or thousands of paths, and that a scenario therefore asks for by name.
+void plan_on_request(EffectPlan& plan, const Radio& radio) {
+  const bool deep = radio.on() && radio.asks.max_depth > 0;
+  const bool edges = deep && radio.surfaces.edges;
+  plan.diffraction = radio.planner.decide(
+      "diffraction", false,
+      radio.why(edges ? "not asked for (effects: {diffraction: on})"
+                      : (deep ? "the scene has no edge" : "max_depth is 0")),
+      edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
+            : "");
+  if (plan.diffraction.on && !edges) plan.diffraction.on = false;
+  plan.diffraction_lit_region = radio.planner.decide(
+      "diffraction_lit_region", plan.diffraction.on,
+      plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
+  plan.free_edges =
+      radio.planner.decide("free_edges", false, "edges of one facet alone bound drawings, seldom plates");
+  const bool rough = deep && radio.surfaces.scattering;
+  plan.scattering = radio.planner.decide("scattering", false,
+                                         radio.why(rough ? "not asked for (effects: {scattering: on})"
+                                                         : "no material has a scattering coefficient"));
+  if (plan.scattering.on && !rough) plan.scattering.on = false;
+  plan.dispersion = radio.planner.decide(
+      "dispersion", false,
+      radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
+}
+
+/// Effects that a bound decides.
+void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
+  const double tolerance = scenario.tolerance_db;
+  const auto bounded = [&](const char* name, double most_db, const std::string& none) {
+    const bool needed = radio.on() && most_db > tolerance;
+    return radio.planner.decide(
+        name, needed,
+        radio.why(most_db == 0.0 ? none
+                  : needed       ? "more than the tolerance"
+                                 : "within the tolerance"),
+        !radio.on() || most_db == 0.0
+            ? ""
+            : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most_db,
+                          longest_m, radio.asks.carrier_hz * 1e-9, tolerance));
+  };
+  const rf::Weather weather = weather_of(scenario.environment);
+  const double f = radio.asks.carrier_hz;
+  // Outside the recommendation's range there is no bound: the channel refuses it by name if the effect is asked for.
+  const bool in_range = radio.on() && f >= 1e9 && f <= 1e12;
+  plan.gas = bounded("gas", in_range ? rf::most_gas_db(weather, f, longest_m) : 0.0,
+                     "below 1 GHz (P.676-13 begins there)");
+  plan.rain =
+      bounded("rain", weather.rain_mm_h > 0.0 && radio.on() ? rf::most_rain_db(weather, f, longest_m) : 0.0,
+              "no rain");
+  plan.fog = bounded(
+      "fog", weather.fog_g_m3 > 0.0 && radio.on() ? rf::most_fog_db(weather, f, longest_m) : 0.0, "no fog");
+  const bool leaves = radio.on() && radio.surfaces.foliage;
+  plan.foliage = radio.planner.decide(
+      "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
+  const double g =
+      rf::roughness_parameter(radio.surfaces.roughness_m, 1.0, speed_of_light / std::max(f, 1.0));
+  const double rough_db = -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
+  const bool rough = plan.reflection.on && rough_db > tolerance;
+  plan.roughness = radio.planner.decide(
+      "roughness", rough,
+      radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
+                : rough                           ? "more than the tolerance"
+                                                  : "within the tolerance"),
+      radio.surfaces.roughness_m == 0.0 || !radio.on()
+          ? ""
+          : fmt::format("at most {:.3g} dB a reflection, tolerance {:.3g} dB", rough_db, tolerance));
+}
+
+/// Speeds are not known before the run: the Doppler bound is stated per m/s.
+void plan_doppler(EffectPlan& plan, const Radio& radio) {
+  const bool doppler = radio.on() && radio.asks.time_samples > 1;
+  plan.doppler = radio.planner.decide(
+      "doppler", doppler,
+      radio.why(doppler ? fmt::format("{} time samples a record", radio.asks.time_samples)
+                        : "one time sample a record: shifts are reported with the paths, phases do not turn"),
+      doppler ? fmt::format("{:.3g} turns per m/s within a record",
+                            radio.asks.longest_record_s * radio.asks.carrier_hz / speed_of_light)
+              : "");
+}
+
+}  // namespace
+
+rf::Weather weather_of(const Environment& environment) {
+  rf::Weather weather;
+  weather.temperature_k = environment.temperature_k;
+  weather.dry_pressure_hpa = environment.pressure_hpa;
+  weather.water_vapour_g_m3 = environment.water_vapour_g_m3;
+  weather.rain_mm_h = environment.rain_mm_h;
+  weather.fog_g_m3 = environment.fog_g_m3;
+  return weather;
+}
+
+void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
+                const scene::Scene& scene) {
+  const Asks asks = asks_of(scenario);
+  const Surfaces surfaces = surfaces_of(scene, asks);
+  const Radio radio{planner, asks, surfaces};
+  plan_reflection(plan, radio);
+  plan_transmission(plan, radio);
+  plan_on_request(plan, radio);
+  plan_attenuation(plan, radio, scenario, longest_path_m(scenario, scene, asks.max_depth));
+  plan_doppler(plan, radio);
+}
+
+}  // namespace greatx::sim
