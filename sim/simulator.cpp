@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "renderer/lighting.h"
 #include "renderer/probe.h"
 #include "rf/crossings.h"
 #include "sim/camera_sensor.h"
 #include "sim/channel_sensor.h"
 #include "sim/consistency.h"
 #include "sim/lidar_sensor.h"
+#include "sim/plan_options.h"
 #include "sim/pose_sensor.h"
 
 namespace greatx::sim {
@@ -22,33 +21,6 @@ namespace {
 constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
 constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever another one is
 constexpr size_t lidar_comparisons = 1024;
-
-scene::GpuSceneOptions gpu_scene_options(const EffectPlan& plan) {
-  return {plan.acceleration_structure.on,
-          plan.textures.on || plan.alpha_mask.on || plan.lidar_alpha_mask.on || plan.lidar_textures.on};
-}
-
-render::CameraEffects camera_effects(const EffectPlan& plan) {
-  render::CameraEffects effects;
-  effects.sun = plan.sun.on;
-  effects.sky = plan.sky.on;
-  effects.static_shadows = plan.static_shadows.on;
-  effects.moving_shadows = plan.moving_shadows.on;
-  effects.textures = plan.textures.on;
-  effects.normal_maps = plan.normal_maps.on;
-  effects.alpha_mask = plan.alpha_mask.on;
-  effects.emissive = plan.emissive.on;
-  effects.punctual_lights = plan.punctual_lights.on;
-  return effects;
-}
-
-render::Lighting lighting_of(const Environment& environment) {
-  render::Lighting lighting;
-  lighting.sun_direction = render::Lighting::direction(environment.sun_azimuth, environment.sun_elevation);
-  lighting.sun_illuminance_lux = environment.sun_illuminance_lux;
-  lighting.sky_illuminance_lux = environment.sky_illuminance_lux;
-  return lighting;
-}
 
 }  // namespace
 
@@ -64,13 +36,6 @@ struct Simulator::InFlight {
   const gpu::TickSlot* slot = nullptr;
   int64_t tick = 0;
   std::vector<Due> due;
-};
-
-/// Where everything is at a tick; owns what the context points at.
-struct Simulator::Moment {
-  std::vector<Motion> motions;
-  std::vector<Pose> bodies;
-  TickContext context;
 };
 
 Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World& world,
@@ -135,20 +100,8 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
   for (const auto& sensor : sensors_) sensor->start(moment.context);
 }
 
-Simulator::Moment Simulator::moment_at(int64_t tick) const {
-  Moment moment;
-  const double time_s = clock_.seconds(tick);
-  for (const auto& path : paths_) moment.motions.push_back(path->at(time_s));
-  moment.bodies = body_poses(world_, moment.motions);
-  moment.context.tick = tick;
-  moment.context.time_s = time_s;
-  const int64_t previous = schedule_.previous(tick);
-  moment.context.previous_time_s =
-      previous < 0 ? std::numeric_limits<double>::quiet_NaN() : clock_.seconds(previous);
-  moment.context.nodes = moment.motions;
-  moment.context.body_poses = moment.bodies;
-  moment.context.motion_at = [this](uint32_t node, double time) { return paths_[node]->at(time); };
-  return moment;
+Moment Simulator::moment_at(int64_t tick) const {
+  return sim::moment_at(world_, paths_, clock_, tick, schedule_.previous(tick));
 }
 
 bool Simulator::step(RecordSink& sink) {

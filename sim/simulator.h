@@ -16,6 +16,7 @@
 #include "scene/gpu_scene.h"
 #include "sim/clock.h"
 #include "sim/effect_plan.h"
+#include "sim/moment.h"
 #include "sim/schedule.h"
 #include "sim/sensor.h"
 #include "sim/trajectory.h"
@@ -64,7 +65,6 @@ class Simulator {
 
  private:
   struct InFlight;
-  struct Moment;
   Moment moment_at(int64_t tick) const;
   void add_sensors();
   void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
