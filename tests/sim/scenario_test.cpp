@@ -35,6 +35,11 @@ TEST(Scenario, MinimalHasTheDocumentedDefaults) {
   EXPECT_TRUE(s.scene.objects.empty() && s.nodes.empty() && s.channels.empty() && s.effects.empty());
   EXPECT_DOUBLE_EQ(s.environment.sun_azimuth, radians(-45.0));
   EXPECT_DOUBLE_EQ(s.environment.sun_elevation, radians(45.0));
+  EXPECT_EQ(s.environment.temperature_k, 288.15);
+  EXPECT_EQ(s.environment.pressure_hpa, 1013.25);
+  EXPECT_EQ(s.environment.water_vapour_g_m3, 7.5);
+  EXPECT_EQ(s.environment.rain_mm_h, 0.0);
+  EXPECT_EQ(s.environment.fog_g_m3, 0.0);
   EXPECT_EQ(s.tolerance_db, 0.01);
 }
 
@@ -66,6 +71,8 @@ TEST(Scenario, EverythingTop) {
   EXPECT_EQ(s.environment.temperature_k, 293.15);
   EXPECT_EQ(s.environment.pressure_hpa, 1000.0);
   EXPECT_EQ(s.environment.water_vapour_g_m3, 10.0);
+  EXPECT_EQ(s.environment.rain_mm_h, 12.5);
+  EXPECT_EQ(s.environment.fog_g_m3, 0.05);
   EXPECT_EQ(s.effects.at("shadows"), Switch::on);
   EXPECT_EQ(s.effects.at("reflection"), Switch::off);
   EXPECT_EQ(s.effects.at("gas_attenuation"), Switch::automatic);
@@ -80,7 +87,7 @@ TEST(Scenario, EverythingMoves) {
   EXPECT_DOUBLE_EQ(fixed.rotation.y, radians(10.0));
   EXPECT_EQ(std::get<Generated>(s.nodes[0].model->source).kind, "mast");
   EXPECT_EQ(s.nodes[0].semantic_class, "mast");
-  EXPECT_EQ(s.nodes[0].where.line, 30);
+  EXPECT_EQ(s.nodes[0].where.line, 32);
   const auto& drawn = std::get<BezierTrajectory>(s.nodes[1].trajectory);
   EXPECT_EQ(drawn.min_m, dvec3(-100, -100, 20));
   EXPECT_EQ(drawn.max_m, dvec3(100, 100, 80));
