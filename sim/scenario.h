@@ -27,9 +27,9 @@ namespace greatx::sim {
 
 /// A scene or model made by the generator (scene/generator) instead of read from a file.
 struct Generated {
-  std::string kind;  ///< city, country, mast, car, quadrotor
+  std::string kind;  ///< city, country, canyon, room, mast, car, quadrotor
   uint64_t seed = 1;
-  double size_m = 300.0;  ///< city, country: edge of the square
+  double size_m = 300.0;  ///< city, country: edge of the square; canyon: length
   std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
 };
 

@@ -18,19 +18,20 @@ constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pa
                                          "furniture",   "person"};
 
 Generated parse_generated(const Field& field) {
-  constexpr std::array kinds = {"city", "country", "mast", "car", "quadrotor"};
-  enum { city, country, mast, car, quadrotor };
-  const size_t kind = kind_of(field, "kind", {"city", "country", "mast", "car", "quadrotor"});
+  constexpr std::array kinds = {"city", "country", "canyon", "room", "mast", "car", "quadrotor"};
+  enum { city, country, canyon, room, mast, car, quadrotor };
+  const size_t kind =
+      kind_of(field, "kind", {"city", "country", "canyon", "room", "mast", "car", "quadrotor"});
   Generated generated;
   generated.kind = kinds[kind];
-  if (kind == city || kind == country) {  // the others look the same for every seed
+  if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
     const FieldMap map(field, {"kind", "seed", "size_m"});
     if (const auto f = map.find("seed")) generated.seed = f->integer(0);
     if (const auto f = map.find("size_m"))
-      generated.size_m = f->between(100.0, kind == city ? 1000.0 : 2000.0);
+      generated.size_m = f->between(kind == canyon ? 60.0 : 100.0, kind == country ? 2000.0 : 1000.0);
     return generated;
   }
-  if (kind == mast) {
+  if (kind == mast || kind == room) {
     const FieldMap map(field, {"kind"});
     return generated;
   }

@@ -26,6 +26,8 @@ struct Kind {
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{{"city", 100, 1000, {}},
                                       {"country", 160, 2000, {}},
+                                      {"canyon", 60, 1000, {}},
+                                      {"room", 0, 0, {}},
                                       {"mast", 0, 0, {}},
                                       {"car", 0, 0, {"hatchback", "van"}},
                                       {"quadrotor", 0, 0, {"medium", "small", "large"}}};
@@ -87,6 +89,10 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
     write_city(writer, size, options.seed);
   } else if (options.kind == "country") {
     write_country(writer, size, options.seed);
+  } else if (options.kind == "canyon") {
+    write_canyon(writer, size, options.seed);
+  } else if (options.kind == "room") {
+    write_room(writer);
   } else if (options.kind == "quadrotor") {
     write_quadrotor(writer, variant);
   } else if (options.kind == "car") {

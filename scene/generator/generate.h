@@ -14,9 +14,10 @@ namespace greatx::scene {
 
 struct GenerateOptions {
   std::string kind;   ///< one of generator_kinds()
-  uint64_t seed = 1;  ///< of "city" and "country"; the other kinds look the same for every seed
+  uint64_t seed = 1;  ///< of "city", "country" and "canyon"; the other kinds look the same for every seed
   double size_m =
-      300;  ///< edge of the square of "city" (100...1000) and "country" (160...2000); unused otherwise
+      300;  ///< edge of the square of "city" (100...1000) and "country" (160...2000), length of "canyon"
+            ///< (60...1000); unused otherwise
   std::string variant;  ///< one of generator_variants(kind); empty: the first of them
 };
 
@@ -25,7 +26,7 @@ struct GenerateOptions {
 /// Throws UserError naming what is allowed for an unknown kind, an unknown variant, or a size out of range.
 std::vector<std::byte> generate_glb(const GenerateOptions& options);
 
-/// "city", "country", "mast", "car", "quadrotor".
+/// "city", "country", "canyon", "room", "mast", "car", "quadrotor".
 std::vector<std::string> generator_kinds();
 
 /// Variants of `kind`, the default first; empty if it has none. Throws UserError for an unknown kind.

@@ -10,5 +10,7 @@ namespace greatx::scene::generator {
 
 void write_city(GlbWriter& writer, double size_m, uint64_t seed);
 void write_country(GlbWriter& writer, double size_m, uint64_t seed);
+void write_canyon(GlbWriter& writer, double size_m, uint64_t seed);
+void write_room(GlbWriter& writer);
 
 }  // namespace greatx::scene::generator

@@ -35,7 +35,7 @@ std::string message_of(const GenerateOptions& options) {
 }
 
 TEST(Generate, SameSeedSameBytesOtherSeedOtherBytes) {
-  for (const char* kind : {"city", "country"}) {
+  for (const char* kind : {"city", "country", "canyon"}) {
     const auto first = generate_glb({.kind = kind, .seed = 7, .size_m = 200});
     EXPECT_EQ(first, generate_glb({.kind = kind, .seed = 7, .size_m = 200})) << kind;
     EXPECT_NE(first, generate_glb({.kind = kind, .seed = 8, .size_m = 200})) << kind;
@@ -55,9 +55,9 @@ TEST(Generate, EmptyVariantIsTheFirst) {
 }
 
 TEST(Generate, NamesWhatIsAllowed) {
-  EXPECT_THAT(generator_kinds(), ElementsAre("city", "country", "mast", "car", "quadrotor"));
+  EXPECT_THAT(generator_kinds(), ElementsAre("city", "country", "canyon", "room", "mast", "car", "quadrotor"));
   EXPECT_THAT(message_of({.kind = "town"}),
-              AllOf(HasSubstr("city, country, mast, car, quadrotor"), HasSubstr("town")));
+              AllOf(HasSubstr("city, country, canyon, room, mast, car, quadrotor"), HasSubstr("town")));
   EXPECT_THAT(message_of({.kind = ""}), HasSubstr("city, country"));
   EXPECT_THAT(message_of({.kind = "car", .variant = "tank"}),
               AllOf(HasSubstr("hatchback, van"), HasSubstr("tank")));
