@@ -31,6 +31,10 @@ void check(std::span<const Path> paths, const ArrayPose& transmitter, const Arra
   }
 }
 
+void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
+  GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
+}
+
 /// Everything of a path that reaches the sum; paths that agree in all of it may stand in any order.
 std::array<double, 16> sum_key(const Path& path) {
   std::array<double, 16> key{path.delay_s,     path.doppler_hz, path.departure.x, path.departure.y,
@@ -201,7 +205,7 @@ class Summation {
         chunk_(std::min(term_chunk, paths.size() * (spectra.empty() ? 1 : 4))),
         phasors_(grid, chunk_) {
     check(paths, transmitter, receiver, grid.carrier_hz);
-    check_spectra(paths, spectra);
+    check_spectra(spectra);
     rows_ = size_t{amplitudes_of_.pairs()} * grid.time_samples;
     sums_.assign(rows_ * phasors_.blocks() * 2 * lanes, 0.0);
     amplitudes_.resize(rows_ * chunk_);
@@ -233,9 +237,7 @@ class Summation {
   }
 
  private:
-  void check_spectra(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) const {
-    GREATX_CHECK(spectra.empty() || spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(),
-                 paths.size());
+  void check_spectra(std::span<const TransferSpectrum> spectra) const {
     for (const TransferSpectrum& spectrum : spectra) {
       GREATX_CHECK(spectrum.size() == grid_.subcarriers, "a spectrum of {} subcarriers, {} in the grid",
                    spectrum.size(), grid_.subcarriers);
@@ -294,6 +296,7 @@ std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
                                                     std::span<const TransferSpectrum> spectra,
                                                     const ArrayPose& transmitter, const ArrayPose& receiver,
                                                     const ChannelGrid& grid) {
+  check_count(paths, spectra);
   return Summation(paths, spectra, transmitter, receiver, grid).values<std::complex<float>>();
 }
 
@@ -301,6 +304,7 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
                                              std::span<const TransferSpectrum> spectra,
                                              const ArrayPose& transmitter, const ArrayPose& receiver,
                                              const ChannelGrid& grid) {
+  check_count(paths, spectra);
   return Summation(paths, spectra, transmitter, receiver, grid).values<Complex>();
 }
 

@@ -171,29 +171,10 @@ double foliage_amplitude(const FieldModel& model, double depth_m) {
   return std::pow(10.0, -foliage_db(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
 }
 
-}  // namespace
-
-Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
-                const dvec3& receiver_velocity) {
-  const FacetWorld& world = *model.world;
-  GREATX_CHECK(geometry.vertices.size() == geometry.interactions.size() + 2 && geometry.length_m > 0.0,
-               "path of {} interactions, {} vertices, {} m", geometry.interactions.size(),
-               geometry.vertices.size(), geometry.length_m);
-  const Runs runs = runs_of(geometry, world);
-
-  Path path;
-  path.interactions = geometry.interactions;
-  path.vertices = geometry.vertices;
-  path.length_m = geometry.length_m;
-  path.foliage_m = geometry.foliage_m;
-  path.delay_s = geometry.length_m / speed_of_light;
-  path.departure = runs.directions.front();
-  path.arrival = -runs.directions.back();
-
-  Travelling field(model, path.departure);
-  // Rate at which the path shortens, m/s (physics: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1})).
-  double closing = glm::dot(transmitter_velocity, runs.directions.front()) -
-                   glm::dot(receiver_velocity, runs.directions.back());
+/// What the path does to the two unit fields at the transmitter, spreading included.
+void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
+                  Complex (&transfer)[4]) {
+  Travelling field(model, runs.directions.front());
   size_t run = 0;
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
     const dvec3& in = runs.directions[run];
@@ -201,7 +182,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
     if (i == path.interactions.size()) break;
     const Interaction& interaction = path.interactions[i];
     GREATX_CHECK(interaction.type != InteractionType::diffraction, "diffraction is not there yet");
-    const PosedFacet& facet = world.facet(interaction.element);
+    const PosedFacet& facet = model.world->facet(interaction.element);
     if (interaction.type == InteractionType::transmission) {
       field.transmit(facet, in);
       continue;
@@ -209,20 +190,60 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
     const dvec3& out = runs.directions[++run];
     if (interaction.type == InteractionType::reflection) field.reflect(facet, in, out);
     if (interaction.type == InteractionType::scattering)
-      field.scatter(facet, interaction, geometry.patch_area_m2, in, out);
-    closing += glm::dot(world.velocity(interaction.element, path.vertices[i + 1]), out - in);
+      field.scatter(facet, interaction, path.patch_area_m2, in, out);
   }
-  path.doppler_hz = closing / model.surfaces->wavelength_m();
-
-  double spreading = 1.0 / path.length_m;
-  if (runs.bend > 0) spreading = 1.0 / (runs.before_m * runs.after_m);
+  double spreading = runs.bend > 0 ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
   spreading *= foliage_amplitude(model, path.foliage_m);
-  const dvec3 theta = theta_hat(path.arrival), phi = phi_hat(path.arrival);
+  const dvec3 arrival = -runs.directions.back(), theta = theta_hat(arrival), phi = phi_hat(arrival);
   for (int column = 0; column < 2; ++column) {
-    path.transfer[column] = field.column(column).along(theta) * spreading;
-    path.transfer[2 + column] = field.column(column).along(phi) * spreading;
+    transfer[column] = field.column(column).along(theta) * spreading;
+    transfer[2 + column] = field.column(column).along(phi) * spreading;
   }
+}
+
+/// Rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
+double closing_rate(const GeometricPath& path, const FacetWorld& world, const Runs& runs,
+                    const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
+  double rate = glm::dot(transmitter_velocity, runs.directions.front()) -
+                glm::dot(receiver_velocity, runs.directions.back());
+  for (size_t run = 1; run < runs.directions.size(); ++run) {
+    const size_t vertex = runs.vertices[run];
+    const dvec3 velocity = world.velocity(path.interactions[vertex - 1].element, path.vertices[vertex]);
+    rate += glm::dot(velocity, runs.directions[run] - runs.directions[run - 1]);
+  }
+  return rate;
+}
+
+void check(const GeometricPath& path) {
+  GREATX_CHECK(path.vertices.size() == path.interactions.size() + 2 && path.length_m > 0.0,
+               "path of {} interactions, {} vertices, {} m", path.interactions.size(), path.vertices.size(),
+               path.length_m);
+}
+
+}  // namespace
+
+Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
+                const dvec3& receiver_velocity) {
+  check(geometry);
+  const Runs runs = runs_of(geometry, *model.world);
+  Path path;
+  path.interactions = geometry.interactions;
+  path.vertices = geometry.vertices;
+  path.length_m = geometry.length_m;
+  path.foliage_m = geometry.foliage_m;
+  path.patch_area_m2 = geometry.patch_area_m2;
+  path.delay_s = geometry.length_m / speed_of_light;
+  path.doppler_hz = closing_rate(geometry, *model.world, runs, transmitter_velocity, receiver_velocity) /
+                    model.surfaces->wavelength_m();
+  path.departure = runs.directions.front();
+  path.arrival = -runs.directions.back();
+  set_transfer(geometry, model, runs, path.transfer);
   return path;
+}
+
+void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]) {
+  check(geometry);
+  set_transfer(geometry, model, runs_of(geometry, *model.world), transfer);
 }
 
 }  // namespace greatx::rf

@@ -62,4 +62,7 @@ struct FieldModel {
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity);
 
+/// Path::transfer alone, by another model of the same world: another frequency.
+void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]);
+
 }  // namespace greatx::rf

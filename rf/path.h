@@ -69,7 +69,8 @@ struct Path {
   std::vector<dvec3> vertices;  ///< [interactions + 2], local coordinates
   double length_m = 0.0;
   double foliage_m = 0.0;
-  double delay_s = 0.0;  ///< length / c
+  double patch_area_m2 = 0.0;  ///< as GeometricPath's
+  double delay_s = 0.0;        ///< length / c
   double doppler_hz =
       0.0;  ///< nu = (1/lambda)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})), approaching > 0
   dvec3 departure{0.0};  ///< unit, world axes, leaving the transmitter
