@@ -84,7 +84,7 @@ std::vector<scene::Bounds> Enumeration::make_hulls(const scene::Scene& scene,
   std::vector<scene::Bounds> boxes;
   for (uint32_t f = 0; f < scene.facets.size(); ++f) {
     const scene::Facet& facet = scene.facets[f];
-    if (kinds_[f] == FacetKind::foliage) continue;
+    if (kinds_[f] != FacetKind::opaque && kinds_[f] != FacetKind::wall) continue;
     std::vector<dvec3> corners;
     for (uint32_t t = 0; t < facet.triangle_count; ++t)
       for (const dvec3& corner : scene.facet_triangles[facet.first_triangle + t].corners)

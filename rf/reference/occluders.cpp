@@ -52,7 +52,7 @@ Occluders::Occluders(const scene::Scene& scene, const FacetWorld& world, std::sp
         box.add(triangle.corners[c]);
       }
       if (t == 0) first_corners_.push_back(triangle.corners[0]);
-      if (kinds[f] == FacetKind::foliage) continue;
+      if (kinds[f] != FacetKind::opaque && kinds[f] != FacetKind::wall) continue;
       triangles_.push_back(triangle);
       boxes.push_back(box);
     }
@@ -71,28 +71,40 @@ bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   return in_plane(stretch.a) || in_plane(stretch.b);
 }
 
+bool Occluders::one_wall(const Stretch& stretch, const WallPassed& a, const WallPassed& b) const {
+  const double apart = std::abs(a.t - b.t) * glm::distance(stretch.a, stretch.b);
+  const dvec3 turned = glm::cross(world_->facet(a.facet).normal, world_->facet(b.facet).normal);
+  return apart <= 1e-6 && glm::length(turned) <= 1e-9;
+}
+
 bool Occluders::free_but_for(const Stretch& stretch, uint32_t budget, std::vector<WallPassed>& passed) const {
-  const size_t begin = passed.size();
-  bool free = true;
+  std::vector<WallPassed> met;
+  bool blocked = false;
   tree_.along(stretch.a, stretch.b, [&](uint32_t index) {
-    if (!free) return;
+    if (blocked) return;
     const Triangle& triangle = triangles_[index];
     const std::optional<double> t = meets(stretch.a, stretch.b, triangle.corners);
     if (!t || passed_over(stretch, triangle.facet)) return;
-    if ((*kinds_)[triangle.facet] == FacetKind::opaque) {
-      free = false;
-      return;
-    }
-    const auto known = [&](const WallPassed& wall) { return wall.facet == triangle.facet; };
-    const auto first = passed.begin() + static_cast<std::ptrdiff_t>(begin);
-    if (std::any_of(first, passed.end(), known)) return;
-    passed.push_back({*t, triangle.facet});
-    free = passed.size() - begin <= budget;
+    blocked = (*kinds_)[triangle.facet] == FacetKind::opaque;
+    met.push_back({*t, triangle.facet});
   });
-  std::sort(
-      passed.begin() + static_cast<std::ptrdiff_t>(begin), passed.end(),
-      [](const WallPassed& a, const WallPassed& b) { return a.t != b.t ? a.t < b.t : a.facet < b.facet; });
-  return free;
+  if (blocked) return false;
+  // By facet first, so that of walls in one place the first by index stays, whatever the roundings of t.
+  std::sort(met.begin(), met.end(), [](const WallPassed& a, const WallPassed& b) {
+    return a.facet != b.facet ? a.facet < b.facet : a.t < b.t;
+  });
+  std::vector<WallPassed> walls;
+  for (const WallPassed& wall : met) {
+    const auto known = [&](const WallPassed& w) {
+      return w.facet == wall.facet || one_wall(stretch, w, wall);
+    };
+    if (std::none_of(walls.begin(), walls.end(), known)) walls.push_back(wall);
+  }
+  std::sort(walls.begin(), walls.end(), [](const WallPassed& a, const WallPassed& b) {
+    return a.t != b.t ? a.t < b.t : a.facet < b.facet;
+  });
+  passed.insert(passed.end(), walls.begin(), walls.end());
+  return walls.size() <= budget;
 }
 
 }  // namespace greatx::rf::reference

@@ -43,8 +43,9 @@ class Occluders {
   /// - facets and bodies that the stretch names are never in its way;
   /// - nor is a facet whose plane one of the ends lies in, within 0.1 mm + 2^-22 of the largest coordinate of the end
   ///   and of the facet's first corner;
-  /// - foliage never blocks, opaque facets always do, a facet of kind wall is passed once however many of its
-  ///   triangles meet in the point;
+  /// - opaque facets always block, foliage and what is absent never does;
+  /// - a facet of kind wall is passed once however many of its triangles meet in the point, and walls in one plane met in
+  ///   one point (within 1e-6 m) are one, the first by index;
   /// - triangles are closed: edges and corners block.
   bool free_but_for(const Stretch& stretch, uint32_t budget, std::vector<WallPassed>& passed) const;
 
@@ -54,6 +55,7 @@ class Occluders {
     uint32_t facet;
   };
   bool passed_over(const Stretch& stretch, uint32_t facet) const;
+  bool one_wall(const Stretch& stretch, const WallPassed& a, const WallPassed& b) const;
 
   const FacetWorld* world_;
   const FacetKinds* kinds_;
