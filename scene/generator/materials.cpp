@@ -29,10 +29,8 @@ const char* const soil =
     R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
 const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coefficient":0.2})";
 const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
-// A crown is mostly air: a crude canopy stand-in, see docs/generator.md.
-const char* const canopy =
-    R"({"relative_permittivity":1.1,"conductivity":0.001,"thickness_m":2.0,"scattering_coefficient":0.5,)"
-    R"("cross_polarization":0.3})";
+// A volume: no face that reflects, loss by the depth.
+const char* const canopy = R"({"foliage":"weissberger"})";
 const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
 const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,"thickness_m":0.003})";

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where a material's radio properties come from: name, extension, sidecar.
+#include <set>
+
+#include "scene/build.h"
+#include "scene/scene_hash.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {
@@ -99,6 +103,60 @@ TEST(RadioMaterial, LayersInOrder) {
   EXPECT_EQ(pane.layers[0].thickness_m, 0.006);
   EXPECT_EQ(pane.layers[1].medium.source, "explicit permittivity");
   EXPECT_EQ(pane.layers[2].thickness_m, 0.004);
+}
+
+TEST(RadioMaterial, Foliage) {
+  const RadioMaterial model = load_extension({{"foliage", "weissberger"}});
+  ASSERT_TRUE(model.foliage);
+  EXPECT_FALSE(model.foliage->attenuation_db_per_m);
+  EXPECT_TRUE(model.layers.empty());
+  const RadioMaterial explicit_loss = load_extension({{"foliage", {{"attenuation_db_per_m", 1.25}}}});
+  ASSERT_TRUE(explicit_loss.foliage);
+  EXPECT_EQ(explicit_loss.foliage->attenuation_db_per_m, 1.25);
+  const Material lit = quad_with(with_extension({{"foliage", "weissberger"}, {"reflectance_905nm", 0.4}}))
+                           .load()
+                           .materials.at(0);
+  EXPECT_EQ(lit.reflectance_905nm, 0.4f);
+}
+
+TEST(RadioMaterial, FoliageErrors) {
+  const auto refuse = [](json fields, std::vector<std::string> parts) {
+    parts.insert(parts.end(), {"test.glb", "paint", "GREATX_radio_material"});
+    expect_user_error([&] { load_extension(fields); }, parts);
+  };
+  const std::string expected = "expected weissberger or {attenuation_db_per_m: dB/m}";
+  refuse({{"foliage", "oak"}}, {".foliage", expected, "'oak'"});
+  refuse({{"foliage", true}}, {".foliage", expected, "true"});
+  refuse({{"foliage", json::object()}}, {".foliage", expected, "a map"});
+  refuse({{"foliage", {{"attenuation_db_per_m", -0.1}}}},
+         {".foliage.attenuation_db_per_m", "from 0 to 1000", "-0.1"});
+  refuse({{"foliage", {{"db_per_m", 1}}}}, {".foliage", "unknown key 'db_per_m'"});
+  for (const char* key :
+       {"itu", "thickness_m", "layers", "scattering_coefficient", "roughness_m", "extrapolate"})
+    refuse({{"foliage", "weissberger"}, {key, 1}}, {"no surface", fmt::format("'{}'", key)});
+}
+
+TEST(RadioMaterial, FoliageIsPartOfTheHash) {
+  const auto hash_with = [](json fields) {
+    const Model model = quad_with(with_extension(std::move(fields))).load();
+    return hash_of(build_scene({{"", &model, {}, dvec3(1.0), false, {}}}, {.name = "s"}));
+  };
+  const std::set<std::string> hashes{
+      hash_with({{"foliage", "weissberger"}}), hash_with({{"foliage", {{"attenuation_db_per_m", 0.0}}}}),
+      hash_with({{"foliage", {{"attenuation_db_per_m", 0.5}}}}),
+      hash_with({{"foliage", {{"attenuation_db_per_m", 0.6}}}}), hash_with({{"itu", "wood"}})};
+  EXPECT_EQ(hashes.size(), 5u);
+}
+
+TEST(RadioMaterial, FoliagesThatDifferStayApart) {
+  const Model soft = quad_with(with_extension({{"foliage", "weissberger"}})).load(),
+              hard = quad_with(with_extension({{"foliage", {{"attenuation_db_per_m", 0.5}}}})).load(),
+              same = quad_with(with_extension({{"foliage", "weissberger"}})).load();
+  const auto placed = [](const Model& model, const char* name) {
+    return Placement{name, &model, {}, dvec3(1.0), false, {}};
+  };
+  const Scene scene = build_scene({placed(soft, "a"), placed(hard, "b"), placed(same, "c")}, {.name = "s"});
+  EXPECT_EQ(scene.materials.size(), 2u);
 }
 
 TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
@@ -204,6 +262,26 @@ TEST(RadioSidecar, LaysOverNameAndExtension) {
   EXPECT_EQ(over.radio->layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, glass");
   EXPECT_EQ(over.radio->scattering_coefficient, 0.2);
   EXPECT_EQ(over.reflectance_905nm, 0.1f);
+}
+
+TEST(RadioSidecar, FoliageReplacesAWallAndAWallFoliage) {
+  const json wall = with_extension({{"itu", "wood"}, {"thickness_m", 0.1}, {"scattering_coefficient", 0.2}}),
+             crown = with_extension({{"foliage", "weissberger"}});
+  const Material leafy =
+      load_with_sidecar("materials:\n  paint: { foliage: { attenuation_db_per_m: 0.7 } }\n", wall);
+  ASSERT_TRUE(leafy.radio->foliage);
+  EXPECT_EQ(leafy.radio->foliage->attenuation_db_per_m, 0.7);
+  EXPECT_TRUE(leafy.radio->layers.empty());
+  EXPECT_EQ(leafy.radio->scattering_coefficient, 0.0);
+  const Material solid = load_with_sidecar("materials:\n  paint: { itu: glass, thickness_m: 0.01 }\n", crown);
+  EXPECT_FALSE(solid.radio->foliage);
+  EXPECT_EQ(solid.radio->layers.at(0).thickness_m, 0.01);
+  for (const char* field : {"thickness_m: 0.1", "scattering_coefficient: 0.1", "extrapolate: true"})
+    expect_user_error(
+        [&] { load_with_sidecar(fmt::format("materials:\n  paint: {{ {} }}\n", field), crown); },
+        {"radio.yaml:2", "need a medium"});
+  expect_user_error([&] { load_with_sidecar("materials:\n  paint:\n    foliage: 3\n", wall); },
+                    {"radio.yaml:3", "materials.paint.foliage", "found 3"});
 }
 
 TEST(RadioSidecar, ErrorsHaveFileAndLine) {

@@ -83,6 +83,22 @@ TEST_P(EveryKind, SolidsAreClosedAndLookOutwards) {
   EXPECT_EQ(open_edges(ground, true), 0u);
 }
 
+TEST_P(EveryKind, FoliageEnclosesVolumesOfItsOwn) {
+  // Radio needs an inside of the crown alone, without the trunk that stands in it.
+  size_t volumes = 0;
+  for (uint32_t i = 0; i < soup_.model.instances.size(); ++i) {
+    std::vector<SoupTriangle> foliage;
+    for (const SoupTriangle& t : soup_.of_instance(i))
+      if (soup_.model.materials[t.material].radio->foliage) foliage.push_back(t);
+    if (foliage.empty()) continue;
+    EXPECT_EQ(soup_.model.instances[i].semantic_class, SemanticClass::vegetation);
+    EXPECT_EQ(open_edges(foliage), 0u) << soup_.model.instances[i].name;
+    ++volumes;
+  }
+  const bool grows = GetParam().kind == "city" || GetParam().kind == "country";
+  EXPECT_EQ(volumes > 0, grows);
+}
+
 TEST_P(EveryKind, NoFaceLiesInAnother) {
   std::string first;
   EXPECT_LT(coplanar_overlap(soup_, &first), 1e-4) << first;
