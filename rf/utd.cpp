@@ -114,10 +114,13 @@ UtdAngles utd_angles(double n, double incident, double observed) {
 }
 
 UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
-  // Into [0, n pi]; what lies outside belongs to the nearer face (its caller has looked at the distance).
+  // Into [0, n pi]. A point on a face may be off it by its tolerance, which is an angle to reckon with near the edge.
+  const double wide = n * pi;
   const auto from_face_0 = [&](const dvec2& direction) {
-    const double angle = std::atan2(direction.y, direction.x);
-    return angle < pi * (0.5 * n - 1.0) ? angle + 2.0 * pi : angle;
+    const double turned = std::atan2(direction.y, direction.x);
+    const double angle = turned < 0.5 * wide - pi ? turned + 2.0 * pi : turned;
+    GREATX_CHECK(angle > -0.1 && angle < wide + 0.1, "angle {} of an exterior of {}", angle, wide);
+    return std::min(std::max(angle, 0.0), wide);
   };
   UtdAngles angles = utd_angles(n, from_face_0(source), from_face_0(observer));
   for (uint32_t term = 0; term < 4; ++term) {
