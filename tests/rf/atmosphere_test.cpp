@@ -21,6 +21,8 @@
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/roughness.h"
 #include "rf/surfaces.h"
+#include "scene/build.h"
+#include "scene/generator/generate.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -354,6 +356,23 @@ TEST(Foliage, MeshesAreClosed) {
             "scene 'wood', object 'oak': expected a closed mesh of foliage 'leaves' (its depth needs an "
             "inside), found 3 "
             "open edges");
+}
+
+TEST(Foliage, GeneratedCrownsAreClosedWhereTheyStand) {
+  for (const char* kind : {"city", "country"}) {
+    const scene::Model model =
+        scene::load_model(kind, scene::generate_glb({.kind = kind, .seed = 7, .size_m = 300}), {});
+    scene::Scene built = scene::build_scene(
+        {{.name = "", .model = &model, .pose = {.position = dvec3(690000, 5e6, 500)}}}, {.name = kind});
+    EXPECT_NO_THROW(check_foliage(built, 3.5e9)) << kind;
+    // A crown's first triangle away: found.
+    for (scene::Facet& facet : built.facets)
+      if (built.materials[facet.material].radio->foliage) {
+        facet.triangle_count = 0;
+        break;
+      }
+    EXPECT_THROW(check_foliage(built, 3.5e9), UserError) << kind;
+  }
 }
 
 TEST(Foliage, AFaceTurnedOverIsNoClosedMesh) {
