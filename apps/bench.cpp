@@ -11,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/recall.h"
 #include "apps/session.h"
 #include "apps/summary.h"
 #include "io/dataset_writer.h"
@@ -25,6 +26,8 @@ struct Options {
   RunOptions run;
   int64_t warm_up = 5;
   bool discard = false, json = false;
+  bool recall = false;
+  RecallOptions recall_options;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -152,7 +155,33 @@ void add_bench(CLI::App& app) {
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--discard", options->discard, "simulate only: encode and write nothing");
   command->add_flag("--json", options->json, "print one JSON object");
-  command->callback([options] { run(*options); });
+  command->add_flag(
+      "--recall", options->recall,
+      "hold the specular paths against an exhaustive reference instead; without SCENARIO: in a room, a "
+      "street canyon and the city");
+  RecallOptions& recall = options->recall_options;
+  command->add_option("--count", recall.receivers, "of --recall: receivers drawn from the seed")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--receivers", recall.receiver_file, "of --recall: CSV of positions x, y, z instead")
+      ->check(CLI::ExistingFile);
+  command->add_option("--depth", recall.max_depth, "of --recall: reflections and walls passed on a path")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 6));
+  command->add_option("--walls", recall.max_transmissions, "of --recall: of them walls passed")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 6));
+  command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 24));
+  command->callback([options, command] {
+    if (!options->recall) return run(*options);
+    options->recall_options.scenario = options->scenario;
+    options->recall_options.run = options->run;
+    options->recall_options.json = options->json;
+    options->recall_options.every_scene = command->count("SCENARIO") == 0;
+    run_recall(options->recall_options);
+  });
 }
 
 }  // namespace greatx::apps

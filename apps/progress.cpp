@@ -26,8 +26,9 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, int64_t total, bool quiet)
+Progress::Progress(std::string what, int64_t total, bool quiet, std::string unit)
     : what_(std::move(what)),
+      unit_(std::move(unit)),
       total_(total),
       visible_(!quiet && isatty(STDERR_FILENO) == 1),
       begin_(std::chrono::steady_clock::now()),
@@ -51,9 +52,11 @@ void Progress::update(int64_t done) {
   constexpr int width = 30;
   const int filled = static_cast<int>(width * done / std::max<int64_t>(1, total_));
   const std::string left = rate > 0.0 ? duration(static_cast<double>(total_ - done) / rate) + " left" : "";
-  const std::string line =
-      fmt::format("\r{} [{}{}] {}/{}  {:.2f} ticks/s  {}   ", what_, std::string(filled, '#'),
-                  std::string(width - filled, ' '), done, total_, rate, left);
+  const std::string count =
+      unit_.empty() ? fmt::format("{:.0f} %", 100.0 * static_cast<double>(done) / static_cast<double>(total_))
+                    : fmt::format("{}/{}  {:.2f} {}/s", done, total_, rate, unit_);
+  const std::string line = fmt::format("\r{} [{}{}] {}  {}   ", what_, std::string(filled, '#'),
+                                       std::string(width - filled, ' '), count, left);
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

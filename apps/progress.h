@@ -8,15 +8,16 @@
 
 namespace greatx::apps {
 
-/// A line on stderr with a bar, the rate and the time left; silent when stderr is no terminal.
+/// A line on stderr with a bar, the rate in `unit`s and the time left; silent when stderr is no terminal.
 class Progress {
  public:
-  Progress(std::string what, int64_t total, bool quiet);
+  /// `unit` empty: a share of the whole, no rate.
+  Progress(std::string what, int64_t total, bool quiet, std::string unit = "ticks");
   ~Progress();
   void update(int64_t done);
 
  private:
-  std::string what_;
+  std::string what_, unit_;
   int64_t total_, first_ = -1;
   bool visible_;
   std::chrono::steady_clock::time_point begin_, last_;
