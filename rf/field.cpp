@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
+#include "rf/diffraction.h"
 #include "rf/field_vector.h"
 
 namespace greatx::rf {
@@ -28,6 +29,7 @@ struct Runs {
   std::vector<dvec3> directions;  ///< [runs] unit vectors
   size_t bend = 0;  ///< the run that starts at the path's diffraction or scattering; 0: there is none
   double before_m = 0.0, after_m = 0.0;  ///< unfolded lengths on both sides of the bend
+  bool scattered = false;                ///< there: what is scattered spreads anew
 };
 
 /// Directions of the runs [first, last), all joined by reflections; returns the sum of their lengths.
@@ -64,6 +66,7 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
     if (bends(path.interactions[i].type)) {
       GREATX_CHECK(runs.bend == 0, "path with more than one diffraction or scattering");
       runs.bend = runs.vertices.size();
+      runs.scattered = path.interactions[i].type == InteractionType::scattering;
     }
     runs.vertices.push_back(i + 1);
   }
@@ -136,6 +139,15 @@ class Travelling {
         {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
   }
 
+  /// Spreads by the whole length from there on, too (edge_dyadic).
+  void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
+                double after_m) {
+    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
+    const EdgeDyadic edge =
+        edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share);
+    for (FieldVector& field : columns_) field = edge.apply(field);
+  }
+
  private:
   /// From components on (s_in, p_in) to those on (s_out, p_out): the matrix [ss sp; ps pp], out by in.
   void map(const dvec3& s_in, const dvec3& p_in, const dvec3& s_out, const dvec3& p_out,
@@ -171,9 +183,16 @@ double foliage_amplitude(const FieldModel& model, double depth_m) {
   return std::pow(10.0, -foliage_db(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
 }
 
+const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interaction) {
+  GREATX_CHECK(interaction.element < model.wedges.size(), "wedge {} of {}", interaction.element,
+               model.wedges.size());
+  return model.wedges[interaction.element];
+}
+
 /// What the path does to the two unit fields at the transmitter, spreading included.
 void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                   Complex (&transfer)[4]) {
+  const FacetWorld& world = *model.world;
   Travelling field(model, runs.directions.front());
   size_t run = 0;
   for (size_t i = 0; i <= path.interactions.size(); ++i) {
@@ -181,18 +200,25 @@ void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs
     field.through_air(in, glm::length(path.vertices[i + 1] - path.vertices[i]));
     if (i == path.interactions.size()) break;
     const Interaction& interaction = path.interactions[i];
-    GREATX_CHECK(interaction.type != InteractionType::diffraction, "diffraction is not there yet");
-    const PosedFacet& facet = model.world->facet(interaction.element);
-    if (interaction.type == InteractionType::transmission) {
-      field.transmit(facet, in);
-      continue;
+    const dvec3& out = interaction.type == InteractionType::transmission ? in : runs.directions[++run];
+    switch (interaction.type) {
+      case InteractionType::reflection:
+        field.reflect(world.facet(interaction.element), in, out);
+        break;
+      case InteractionType::transmission:
+        field.transmit(world.facet(interaction.element), in);
+        break;
+      case InteractionType::scattering:
+        field.scatter(world.facet(interaction.element), interaction, path.patch_area_m2, in, out);
+        break;
+      case InteractionType::diffraction:
+        field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m);
+        break;
+      case InteractionType::none:
+        GREATX_CHECK(false, "interaction {} is none", i);
     }
-    const dvec3& out = runs.directions[++run];
-    if (interaction.type == InteractionType::reflection) field.reflect(facet, in, out);
-    if (interaction.type == InteractionType::scattering)
-      field.scatter(facet, interaction, path.patch_area_m2, in, out);
   }
-  double spreading = runs.bend > 0 ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
+  double spreading = runs.scattered ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
   spreading *= foliage_amplitude(model, path.foliage_m);
   const dvec3 arrival = -runs.directions.back(), theta = theta_hat(arrival), phi = phi_hat(arrival);
   for (int column = 0; column < 2; ++column) {
@@ -202,14 +228,18 @@ void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs
 }
 
 /// Rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
-double closing_rate(const GeometricPath& path, const FacetWorld& world, const Runs& runs,
+double closing_rate(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                     const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
   double rate = glm::dot(transmitter_velocity, runs.directions.front()) -
                 glm::dot(receiver_velocity, runs.directions.back());
   for (size_t run = 1; run < runs.directions.size(); ++run) {
     const size_t vertex = runs.vertices[run];
-    const dvec3 velocity = world.velocity(path.interactions[vertex - 1].element, path.vertices[vertex]);
-    rate += glm::dot(velocity, runs.directions[run] - runs.directions[run - 1]);
+    const Interaction& interaction = path.interactions[vertex - 1];
+    const uint32_t facet = interaction.type == InteractionType::diffraction
+                               ? wedge_of(model, interaction).facet_0
+                               : interaction.element;
+    rate += glm::dot(model.world->velocity(facet, path.vertices[vertex]),
+                     runs.directions[run] - runs.directions[run - 1]);
   }
   return rate;
 }
@@ -233,7 +263,7 @@ Path path_field(const GeometricPath& geometry, const FieldModel& model, const dv
   path.foliage_m = geometry.foliage_m;
   path.patch_area_m2 = geometry.patch_area_m2;
   path.delay_s = geometry.length_m / speed_of_light;
-  path.doppler_hz = closing_rate(geometry, *model.world, runs, transmitter_velocity, receiver_velocity) /
+  path.doppler_hz = closing_rate(geometry, model, runs, transmitter_velocity, receiver_velocity) /
                     model.surfaces->wavelength_m();
   path.departure = runs.directions.front();
   path.arrival = -runs.directions.back();

@@ -53,9 +53,10 @@ struct FieldModel {
 /// - Scattering: E' = (S/(s' s)) sqrt(f_s cos(theta_i) dA) M diag(r_TE, r_TM) E, s' and s the unfolded lengths before and
 ///   after, M and f_s of rf/scattering.h, r of the smooth wall: so S^2 Gamma^2 |E|^2 cos(theta_i) dA leaves the patch,
 ///   Gamma^2 = |r_TE|^2 and |r_TM|^2 weighed with the power in each.
+/// - Diffraction: edge_dyadic (rf/diffraction.h), whose faces reflect with the same rho and S.
 /// - Air: each segment takes its dB of theta_hat and phi_hat of its direction; foliage takes foliage_db of the depth.
 /// - transfer = theta-phi components at the receiver of the two unit fields at the transmitter, with the spreading:
-///   1/length, or as said above.
+///   1/length, but for scattering.
 /// - delay = length / c; doppler = (f/c)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})), the sum of small numbers,
 ///   never a product of (1 + v/c) (1e-3 Hz and 7500 m/s alike). Approaching: positive. The phase turns as
 ///   e^{+j 2 pi doppler t}. A transmission adds nothing, whatever its wall does.
