@@ -152,6 +152,9 @@ void Midpoints::diffract(const Chain& chain, uint32_t index, std::vector<Geometr
   const size_t middle = chain.tree.depth(chain.prefix) + 1;
   if (!in_exterior(wedge, path.vertices[middle - 1]) || !in_exterior(wedge, path.vertices[middle + 1]))
     return;
+  if (!model_->effects.lit_region &&
+      !in_shadow(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix)))
+    return;
   if (chain.tree.end() == Source::receiver) reverse(path);
   paths.push_back(std::move(path));
 }

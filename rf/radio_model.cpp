@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "rf/atmosphere/foliage.h"
 
 namespace greatx::rf {
 
@@ -60,6 +61,7 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       facets(radio_scene),
       surfaces(radio_scene, carrier_hz),
       kinds(facet_kinds(radio_scene, which)) {
+  if (effects.field.foliage) check_foliage(radio_scene, carrier_hz);
   if (effects.diffraction) wedges = wedges_of(radio_scene, kinds, effects.free_edges);
 }
 

@@ -131,6 +131,8 @@ void ChannelSensor::describe() {
     metadata["receivers"].back()["body_from_antenna"] = json_of(paths_.receivers()[r].mount);
   }
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
+  metadata["dispersion"] =
+      dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
   metadata["walls"] = describe_walls(world_.scene, paths_.model().surfaces);
   for (const auto& [name, text] : paths_.notes()) metadata["candidates"][name] = text;
   spec_.metadata_json = metadata.dump();
@@ -174,14 +176,14 @@ std::vector<Array> ChannelSensor::arrays_of(const ChannelPaths::Result& result) 
   PathArray<uint32_t> facet(paths, {ports(depth)}), element(paths, {ports(depth)}),
       object(paths, {ports(depth)}), material(paths, {ports(depth)});
 
-  rf::ChannelGrid grid{config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers,
-                       config_.time_samples, doppler_ ? config_.time_spacing_s : 0.0};
   const rf::ArrayPose transmitter{transmitter_array_, result.transmitter.orientation};
   size_t cfr_offset = 0;
   for (size_t r = 0; r < receivers; ++r) {
     const ChannelPaths::Link& link = result.links[r];
     const rf::ArrayPose receiver{receiver_arrays_[r], link.receiver.orientation};
-    const auto response = rf::frequency_response(link.paths, transmitter, receiver, grid);
+    const auto response = dispersion_ ? rf::frequency_response(link.paths, dispersion_->spectra(link.paths),
+                                                               transmitter, receiver, grid_)
+                                      : rf::frequency_response(link.paths, transmitter, receiver, grid_);
     std::copy(response.begin(), response.end(),
               cfr.as<std::complex<float>>().begin() + static_cast<std::ptrdiff_t>(cfr_offset));
     cfr_offset += response.size();

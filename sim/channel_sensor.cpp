@@ -61,6 +61,10 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
                           "channel '{}': rx: expected receivers with one number of ports, found {} and {}; "
                           "give each its own channel",
                           config_.name, receiver_arrays_[0].port_count(), receiver.port_count());
+  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
+           doppler_ ? config_.time_spacing_s : 0.0};
+  if (plan.dispersion.on)
+    dispersion_.emplace(world.scene, paths_.model().field_model(), paths_.model().effects.weather, grid_);
   describe();
 }
 

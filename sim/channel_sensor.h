@@ -4,10 +4,12 @@
 // Channel state information of one transmitter and its receivers: the paths of ChannelPaths, seen through the antennas.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rf/antenna.h"
 #include "rf/channel.h"
+#include "rf/dispersion.h"
 #include "sim/channel_paths.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
@@ -51,6 +53,8 @@ class ChannelSensor : public Sensor {
   ChannelPaths paths_;
   rf::AntennaArray transmitter_array_;
   std::vector<rf::AntennaArray> receiver_arrays_;
+  rf::ChannelGrid grid_;
+  std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
   SensorSpec spec_;
   ErrorStatistics line_of_sight_errors_;
 };

@@ -10,6 +10,9 @@
 
 #include "core/units.h"
 #include "rf/atmosphere/bounds.h"
+#include "rf/atmosphere/fog.h"
+#include "rf/atmosphere/gas.h"
+#include "rf/atmosphere/rain.h"
 #include "rf/radio_model.h"
 #include "rf/roughness.h"
 #include "sim/effect_planner.h"
@@ -209,15 +212,18 @@ void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scen
   };
   const rf::Weather weather = weather_of(scenario.environment);
   const double f = radio.asks.carrier_hz;
-  // Outside the recommendation's range there is no bound: the channel refuses it by name if the effect is asked for.
-  const bool in_range = radio.on() && f >= 1e9 && f <= 1e12;
-  plan.gas = bounded("gas", in_range ? rf::most_gas_db(weather, f, longest_m) : 0.0,
-                     "below 1 GHz (P.676-13 begins there)");
+  // Outside its recommendation's range an effect has no bound: it stays off, and says so.
+  const auto covered = [&](bool covers, double amount, double (*most)(const rf::Weather&, double, double)) {
+    return radio.on() && covers && amount > 0.0 ? most(weather, f, longest_m) : 0.0;
+  };
+  const auto none = [&](bool covers, const char* reason, const char* source) {
+    return covers ? std::string(reason) : fmt::format("{} does not cover {:.4g} GHz", source, f * 1e-9);
+  };
+  const bool gas = rf::gas_model_covers(f), rain = rf::rain_model_covers(f), fog = rf::fog_model_covers(f);
+  plan.gas = bounded("gas", covered(gas, 1.0, rf::most_gas_db), none(gas, "no air", "P.676-13"));
   plan.rain =
-      bounded("rain", weather.rain_mm_h > 0.0 && radio.on() ? rf::most_rain_db(weather, f, longest_m) : 0.0,
-              "no rain");
-  plan.fog = bounded(
-      "fog", weather.fog_g_m3 > 0.0 && radio.on() ? rf::most_fog_db(weather, f, longest_m) : 0.0, "no fog");
+      bounded("rain", covered(rain, weather.rain_mm_h, rf::most_rain_db), none(rain, "no rain", "P.838-3"));
+  plan.fog = bounded("fog", covered(fog, weather.fog_g_m3, rf::most_fog_db), none(fog, "no fog", "P.840"));
   const bool leaves = radio.on() && radio.surfaces.foliage;
   plan.foliage = radio.planner.decide(
       "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));

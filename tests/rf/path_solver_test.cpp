@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All stages together on scenes of a few facets: candidates, geometry, crossings on the device, fields.
+#include "rf/path_solver.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "rf/search/beam_search.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx::rf {
+namespace {
+
+using test::TinyScene;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr double carrier_hz = 3.5e9;
+
+scene::Material concrete(const std::string& name, double thickness_m, double scattering = 0.0) {
+  scene::Material material;
+  material.name = name;
+  scene::RadioMaterial radio;
+  radio.layers.push_back({*scene::itu_medium("concrete"), thickness_m});
+  radio.scattering_coefficient = scattering;
+  material.radio = radio;
+  return material;
+}
+
+/// The material of a thin wall (index 1), a half-space (2), a wall that scatters (3).
+TinyScene materials() {
+  TinyScene tiny;
+  tiny.material_as(concrete("wall", 0.2));
+  tiny.material_as(concrete("ground", 0.0));
+  tiny.material_as(concrete("rough", 0.2, 0.4));
+  return tiny;
+}
+
+struct Solved {
+  std::vector<Path> paths;
+  std::vector<std::string> chains() const {
+    std::vector<std::string> all;
+    for (const Path& path : paths) {
+      std::string chain;
+      for (const Interaction& i : path.interactions) chain += "0RTDS"[static_cast<size_t>(i.type)];
+      all.push_back(chain);
+    }
+    return all;
+  }
+};
+
+/// `end`: which of the two is the source that candidates run from.
+Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const RadioEffects& effects,
+             const PathOptions& options, Source end = Source::transmitter) {
+  gpu::Device& device = test::device();
+  scene::GpuScene gpu_scene(device, scene, {});
+  const RadioModel model(scene, carrier_hz, effects);
+  CrossingPass pass(gpu_scene, model.kinds);
+  BeamSearchOptions search;
+  search.max_depth = options.max_depth;
+  search.max_transmissions = effects.transmission ? options.max_transmissions : 0;
+  const dvec3 source = end == Source::transmitter ? tx : rx, target = end == Source::transmitter ? rx : tx;
+  const BeamSearchResult found = BeamSearch(model.facets, model.kinds, model.wedges, search).search(source);
+  PathSolver solver(model, options);
+  solver.set_candidates(found.list, source, end);
+
+  const LinkGeometry link = solver.geometry(target);
+  EXPECT_EQ(link.overflow, 0u);
+  std::vector<Segment> segments;
+  EndState transmitter, receiver;
+  transmitter.position = tx, receiver.position = rx;
+  solver.add_segments(link.paths, transmitter, receiver, segments);
+  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, std::vector<Pose>(scene.bodies.size()));
+  const CrossingPass::Pending pending = pass.record(slot, segments);
+  ring.submit(slot);
+  ring.wait(slot);
+  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver)};
+}
+
+RadioEffects with_walls() {
+  RadioEffects effects;
+  effects.transmission = true;
+  return effects;
+}
+
+/// A wall in the plane x = 0, 20 m by 10 m.
+TinyScene one_wall(uint32_t material) {
+  TinyScene tiny = materials();
+  tiny.object("wall", 0, material).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 10}, {0, -10, 10});
+  return tiny;
+}
+
+TEST(PathSolver, AWallIsPassedWithTheFieldOfItsSlab) {
+  const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
+  const Solved through = solve(one_wall(1).build(), tx, rx, with_walls(), {});
+  ASSERT_THAT(through.chains(), ElementsAre("T"));
+  const Path& path = through.paths[0];
+  EXPECT_NEAR(path.length_m, 10.0, 1e-12);
+  EXPECT_NEAR(glm::length(path.vertices[1] - dvec3(0, 0, 5)), 0.0, 1e-12);
+  const scene::Material wall = concrete("wall", 0.2);
+  const RadioSurface surface = radio_surface(*wall.radio, carrier_hz, "wall");
+  const Complex t = slab(surface.front[0], speed_of_light / carrier_hz, 1.0).t_te *
+                    sheet_phase(0.2, speed_of_light / carrier_hz, 1.0);
+  EXPECT_LT(std::abs(path.transfer[0] - t / 10.0), 1e-12);
+  EXPECT_LT(std::abs(path.transfer[3] + t / 10.0), 1e-12);
+}
+
+TEST(PathSolver, WallsBlockWhereTransmissionIsOffOrNoneIsAllowed) {
+  const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
+  EXPECT_THAT(solve(one_wall(1).build(), tx, rx, {}, {}).paths, IsEmpty());
+  EXPECT_THAT(solve(one_wall(2).build(), tx, rx, with_walls(), {}).paths, IsEmpty());  // a half-space
+  EXPECT_THAT(solve(one_wall(1).build(), tx, rx, with_walls(), {.max_transmissions = 0}).paths, IsEmpty());
+  EXPECT_THAT(solve(one_wall(1).build(), tx, rx, with_walls(), {.max_depth = 0}).paths, IsEmpty());
+}
+
+TEST(PathSolver, DepthBoundsReflectionsAndWallsTogether) {
+  TinyScene tiny = one_wall(1);
+  tiny.object("ground", 0, 2).quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+  const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
+  EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 1}).chains(), ElementsAre("T"));
+  EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "RT"));
+  // From the other side of the same link: the same paths, the other way round.
+  EXPECT_THAT(solve(tiny.build(), rx, tx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "TR"));
+}
+
+TEST(PathSolver, AClosedBoxIsTwoWallsAndASeamIsOne) {
+  TinyScene box = materials();
+  box.object("box", 0, 1).box({-2, -2, 0}, {2, 2, 4});
+  const dvec3 tx(-9, 0.3, 2.1), rx(9, 0.4, 2.2);
+  EXPECT_THAT(solve(box.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("TT"));
+  EXPECT_THAT(solve(box.build(), tx, rx, with_walls(), {.max_depth = 1}).chains(), IsEmpty());
+  // Two facets of one plane, met on their common edge.
+  TinyScene seam = materials();
+  seam.object("low", 0, 1).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 5}, {0, -10, 5});
+  seam.object("high", 0, 1).quad({0, -10, 5}, {0, 10, 5}, {0, 10, 10}, {0, -10, 10});
+  EXPECT_THAT(solve(seam.build(), {-4, 0, 5}, {6, 0, 5}, with_walls(), {}).chains(), ElementsAre("T"));
+}
+
+TEST(PathSolver, ATwiceDrawnWallIsPassedOnce) {
+  TinyScene tiny = one_wall(1);
+  tiny.object("again", 0, 1).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 10}, {0, -10, 10});
+  EXPECT_THAT(solve(tiny.build(), {-4, 0, 5}, {6, 0, 5}, with_walls(), {}).chains(), ElementsAre("T"));
+}
+
+RadioEffects with_edges() {
+  RadioEffects effects;
+  effects.diffraction = true;
+  return effects;
+}
+
+/// A house with its corner at the origin's vertical, ends in each other's shadow.
+TEST(PathSolver, InTheShadowOfAHouseItsEdgesAreAllThatIsLeft) {
+  TinyScene house = materials();
+  house.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
+  const dvec3 tx(-5, 4, 3), rx(4, -5, 3);
+  EXPECT_THAT(solve(house.build(), tx, rx, {}, {}).paths, IsEmpty());
+  const Solved shadow = solve(house.build(), tx, rx, with_edges(), {.max_depth = 1});
+  ASSERT_THAT(shadow.chains(), ElementsAre("D"));
+  const Path& path = shadow.paths[0];
+  EXPECT_NEAR(glm::length(path.vertices[1] - dvec3(0, 0, 3)), 0.0, 1e-9);
+  EXPECT_NEAR(path.length_m, 2.0 * std::hypot(5, 4), 1e-12);
+  EXPECT_GT(std::abs(path.transfer[0]), 0.0);
+  // From the receiver's side the same path, and by reciprocity of this symmetric link the same strength.
+  const Solved back = solve(house.build(), tx, rx, with_edges(), {.max_depth = 1}, Source::receiver);
+  ASSERT_EQ(back.paths.size(), 1u);
+  EXPECT_EQ(back.paths[0].id(), path.id());
+  EXPECT_LT(std::abs(back.paths[0].transfer[0] - path.transfer[0]), 1e-12 * std::abs(path.transfer[0]));
+}
+
+TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
+  TinyScene house = materials();
+  house.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
+  house.object("ground", 0, 2).quad({-50, -50, -1}, {50, -50, -1}, {50, 50, -1}, {-50, 50, -1});
+  const dvec3 tx(-5, 4, 3), rx(4, -5, 3);
+  const auto count = [&](const PathOptions& options, const std::string& chain,
+                         Source end = Source::transmitter) {
+    const std::vector<std::string> chains = solve(house.build(), tx, rx, with_edges(), options, end).chains();
+    return std::count(chains.begin(), chains.end(), chain);
+  };
+  EXPECT_EQ(count({.max_depth = 2}, "RD"), 1);
+  EXPECT_EQ(count({.max_depth = 2}, "DR"), 0);  // not looked for
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "RD"), 1);
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR"), 1);
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR", Source::receiver), 1);
+  // The source is the receiver: what comes after the edge, seen from it, comes before.
+  EXPECT_EQ(count({.max_depth = 2}, "DR", Source::receiver), 1);
+}
+
+TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {
+  TinyScene tiny = one_wall(3);
+  const scene::Scene scene = tiny.build();
+  RadioEffects effects;
+  effects.scattering = true;
+  const FacetKinds kinds = facet_kinds(scene, effects);
+  double area = 0.0;
+  for (const Patch& patch : scattering_patches(scene, kinds, 3.0)) area += patch.area_m2;
+  EXPECT_NEAR(area, 200.0, 1e-9);
+  EXPECT_THROW(scattering_patches(scene, kinds, 1e-3, 1000), UserError);
+
+  const PathOptions options{.max_depth = 1, .patch_m = 3.0};
+  const Solved front = solve(scene, {5, 0, 5}, {6, 3, 4}, effects, options);
+  const size_t scattered =
+      static_cast<size_t>(std::count_if(front.paths.begin(), front.paths.end(), [](const Path& path) {
+        return path.interactions.size() == 1 && path.interactions[0].type == InteractionType::scattering;
+      }));
+  EXPECT_EQ(scattered, scattering_patches(scene, kinds, 3.0).size());
+  // On the other side of the wall nothing arrives: it is scattered back.
+  EXPECT_THAT(solve(scene, {5, 0, 5}, {-6, 3, 4}, effects, options).paths, IsEmpty());
+}
+
+TEST(PathSolver, ScatteredPowerConvergesWithThePatches) {
+  // What all patches scatter to a point, incoherently: halving the patches changes it less and less.
+  const scene::Scene scene = one_wall(3).build();
+  RadioEffects effects;
+  effects.scattering = true;
+  double before = 0.0, change = 1.0;
+  for (const double side : {4.0, 2.0, 1.0}) {
+    double power = 0.0;
+    for (const Path& path :
+         solve(scene, {8, 0, 5}, {9, 3, 4}, effects, {.max_depth = 1, .patch_m = side}).paths)
+      if (!path.interactions.empty() && path.interactions[0].type == InteractionType::scattering)
+        for (const Complex& t : path.transfer) power += std::norm(t);
+    if (before > 0.0) {
+      EXPECT_LT(std::abs(power / before - 1.0), change);
+      change = std::abs(power / before - 1.0);
+    }
+    before = power;
+  }
+  EXPECT_LT(change, 0.03);
+}
+
+TEST(PathSolver, APathBeyondTheBoundIsCounted) {
+  const scene::Scene scene = one_wall(3).build();
+  RadioEffects effects;
+  effects.scattering = true;
+  const RadioModel model(scene, carrier_hz, effects);
+  PathSolver solver(model, {.max_depth = 1, .patch_m = 1.0, .max_paths = 10});
+  const dvec3 source(5, 0, 5);
+  solver.set_candidates(BeamSearch(model.facets, model.kinds, {}, {.max_depth = 1}).search(source).list,
+                        source, Source::transmitter);
+  const LinkGeometry link = solver.geometry({6, 3, 4});
+  EXPECT_EQ(link.paths.size(), 10u);
+  EXPECT_GT(link.overflow, 100u);
+}
+
+TEST(PathSolver, EffectsThatAreOffGiveNoPaths) {
+  TinyScene tiny = materials();
+  tiny.object("ground", 0, 2).quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
+  RadioEffects effects;
+  effects.line_of_sight = false;
+  EXPECT_THAT(solve(tiny.build(), {0, 0, 5}, {6, 0, 5}, effects, {}).chains(), ElementsAre("R"));
+  effects = {};
+  effects.reflection = false;
+  EXPECT_THAT(solve(tiny.build(), {0, 0, 5}, {6, 0, 5}, effects, {}).chains(), ElementsAre(""));
+}
+
+TEST(PathId, IsAFunctionOfTheWholeSequence) {
+  const std::vector<Interaction> a{{InteractionType::reflection, 1}, {InteractionType::transmission, 2}};
+  const std::vector<Interaction> b{{InteractionType::transmission, 1}, {InteractionType::reflection, 2}};
+  const std::vector<Interaction> c{{InteractionType::reflection, 1}};
+  const std::vector<Interaction> d{{InteractionType::scattering, 1, 1}},
+      e{{InteractionType::scattering, 1, 2}};
+  std::vector<uint64_t> ids{path_id(a), path_id(b), path_id(c), path_id(d), path_id(e), path_id({})};
+  EXPECT_EQ(path_id(a), ids[0]);
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+}  // namespace
+}  // namespace greatx::rf
