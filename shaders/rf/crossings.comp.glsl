@@ -56,7 +56,8 @@ struct Walls {
 /// shifts where they meet a wall: four times their offset allows for 60 degrees from the normal of both walls.
 bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance, float reach) {
   GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
-  if (abs(dot(first_plane.normal, second_plane.normal)) > 0.999) return lies_on(second_plane.point, first_plane);
+  vec3 sine = cross(first_plane.normal, second_plane.normal);
+  if (dot(sine, sine) < 1e-6) return lies_on(second_plane.point, first_plane);
   float offset = max(first_distance, second_distance) * 4.7683716e-7 + reach * 2.3841858e-7;
   return abs(first_distance - second_distance) <= visibility_coplanar_m + 4.0 * offset;
 }

@@ -6,28 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "tests/support/gpu_fixture.h"
-#include "tests/support/tiny_scene.h"
+#include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {
 namespace {
 
+using test::cross;
+using test::segment;
 using test::TinyScene;
 using testing::ElementsAre;
-
-std::vector<Crossing> cross(const scene::Scene& scene, const FacetKinds& kinds,
-                            std::span<const Segment> segments, const std::vector<Pose>& bodies = {Pose{}}) {
-  gpu::Device& device = test::device();
-  scene::GpuScene gpu_scene(device, scene, {});
-  CrossingPass pass(gpu_scene, kinds);
-  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
-  gpu::TickSlot& slot = ring.begin();
-  gpu_scene.record_update(slot, bodies);
-  const CrossingPass::Pending pending = pass.record(slot, segments);
-  ring.submit(slot);
-  ring.wait(slot);
-  return pass.collect(pending, segments);
-}
 
 /// Everything opaque: 1 visible, 0 blocked.
 std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
@@ -39,13 +26,6 @@ std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment>
     answers.push_back(crossing.blocked ? 0 : 1);
   }
   return answers;
-}
-
-Segment segment(const dvec3& a, const dvec3& b) {
-  Segment s;
-  s.a = a;
-  s.b = b;
-  return s;
 }
 
 /// Facet 0: a wall in the plane x = 0, facing +x; facet 1: the ground z = 0.

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One batch of segments through the crossing pass, for tests.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rf/crossings.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx::test {
+
+inline std::vector<rf::Crossing> cross(const scene::Scene& scene, const rf::FacetKinds& kinds,
+                                       std::span<const rf::Segment> segments,
+                                       const std::vector<Pose>& bodies = {Pose{}}) {
+  gpu::Device& gpu = device();
+  scene::GpuScene gpu_scene(gpu, scene, {});
+  rf::CrossingPass pass(gpu_scene, kinds);
+  gpu::TickRing ring(gpu, 1, 1u << 16, 1u << 16);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, bodies);
+  const rf::CrossingPass::Pending pending = pass.record(slot, segments);
+  ring.submit(slot);
+  ring.wait(slot);
+  return pass.collect(pending, segments);
+}
+
+/// `walls`: that it may pass.
+inline rf::Segment segment(const dvec3& a, const dvec3& b, uint32_t walls = 0) {
+  rf::Segment s;
+  s.a = a;
+  s.b = b;
+  s.walls = walls;
+  return s;
+}
+
+/// Every facet of the scene of one kind.
+inline rf::FacetKinds all_of(rf::FacetKind kind, const scene::Scene& scene) {
+  return rf::FacetKinds(scene.facets.size(), kind);
+}
+
+}  // namespace greatx::test
