@@ -8,7 +8,10 @@
 
 #include "core/random.h"
 #include "core/units.h"
+#include "rf/channel.h"
+#include "rf/diffraction.h"
 #include "rf/geometry.h"
+#include "rf/phase.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -224,6 +227,83 @@ TEST(PathField, DopplerIsTheRateOfThePhase) {
     EXPECT_NEAR(now[i].doppler_hz, -rate * frequency_hz / speed_of_light, 1e-4);
     EXPECT_GT(std::abs(now[i].doppler_hz), 1.0);
   }
+}
+
+TEST(PathField, EdgeDiffractionMovesWithItsEnds) {
+  // nu = -(f/c) d(s' + s)/dt at the corner of a house that moves and turns: the point slides along the edge, which costs
+  // nothing to first order.
+  HandScene hand;
+  hand.material("conductor", 1.0, 1e7);
+  const uint32_t body = hand.body();
+  hand.quad({0, 0, -5}, {0, 0, 5}, {0, -9, 5}, {0, -9, -5}, 0, body);
+  hand.quad({0, 0, -5}, {-9, 0, -5}, {-9, 0, 5}, {0, 0, 5}, 0, body);
+  const scene::Wedge wedge{.a = {0, 0, -5},
+                           .b = {0, 0, 5},
+                           .tangent_0 = {0, -1, 0},
+                           .normal_0 = {1, 0, 0},
+                           .n = 1.5,
+                           .facet_0 = 0,
+                           .facet_n = 1,
+                           .body = body};
+  const dvec3 tx(8, -6, 0.5), rx(-7, 6, 1.5), v_tx(1, 2, -3), v_rx(-4, 5, 0.5), velocity(-12, 1, 3),
+      turn(0.3, 0, 0.2);
+  const auto at = [&](double t) {
+    FacetWorld world(hand.scene);
+    Motion motion;
+    motion.pose = {dvec3(0.1, 0, 0.2) + t * velocity,
+                   glm::angleAxis(t * glm::length(turn), glm::normalize(turn))};
+    motion.velocity = velocity;
+    motion.angular_velocity = turn;
+    world.move(body, motion);
+    const RadioSurfaces surfaces(hand.scene, frequency_hz);
+    FieldModel model{&world, &surfaces};
+    model.wedges = {&wedge, 1};
+    const dvec3 from = tx + t * v_tx, to = rx + t * v_rx;
+    const dvec3 point = *keller_point(posed(wedge, world), from, to);
+    return path_field({{{InteractionType::diffraction, 0}},
+                       {from, point, to},
+                       glm::length(point - from) + glm::length(to - point)},
+                      model, v_tx, v_rx);
+  };
+  const double rate = (at(5e-4).length_m - at(-5e-4).length_m) / 1e-3;
+  EXPECT_NEAR(at(0.0).doppler_hz, -rate * frequency_hz / speed_of_light, 1e-4);
+  EXPECT_GT(std::abs(at(0.0).doppler_hz), 10.0);
+}
+
+TEST(PathField, DiffractionFillsTheShadowBoundary) {
+  // A receiver that crosses the shadow boundary of a conducting screen: direct and diffracted field together do not jump, and
+  // on the boundary half the free field is left.
+  HandScene hand;
+  hand.itu_material("metal");
+  const uint32_t screen = hand.quad({0, 0, -50}, {0, -50, -50}, {0, -50, 50}, {0, 0, 50});
+  const dvec3 normal = FacetWorld(hand.scene).facet(screen).normal;
+  const scene::Wedge wedge{.a = normal.x > 0 ? dvec3(0, 0, -50) : dvec3(0, 0, 50),
+                           .b = normal.x > 0 ? dvec3(0, 0, 50) : dvec3(0, 0, -50),
+                           .tangent_0 = {0, -1, 0},
+                           .normal_0 = normal,
+                           .n = 2.0,
+                           .facet_0 = screen};
+  const FacetWorld world(hand.scene);
+  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  FieldModel model{&world, &surfaces};
+  model.wedges = {&wedge, 1};
+  const dvec3 tx(10, 0, 1);
+  const auto total = [&](double y) {
+    const dvec3 rx(-10, y, 2), point = *keller_point(wedge, tx, rx);
+    std::vector<Path> paths{path_field({{{InteractionType::diffraction, 0}},
+                                        {tx, point, rx},
+                                        glm::length(point - tx) + glm::length(rx - point)},
+                                       model, {}, {})};
+    if (y >= 0.0) paths.push_back(path_field({{}, {tx, rx}, glm::length(rx - tx)}, model, {}, {}));
+    Complex sum = 0.0;
+    for (const Path& path : paths)
+      sum += path.transfer[0] * path.length_m * unit_phasor(-turns_of(frequency_hz, path.delay_s));
+    return sum;
+  };
+  EXPECT_LT(std::abs(total(1e-6) - total(-1e-6)), 1e-4);
+  // The other faces' terms add a little to the half.
+  EXPECT_NEAR(std::abs(total(0.0)), 0.5, 0.02);
+  EXPECT_LT(std::abs(total(-3.0)), 0.15);
 }
 
 }  // namespace
