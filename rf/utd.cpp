@@ -170,10 +170,9 @@ FaceAngles luebbers_angles(const UtdAngles& angles) {
   const double wide = angles.n * pi;
   double nearness = 0.5 * wide - angles.incident;
   if (std::abs(nearness) < 1e-9) nearness = angles.observed - 0.5 * wide;
-  // Specular reflection leaves at pi - angle. Where the observer is behind that face's plane nothing is reflected, and
-  // the term is only a tail: the angle's size is as good as any, and smooth.
-  const auto leaving_for = [](double observed) { return std::min(std::abs(pi - observed), pi); };
+  // Rounding only: the nearer face is at most half of the exterior, which is no more than 2 pi, away.
   const auto incident_at = [](double incident) { return std::min(std::max(incident, 0.0), pi); };
+  const auto leaving_for = [](double observed) { return pi - std::min(std::max(observed, 0.0), 0.5 * pi); };
   if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed)};
   return {leaving_for(angles.observed), incident_at(wide - angles.incident)};
 }

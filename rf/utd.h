@@ -77,10 +77,12 @@ inline constexpr SoftHard conductor_reflection{-1.0, 1.0};
 SoftHard utd_coefficients(const UtdAngles& angles, double wave_number, double distance_m, double sin_beta0,
                           const SoftHard& reflection_0, const SoftHard& reflection_n);
 
-/// At which angle each face's reflection coefficient is taken (Luebbers): the face nearer to the source at the source's
-/// angle, the other one where its reflection would leave for the observer. Angles of incidence about the edge, each from its own
-/// face, in [0, pi]: the angle with the normal has cos = sin(beta_0) sin(angle). Not reciprocal; it does not matter which
-/// face is called 0 (a source half-way between both faces counts as near the one that the observer is farther from).
+/// At which angle each face's reflection coefficient is taken. The face nearer to the source: at the source's angle. The
+/// other one: where its reflection would leave for the observer (Luebbers: R_0 at phi', R_n at n pi - phi), and at normal
+/// incidence for observers beyond that, which its reflection reaches for no such source: there Luebbers' angle would come
+/// back to grazing in the face's extended plane. Angles of incidence about the edge, each from its own face, in [0, pi]; the
+/// angle with the face's normal has cos = sin(beta_0) sin(angle). Not reciprocal; it does not matter which face is called 0
+/// (a source half-way between both faces counts as near the one that the observer is farther from).
 struct FaceAngles {
   double face_0 = 0.0, face_n = 0.0;
 };
