@@ -24,9 +24,10 @@ namespace greatx::rf {
 /// of scattering patches. Delay and phase of the air are those of vacuum at every frequency.
 class Dispersion {
  public:
-  /// `carrier`: the model of the grid's carrier, of facets of `scene`; the world and the wedges that it names are read by
-  /// spectrum() and must outlive this. `weather`: what its attenuation is of. One set of surfaces per subcarrier is kept, some 0.25 kB
-  /// for each material. Throws UserError naming the material or the effect that a frequency of the band is outside of.
+  /// `carrier`: the model of the grid's carrier, of facets of `scene`; spectrum() reads the world and the wedges that it
+  /// names, which must outlive this. `weather`: what its attenuation is of. One set of surfaces per subcarrier is kept,
+  /// some 0.25 kB for each material. Throws UserError naming the material or the effect that a frequency of the band is
+  /// outside of.
   Dispersion(const scene::Scene& scene, const FieldModel& carrier, const Weather& weather,
              const ChannelGrid& grid);
 
