@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   apps::add_verify(app);
   apps::add_scene(app);
   apps::add_explain(app);
+  apps::add_paths(app);
   apps::add_bench(app);
   try {
     app.parse(argc, argv);

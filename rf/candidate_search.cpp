@@ -70,6 +70,11 @@ std::vector<uint32_t> distinct_keys(std::span<const uint32_t> keys, uint32_t max
   return order;
 }
 
+void check_source(const dvec3& source) {
+  GREATX_CHECK(std::isfinite(source.x + source.y + source.z), "source at ({}, {}, {})", source.x, source.y,
+               source.z);
+}
+
 }  // namespace
 
 std::vector<vec3> fibonacci_lattice(uint32_t count) {
@@ -111,75 +116,153 @@ CandidateSearchResult candidates_from_keys(std::span<const uint32_t> keys, uint3
   return result;
 }
 
-CandidateSearch::CandidateSearch(scene::GpuScene& scene, const CandidateSearchOptions& options)
+uint32_t ways_per_ray(uint32_t max_depth, uint32_t max_transmissions) {
+  constexpr uint64_t most = ~0u;
+  uint64_t ways = 0, choices = 1;
+  for (uint32_t t = 0; t < max_depth && t <= max_transmissions; ++t) {
+    ways += choices;
+    if (ways >= most) return static_cast<uint32_t>(most);
+    choices = choices * (max_depth - 1 - t) / (t + 1);  // < 2^32 * max_depth
+    if (choices == 0) break;
+  }
+  return static_cast<uint32_t>(ways);
+}
+
+CandidateSearch::CandidateSearch(scene::GpuScene& scene, const CandidateSearchOptions& options,
+                                 const FacetKinds& kinds)
     : scene_(&scene), options_(options) {
-  GREATX_CHECK(options.rays > 0 && options.max_depth > 0, "{} rays to depth {}", options.rays,
-               options.max_depth);
+  GREATX_CHECK(options.rays > 0 && options.max_depth > 0 && options.max_ways > 0,
+               "{} rays to depth {}, {} ways", options.rays, options.max_depth, options.max_ways);
   gpu::Device& device = scene.device();
-  const uint64_t words = uint64_t{options.rays} * std::max<uint64_t>(3, options.max_depth);
   const uint64_t limit = device.limits().maxStorageBufferRange / sizeof(uint32_t);
-  if (words > limit)
-    throw_user_error("rays: expected at most {} for depth {} on this device, found {}",
-                     limit / std::max<uint64_t>(3, options.max_depth), options.max_depth, options.rays);
+  const uint64_t ray_limit = limit / std::max<uint64_t>(3, options.max_depth);
+  if (options.rays > ray_limit)
+    throw_user_error("rays: expected at most {} for depth {} on this device, found {}", ray_limit,
+                     options.max_depth, options.rays);
+
+  const std::vector<uint32_t> kind_words = kinds_of(kinds);
+  const uint32_t ways = walls_ ? ways_per_ray(options.max_depth, options.max_transmissions) : 1;
+  slots_ = std::min(ways, options.max_ways);
+  counts_left_out_ = slots_ < ways;
+  const uint64_t part_words = std::min<uint64_t>(limit, options.part_bytes / sizeof(uint32_t));
+  part_rays_ = static_cast<uint32_t>(std::clamp<uint64_t>(part_words / words(1), 1, options.rays));
 
   const std::vector<vec3> lattice = fibonacci_lattice(options.rays);
   directions_ = gpu::upload_buffer(device, std::as_bytes(std::span(lattice)), "candidate directions");
-  keys_ = gpu::Buffer(device, sizeof(uint32_t) * uint64_t{options.rays} * options.max_depth,
-                      gpu::Memory::device, "candidate keys");
+  kinds_ = gpu::upload_buffer(device, std::as_bytes(std::span(kind_words)), "candidate facet kinds");
+  keys_ = gpu::Buffer(device, sizeof(uint32_t) * words(part_rays_), gpu::Memory::device, "candidate keys");
   gpu::ComputeDesc compute;
   compute.shader = "rf/candidates.comp";
   compute.bindings = scene::GpuScene::bindings(true);
-  for (const uint32_t slot : {shared::candidates_directions_binding, shared::candidates_keys_binding})
+  for (const uint32_t slot : {shared::candidates_directions_binding, shared::candidates_kinds_binding,
+                              shared::candidates_keys_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::CandidateConstants);
-  compute.specialization = {options.moving_bodies ? shared::static_mask | shared::moving_mask
-                                                  : shared::static_mask};
+  const uint32_t mask =
+      options.moving_bodies ? shared::static_mask | shared::moving_mask : shared::static_mask;
+  compute.specialization = {mask, foliage_ ? 1u : 0u, walls_ ? options.max_transmissions : 0u,
+                            walls_ ? options.max_depth : 1u, counts_left_out_ ? 1u : 0u};
   pipeline_ = gpu::ComputePipeline(device, compute, "candidate search");
 }
 
-CandidateSearch::Pending CandidateSearch::record(gpu::TickSlot& slot, const dvec3& source) {
-  GREATX_CHECK(std::isfinite(source.x + source.y + source.z), "source at ({}, {}, {})", source.x, source.y,
-               source.z);
+std::vector<uint32_t> CandidateSearch::kinds_of(const FacetKinds& kinds) {
+  const size_t facets = scene_->scene().facets.size();
+  GREATX_CHECK(kinds.empty() || kinds.size() == facets, "kinds of {} facets, the scene has {}", kinds.size(),
+               facets);
+  const auto any = [&](FacetKind kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
+  foliage_ = any(FacetKind::foliage);
+  // To depth 1 there is nothing behind a wall to reflect at.
+  walls_ = any(FacetKind::wall) && options_.max_transmissions > 0 && options_.max_depth > 1;
+  std::vector<uint32_t> words(facets, static_cast<uint32_t>(FacetKind::opaque));
+  for (size_t i = 0; i < kinds.size(); ++i) words[i] = static_cast<uint32_t>(kinds[i]);
+  return words;
+}
+
+size_t CandidateSearch::key_words(uint32_t rays) const { return size_t{rays} * slots_ * options_.max_depth; }
+size_t CandidateSearch::words(uint32_t rays) const { return key_words(rays) + (counts_left_out_ ? rays : 0); }
+
+std::vector<CandidateSearch::Part> CandidateSearch::parts() const {
+  std::vector<Part> parts;
+  for (uint32_t first = 0; first < options_.rays; first += parts.back().rays)
+    parts.push_back({first, std::min(part_rays_, options_.rays - first)});
+  return parts;
+}
+
+void CandidateSearch::record_part(gpu::Cmd& cmd, const dvec3& source, const Part& part,
+                                  const gpu::Slice& target) {
   shared::CandidateConstants constants{};
   constants.source = vec3(source);
-  constants.rays = options_.rays;
+  constants.first_ray = part.first;
+  constants.rays = part.rays;
   constants.max_depth = options_.max_depth;
-
-  gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope("candidate search");
-  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // the copy of the search before
+  constants.slots = slots_;
+  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // the copy of the part before
   cmd.bind(pipeline_);
   std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
   descriptors.push_back(gpu::Descriptor::buffer(shared::candidates_directions_binding, directions_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::candidates_kinds_binding, kinds_));
   descriptors.push_back(gpu::Descriptor::buffer(shared::candidates_keys_binding, keys_));
   cmd.push(descriptors);
   cmd.constants(constants);
-  cmd.dispatch((options_.rays + shared::candidates_group - 1) / shared::candidates_group);
+  cmd.dispatch((part.rays + shared::candidates_group - 1) / shared::candidates_group);
   cmd.barrier(gpu::sync::compute_write, gpu::sync::transfer_read);
-  const gpu::Slice target = slot.readback.allocate(keys_.size());
-  cmd.copy(keys_.slice(), target);
-  return {target};
+  const size_t bytes = sizeof(uint32_t) * words(part.rays);
+  cmd.copy(keys_.slice().part(0, bytes), target.part(0, bytes));
+}
+
+CandidateSearch::Pending CandidateSearch::record(gpu::TickSlot& slot, const dvec3& source) {
+  check_source(source);
+  const auto scope = slot.cmd->scope("candidate search");
+  Pending pending;
+  for (const Part& part : parts()) {
+    pending.keys.push_back(slot.readback.allocate_for<uint32_t>(words(part.rays)));
+    record_part(*slot.cmd, source, part, pending.keys.back());
+  }
+  return pending;
+}
+
+void CandidateSearch::add_part(const Part& part, const gpu::Slice& slice, Gathered& gathered) const {
+  const std::span<const uint32_t> all = slice.as<const uint32_t>().first(words(part.rays));
+  const std::span<const uint32_t> keys = all.first(key_words(part.rays));
+  for (const uint32_t count : all.subspan(keys.size())) gathered.left_out += count;
+  for (const uint32_t row : distinct_keys(keys, options_.max_depth)) {
+    const auto key = keys.subspan(size_t{row} * options_.max_depth, options_.max_depth);
+    gathered.keys.insert(gathered.keys.end(), key.begin(), key.end());
+  }
+}
+
+CandidateSearchResult CandidateSearch::result_of(const Gathered& gathered) const {
+  CandidateSearchResult result = candidates_from_keys(gathered.keys, options_.max_depth, options_.capacity);
+  result.left_out = gathered.left_out;
+  return result;
 }
 
 CandidateSearchResult CandidateSearch::collect(const Pending& pending) const {
-  const size_t words = size_t{options_.rays} * options_.max_depth;
-  return candidates_from_keys(pending.keys.as<const uint32_t>().first(words), options_.max_depth,
-                              options_.capacity);
+  const std::vector<Part> all = parts();
+  GREATX_CHECK(pending.keys.size() == all.size(), "keys of {} parts, expected {}", pending.keys.size(),
+               all.size());
+  Gathered gathered;
+  for (size_t i = 0; i < all.size(); ++i) add_part(all[i], pending.keys[i], gathered);
+  return result_of(gathered);
 }
 
 CandidateSearchResult CandidateSearch::search(std::span<const Pose> body_poses, const dvec3& source) {
+  check_source(source);
   gpu::Device& device = scene_->device();
   gpu::TickSlot slot;
   slot.upload = gpu::Arena(device, gpu::Memory::upload, 1u << 16, "search upload");
-  slot.readback = gpu::Arena(device, gpu::Memory::readback, keys_.size(), "search readback");
-  Pending pending;
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    slot.cmd = &cmd;
-    scene_->record_update(slot, body_poses);
-    pending = record(slot, source);
-    cmd.barrier(gpu::sync::transfer_write, gpu::sync::host_read);
-  });
-  return collect(pending);
+  const gpu::Buffer readback(device, keys_.size(), gpu::Memory::readback, "search readback");
+  Gathered gathered;
+  for (const Part& part : parts()) {
+    gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
+      slot.cmd = &cmd;
+      if (part.first == 0) scene_->record_update(slot, body_poses);
+      record_part(cmd, source, part, readback.slice());
+      cmd.barrier(gpu::sync::transfer_write, gpu::sync::host_read);
+    });
+    add_part(part, readback.slice(), gathered);
+  }
+  return result_of(gathered);
 }
 
 }  // namespace greatx::rf

@@ -190,13 +190,16 @@ void Midpoints::join(const ImageTree& tree, const ImageTree& suffixes, const Arr
          [&](const Chain& chain) { scatter(chain, patch, paths); });
 }
 
-void Midpoints::solve(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const {
+void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                      std::vector<GeometricPath>& paths) const {
   CandidateList list;
   Arrivals wedges, facets;
   if (options_.max_reflections_after > 0) {
     BeamSearchOptions search;
     search.max_depth = options_.max_reflections_after + 1;
     search.max_transmissions = options_.max_transmissions;
+    search.moving_bodies = options_.moving_bodies;
+    search.source_body = target_body;
     search.threads = 1;  // targets are solved side by side
     list = BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target).list;
     wedges = arrivals_at_wedges(list);

@@ -34,6 +34,7 @@ struct MidpointOptions {
   uint32_t max_transmissions = 0;      ///< of them walls passed
   uint32_t max_reflections_after = 0;  ///< on the target's side; more than 0: a search at every target
   double patch_m = 10.0;
+  bool moving_bodies = false;  ///< facets of bodies other than 0 reflect
 };
 
 class Midpoints {
@@ -43,9 +44,10 @@ class Midpoints {
 
   /// Which sequences reach which wedges and facets; `candidates` from the source, with wedges if diffraction is on.
   void set_candidates(const CandidateList& candidates);
-  /// Appends every such path between the source of `tree` (built from the same candidates) and `target`, from transmitter
+  /// Appends every such path between the source of `tree` (built from the same candidates) and `target` (carried by `target_body`), from transmitter
   /// to receiver.
-  void solve(const ImageTree& tree, const dvec3& target, std::vector<GeometricPath>& paths) const;
+  void solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+             std::vector<GeometricPath>& paths) const;
 
  private:
   /// For every wedge, or facet, the sequences that lead to it: [elements + 1] into `sequences`, ascending.

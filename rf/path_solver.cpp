@@ -78,9 +78,12 @@ bool less(const GeometricPath& a, const GeometricPath& b) {
 PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
     : model_(&model), options_(options), field_(model.field_model()) {
   if (model.effects.diffraction || model.effects.scattering)
-    midpoints_.emplace(
-        model, MidpointOptions{options.max_depth, model.effects.transmission ? options.max_transmissions : 0,
-                               options.max_reflections_after, options.patch_m});
+    midpoints_.emplace(model, MidpointOptions{.max_depth = options.max_depth,
+                                              .max_transmissions =
+                                                  model.effects.transmission ? options.max_transmissions : 0,
+                                              .max_reflections_after = options.max_reflections_after,
+                                              .patch_m = options.patch_m,
+                                              .moving_bodies = options.moving_bodies});
 }
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
@@ -94,7 +97,8 @@ void PathSolver::move_source(const dvec3& source) {
   tree_->update(source);
 }
 
-LinkGeometry PathSolver::geometry(const dvec3& target) const {
+LinkGeometry PathSolver::geometry(const EndState& end) const {
+  const dvec3& target = end.position;
   GREATX_CHECK(tree_.has_value(), "no candidates for the target at ({}, {}, {})", target.x, target.y,
                target.z);
   LinkGeometry link;
@@ -104,7 +108,7 @@ LinkGeometry PathSolver::geometry(const dvec3& target) const {
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
   if (midpoints_) {
-    midpoints_->solve(*tree_, target, link.paths);
+    midpoints_->solve(*tree_, target, end.body, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
   if (link.paths.size() > options_.max_paths) {

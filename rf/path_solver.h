@@ -36,6 +36,7 @@ struct PathOptions {
   uint32_t max_reflections_after =
       0;                  ///< of them reflections after a diffraction or scattering, on the target's side
   double patch_m = 10.0;  ///< longest side of a scattering patch
+  bool moving_bodies = false;      ///< facets of bodies other than 0 reflect
   uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced
 };
 
@@ -56,7 +57,7 @@ class PathSolver {
   void move_source(const dvec3& source);
 
   /// Every chain that exists geometrically between the source and `target`.
-  LinkGeometry geometry(const dvec3& target) const;
+  LinkGeometry geometry(const EndState& target) const;
   /// Appends the segments of the paths, one after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;

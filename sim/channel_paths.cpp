@@ -21,31 +21,32 @@ bool is_static(const Scenario& scenario, uint32_t node) {
   return std::holds_alternative<StaticTrajectory>(scenario.nodes[node].trajectory);
 }
 
-rf::BeamSearchOptions beam_options(const ChannelConfig& config, const EffectPlan& plan, bool moving_bodies) {
+rf::BeamSearchOptions beam_options(const ChannelConfig& config, const EffectPlan& plan, bool moving_bodies,
+                                   uint32_t source_body) {
   rf::BeamSearchOptions options;
+  options.source_body = source_body;
   options.max_depth = config.max_depth;
   options.max_transmissions = plan.transmission.on ? config.walls() : 0;
   options.moving_bodies = moving_bodies;
   return options;
 }
 
-rf::CandidateSearchOptions ray_options(const ChannelConfig& config, const EffectPlan& plan,
-                                       bool moving_bodies) {
+rf::CandidateSearchOptions ray_options(const ChannelConfig& config, const EffectPlan&, bool moving_bodies) {
   rf::CandidateSearchOptions options;
   options.rays = config.rays;
   options.max_depth = config.max_depth;
-  options.max_transmissions = plan.transmission.on ? config.walls() : 0;
   options.moving_bodies = moving_bodies;
   return options;
 }
 
-rf::PathOptions path_options(const ChannelConfig& config) {
+rf::PathOptions path_options(const ChannelConfig& config, bool moving_bodies) {
   rf::PathOptions options;
   options.max_depth = config.max_depth;
   options.max_transmissions = config.walls();
   options.max_reflections_after = config.max_reflections_after;
   options.patch_m = config.scattering_patch_m;
   options.max_paths = config.max_paths;
+  options.moving_bodies = moving_bodies;
   return options;
 }
 
@@ -96,9 +97,10 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
         config_.name);
   if (search_ == Search::none) return;
   if (config_.candidates == "rays")
-    rays_.emplace(gpu_scene, model_.kinds, ray_options(config_, plan, move_facets_));
+    rays_.emplace(gpu_scene, ray_options(config_, plan, move_facets_));
   else
-    beams_.emplace(model_.facets, model_.kinds, model_.wedges, beam_options(config_, plan, move_facets_));
+    beams_.emplace(model_.facets, model_.kinds, model_.wedges,
+                   beam_options(config_, plan, move_facets_, transmitter_.body));
 }
 
 ChannelEnd ChannelPaths::end_of(const std::string& name) const {
@@ -199,7 +201,7 @@ rf::CandidateList ChannelPaths::search(const dvec3& source, const TickContext& c
 }
 
 rf::PathSolver& ChannelPaths::solver(size_t index) {
-  while (solvers_.size() <= index) solvers_.emplace_back(model_, path_options(config_));
+  while (solvers_.size() <= index) solvers_.emplace_back(model_, path_options(config_, move_facets_));
   return solvers_[index];
 }
 
@@ -265,8 +267,8 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     link.distance_m =
         glm::distance(world_position(transmitter_, context), world_position(receivers_[r], context));
     rf::LinkGeometry geometry = search_ == Search::once_from_receivers
-                                    ? solvers_[r].geometry(flight.transmitter.position)
-                                    : solvers_[0].geometry(link.receiver.position);
+                                    ? solvers_[r].geometry(flight.transmitter)
+                                    : solvers_[0].geometry(link.receiver);
     link.paths = std::move(geometry.paths);
     overflow[r] = geometry.overflow;
   });

@@ -27,16 +27,28 @@ namespace greatx::rf {
 struct BeamSearchOptions {
   uint32_t max_depth = 3;  ///< reflections + walls passed
   uint32_t max_transmissions =
-      0;                      ///< walls passed, on the whole path (FacetKind::wall); not more than max_depth
-  bool moving_bodies = true;  ///< false: the static world alone (body 0), as if nothing that moves were there
+      0;  ///< walls passed, on the whole path (FacetKind::wall); not more than max_depth
   uint64_t capacity = 1u << 22;  ///< sequences kept; what is beyond is counted
   uint32_t threads = 0;          ///< 0: as many as the machine has. The result does not depend on it
+  /// Facets of bodies other than 0 where they stand now; false: they neither reflect nor hide, as they may move away.
+  bool moving_bodies = false;
+  /// A body whose facets do not hide what its own antenna sees: the one that carries the source; 0: none.
+  uint32_t source_body = 0;
+  /// The visibility test lets a segment end within shared::visibility_tolerance behind a surface. Along an edge that a
+  /// hidden facet shares with the one that hides it (the far wall of a house and its roof) this leaves a strip, at most
+  /// ten tolerances wide, in which the hidden facet counts as lit. true: sequences that live in such strips alone are
+  /// listed too. They lead into the inside of solids, and there are more of them than of all others.
+  bool edge_strips = false;
 };
 
 struct BeamSearchResult {
   CandidateList
       list;  ///< canonical order, no duplicates, with windows; [0] is the empty sequence (line of sight)
-  uint64_t found = 0;  ///< sequences found, the empty one included
+  /// Sequences found, the empty one included. If there are more than `capacity`, the list ends with the last one that
+  /// fits, and those of the depths after the one in which that happened have not been looked for: then this is the least
+  /// number that there can be.
+  uint64_t found = 0;
+  uint64_t cells = 0;  ///< cells of beams looked at: what the search cost
   uint64_t overflow() const { return found - list.size(); }
 };
 

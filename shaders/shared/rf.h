@@ -12,16 +12,24 @@ const uint rf_none = 0xffffffffu;  // no facet, no body
 
 // ------------------------------------------------------------------------------------------------ candidate search
 
-const uint candidates_directions_binding = first_pass_binding;  // vec3[rays], unit
-const uint candidates_keys_binding =
-    first_pass_binding + 1u;  // uint[rays * max_depth]: facets met, then rf_none
+const uint candidates_directions_binding = first_pass_binding;  // vec3[all rays], unit
+const uint candidates_kinds_binding = first_pass_binding + 1u;  // uint[facets]: rf::FacetKind
+// uint[slots * rays * max_depth]: facets reflected at, then rf_none; a slot's rays side by side. Then, if asked for,
+// uint[rays]: ways that found no slot.
+const uint candidates_keys_binding = first_pass_binding + 2u;
 const uint candidates_group = 64u;
 
 struct CandidateConstants {
   vec3 source;  // local coordinates
-  uint rays;
+  uint first_ray;
+  uint rays;  // of this dispatch
   uint max_depth;
+  uint slots;
 };
+
+// rf::FacetKind, where its values matter.
+const uint facet_kind_wall = 1u;
+const uint facet_kind_foliage = 2u;
 
 // ------------------------------------------------------------------------------------------------------- crossings
 
@@ -38,10 +46,6 @@ const uint crossings_blocked = 0xffffffffu;
 const uint crossings_foliage_open =
     0x100u;  // flag: the line leaves foliage more or less often than it enters
 const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
-
-// rf::FacetKind, where its values matter.
-const uint facet_kind_wall = 1u;
-const uint facet_kind_foliage = 2u;
 
 struct GpuSegment {
   vec3 a, b;  // local coordinates
@@ -83,7 +87,7 @@ GREATX_FUNCTION float visibility_tolerance(float coordinate) {
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::CandidateConstants) == 20);
+static_assert(sizeof(greatx::shared::CandidateConstants) == 28);
 static_assert(sizeof(greatx::shared::GpuSegment) == 52);
 static_assert(sizeof(greatx::shared::GpuFacetPlane) == 32);
 static_assert(sizeof(greatx::shared::GpuFoliageBox) == 28);

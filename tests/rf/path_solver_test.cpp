@@ -66,16 +66,16 @@ Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const 
   BeamSearchOptions search;
   search.max_depth = options.max_depth;
   search.max_transmissions = effects.transmission ? options.max_transmissions : 0;
-  const dvec3 source = end == Source::transmitter ? tx : rx, target = end == Source::transmitter ? rx : tx;
+  const dvec3 source = end == Source::transmitter ? tx : rx;
   const BeamSearchResult found = BeamSearch(model.facets, model.kinds, model.wedges, search).search(source);
   PathSolver solver(model, options);
   solver.set_candidates(found.list, source, end);
 
-  const LinkGeometry link = solver.geometry(target);
-  EXPECT_EQ(link.overflow, 0u);
-  std::vector<Segment> segments;
   EndState transmitter, receiver;
   transmitter.position = tx, receiver.position = rx;
+  const LinkGeometry link = solver.geometry(end == Source::transmitter ? receiver : transmitter);
+  EXPECT_EQ(link.overflow, 0u);
+  std::vector<Segment> segments;
   solver.add_segments(link.paths, transmitter, receiver, segments);
   gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
@@ -127,9 +127,9 @@ TEST(PathSolver, DepthBoundsReflectionsAndWallsTogether) {
   tiny.object("ground", 0, 2).quad({-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0});
   const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
   EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 1}).chains(), ElementsAre("T"));
-  EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "RT"));
+  EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "TR"));
   // From the other side of the same link: the same paths, the other way round.
-  EXPECT_THAT(solve(tiny.build(), rx, tx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "TR"));
+  EXPECT_THAT(solve(tiny.build(), rx, tx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "RT"));
 }
 
 TEST(PathSolver, AClosedBoxIsTwoWallsAndASeamIsOne) {
@@ -161,13 +161,13 @@ RadioEffects with_edges() {
 TEST(PathSolver, InTheShadowOfAHouseItsEdgesAreAllThatIsLeft) {
   TinyScene house = materials();
   house.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
-  const dvec3 tx(-5, 4, 3), rx(4, -5, 3);
+  const dvec3 tx(-3, 8, 3), rx(8, -3, 3);
   EXPECT_THAT(solve(house.build(), tx, rx, {}, {}).paths, IsEmpty());
   const Solved shadow = solve(house.build(), tx, rx, with_edges(), {.max_depth = 1});
   ASSERT_THAT(shadow.chains(), ElementsAre("D"));
   const Path& path = shadow.paths[0];
   EXPECT_NEAR(glm::length(path.vertices[1] - dvec3(0, 0, 3)), 0.0, 1e-9);
-  EXPECT_NEAR(path.length_m, 2.0 * std::hypot(5, 4), 1e-12);
+  EXPECT_NEAR(path.length_m, 2.0 * std::hypot(3, 8), 1e-12);
   EXPECT_GT(std::abs(path.transfer[0]), 0.0);
   // From the receiver's side the same path, and by reciprocity of this symmetric link the same strength.
   const Solved back = solve(house.build(), tx, rx, with_edges(), {.max_depth = 1}, Source::receiver);
@@ -179,20 +179,23 @@ TEST(PathSolver, InTheShadowOfAHouseItsEdgesAreAllThatIsLeft) {
 TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
   TinyScene house = materials();
   house.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
-  house.object("ground", 0, 2).quad({-50, -50, -1}, {50, -50, -1}, {50, 50, -1}, {-50, 50, -1});
-  const dvec3 tx(-5, 4, 3), rx(4, -5, 3);
+  house.object("west", 0, 2).quad({-20, -30, -5}, {-20, 30, -5}, {-20, 30, 15}, {-20, -30, 15});
+  house.object("south", 0, 2).quad({-30, -20, -5}, {30, -20, -5}, {30, -20, 15}, {-30, -20, 15});
+  const dvec3 tx(-3, 8, 3), rx(8, -3, 3);
   const auto count = [&](const PathOptions& options, const std::string& chain,
                          Source end = Source::transmitter) {
     const std::vector<std::string> chains = solve(house.build(), tx, rx, with_edges(), options, end).chains();
     return std::count(chains.begin(), chains.end(), chain);
   };
-  EXPECT_EQ(count({.max_depth = 2}, "RD"), 1);
+  // One by each of the two walls.
+  EXPECT_EQ(count({.max_depth = 2}, "RD"), 2);
   EXPECT_EQ(count({.max_depth = 2}, "DR"), 0);  // not looked for
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "RD"), 1);
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR"), 1);
-  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR", Source::receiver), 1);
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "RD"), 2);
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR"), 2);
+  EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR", Source::receiver), 2);
   // The source is the receiver: what comes after the edge, seen from it, comes before.
-  EXPECT_EQ(count({.max_depth = 2}, "DR", Source::receiver), 1);
+  EXPECT_EQ(count({.max_depth = 2}, "DR", Source::receiver), 2);
+  EXPECT_EQ(count({.max_depth = 2}, "RD", Source::receiver), 0);
 }
 
 TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {
@@ -247,7 +250,7 @@ TEST(PathSolver, APathBeyondTheBoundIsCounted) {
   const dvec3 source(5, 0, 5);
   solver.set_candidates(BeamSearch(model.facets, model.kinds, {}, {.max_depth = 1}).search(source).list,
                         source, Source::transmitter);
-  const LinkGeometry link = solver.geometry({6, 3, 4});
+  const LinkGeometry link = solver.geometry({.position = {6, 3, 4}});
   EXPECT_EQ(link.paths.size(), 10u);
   EXPECT_GT(link.overflow, 100u);
 }

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/commands.h"
+#include "apps/paths_draw.h"
+#include "apps/paths_engine.h"
+#include "apps/paths_glb.h"
+#include "apps/paths_output.h"
+#include "apps/paths_render.h"
+#include "apps/progress.h"
+#include "apps/session.h"
+#include "io/png.h"
+#include "sim/plan_options.h"
+#include "sim/receiver_list.h"
+
+namespace greatx::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  ScenarioOptions scenario;
+  RunOptions run;
+  PathsEngine::Instant instant;
+  std::string channel, receiver, receivers;
+  bool json = false, json_lines = false, brief = false, quiet = false;
+  std::string csv, png, glb;
+  std::string view = "auto";
+  uint32_t width = 1600, height = 1000;
+  PathColors colors = PathColors::gain;
+  bool with_scene = false;
+};
+
+/// What is asked of which channel.
+struct Request {
+  uint32_t channel = 0;
+  std::vector<dvec3> points;     ///< of --receivers; empty: the channel's own
+  std::optional<uint32_t> only;  ///< of --receiver
+};
+
+uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
+  if (scenario.channels.empty())
+    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
+  if (name.empty()) return 0;
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
+    if (scenario.channels[i].name == name) return i;
+    names.push_back(scenario.channels[i].name);
+  }
+  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+}
+
+/// A receiver by its number or, if the channel's own are asked for, by its name.
+uint32_t find_receiver(const std::string& text, const Request& request, const sim::ChannelConfig& channel) {
+  const size_t count = request.points.empty() ? channel.receivers.size() : request.points.size();
+  uint32_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error == std::errc{} && end == text.data() + text.size() && index < count) return index;
+  if (request.points.empty())
+    for (uint32_t i = 0; i < channel.receivers.size(); ++i)
+      if (channel.receivers[i] == text) return i;
+  throw_user_error(
+      "--receiver: expected 0 to {}{}, found '{}'", count - 1,
+      request.points.empty() ? fmt::format(", or one of {}", fmt::join(channel.receivers, ", ")) : "", text);
+}
+
+Request request_of(const Options& options, const sim::Scenario& scenario) {
+  Request request;
+  request.channel = find_channel(options.channel, scenario);
+  if (!options.receivers.empty()) request.points = sim::load_receiver_list(options.receivers);
+  if (!options.receiver.empty())
+    request.only = find_receiver(options.receiver, request, scenario.channels[request.channel]);
+  if (options.instant.tick >= scenario.ticks)
+    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
+                     scenario.name, options.instant.tick);
+  if (options.instant.sequence >= scenario.sequences)
+    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1,
+                     options.instant.sequence);
+  if (options.with_scene && options.glb.empty())
+    throw_user_error("--with-scene: expected --glb FILE with it, found none");
+  return request;
+}
+
+constexpr const char* gain_note =
+    "(lambda / 4 pi)^2 ||T||^2 / 2: isotropic antennas of unit gain, both polarizations received, mean over "
+    "the "
+    "polarization sent; of a link: the sum over its paths";
+constexpr const char* phase_note =
+    "arg of (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: vertical to vertical, at the carrier";
+
+Json head_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+             const sim::World& world, const sim::EffectPlan& plan, const sim::Moment& moment) {
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+  Json head{{"greatx", GREATX_VERSION},
+            {"scenario", scenario.name},
+            {"scene_sha256", world.scene.hash},
+            {"seed", scenario.seed},
+            {"sequence", options.instant.sequence},
+            {"tick", moment.context.tick},
+            {"time_s", moment.context.time_s},
+            {"channel", channel.name},
+            {"transmitter", channel.transmitter},
+            {"carrier_hz", channel.carrier_hz},
+            {"max_depth", channel.max_depth},
+            {"gain", gain_note},
+            {"phase", phase_note},
+            {"effects", Json::object()}};
+  for (const sim::Effect* effect : plan.all())
+    head["effects"][effect->name] = {
+        {"on", effect->on}, {"reason", effect->reason}, {"bound", effect->bound}};
+  return head;
+}
+
+Json tail_of(const PathTotals& totals, const sim::ChannelPaths& channel) {
+  Json tail{{"totals", totals.json()}, {"counters", Json::object()}};
+  std::map<std::string, uint64_t> counters;
+  channel.count(counters);
+  for (const auto& [name, count] : counters) tail["counters"][name] = count;
+  for (const auto& [name, text] : channel.notes()) tail[name] = text;
+  return tail;
+}
+
+/// The closing lines of the tables.
+std::string closing_text(const PathTotals& totals, const Json& head, const Json& tail, double seconds) {
+  std::string text = fmt::format("{} in {:.2f} s\n", totals.text(), seconds);
+  for (const auto& [name, value] : tail.items())
+    if (value.is_string()) text += fmt::format("{}: {}\n", name, value.get<std::string>());
+  std::vector<std::string> counts, effects;
+  for (const auto& [name, value] : tail["counters"].items())
+    counts.push_back(fmt::format("{} {}", name, value.get<uint64_t>()));
+  text += fmt::format("counted: {}\n", fmt::join(counts, ", "));
+  for (const auto& [name, effect] : head["effects"].items())
+    if (effect["on"].get<bool>()) effects.push_back(name);
+  text +=
+      fmt::format("effects on: {}\ngain: {}\nphase: {}\n", fmt::join(effects, ", "), gain_note, phase_note);
+  return text;
+}
+
+PictureView automatic_view(const Options& options, std::span<const PathLink> links, const PathScene& scene,
+                           PictureRenderer& renderer) {
+  const uint32_t bars = picture_head + picture_foot;
+  if (options.height < bars + 100)
+    throw_user_error("--height: expected {} or more, found {}", bars + 100, options.height);
+  return choose_view(links, scene, options.width, options.height - bars,
+                     [&](const PictureView& view) { return renderer.depth(view); });
+}
+
+void write_picture(const Options& options, const sim::Scenario& scenario, const sim::World& world,
+                   const sim::EffectPlan& plan, const Json& head, std::span<const PathLink> links,
+                   PathsEngine& engine) {
+  PictureRenderer renderer(engine.gpu_scene(), engine.ring(), plan, scenario.environment, engine.moment());
+  ScenarioView chosen;
+  if (options.view == "auto")
+    chosen.view = automatic_view(options, links, engine.scene(), renderer);
+  else
+    chosen = scenario_view(options.view, scenario, world, engine.moment(), options.width);
+  const render::CameraImages images = renderer.picture(chosen.view, chosen.excluded_body);
+  const PictureText text{
+      fmt::format("{}, {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>()),
+      fmt::format("tick {}, {:.3f} s, {:.4g} GHz", head["tick"].get<int64_t>(), head["time_s"].get<double>(),
+                  1e-9 * head["carrier_hz"].get<double>()),
+      head["transmitter"].get<std::string>()};
+  const io::Bytes png = io::encode_png(
+      draw_paths(chosen.view, images.rgb, images.depth, links, engine.scene(), options.colors, text));
+  const std::filesystem::path file = options.png;
+  if (file.has_parent_path()) io::create_folders(file.parent_path());
+  io::write_file_atomically(file, png);
+}
+
+void write_glb(const Options& options, const Json& head, std::span<const PathLink> links,
+               const PathsEngine& engine) {
+  PathGlbOptions glb;
+  glb.colors = options.colors;
+  glb.name = fmt::format("{} {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>());
+  glb.tick = engine.moment().context.tick;
+  glb.time_s = engine.moment().context.time_s;
+  if (options.with_scene) glb.bodies = engine.moment().bodies;
+  const std::filesystem::path file = options.glb;
+  if (file.has_parent_path()) io::create_folders(file.parent_path());
+  io::write_file_atomically(file, paths_glb(links, engine.scene(), glb));
+}
+
+/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
+std::vector<PathLink> solve(const Options& options, const Request& request, PathsEngine& engine,
+                            std::span<const std::unique_ptr<PathsOutput>> outputs, PathTotals& totals) {
+  const bool keep = !options.png.empty() || !options.glb.empty();
+  const double carrier_hz = engine.scene().carrier_hz;
+  std::vector<PathLink> kept;
+  Progress progress("paths", static_cast<int64_t>(request.points.size()),
+                    options.quiet || request.points.size() < 2, "receivers");
+  if (!request.points.empty() && !request.only) progress.update(0);
+  const auto take = [&](PathLink link) {
+    if (request.only && link.index != *request.only) return true;
+    totals.add(figures_of(link, carrier_hz));
+    for (const auto& output : outputs) output->add(link);
+    if (keep) kept.push_back(std::move(link));
+    progress.update(static_cast<int64_t>(totals.receivers));
+    return !interrupted();
+  };
+  if (request.points.empty())
+    engine.solve(take);
+  else if (request.only)
+    engine.solve(std::span(request.points).subspan(*request.only, 1), *request.only, take);
+  else
+    engine.solve(request.points, 0, take);
+  if (interrupted()) throw_user_error("interrupted after {} receivers", totals.receivers);
+  return kept;
+}
+
+void run(const Options& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const sim::Scenario scenario = load_scenario(options.scenario);
+  const Request request = request_of(options, scenario);
+  const sim::World world = sim::load_world(scenario);
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  // Only a picture needs what cameras need.
+  const sim::EffectPlan view_plan = options.png.empty() ? plan : picture_plan(scenario, world.scene);
+  gpu::Device device(options.run.device_options());
+  PathsEngine engine(device, scenario, world, plan, sim::gpu_scene_options(view_plan), request.channel,
+                     options.instant);
+
+  std::vector<std::unique_ptr<PathsOutput>> outputs;
+  if (options.json)
+    outputs.push_back(json_output(std::cout, engine.scene()));
+  else if (options.json_lines)
+    outputs.push_back(json_lines_output(std::cout, engine.scene()));
+  else if (!options.quiet)
+    outputs.push_back(table_output(std::cout, engine.scene(), options.brief));
+  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, engine.scene().carrier_hz));
+
+  install_interrupt_handler();
+  const Json head = head_of(options, request, scenario, world, plan, engine.moment());
+  for (const auto& output : outputs) output->begin(head);
+  PathTotals totals;
+  const std::vector<PathLink> links = solve(options, request, engine, outputs, totals);
+  const Json tail = tail_of(totals, engine.channel());
+  for (const auto& output : outputs) output->end(tail);
+
+  if (!options.png.empty()) write_picture(options, scenario, world, view_plan, head, links, engine);
+  if (!options.glb.empty()) write_glb(options, head, links, engine);
+  device.wait_idle();
+  check_validation(device);
+  if (options.json || options.json_lines || options.quiet) return;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::cout << closing_text(totals, head, tail, seconds);
+  for (const std::string* file : {&options.csv, &options.png, &options.glb})
+    if (!file->empty()) std::cout << "wrote " << *file << '\n';
+}
+
+void add_selection(CLI::App& command, Options& options) {
+  command.add_option("--tick", options.instant.tick, "at which tick")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--sequence", options.instant.sequence, "in which sequence")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--channel", options.channel, "name of the channel [the first]");
+  command.add_option(
+      "--receivers", options.receivers,
+      "CSV of positions x, y, z (world, m) in place of the channel's receivers: at rest, isotropic");
+  command.add_option("--receiver", options.receiver,
+                     "this one alone: its number, from 0, or its name node/sensor [all]");
+}
+
+void add_pictures(CLI::App& command, Options& options) {
+  command.add_option("--png", options.png, "draw the paths over a view of the scene");
+  command
+      .add_option("--view", options.view,
+                  "auto: obliquely from above, from where most of the paths are in sight; or node/sensor: "
+                  "a camera of the scenario")
+      ->capture_default_str();
+  command.add_option("--width", options.width, "of the picture, pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(320, 16384));
+  command
+      .add_option("--height", options.height, "of the picture, pixels; a scenario's camera has its own shape")
+      ->capture_default_str()
+      ->check(CLI::Range(240, 16384));
+  command.add_option("--color", options.colors, "of lines: by gain, or by kind of path")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PathColors>{{"gain", PathColors::gain}, {"kind", PathColors::kind}}))
+      ->default_str("gain");
+  command.add_option("--glb", options.glb, "write the paths as a glTF binary");
+  command.add_flag("--with-scene", options.with_scene, "the scene's triangles too, in plain colours (--glb)");
+}
+
+}  // namespace
+
+void add_paths(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("paths", "find, list and draw all paths of a channel at one tick (docs/paths.md)");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  add_selection(*command, *options);
+  CLI::Option* json = command->add_flag("--json", options->json, "print one JSON object with everything");
+  CLI::Option* lines = command->add_flag("--json-lines", options->json_lines,
+                                         "print JSON objects, one a line: head, each receiver, totals");
+  command->add_flag("--brief", options->brief, "print one line a receiver")->excludes(json)->excludes(lines);
+  lines->excludes(json);
+  command->add_option(
+      "--csv-out", options->csv,
+      "write a CSV with one line a receiver: number of paths, line of sight, gain, delay spread");
+  add_pictures(*command, *options);
+  command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

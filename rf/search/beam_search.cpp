@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/search/beam_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "rf/search/beam_cells.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr uint32_t none = ~0u;
+constexpr size_t nodes_at_once = 2048;  ///< expanded before their children are counted: bounds the memory
+
+/// A sequence of facets: that of its parent and one more.
+struct Node {
+  uint32_t parent = none;
+  uint32_t facet = none;       ///< BeamScene's
+  dvec3 image{0.0};            ///< of the source, mirrored at all of them
+  std::vector<BeamHit> parts;  ///< where on the facet, for each number of walls passed so far
+};
+
+/// What a node's beams met.
+struct Found {
+  std::vector<BeamHit> hits;  ///< walls: on the whole way from the source
+  std::vector<uint32_t> wedges;
+  uint64_t cells = 0;
+};
+
+void widen(BeamHit& hit, const BeamHit& other) {
+  hit.min_a = std::min(hit.min_a, other.min_a), hit.max_a = std::max(hit.max_a, other.max_a);
+  hit.min_b = std::min(hit.min_b, other.min_b), hit.max_b = std::max(hit.max_b, other.max_b);
+}
+
+/// By facet, then walls; one rectangle for each.
+void merge(std::vector<BeamHit>& hits) {
+  std::sort(hits.begin(), hits.end(), [](const BeamHit& a, const BeamHit& b) {
+    return std::tie(a.facet, a.walls, a.min_a, a.min_b, a.max_a, a.max_b) <
+           std::tie(b.facet, b.walls, b.min_a, b.min_b, b.max_a, b.max_b);
+  });
+  size_t kept = 0;
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (kept > 0 && hits[kept - 1].facet == hits[i].facet && hits[kept - 1].walls == hits[i].walls)
+      widen(hits[kept - 1], hits[i]);
+    else
+      hits[kept++] = hits[i];
+  }
+  hits.resize(kept);
+}
+
+class Tree {
+ public:
+  Tree(const BeamScene& scene, const BeamSearchOptions& options, bool wedges, const dvec3& source)
+      : scene_(scene), options_(options), wedges_(wedges) {
+    nodes_.push_back({none, none, source, {}});
+  }
+
+  BeamSearchResult grow();
+
+ private:
+  /// Walls that may still be passed on the way to the next reflection; < 0: no next reflection.
+  int walls_left(uint32_t depth, uint32_t passed) const {
+    if (depth >= options_.max_depth) return -1;
+    return static_cast<int>(std::min(options_.max_transmissions, options_.max_depth - depth - 1)) -
+           static_cast<int>(passed);
+  }
+  Found expand_root(uint32_t face) const;
+  Found expand(uint32_t node, uint32_t depth) const;
+  void settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const;
+  std::vector<Found> expand_level(size_t first, size_t end, uint32_t depth) const;
+  void list_node(uint32_t node, BeamSearchResult& result) const;
+  PlaneWindow window_of(const Node& node) const;
+
+  const BeamScene& scene_;
+  const BeamSearchOptions& options_;
+  bool wedges_;
+  std::vector<Node> nodes_;
+};
+
+void Tree::settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const {
+  BeamView view(scene_);
+  view.look(beam, options_.edge_strips, wedges_);
+  BeamCellOptions options;
+  options.walls = static_cast<uint32_t>(walls_left(depth, passed));
+  options.tight = walls_left(depth + 1, 0) >= 0;
+  options.edge_strips = options_.edge_strips;
+  if (depth == 0 && options_.source_body != 0) options.transparent_body = options_.source_body;
+  BeamCells cells;
+  const size_t first = found.hits.size();
+  cells.settle(view, options, found.hits, found.wedges);
+  for (size_t i = first; i < found.hits.size(); ++i) found.hits[i].walls += passed;
+  found.cells += cells.cells();
+}
+
+Found Tree::expand_root(uint32_t face) const {
+  static constexpr int axes[6][3] = {{1, 2, 0}, {1, 2, 0}, {2, 0, 1}, {2, 0, 1}, {0, 1, 2}, {0, 1, 2}};
+  Beam beam;
+  beam.apex = nodes_[0].image;
+  beam.right[axes[face][0]] = 1.0;
+  beam.up[axes[face][1]] = 1.0;
+  beam.forward[axes[face][2]] = face % 2 == 0 ? 1.0 : -1.0;
+  const double side = 1.0 + 1e-9;  // neighbours overlap by more than they round
+  beam.window = {-side, side, -side, side};
+  Found found;
+  settle(beam, 0, 0, found);
+  return found;
+}
+
+Found Tree::expand(uint32_t index, uint32_t depth) const {
+  const Node& node = nodes_[index];
+  const BeamFacet& facet = scene_.facet(node.facet);
+  Beam beam;
+  beam.apex = node.image;
+  const double behind = glm::dot(facet.normal, node.image) - facet.offset;
+  beam.near_m = std::abs(behind);
+  beam.forward = behind > 0.0 ? -facet.normal : facet.normal;
+  beam.right = facet.axis_a;
+  beam.up = facet.axis_b;
+  beam.mirror = node.facet;
+  const double apex_a = glm::dot(facet.axis_a, node.image) - facet.offset_a;
+  const double apex_b = glm::dot(facet.axis_b, node.image) - facet.offset_b;
+  Found found;
+  for (const BeamHit& part : node.parts) {
+    if (walls_left(depth, part.walls) < 0) continue;
+    beam.window = {(part.min_a - apex_a) / beam.near_m, (part.max_a - apex_a) / beam.near_m,
+                   (part.min_b - apex_b) / beam.near_m, (part.max_b - apex_b) / beam.near_m};
+    settle(beam, depth, part.walls, found);
+  }
+  return found;
+}
+
+/// Nodes [first, end) of one depth, in their order.
+std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth) const {
+  std::vector<Found> found(end - first);
+  if (depth == 0) {
+    std::vector<Found> faces(6);
+    parallel_for(6, options_.threads, [&](size_t face) { faces[face] = expand_root(static_cast<uint32_t>(face)); });
+    for (const Found& face : faces) {
+      found[0].hits.insert(found[0].hits.end(), face.hits.begin(), face.hits.end());
+      found[0].wedges.insert(found[0].wedges.end(), face.wedges.begin(), face.wedges.end());
+      found[0].cells += face.cells;
+    }
+  } else {
+    parallel_for(end - first, options_.threads,
+                 [&](size_t i) { found[i] = expand(static_cast<uint32_t>(first + i), depth); });
+  }
+  for (Found& node : found) {
+    merge(node.hits);
+    std::sort(node.wedges.begin(), node.wedges.end());
+    node.wedges.erase(std::unique(node.wedges.begin(), node.wedges.end()), node.wedges.end());
+  }
+  return found;
+}
+
+/// Around all parts, in the plane coordinates of the world's facet.
+PlaneWindow Tree::window_of(const Node& node) const {
+  const BeamFacet& facet = scene_.facet(node.facet);
+  const PosedFacet& posed = scene_.world().facet(facet.index);
+  BeamHit all = node.parts[0];
+  for (const BeamHit& part : node.parts) widen(all, part);
+  PlaneWindow window{1e300, -1e300, 1e300, -1e300};
+  for (const double a : {all.min_a, all.max_a})
+    for (const double b : {all.min_b, all.max_b}) {
+      const double from_a = a + facet.offset_a, from_b = b + facet.offset_b;
+      const double u = glm::dot(posed.axis_u, facet.axis_a) * from_a + glm::dot(posed.axis_u, facet.axis_b) * from_b;
+      const double v = glm::dot(posed.axis_v, facet.axis_a) * from_a + glm::dot(posed.axis_v, facet.axis_b) * from_b;
+      window.min_u = std::min(window.min_u, u - posed.offset_u), window.max_u = std::max(window.max_u, u - posed.offset_u);
+      window.min_v = std::min(window.min_v, v - posed.offset_v), window.max_v = std::max(window.max_v, v - posed.offset_v);
+    }
+  const double room = 2.0 * facet.tolerance_m;
+  return {std::max(window.min_u, posed.min_u) - room, std::min(window.max_u, posed.max_u) + room,
+          std::max(window.min_v, posed.min_v) - room, std::min(window.max_v, posed.max_v) + room};
+}
+
+void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
+  std::vector<uint32_t> sequence;
+  for (uint32_t node = index; nodes_[node].parent != none; node = nodes_[node].parent)
+    sequence.push_back(scene_.facet(nodes_[node].facet).index);
+  std::reverse(sequence.begin(), sequence.end());
+  result.list.add(sequence);
+  result.list.windows.push_back(index == 0 ? PlaneWindow{0.0, 0.0, 0.0, 0.0} : window_of(nodes_[index]));
+}
+
+BeamSearchResult Tree::grow() {
+  BeamSearchResult result;
+  if (wedges_) result.list.wedge_offsets.push_back(0);
+  list_node(0, result);
+  result.found = 1;
+  size_t level = 0;
+  for (uint32_t depth = 0; depth < options_.max_depth; ++depth) {
+    const size_t level_end = nodes_.size();
+    for (size_t first = level; first < level_end; first += nodes_at_once) {
+      const size_t end = std::min(level_end, first + nodes_at_once);
+      const std::vector<Found> found = expand_level(first, end, depth);
+      for (size_t i = first; i < end; ++i) {
+        const Found& from = found[i - first];
+        result.cells += from.cells;
+        if (wedges_) {
+          result.list.wedges.insert(result.list.wedges.end(), from.wedges.begin(), from.wedges.end());
+          result.list.wedge_offsets.push_back(static_cast<uint32_t>(result.list.wedges.size()));
+        }
+        for (size_t h = 0; h < from.hits.size();) {
+          Node child{static_cast<uint32_t>(i), from.hits[h].facet, {}, {}};
+          for (; h < from.hits.size() && from.hits[h].facet == child.facet; ++h) child.parts.push_back(from.hits[h]);
+          if (++result.found > options_.capacity) continue;
+          const BeamFacet& facet = scene_.facet(child.facet);
+          const dvec3& image = nodes_[i].image;
+          child.image = image - 2.0 * (glm::dot(facet.normal, image) - facet.offset) * facet.normal;
+          nodes_.push_back(std::move(child));
+          list_node(static_cast<uint32_t>(nodes_.size() - 1), result);
+        }
+      }
+    }
+    level = level_end;
+    if (result.found > options_.capacity) break;
+  }
+  if (wedges_)
+    result.list.wedge_offsets.resize(result.list.size() + 1, static_cast<uint32_t>(result.list.wedges.size()));
+  return result;
+}
+
+}  // namespace
+
+BeamSearch::BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
+                       const BeamSearchOptions& options)
+    : world_(&world), kinds_(&kinds), wedges_(wedges), options_(options) {
+  GREATX_CHECK(options.max_depth <= 64, "beams to depth {}", options.max_depth);
+  GREATX_CHECK(options.capacity > 0, "capacity {}", options.capacity);
+}
+
+BeamSearchResult BeamSearch::search(const dvec3& source) const {
+  GREATX_CHECK(std::isfinite(source.x) && std::isfinite(source.y) && std::isfinite(source.z),
+               "source at ({}, {}, {})", source.x, source.y, source.z);
+  const BeamScene scene(*world_, *kinds_, wedges_, options_.moving_bodies);
+  return Tree(scene, options_, !wedges_.empty(), source).grow();
+}
+
+std::string BeamSearch::guarantee() const {
+  return fmt::format("beams: no facet sequence with a path of up to {} reflections{} is left out, whatever the receiver",
+                     options_.max_depth,
+                     options_.max_transmissions > 0 ? fmt::format(" and walls passed (walls: at most {})",
+                                                                  options_.max_transmissions)
+                                                    : std::string());
+}
+
+}  // namespace greatx::rf
