@@ -25,9 +25,11 @@ dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
 
 dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
 
-/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)?
+/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)? Very near the edge the
+/// tolerance would be any angle.
 bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
-  return std::abs(face.x * at.y - face.y * at.x) <= tolerance && glm::dot(face, at) > 0.0;
+  const double off = std::abs(face.x * at.y - face.y * at.x);
+  return off <= tolerance && off <= 0.05 * glm::dot(face, at);
 }
 
 /// One face's reflection between the edge's unit vectors.
@@ -98,7 +100,11 @@ std::optional<dvec3> keller_point(const scene::Wedge& wedge, const dvec3& before
     refusal = KellerRefusal::on_the_line;
   } else {
     z = (z_before * d_after + z_after * d_before) / (d_before + d_after);
-    if (!(z >= -tolerance && z <= length + tolerance)) refusal = KellerRefusal::beyond_the_edge;
+    if (!(z >= -tolerance && z <= length + tolerance)) {
+      refusal = KellerRefusal::beyond_the_edge;
+    } else if (!in_exterior(wedge, before) || !in_exterior(wedge, after)) {
+      refusal = KellerRefusal::not_outside;
+    }
   }
   if (why) *why = refusal;
   if (refusal != KellerRefusal::none) return std::nullopt;
@@ -109,7 +115,7 @@ bool in_exterior(const scene::Wedge& wedge, const dvec3& point) {
   const dvec2 at = across(wedge, point - wedge.a);
   const double angle = std::atan2(at.y, at.x), wide = wedge.n * pi;
   if ((angle < 0.0 ? angle + 2.0 * pi : angle) <= wide) return true;
-  const double tolerance = tolerance_m(wedge);
+  const double tolerance = tolerance_m(wedge) + 1e-13 * glm::length(point);
   return on_face({1.0, 0.0}, at, tolerance) || on_face(face_n_direction(wedge), at, tolerance);
 }
 

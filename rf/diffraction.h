@@ -26,17 +26,19 @@ enum class KellerRefusal : uint8_t {
   none = 0,
   beyond_the_edge = 1,  ///< the cone's tip lies on the edge's line, but not between its ends
   on_the_line = 2,      ///< an end lies on the edge's line: beta_0 is 0, or the distance to the edge
+  not_outside = 3,      ///< an end is not in the exterior: the ray would run through the wedge
 };
 
 /// Where the path from `before` through the edge to `after` is shortest: equal angles with the edge (J. B. Keller,
 /// "Geometrical theory of diffraction", J. Opt. Soc. Am. 52, 1962), in closed form by unfolding: z = (z_a d_b + z_b d_a)/
-/// (d_a + d_b). Ends may be images. The edge is closed, within 1e-9 of its length plus 1e-13 of its coordinates; an end that
-/// close to its line is refused.
+/// (d_a + d_b). Ends may be images: they have to be in_exterior() then, like the vertices next to the edge, which lie in
+/// the same direction but may be too near to tell. The edge is closed, within 1e-9 of its length plus 1e-13 of its
+/// coordinates; an end that close to its line is refused. A path that is reflected at one of the wedge's own faces just
+/// before or after is none, and not found out here: that reflection is part of the dyadic.
 std::optional<dvec3> keller_point(const scene::Wedge& posed, const dvec3& before, const dvec3& after,
                                   KellerRefusal* why = nullptr);
 
-/// Can waves be there: in the exterior's angle (its faces included, within the same tolerance)? Judge the vertices next
-/// to the edge, or the images: both lie in the same direction from its Keller point.
+/// Can waves be there: in the exterior's angle (its faces included, within the same tolerance)?
 bool in_exterior(const scene::Wedge& posed, const dvec3& point);
 
 /// Does the wedge stand between `source` and `observer`, were its faces endless? What PathOptions' shadow-only diffraction

@@ -190,6 +190,9 @@ TEST(KellerPoint, Exterior) {
   EXPECT_TRUE(in_exterior(wedge, {0, -1, 0}));
   EXPECT_TRUE(in_exterior(wedge, {1, -1e-12, 0}));
   EXPECT_FALSE(in_exterior(wedge, {1, -1e-3, 0}));
+  KellerRefusal why = KellerRefusal::none;
+  EXPECT_FALSE(keller_point(wedge, {1, 1, 7}, {1, -1, 0}, &why));
+  EXPECT_EQ(why, KellerRefusal::not_outside);
   EXPECT_TRUE(in_shadow(wedge, at(5, 0.3, 0), at(9, 0.3 + pi + 1e-9, 3)) !=
               in_shadow(wedge, at(5, 0.3, 0), at(9, 0.3 + pi - 1e-9, 3)));
   EXPECT_FALSE(in_shadow(wedge, at(5, 2.0, 0), at(9, 1.0, 3)));
