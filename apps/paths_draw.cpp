@@ -27,7 +27,7 @@ struct DrawnPath {
   double gain_db = 0.0;
   Color color;
   double width = 2.0;
-  std::vector<Run> runs;
+  std::vector<Stretch> stretches;
 };
 
 /// Darker and greyer, so that the paths stand out.
@@ -70,7 +70,7 @@ class Painter {
 };
 
 void Painter::lines(const DrawnPath& path, bool hidden, double width, Color color, double opacity) {
-  for (const Run& run : path.runs)
+  for (const Stretch& run : path.stretches)
     if (run.hidden == hidden) coverage_.line(run.a, run.b, width);
   coverage_.paint(canvas_, offset_, color, opacity);
 }
@@ -78,8 +78,9 @@ void Painter::lines(const DrawnPath& path, bool hidden, double width, Color colo
 void Painter::paths(std::vector<DrawnPath>& paths) {
   for (DrawnPath& path : paths)
     for (size_t i = 0; i + 1 < path.path->vertices.size(); ++i)
-      for (const Run& run : runs_of(view_, depth_, path.path->vertices[i], path.path->vertices[i + 1]))
-        path.runs.push_back(run);
+      for (const Stretch& run :
+           stretches_of(view_, depth_, path.path->vertices[i], path.path->vertices[i + 1]))
+        path.stretches.push_back(run);
   for (const DrawnPath& path : paths) lines(path, true, 1.3, path.color, 0.4);
   for (const DrawnPath& path : paths) {
     lines(path, false, path.width + 2.4, halo, 0.55);

@@ -105,8 +105,8 @@ double marker_distance(rf::InteractionType type, const dvec2& p, double radius) 
   }
 }
 
-std::vector<Run> runs_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
-                         const dvec3& b) {
+std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
+                                  const dvec3& b) {
   // In front of the camera.
   const dvec3 forward = view.local_from_sensor.rotate({1, 0, 0}), eye = view.local_from_sensor.position;
   double t0 = 0.0, t1 = 1.0;
@@ -132,7 +132,7 @@ std::vector<Run> runs_of(const PictureView& view, std::span<const float> depth, 
     hidden[static_cast<size_t>(i)] =
         is_hidden(p.z, depth[static_cast<size_t>(y) * view.width + static_cast<size_t>(x)]);
   }
-  std::vector<Run> runs;
+  std::vector<Stretch> runs;
   for (int first = 0; first < steps;) {
     int last = first + 1;
     while (last < steps && hidden[static_cast<size_t>(last)] == hidden[static_cast<size_t>(first)]) ++last;

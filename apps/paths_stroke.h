@@ -37,13 +37,13 @@ class Coverage {
 double marker_distance(rf::InteractionType type, const dvec2& offset, double radius);
 
 /// A part of a stretch that is in sight, or behind something, all along; pixels.
-struct Run {
+struct Stretch {
   dvec2 a{0.0}, b{0.0};
   bool hidden = false;
 };
 /// A stretch from a to b (local coordinates) as the picture shows it: what is behind the camera or outside is cut off, the
 /// rest is split where it goes behind a surface. `depth` [height, width] of the view.
-std::vector<Run> runs_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
-                         const dvec3& b);
+std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
+                                  const dvec3& b);
 
 }  // namespace greatx::apps

@@ -135,10 +135,8 @@ CandidateSearch::CandidateSearch(scene::GpuScene& scene, const CandidateSearchOp
                "{} rays to depth {}, {} ways", options.rays, options.max_depth, options.max_ways);
   gpu::Device& device = scene.device();
   const uint64_t limit = device.limits().maxStorageBufferRange / sizeof(uint32_t);
-  const uint64_t ray_limit = limit / std::max<uint64_t>(3, options.max_depth);
-  if (options.rays > ray_limit)
-    throw_user_error("rays: expected at most {} for depth {} on this device, found {}", ray_limit,
-                     options.max_depth, options.rays);
+  if (options.rays > limit / 3)
+    throw_user_error("rays: expected at most {} on this device, found {}", limit / 3, options.rays);
 
   const std::vector<uint32_t> kind_words = kinds_of(kinds);
   const uint32_t ways = walls_ ? ways_per_ray(options.max_depth, options.max_transmissions) : 1;
@@ -256,6 +254,7 @@ CandidateSearchResult CandidateSearch::search(std::span<const Pose> body_poses, 
   for (const Part& part : parts()) {
     gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
       slot.cmd = &cmd;
+      const auto scope = cmd.scope("candidate search");
       if (part.first == 0) scene_->record_update(slot, body_poses);
       record_part(cmd, source, part, readback.slice());
       cmd.barrier(gpu::sync::transfer_write, gpu::sync::host_read);

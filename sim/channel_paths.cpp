@@ -85,6 +85,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
       move_facets_(plan.moving_reflectors.on),
       transmitter_(end_of(config_.transmitter)),
       model_(world.scene, config_.carrier_hz, radio_effects(plan, scenario)),
+      surroundings_(world.scene, model_.kinds),
       crossings_(crossings) {
   for (const std::string& name : config_.receivers) receivers_.push_back(end_of(name));
   choose_search(plan);
@@ -140,6 +141,7 @@ void ChannelPaths::set_points(std::span<const dvec3> points) {
   // Points come by the thousand: one search from the transmitter serves them all.
   if (search_ == Search::once_from_receivers) search_ = Search::every_tick;
   ids_known_ = false;
+  placed_.clear();
 }
 
 rf::EndState ChannelPaths::state_of(const ChannelEnd& end, const TickContext& context) const {
@@ -208,6 +210,7 @@ rf::PathSolver& ChannelPaths::solver(size_t index) {
 void ChannelPaths::start(const TickContext& context) {
   searching_.reset();
   ids_known_ = false;
+  placed_.clear();
   const bool once = search_ == Search::once_from_transmitter || search_ == Search::once_from_receivers;
   if (once && !solvers_.empty()) return;
   solvers_.clear();
@@ -257,6 +260,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
   flight.transmitter = state_of(transmitter_, context);
   move_bodies(context);
+  check_placements(context);
   renew_candidates(flight.transmitter.position, context);
 
   flight.links.assign(receivers_.size(), {});
@@ -326,6 +330,37 @@ void ChannelPaths::note_births(size_t link, const std::vector<rf::Path>& paths) 
   ids_[link] = std::move(now);
 }
 
+bool ChannelPaths::moves(const ChannelEnd& end) const { return end.node && !is_static(scenario_, *end.node); }
+
+/// Says once per end and sequence where it should not be, and counts. Ends at rest are judged once.
+void ChannelPaths::check_placements(const TickContext& context) {
+  constexpr size_t most_told = 5;
+  placed_.resize(1 + receivers_.size());
+  size_t told = 0;
+  for (size_t i = 0; i < placed_.size(); ++i) {
+    const ChannelEnd& end = i == 0 ? transmitter_ : receivers_[i - 1];
+    Placed& placed = placed_[i];
+    if (!placed.checked || moves(end)) {
+      const rf::EndState state = state_of(end, context);
+      const rf::Placement placement = surroundings_.of(state.position, context.body_poses, state.body);
+      placed.checked = true;
+      placed.inside = placement.solid != rf::Placement::none;
+      if (!placement.free() && !placed.told) {
+        placed.told = true;
+        const bool wrong = placed.inside || placement.surface != rf::Placement::none;
+        if (++told <= most_told)
+          spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
+                      config_.name, context.tick, end.name,
+                      rf::describe(placement, world_.scene, model_.kinds));
+      }
+    }
+    ends_inside_ += placed.inside;
+  }
+  if (told > most_told)
+    spdlog::warn("channel '{}', tick {}: {} more ends lie inside or on something", config_.name, context.tick,
+                 told - most_told);
+}
+
 void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
   counters["candidates"] = candidate_count_;
   counters["candidate_overflow"] = candidate_overflow_;
@@ -335,6 +370,7 @@ void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
   counters["paths"] = lit_paths_;
   counters["path_births"] = births_;
   counters["path_deaths"] = deaths_;
+  counters["ends_inside_solids"] = ends_inside_;
 }
 
 std::vector<std::pair<std::string, std::string>> ChannelPaths::notes() const {

@@ -17,6 +17,7 @@
 
 #include "rf/candidate_search.h"
 #include "rf/path_solver.h"
+#include "rf/placement.h"
 #include "rf/search/beam_search.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
@@ -96,6 +97,8 @@ class ChannelPaths {
   void move_bodies(const TickContext& context);
   void renew_candidates(const dvec3& transmitter, const TickContext& context);
   void note_births(size_t link, const std::vector<rf::Path>& paths);
+  void check_placements(const TickContext& context);
+  bool moves(const ChannelEnd& end) const;
 
   const Scenario& scenario_;
   const World& world_;
@@ -104,6 +107,7 @@ class ChannelPaths {
   ChannelEnd transmitter_;
   std::vector<ChannelEnd> receivers_;
   rf::RadioModel model_;
+  rf::Surroundings surroundings_;
   rf::CrossingPass& crossings_;
   Search search_ = Search::none;
   std::optional<rf::BeamSearch> beams_;
@@ -113,8 +117,13 @@ class ChannelPaths {
   std::array<InFlight, slots_in_flight> in_flight_;
   std::vector<std::vector<uint64_t>> ids_;  ///< [receivers] of the paths at the tick before, ascending
   bool ids_known_ = false;
+  /// What check_placements() knows of an end in this sequence.
+  struct Placed {
+    bool checked = false, inside = false, told = false;
+  };
+  std::vector<Placed> placed_;  ///< [1 + receivers]: transmitter, receivers; empty: nothing yet
   uint64_t candidate_count_ = 0, candidate_overflow_ = 0, cache_hits_ = 0, path_overflow_ = 0;
-  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0;
+  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
 };
 
 }  // namespace greatx::sim

@@ -22,10 +22,11 @@ using test::TinyScene;
 using testing::ElementsAre;
 
 CandidateSearchResult search(const scene::Scene& scene, const CandidateSearchOptions& options,
-                             const dvec3& source, const std::vector<Pose>& bodies = {Pose{}}) {
+                             const dvec3& source, const std::vector<Pose>& bodies = {Pose{}},
+                             const FacetKinds& kinds = {}) {
   gpu::Device& device = test::device();
   scene::GpuScene gpu_scene(device, scene, {});
-  CandidateSearch pass(gpu_scene, options);
+  CandidateSearch pass(gpu_scene, options, kinds);
   gpu::TickRing ring(device, 1, 1u << 16, 1u << 20);
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, bodies);

@@ -12,6 +12,7 @@
 
 #include "core/hash.h"
 #include "core/random.h"
+#include "rf/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {
@@ -269,8 +270,10 @@ TEST(CrossedFoliage, OfMovingBodiesIsWhereTheBodyIsAndNotCountedForItsOwnNode) {
   };
   const double scale = glm::length(plain.b - plain.a) / 100.0;
   const std::vector<double> along = at({20, 0, 0}, {1, 0, 0, 0}), across = at({20, 0, 0}, turned),
-                            away = at({20, 90, 0}, turned);
+                            away = at({20, 90, 0}, turned),
+                            about = at({20, 0, 0}, orientation_from_yaw_pitch_roll(3.14159265358979, 0, 0));
   EXPECT_NEAR(along[0], 16.0 * scale, 1e-4);
+  EXPECT_NEAR(about[0], 16.0 * scale, 1e-4);
   EXPECT_NEAR(across[0], 8.0 * scale, 1e-4);
   EXPECT_NEAR(away[0], 6.0 * scale, 1e-4);
   for (const auto& found : {along, across, away}) EXPECT_NEAR(found[1], 6.0 * scale, 1e-4);
@@ -310,7 +313,7 @@ TEST(CrossedFoliage, WhatIsNotClosedSaysSo) {
   EXPECT_TRUE(cross(inwards, all_of(FacetKind::foliage, inwards), segments)[0].foliage_open);
 }
 
-/// Everything that the pass answers about a mixed scene, as text.
+/// Everything that the pass answers about a mixed scene, and what a search finds in it.
 std::string digest_of_answers() {
   TinyScene tiny = sphere({0, 0, 5}, 6.0, 2);
   FacetKinds kinds(8 * 16, FacetKind::foliage);
@@ -325,12 +328,20 @@ std::string digest_of_answers() {
   }
   std::vector<Segment> segments;
   for (int i = 0; i < 20000; ++i) segments.push_back(segment(vector(25), vector(25), 4));
+  const scene::Scene scene = tiny.build();
   std::string text;
-  for (const Crossing& crossing : cross(tiny.build(), kinds, segments)) {
+  for (const Crossing& crossing : cross(scene, kinds, segments)) {
     text += crossing.blocked ? "blocked" : std::to_string(crossing.foliage_m * 1e9);
     for (const uint32_t wall : crossing.walls) text.append(" ").append(std::to_string(wall));
     text.append("\n");
   }
+  scene::GpuScene gpu_scene(test::device(), scene, {});
+  CandidateSearchOptions options;
+  options.rays = 1u << 14;
+  options.max_transmissions = 2;
+  for (const uint32_t facet :
+       CandidateSearch(gpu_scene, options, kinds).search(std::vector{Pose{}}, {0, 0, 5}).list.facets)
+    text.append(" ").append(std::to_string(facet));
   return sha256_hex(std::as_bytes(std::span(text)));
 }
 
@@ -341,7 +352,7 @@ TEST(CrossedFoliage, DigestOfAnswersIsTheSameTwice) {
   std::printf("digest %s\n", digest.c_str());
 }
 
-TEST(HardCase, N63_CrossingsAreTheSameWithOneTwoAndSixteenThreads) {
+TEST(HardCase, N63_CrossingsAndCandidatesAreTheSameWithOneTwoAndSixteenThreads) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string expected = "digest " + digest_of_answers();
   for (const char* threads : {"1", "2", "16"}) {
