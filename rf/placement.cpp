@@ -146,10 +146,16 @@ uint32_t Surroundings::surrounding(const Shell& shell, const dvec3& point) const
     facets[i] = comes_out_of(shell, point, all[i]);
     if (facets[i] == Placement::none) return Placement::none;
   }
+  /// How many rays come out of its object, then of its material there.
   const auto votes = [&](uint32_t facet) {
-    return std::count_if(facets.begin(), facets.end(), [&](uint32_t other) {
-      return scene_->facets[other].instance == scene_->facets[facet].instance;
-    });
+    const scene::Facet& own = scene_->facets[facet];
+    std::pair<size_t, size_t> count;
+    for (const uint32_t other : facets) {
+      const scene::Facet& f = scene_->facets[other];
+      count.first += f.instance == own.instance;
+      count.second += f.instance == own.instance && f.material == own.material;
+    }
+    return count;
   };
   return *std::max_element(facets.begin(), facets.end(),
                            [&](uint32_t a, uint32_t b) { return votes(a) < votes(b); });
