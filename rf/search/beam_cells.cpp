@@ -4,13 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#ifdef BEAM_DEBUG
-#include <cstdio>
-#endif
 
-#ifdef BEAM_DEBUG
-namespace greatx::rf { int beam_debug_facet = -1; }
-#endif
 namespace greatx::rf {
 namespace {
 
@@ -139,7 +133,8 @@ void BeamCells::inherit(const Entry& from, std::span<const uint32_t> edges, cons
 
 /// A ray of the cell that no edge is near, so that every facet knows whether it is hit; else the centre's.
 void BeamCells::choose_sample() {
-  static constexpr double tries[][2] = {{0.0, 0.0}, {0.31, 0.17}, {-0.23, 0.37}, {0.41, -0.29}, {-0.37, -0.19}};
+  static constexpr double tries[][2] = {
+      {0.0, 0.0}, {0.31, 0.17}, {-0.23, 0.37}, {0.41, -0.29}, {-0.37, -0.19}};
   for (const auto& at : tries) {
     here_.sample_a = here_.a + at[0] * here_.half_a, here_.sample_b = here_.b + at[1] * here_.half_b;
     const bool clear = std::none_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
@@ -248,7 +243,8 @@ void BeamCells::find_surfaces() {
 void BeamCells::grow_shell(uint32_t start) {
   const uint32_t first = static_cast<uint32_t>(members_.size());
   const auto add = [&](uint32_t member) {
-    if (std::find(members_.begin() + first, members_.end(), member) == members_.end()) members_.push_back(member);
+    if (std::find(members_.begin() + first, members_.end(), member) == members_.end())
+      members_.push_back(member);
   };
   const auto neighbour = [&](uint32_t member, const ViewEdge& edge) {
     for (uint32_t i = 0; i < entries_.size(); ++i) {
@@ -294,7 +290,8 @@ void BeamCells::drop_hidden() {
     for (const uint32_t member : members(surface)) {
       const ViewFacet& cover = facet_of(entries_[member]);
       if (member == index) return false;
-      if (cover.scene_facet == facet.wedge_faces[0] || cover.scene_facet == facet.wedge_faces[1]) return false;
+      if (cover.scene_facet == facet.wedge_faces[0] || cover.scene_facet == facet.wedge_faces[1])
+        return false;
       if (in_front(cover, facet, view_->room_m())) continue;
       // Beside a common edge nothing is well behind; what is there lies within a strip that the tolerance makes.
       if (options_.edge_strips || facet.role != ViewFacet::Role::facet) return false;
@@ -312,21 +309,25 @@ void BeamCells::drop_hidden() {
   std::vector<const Surface*> counted;
   for (const Surface& surface : surfaces_) {
     const auto in_it = members(surface);
-    if (std::all_of(in_it.begin(), in_it.end(), [&](uint32_t member) { return entries_[member].gone; })) continue;
+    if (std::all_of(in_it.begin(), in_it.end(), [&](uint32_t member) { return entries_[member].gone; }))
+      continue;
     const bool stops = surface.opaque || options_.walls == 0;
-    const bool counts = !stops && std::all_of(counted.begin(), counted.end(),
-                                              [&](const Surface* other) { return all_apart(*other, surface); });
+    const bool counts = !stops && std::all_of(counted.begin(), counted.end(), [&](const Surface* other) {
+      return all_apart(*other, surface);
+    });
     if (counts) counted.push_back(&surface);
     if (!stops && !counts) continue;
     for (uint32_t i = 0; i < entries_.size(); ++i) {
       Entry& entry = entries_[i];
-      if (entry.gone || facet_of(entry).role == ViewFacet::Role::mirror || !all_in_front(surface, i)) continue;
+      if (entry.gone || facet_of(entry).role == ViewFacet::Role::mirror || !all_in_front(surface, i))
+        continue;
       if (stops || ++entry.walls > options_.walls) entry.gone = true;
     }
   }
   if (options_.edge_strips || entries_.size() > most_for_contacts) return;
   for (Entry& entry : entries_)
-    if (!entry.gone && facet_of(entry).role == ViewFacet::Role::facet && hidden_at_contact(entry)) entry.gone = true;
+    if (!entry.gone && facet_of(entry).role == ViewFacet::Role::facet && hidden_at_contact(entry))
+      entry.gone = true;
 }
 
 /// What the sample's ray meets first is there, and no smaller cell will prove otherwise.
@@ -342,15 +343,13 @@ void BeamCells::mark_seen() {
     if (facet.role == ViewFacet::Role::facet && entries_[i].at_sample == present)
       met.push_back({i, facet.distance / facet.slope_sum(here_.sample_a, here_.sample_b)});
   }
-  std::sort(met.begin(), met.end(),
-            [](const Met& a, const Met& b) { return a.depth != b.depth ? a.depth < b.depth : a.entry < b.entry; });
+  std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.entry < b.entry;
+  });
   uint32_t walls = 0;
   double last = -1e300;
   for (const Met& one : met) {
     const Entry& entry = entries_[one.entry];
-#ifdef BEAM_DEBUG
-    if (!entry.gone && walls <= entry.walls && !target(entry).seen && (int)view_->scene().facet(facet_of(entry).scene_facet).index == beam_debug_facet) printf("SEEN at %.7f %.7f depth %.4f cell %.3g\n", here_.sample_a, here_.sample_b, one.depth, here_.half_a);
-#endif
     if (!entry.gone && walls <= entry.walls) target(entry).seen = true;
     if (!entry.stops) continue;
     if (facet_of(entry).kind == FacetKind::opaque || options_.walls == 0) return;
@@ -371,8 +370,10 @@ void BeamCells::find_wedges() {
     const auto cut = [&](auto side) {
       const double at_from = side(from), at_to = side(to);
       if (at_from < 0.0 && at_to < 0.0) return false;
-      if (at_from < 0.0) from = from + at_from / (at_from - at_to) * (to - from);
-      else if (at_to < 0.0) to = from + at_from / (at_from - at_to) * (to - from);
+      if (at_from < 0.0)
+        from = from + at_from / (at_from - at_to) * (to - from);
+      else if (at_to < 0.0)
+        to = from + at_from / (at_from - at_to) * (to - from);
       return true;
     };
     if (!cut([&](const dvec2& x) { return x.x - here_.rect.min_a; }) ||
@@ -386,7 +387,8 @@ void BeamCells::find_wedges() {
     bool blocked = false;
     for (const Entry& other : entries_) {
       const ViewFacet& facet = facet_of(other);
-      if (facet.role == ViewFacet::Role::mirror) blocked = blocked || !view_->contains(facet, middle.x, middle.y);
+      if (facet.role == ViewFacet::Role::mirror)
+        blocked = blocked || !view_->contains(facet, middle.x, middle.y);
       if (facet.role != ViewFacet::Role::facet || blocked) continue;
       if (facet.scene_facet == wedge.wedge_faces[0] || facet.scene_facet == wedge.wedge_faces[1]) continue;
       if (facet.slope_sum(middle.x, middle.y) <= inverse_depth * facet.distance) continue;
@@ -445,16 +447,6 @@ void BeamCells::take() {
     }
     BeamHit window;
     if (!project(facet, window)) continue;
-#ifdef BEAM_DEBUG
-    extern int beam_debug_facet;
-    if (!known.seen && (int)view_->scene().facet(facet.scene_facet).index == beam_debug_facet) {
-      printf("cell [%.6f %.6f] [%.6f %.6f] sample %.6f %.6f surfaces %zu\n", here_.rect.min_a, here_.rect.max_a, here_.rect.min_b, here_.rect.max_b, here_.sample_a, here_.sample_b, surfaces_.size());
-      for (const Entry& e : entries_) { const ViewFacet& v = facet_of(e); const BeamFacet& bf = view_->scene().facet(v.scene_facet);
-        printf("  %s facet %u gone %d stops %d covers %d sample %d depth %.4f", e.facet == entry.facet ? "**" : "  ", bf.index, e.gone, e.stops, e.covers, e.at_sample, v.distance / v.slope_sum(here_.sample_a, here_.sample_b));
-        for (uint32_t i : edges_of(e)) { auto& g = view_->edges()[i]; printf(" | e%u %s v%u(%.6f %.6f) v%u(%.6f %.6f)", g.edge, g.left ? "L" : "R", g.vertices[0], g.ends[0].x, g.ends[0].y, g.vertices[1], g.ends[1].x, g.ends[1].y); }
-        printf("\n"); }
-    }
-#endif
     known.used = true;
     known.min_a = std::min(known.min_a, window.min_a), known.max_a = std::max(known.max_a, window.max_a);
     known.min_b = std::min(known.min_b, window.min_b), known.max_b = std::max(known.max_b, window.max_b);
@@ -498,7 +490,8 @@ bool BeamCells::project(const ViewFacet& view, BeamHit& window) const {
       const double at_from = sign * (view.slope_sum(from.x, from.y) - bound);
       const double at_to = sign * (view.slope_sum(to.x, to.y) - bound);
       if (at_from >= 0.0) kept[kept_count++] = from;
-      if ((at_from < 0.0) != (at_to < 0.0)) kept[kept_count++] = from + at_from / (at_from - at_to) * (to - from);
+      if ((at_from < 0.0) != (at_to < 0.0))
+        kept[kept_count++] = from + at_from / (at_from - at_to) * (to - from);
     }
     std::copy(kept, kept + kept_count, polygon);
     count = kept_count;

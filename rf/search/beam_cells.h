@@ -17,7 +17,8 @@ namespace greatx::rf {
 struct BeamHit {
   uint32_t facet = 0;  ///< BeamScene's
   uint32_t walls = 0;
-  double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;  ///< on the facet (BeamFacet::axis_a, axis_b), metres
+  double min_a = 0.0, max_a = 0.0, min_b = 0.0,
+         max_b = 0.0;  ///< on the facet (BeamFacet::axis_a, axis_b), metres
 };
 
 struct BeamCellOptions {
@@ -40,13 +41,14 @@ class BeamCells {
   enum Presence : uint8_t { absent, present, unknown };
   /// A facet in a cell.
   struct Entry {
-    uint32_t facet = 0;                     ///< of the view
-    uint32_t first_edge = 0, edge_count = 0;  ///< into the list of edges beside: those that may touch the cell
-    uint8_t at_sample = unknown;            ///< is the sample's ray inside its outline?
-    bool stops = false;                     ///< wherever it is in the cell, it stops rays: they start well before it
-    bool covers = false;                    ///< all of the cell, and stops
+    uint32_t facet = 0;  ///< of the view
+    uint32_t first_edge = 0,
+             edge_count = 0;      ///< into the list of edges beside: those that may touch the cell
+    uint8_t at_sample = unknown;  ///< is the sample's ray inside its outline?
+    bool stops = false;           ///< wherever it is in the cell, it stops rays: they start well before it
+    bool covers = false;          ///< all of the cell, and stops
     bool gone = false;
-    uint8_t walls = 0;                      ///< proven to be passed before it
+    uint8_t walls = 0;  ///< proven to be passed before it
   };
   struct Cell {
     SlopeRect rect;
@@ -65,7 +67,7 @@ class BeamCells {
     double a, b, half_a, half_b;  ///< centre, and half of the sides with room for roundings
     double sample_a, sample_b;
   };
-  struct Surface {  ///< one or more facets that cover the cell together
+  struct Surface {                  ///< one or more facets that cover the cell together
     uint32_t first = 0, count = 0;  ///< into members_
     double inverse_depth = 0.0;     ///< at the sample
     bool opaque = false;
@@ -113,13 +115,13 @@ class BeamCells {
   BeamCellOptions options_;
   Here here_{};
   Lists now_, next_;
-  std::vector<Entry> entries_;      ///< of the cell being looked at
+  std::vector<Entry> entries_;  ///< of the cell being looked at
   std::vector<uint32_t> edges_;
   std::vector<Surface> surfaces_;
-  std::vector<uint32_t> members_;   ///< indices into entries_
+  std::vector<uint32_t> members_;  ///< indices into entries_
   std::vector<uint8_t> visited_;
-  std::vector<Target> targets_;     ///< [facets of the view][walls + 1]
-  std::vector<uint8_t> done_;       ///< [facets of the view]: wedges that need no more looking
+  std::vector<Target> targets_;  ///< [facets of the view][walls + 1]
+  std::vector<uint8_t> done_;    ///< [facets of the view]: wedges that need no more looking
   uint64_t cells_ = 0, cells_before_ = 0;
 };
 

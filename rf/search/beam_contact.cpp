@@ -33,7 +33,7 @@ struct BeamCells::Pencil {
 
 namespace {
 
-struct Fan {  ///< a facet around the centre
+struct Fan {            ///< a facet around the centre
   dvec2 gradient{0.0};  ///< of its inverse depth
   bool opaque = false;
   bool at_sample = false;
@@ -112,12 +112,13 @@ bool Fans::first_is_hidden(const dvec2& to_sample, uint32_t walls) {
   // Which sector is the sample in?
   size_t at = sectors;
   for (size_t i = 0; i < sectors && at == sectors; ++i)
-    if (cross(rays[i].along, to_sample) >= 0.0 && cross(rays[(i + 1) % ray_count].along, to_sample) <= 0.0) at = i;
+    if (cross(rays[i].along, to_sample) >= 0.0 && cross(rays[(i + 1) % ray_count].along, to_sample) <= 0.0)
+      at = i;
   if (at == sectors) return false;
   uint32_t here = 0, all = 0;
   for (uint32_t fan = 0; fan < fan_count; ++fan) here |= fans[fan].at_sample ? 1u << fan : 0u;
   for (size_t i = 0; i < ray_count; ++i) all ^= rays[i].toggles;
-  if (!outside && all != 0) return false;  // an outline that does not come back
+  if (!outside && all != 0) return false;                    // an outline that does not come back
   for (size_t i = 1; i <= at; ++i) here ^= rays[i].toggles;  // back to the first sector
   for (size_t i = 0; i < sectors; ++i) {
     if (i > 0) here ^= rays[i].toggles;
@@ -137,7 +138,8 @@ bool Fans::first_is_hidden(const dvec2& to_sample, uint32_t walls) {
 
 bool BeamCells::hidden_at_contact(const Entry& entry) const {
   const auto edges = edges_of(entry);
-  if (edges.empty() || edges.size() > 8 || entry.at_sample == unknown || !facet_of(entry).regular) return false;
+  if (edges.empty() || edges.size() > 8 || entry.at_sample == unknown || !facet_of(entry).regular)
+    return false;
   const ViewEdge& first = view_->edges()[edges[0]];
   for (int end = 0; end < 2; ++end) {
     const Pencil pencil{first.vertices[end], none, first.ends[end]};
@@ -163,7 +165,8 @@ bool BeamCells::hidden_around(const Entry& entry, const Pencil& pencil) const {
     return std::all_of(edges.begin(), edges.end(), [&](uint32_t index) {
       const ViewEdge& edge = view_->edges()[index];
       const bool backwards = pencil.vertex != none && edge.vertices[1] == pencil.vertex;
-      return fans.add_ray(backwards ? edge.ends[0] - edge.ends[1] : edge.ends[1] - edge.ends[0], edge.edge, fan);
+      return fans.add_ray(backwards ? edge.ends[0] - edge.ends[1] : edge.ends[1] - edge.ends[0], edge.edge,
+                          fan);
     });
   };
   if (!add(entry) || !add_rays(entry, 0)) return false;
@@ -176,7 +179,8 @@ bool BeamCells::hidden_around(const Entry& entry, const Pencil& pencil) const {
     if (!std::all_of(edges.begin(), edges.end(),
                      [&](uint32_t edge) { return pencil.holds(view_->edges()[edge]); }))
       continue;
-    if (edges.empty() && (pencil.vertex == none || !view_->scene().has_vertex(cover.scene_facet, pencil.vertex)))
+    if (edges.empty() &&
+        (pencil.vertex == none || !view_->scene().has_vertex(cover.scene_facet, pencil.vertex)))
       continue;
     if (!view_->scene().meet_at_an_angle(hidden.scene_facet, cover.scene_facet)) continue;
     if (!add(other) || !add_rays(other, count)) return false;
@@ -186,7 +190,8 @@ bool BeamCells::hidden_around(const Entry& entry, const Pencil& pencil) const {
   // Towards the corners of the cell, a little wider: sectors that no edge bounds.
   for (const double a : {-1.01, 1.01})
     for (const double b : {-1.01, 1.01})
-      if (!fans.add_ray(dvec2(here_.a + a * here_.half_a, here_.b + b * here_.half_b) - pencil.center, none, 0))
+      if (!fans.add_ray(dvec2(here_.a + a * here_.half_a, here_.b + b * here_.half_b) - pencil.center, none,
+                        0))
         return false;
   return fans.first_is_hidden(dvec2(here_.sample_a, here_.sample_b) - pencil.center,
                               options_.walls + 1 - entry.walls);

@@ -67,7 +67,8 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
   }
   const std::vector<uint32_t> vertex_of = weld(corners, vertices_);
   for (const dvec3& vertex : vertices_)
-    largest_coordinate_ = std::max({largest_coordinate_, std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)});
+    largest_coordinate_ =
+        std::max({largest_coordinate_, std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)});
 
   size_t place = 0;
   std::vector<std::array<uint32_t, 3>> triangles;
@@ -97,7 +98,8 @@ void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
   facet.normal = posed.normal;
   facet.offset = posed.offset;
   facet.tolerance_m = posed.tolerance_m;
-  facet.reference = posed.offset * posed.normal + posed.offset_u * posed.axis_u + posed.offset_v * posed.axis_v;
+  facet.reference =
+      posed.offset * posed.normal + posed.offset_u * posed.axis_u + posed.offset_v * posed.axis_v;
   facet.first_border = static_cast<uint32_t>(borders_.size());
   facet.low = dvec3(1e300), facet.high = dvec3(-1e300);
 
@@ -124,11 +126,14 @@ void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
   });
   for (size_t first = 0; first < sides.size();) {
     size_t end = first + 1;
-    while (end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high) ++end;
+    while (end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high)
+      ++end;
     const Side& side = sides[first];
     const size_t uses = end - first;
-    const bool inner = uses == 2 && side.upwards != sides[first + 1].upwards && side.certain && sides[first + 1].certain;
-    if (!inner) borders_.push_back({0, side.upwards ? side.low : side.high, side.upwards ? side.high : side.low});
+    const bool inner =
+        uses == 2 && side.upwards != sides[first + 1].upwards && side.certain && sides[first + 1].certain;
+    if (!inner)
+      borders_.push_back({0, side.upwards ? side.low : side.high, side.upwards ? side.high : side.low});
     if (!inner && (uses > 1 || !side.certain)) facet.regular = false;
     first = end;
   }
@@ -207,7 +212,8 @@ void BeamScene::list_vertices() {
       facet_vertices_.push_back(border.to);
     }
     std::sort(facet_vertices_.begin() + begin, facet_vertices_.end());
-    facet_vertices_.erase(std::unique(facet_vertices_.begin() + begin, facet_vertices_.end()), facet_vertices_.end());
+    facet_vertices_.erase(std::unique(facet_vertices_.begin() + begin, facet_vertices_.end()),
+                          facet_vertices_.end());
     first_facet_vertex_.push_back(static_cast<uint32_t>(facet_vertices_.size()));
   }
 }
@@ -242,7 +248,8 @@ void BeamScene::build_boxes(uint32_t node, uint32_t first, uint32_t count) {
 
 bool BeamScene::has_vertex(uint32_t facet, uint32_t vertex) const {
   const auto begin = facet_vertices_.begin();
-  return std::binary_search(begin + first_facet_vertex_[facet], begin + first_facet_vertex_[facet + 1], vertex);
+  return std::binary_search(begin + first_facet_vertex_[facet], begin + first_facet_vertex_[facet + 1],
+                            vertex);
 }
 
 bool BeamScene::meet_at_an_angle(uint32_t a, uint32_t b) const {

@@ -18,7 +18,7 @@ namespace greatx::rf {
 
 /// A piece of a facet's outline, with the facet on its left as the facet's normal sees it.
 struct BeamBorder {
-  uint32_t edge = 0;           ///< the same number for all facets that have an edge with these two ends
+  uint32_t edge = 0;          ///< the same number for all facets that have an edge with these two ends
   uint32_t from = 0, to = 0;  ///< vertices
 };
 
@@ -33,10 +33,10 @@ struct BeamFacet {
   uint32_t first_wedge = 0, wedge_count = 0;
   dvec3 normal{0.0};  ///< unit
   double offset = 0.0;
-  double tolerance_m = 0.0;             ///< PosedFacet::tolerance_m
-  double deviation_m = 0.0;             ///< of the mesh's corners from the plane
-  dvec3 reference{0.0};                 ///< a corner, in the plane
-  dvec3 axis_a{0.0}, axis_b{0.0};       ///< in the plane, unit, axis_a along the longest border
+  double tolerance_m = 0.0;               ///< PosedFacet::tolerance_m
+  double deviation_m = 0.0;               ///< of the mesh's corners from the plane
+  dvec3 reference{0.0};                   ///< a corner, in the plane
+  dvec3 axis_a{0.0}, axis_b{0.0};         ///< in the plane, unit, axis_a along the longest border
   double offset_a = 0.0, offset_b = 0.0;  ///< a = axis_a . x - offset_a
   double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
   dvec3 low{0.0}, high{0.0};
@@ -45,7 +45,7 @@ struct BeamFacet {
 /// An edge that diffracts, in local coordinates.
 struct BeamWedge {
   dvec3 a{0.0}, b{0.0};
-  uint32_t index = 0;                 ///< in the list given
+  uint32_t index = 0;              ///< in the list given
   uint32_t faces[2] = {~0u, ~0u};  ///< BeamScene's facets; ~0u: none, or left out
 };
 
@@ -86,7 +86,8 @@ class BeamScene {
  private:
   struct Box {
     dvec3 low{1e300}, high{-1e300};
-    uint32_t first = 0, count = 0;  ///< into order_; count 0: an inner node, its children are first and first + 1
+    uint32_t first = 0,
+             count = 0;  ///< into order_; count 0: an inner node, its children are first and first + 1
   };
   void add(const FacetWorld& world, uint32_t index, FacetKind kind,
            std::span<const std::array<uint32_t, 3>> triangles);

@@ -140,7 +140,8 @@ std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth) 
   std::vector<Found> found(end - first);
   if (depth == 0) {
     std::vector<Found> faces(6);
-    parallel_for(6, options_.threads, [&](size_t face) { faces[face] = expand_root(static_cast<uint32_t>(face)); });
+    parallel_for(6, options_.threads,
+                 [&](size_t face) { faces[face] = expand_root(static_cast<uint32_t>(face)); });
     for (const Found& face : faces) {
       found[0].hits.insert(found[0].hits.end(), face.hits.begin(), face.hits.end());
       found[0].wedges.insert(found[0].wedges.end(), face.wedges.begin(), face.wedges.end());
@@ -168,10 +169,14 @@ PlaneWindow Tree::window_of(const Node& node) const {
   for (const double a : {all.min_a, all.max_a})
     for (const double b : {all.min_b, all.max_b}) {
       const double from_a = a + facet.offset_a, from_b = b + facet.offset_b;
-      const double u = glm::dot(posed.axis_u, facet.axis_a) * from_a + glm::dot(posed.axis_u, facet.axis_b) * from_b;
-      const double v = glm::dot(posed.axis_v, facet.axis_a) * from_a + glm::dot(posed.axis_v, facet.axis_b) * from_b;
-      window.min_u = std::min(window.min_u, u - posed.offset_u), window.max_u = std::max(window.max_u, u - posed.offset_u);
-      window.min_v = std::min(window.min_v, v - posed.offset_v), window.max_v = std::max(window.max_v, v - posed.offset_v);
+      const double u =
+          glm::dot(posed.axis_u, facet.axis_a) * from_a + glm::dot(posed.axis_u, facet.axis_b) * from_b;
+      const double v =
+          glm::dot(posed.axis_v, facet.axis_a) * from_a + glm::dot(posed.axis_v, facet.axis_b) * from_b;
+      window.min_u = std::min(window.min_u, u - posed.offset_u),
+      window.max_u = std::max(window.max_u, u - posed.offset_u);
+      window.min_v = std::min(window.min_v, v - posed.offset_v),
+      window.max_v = std::max(window.max_v, v - posed.offset_v);
     }
   const double room = 2.0 * facet.tolerance_m;
   return {std::max(window.min_u, posed.min_u) - room, std::min(window.max_u, posed.max_u) + room,
@@ -207,7 +212,8 @@ BeamSearchResult Tree::grow() {
         }
         for (size_t h = 0; h < from.hits.size();) {
           Node child{static_cast<uint32_t>(i), from.hits[h].facet, {}, {}};
-          for (; h < from.hits.size() && from.hits[h].facet == child.facet; ++h) child.parts.push_back(from.hits[h]);
+          for (; h < from.hits.size() && from.hits[h].facet == child.facet; ++h)
+            child.parts.push_back(from.hits[h]);
           if (++result.found > options_.capacity) continue;
           const BeamFacet& facet = scene_.facet(child.facet);
           const dvec3& image = nodes_[i].image;
@@ -221,7 +227,8 @@ BeamSearchResult Tree::grow() {
     if (result.found > options_.capacity) break;
   }
   if (wedges_)
-    result.list.wedge_offsets.resize(result.list.size() + 1, static_cast<uint32_t>(result.list.wedges.size()));
+    result.list.wedge_offsets.resize(result.list.size() + 1,
+                                     static_cast<uint32_t>(result.list.wedges.size()));
   return result;
 }
 
@@ -242,11 +249,12 @@ BeamSearchResult BeamSearch::search(const dvec3& source) const {
 }
 
 std::string BeamSearch::guarantee() const {
-  return fmt::format("beams: no facet sequence with a path of up to {} reflections{} is left out, whatever the receiver",
-                     options_.max_depth,
-                     options_.max_transmissions > 0 ? fmt::format(" and walls passed (walls: at most {})",
-                                                                  options_.max_transmissions)
-                                                    : std::string());
+  return fmt::format(
+      "beams: no facet sequence with a path of up to {} reflections{} is left out, whatever the receiver",
+      options_.max_depth,
+      options_.max_transmissions > 0
+          ? fmt::format(" and walls passed (walls: at most {})", options_.max_transmissions)
+          : std::string());
 }
 
 }  // namespace greatx::rf

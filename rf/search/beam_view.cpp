@@ -48,8 +48,8 @@ void BeamView::look(const Beam& beam, bool edge_strips, bool wedges) {
            beam.window.max_b + 0.5 * height};
   longest_direction_ = longest_direction_in(beam.window);
   longest_clip_ = longest_direction_in(clip_);
-  const double coordinate = std::max({scene_->largest_coordinate(), std::abs(beam.apex.x), std::abs(beam.apex.y),
-                                      std::abs(beam.apex.z)});
+  const double coordinate = std::max(
+      {scene_->largest_coordinate(), std::abs(beam.apex.x), std::abs(beam.apex.y), std::abs(beam.apex.z)});
   rounding_m_ = 1e-13 * coordinate;
   mesh_m_ = 4.0 * 0x1p-24 * scene_->largest_coordinate();
   const double reach = beam.mirror == Beam::no_mirror ? coordinate : scene_->largest_coordinate();
@@ -140,8 +140,8 @@ void BeamView::add_facet(uint32_t scene_facet, bool edge_strips) {
   if (view.max_depth < beam_.near_m - view.contact_m || view.max_depth <= 0.0) return;
   if (hidden_by_its_mirror(facet, view, edge_strips)) return;
 
-  const double least_depth = beam_.mirror == Beam::no_mirror ? 0.5 * view.distance / longest_clip_
-                                                             : beam_.near_m - view.contact_m;
+  const double least_depth =
+      beam_.mirror == Beam::no_mirror ? 0.5 * view.distance / longest_clip_ : beam_.near_m - view.contact_m;
   const double displacement = facet.deviation_m + 2.0 * facet.tolerance_m + mesh_m_ + rounding_m_;
   view.first_edge = static_cast<uint32_t>(edges_.size());
   for (size_t i = 0; i < borders.size(); ++i) {
@@ -161,8 +161,7 @@ void BeamView::add_wedge(const BeamWedge& wedge, bool edge_strips) {
   view.scene_facet = wedge.index;
   view.wedge_faces[0] = wedge.faces[0], view.wedge_faces[1] = wedge.faces[1];
   const dvec3 from = in_frame(wedge.a), to = in_frame(wedge.b);
-  const double tolerance =
-      beam_.mirror == Beam::no_mirror ? 0.0 : scene_->facet(beam_.mirror).tolerance_m;
+  const double tolerance = beam_.mirror == Beam::no_mirror ? 0.0 : scene_->facet(beam_.mirror).tolerance_m;
   view.max_depth = std::max(from.z, to.z), view.min_depth = std::min(from.z, to.z);
   if (view.max_depth <= beam_.near_m + 0.5 * tolerance) return;  // in the mirror's plane: no path
   if (!edge_strips && view.max_depth <= beam_.near_m + 0.25 * room_m_)
@@ -173,10 +172,11 @@ void BeamView::add_wedge(const BeamWedge& wedge, bool edge_strips) {
   const dvec3 along = glm::normalize(to - from);
   const dvec3 foot = from - glm::dot(from, along) * along;
   view.distance = glm::length(foot);
-  if (view.distance > 0.0) view.na = foot.x / view.distance, view.nb = foot.y / view.distance, view.n = foot.z / view.distance;
+  if (view.distance > 0.0)
+    view.na = foot.x / view.distance, view.nb = foot.y / view.distance, view.n = foot.z / view.distance;
   view.contact_m = tolerance + rounding_m_;
-  const double least_depth = beam_.mirror == Beam::no_mirror ? 0.5 * view.distance / longest_clip_
-                                                             : beam_.near_m - view.contact_m;
+  const double least_depth =
+      beam_.mirror == Beam::no_mirror ? 0.5 * view.distance / longest_clip_ : beam_.near_m - view.contact_m;
   view.first_edge = static_cast<uint32_t>(edges_.size());
   ViewEdge edge{};
   edge.edge = edge.vertices[0] = edge.vertices[1] = none;
@@ -222,8 +222,10 @@ void BeamView::finish(ViewFacet& view) {
   const SlopeRect& window = beam_.window;
   SlopeRect around{1e300, -1e300, 1e300, -1e300};
   for (uint32_t i = view.first_edge; i < edges_.size(); ++i) {
-    around.min_a = std::min(around.min_a, edges_[i].min_a), around.max_a = std::max(around.max_a, edges_[i].max_a);
-    around.min_b = std::min(around.min_b, edges_[i].min_b), around.max_b = std::max(around.max_b, edges_[i].max_b);
+    around.min_a = std::min(around.min_a, edges_[i].min_a),
+    around.max_a = std::max(around.max_a, edges_[i].max_a);
+    around.min_b = std::min(around.min_b, edges_[i].min_b),
+    around.max_b = std::max(around.max_b, edges_[i].max_b);
   }
   if (view.edge_count == 0) around = window;
   view.extent = std::max(std::min(around.max_a, window.max_a) - std::max(around.min_a, window.min_a),

@@ -32,12 +32,13 @@ struct Beam {
 
 /// A piece of an outline in slopes.
 struct ViewEdge {
-  double min_a, max_a, min_b, max_b;   ///< with room for where the edge may be
-  double normal_a, normal_b, offset;   ///< |normal . x - offset|: distance from its line; normal of unit length
-  double room;                         ///< how far it may be from where it is drawn
-  dvec2 ends[2];                       ///< from, to
-  uint32_t edge, vertices[2];          ///< of the scene; none: the end is cut off
-  bool left;                           ///< a choice of side, opposite for two facets on either side of their common edge
+  double min_a, max_a, min_b, max_b;  ///< with room for where the edge may be
+  double normal_a, normal_b,
+      offset;                  ///< |normal . x - offset|: distance from its line; normal of unit length
+  double room;                 ///< how far it may be from where it is drawn
+  dvec2 ends[2];               ///< from, to
+  uint32_t edge, vertices[2];  ///< of the scene; none: the end is cut off
+  bool left;  ///< a choice of side, opposite for two facets on either side of their common edge
 };
 
 struct ViewFacet {
@@ -48,9 +49,10 @@ struct ViewFacet {
   bool regular = true;
   /// Depth along the ray with slopes x is distance / (n + na a + nb b).
   double n = 0.0, na = 0.0, nb = 0.0;
-  double distance = 0.0;                ///< of its plane from the apex, > 0
+  double distance = 0.0;                    ///< of its plane from the apex, > 0
   double min_depth = 0.0, max_depth = 0.0;  ///< of its points, with room; none of it is outside
-  double contact_m = 0.0;  ///< rays may start this far behind its plane and still meet it where it touches the mirror
+  double contact_m =
+      0.0;  ///< rays may start this far behind its plane and still meet it where it touches the mirror
   uint32_t first_edge = 0, edge_count = 0;
   double extent = 0.0;  ///< longer side of the rectangle around its projection, cut to the window
   uint32_t wedge_faces[2] = {~0u, ~0u};  ///< BeamScene's; they never hide it
@@ -83,13 +85,15 @@ class BeamView {
  private:
   dvec3 in_frame(const dvec3& point) const {
     const dvec3 from_apex = point - beam_.apex;
-    return {glm::dot(beam_.right, from_apex), glm::dot(beam_.up, from_apex), glm::dot(beam_.forward, from_apex)};
+    return {glm::dot(beam_.right, from_apex), glm::dot(beam_.up, from_apex),
+            glm::dot(beam_.forward, from_apex)};
   }
   void add_mirror();
   void add_facet(uint32_t scene_facet, bool edge_strips);
   void add_wedge(const BeamWedge& wedge, bool edge_strips);
   bool hidden_by_its_mirror(const BeamFacet& facet, const ViewFacet& view, bool edge_strips) const;
-  void add_edge(ViewFacet& view, dvec3 from, dvec3 to, double displacement_m, double least_depth, ViewEdge edge);
+  void add_edge(ViewFacet& view, dvec3 from, dvec3 to, double displacement_m, double least_depth,
+                ViewEdge edge);
   void finish(ViewFacet& view);
 
   const BeamScene* scene_;
