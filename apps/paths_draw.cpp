@@ -32,7 +32,7 @@ struct DrawnPath {
 
 /// Darker and greyer, so that the paths stand out.
 std::vector<uint8_t> subdued(std::span<const uint8_t> rgb) {
-  constexpr double saturation = 0.6, brightness = 0.72;
+  constexpr double saturation = 0.65, brightness = 0.8;
   std::vector<uint8_t> out(rgb.size());
   for (size_t i = 0; i + 2 < rgb.size(); i += 3) {
     const double grey = 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
@@ -53,7 +53,10 @@ class Painter {
         coverage_(static_cast<int>(view.width), static_cast<int>(view.height)) {}
 
   void paths(std::vector<DrawnPath>& paths);
-  void end(const dvec3& world, Color color, const std::string& name, bool transmitter);
+  /// `away`: a direction in the picture in which no path leaves.
+  void end(const dvec3& world, Color color, const std::string& name, bool transmitter, const dvec2& away);
+  /// Opposite to where the paths leave an end, in the picture.
+  dvec2 away_from_paths(std::span<const PathLink> links, bool transmitter) const;
 
  private:
   void lines(const DrawnPath& path, bool hidden, double width, Color color, double opacity);
@@ -81,7 +84,7 @@ void Painter::paths(std::vector<DrawnPath>& paths) {
       for (const Stretch& run :
            stretches_of(view_, depth_, path.path->vertices[i], path.path->vertices[i + 1]))
         path.stretches.push_back(run);
-  for (const DrawnPath& path : paths) lines(path, true, 1.3, path.color, 0.4);
+  for (const DrawnPath& path : paths) lines(path, true, 1.4, path.color, 0.5);
   for (const DrawnPath& path : paths) {
     lines(path, false, path.width + 2.4, halo, 0.55);
     lines(path, false, path.width, path.color, 1.0);
@@ -116,7 +119,22 @@ void Painter::markers(const DrawnPath& path) {
   }
 }
 
-void Painter::end(const dvec3& world, Color color, const std::string& name, bool transmitter) {
+dvec2 Painter::away_from_paths(std::span<const PathLink> links, bool transmitter) const {
+  dvec2 sum(0.0);
+  for (const PathLink& link : links)
+    for (const rf::Path& path : link.paths) {
+      const size_t last = path.vertices.size() - 1;
+      const dvec3 from = view_.project(path.vertices[transmitter ? 0 : last]),
+                  to = view_.project(path.vertices[transmitter ? 1 : last - 1]);
+      const dvec2 along(to - from);
+      if (from.z < view_.near_m || to.z < view_.near_m || glm::length(along) < 1.0) continue;
+      sum -= glm::normalize(along);
+    }
+  return sum;
+}
+
+void Painter::end(const dvec3& world, Color color, const std::string& name, bool transmitter,
+                  const dvec2& away) {
   const dvec3 pixel = view_.project(world - origin_);
   if (pixel.z < view_.near_m) return;
   // Seen through everything: a picture without its ends says nothing.
@@ -126,7 +144,8 @@ void Painter::end(const dvec3& world, Color color, const std::string& name, bool
   const int width = Canvas::text_width(name, theme::text_scale);
   const int x = std::clamp(static_cast<int>(std::lround(pixel.x)) - width / 2, 6,
                            std::max(6, static_cast<int>(view_.width) - width - 6));
-  const int y = static_cast<int>(std::lround(pixel.y)) + offset_.y - 34;
+  int y = static_cast<int>(std::lround(pixel.y)) + offset_.y + (away.y > 0.0 ? 18 : -34);
+  y = std::clamp(y, offset_.y + 6, offset_.y + static_cast<int>(view_.height) - 24);
   canvas_.fill({x - 5, y - 4, width + 8, 23}, halo, 0.65);
   canvas_.text(x, y, name, theme::text_scale, color);
 }
@@ -139,7 +158,7 @@ std::vector<DrawnPath> drawn_paths(std::span<const PathLink> links, double carri
       DrawnPath drawn{&path, gain_db(path_gain(path, carrier_hz)), {}, 2.0, {}};
       drawn.color =
           colors == PathColors::gain ? color_of_gain(scale, drawn.gain_db) : color_of_kind(kind_of(path));
-      drawn.width = 1.5 + 1.5 * scale.at(drawn.gain_db);
+      drawn.width = 2.0 + 2.0 * scale.at(drawn.gain_db);
       paths.push_back(std::move(drawn));
     }
   // The strongest are drawn last, on top.
@@ -226,19 +245,22 @@ void draw_marker_legend(Canvas& canvas, int right, int y, std::span<const PathLi
 double GainScale::at(double gain) const { return std::clamp((gain - low_db) / (high_db - low_db), 0.0, 1.0); }
 
 GainScale gain_scale(std::span<const PathLink> links, double carrier_hz) {
+  GainScale scale;
   double low = 1e300, high = -1e300;
   for (const PathLink& link : links)
     for (const rf::Path& path : link.paths) {
       const double gain = gain_db(path_gain(path, carrier_hz));
-      if (!std::isfinite(gain)) continue;
+      if (!std::isfinite(gain)) {  // no power at all
+        scale.weaker = true;
+        continue;
+      }
       low = std::min(low, gain);
       high = std::max(high, gain);
     }
-  GainScale scale;
   if (low > high) return scale;
   scale.high_db = 10.0 * std::ceil(high / 10.0);
   scale.low_db = std::min(10.0 * std::floor(low / 10.0), scale.high_db - 20.0);
-  scale.weaker = low < scale.high_db - shown_range_db;
+  scale.weaker |= low < scale.high_db - shown_range_db;
   scale.low_db = std::max(scale.low_db, scale.high_db - shown_range_db);
   return scale;
 }
@@ -269,8 +291,11 @@ Array draw_paths(const PictureView& view, std::span<const uint8_t> rgb, std::spa
   // With many receivers names would hide the picture.
   constexpr size_t most_names = 12;
   for (const PathLink& link : links)
-    painter.end(link.receiver_m, receiver_color, links.size() <= most_names ? link.name : "", false);
-  if (!links.empty()) painter.end(links[0].transmitter_m, transmitter_color, text.transmitter, true);
+    painter.end(link.receiver_m, receiver_color, links.size() <= most_names ? link.name : "", false,
+                painter.away_from_paths(std::span(&link, 1), false));
+  if (!links.empty())
+    painter.end(links[0].transmitter_m, transmitter_color, text.transmitter, true,
+                painter.away_from_paths(links, true));
   canvas.unclip();
 
   draw_head(canvas, text, links, scene.carrier_hz);
