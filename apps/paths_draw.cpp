@@ -45,11 +45,14 @@ std::vector<uint8_t> subdued(std::span<const uint8_t> rgb) {
 
 class Painter {
  public:
-  Painter(Canvas& canvas, const PictureView& view, std::span<const float> depth, const dvec3& origin)
+  /// `finer` scales lines and markers, 0 to 1: where there are many, each is small.
+  Painter(Canvas& canvas, const PictureView& view, std::span<const float> depth, const dvec3& origin,
+          double finer)
       : canvas_(canvas),
         view_(view),
         depth_(depth),
         origin_(origin),
+        finer_(finer),
         coverage_(static_cast<int>(view.width), static_cast<int>(view.height)) {}
 
   void paths(std::vector<DrawnPath>& paths);
@@ -69,6 +72,7 @@ class Painter {
   const PictureView& view_;
   std::span<const float> depth_;
   dvec3 origin_;
+  double finer_;
   Coverage coverage_;
 };
 
@@ -84,10 +88,10 @@ void Painter::paths(std::vector<DrawnPath>& paths) {
       for (const Stretch& run :
            stretches_of(view_, depth_, path.path->vertices[i], path.path->vertices[i + 1]))
         path.stretches.push_back(run);
-  for (const DrawnPath& path : paths) lines(path, true, 1.4, path.color, 0.5);
+  for (const DrawnPath& path : paths) lines(path, true, 1.4 * finer_, path.color, 0.5 * finer_);
   for (const DrawnPath& path : paths) {
-    lines(path, false, path.width + 2.4, halo, 0.55);
-    lines(path, false, path.width, path.color, 1.0);
+    lines(path, false, (path.width + 2.4) * finer_, halo, 0.55);
+    lines(path, false, path.width * finer_, path.color, 1.0);
   }
   for (const DrawnPath& path : paths) markers(path);
 }
@@ -106,7 +110,7 @@ void Painter::marker(const dvec3& pixel, rf::InteractionType type, double radius
                     [&](const dvec2& p) { return marker_distance(type, p - dvec2(pixel), radius) - grown; });
     coverage_.paint(canvas_, offset_, fill, opacity);
   };
-  draw(1.6, halo, is_behind ? 0.35 : 0.8);
+  draw(1.6 * finer_, halo, is_behind ? 0.35 : 0.8);
   draw(0.0, color, is_behind ? 0.45 : 1.0);
 }
 
@@ -115,7 +119,7 @@ void Painter::markers(const DrawnPath& path) {
     const dvec3 pixel = view_.project(path.path->vertices[i + 1]);
     if (pixel.z < view_.near_m) continue;
     const bool behind = hidden(pixel);
-    marker(pixel, path.path->interactions[i].type, behind ? 2.6 : 3.6, paper, behind);
+    marker(pixel, path.path->interactions[i].type, finer_ * (behind ? 2.6 : 3.6), paper, behind);
   }
 }
 
@@ -136,10 +140,12 @@ dvec2 Painter::away_from_paths(std::span<const PathLink> links, bool transmitter
 void Painter::end(const dvec3& world, Color color, const std::string& name, bool transmitter,
                   const dvec2& away) {
   const dvec3 pixel = view_.project(world - origin_);
-  if (pixel.z < view_.near_m) return;
+  if (pixel.z < view_.near_m || pixel.x < 0.0 || pixel.x > view_.width || pixel.y < 0.0 ||
+      pixel.y > view_.height)
+    return;
   // Seen through everything: a picture without its ends says nothing.
   marker(pixel, transmitter ? rf::InteractionType::diffraction : rf::InteractionType::reflection,
-         transmitter ? 8.0 : 6.5, color, false);
+         transmitter ? 8.0 : 6.5 * finer_, color, false);
   if (name.empty()) return;
   const int width = Canvas::text_width(name, theme::text_scale);
   const int x = std::clamp(static_cast<int>(std::lround(pixel.x)) - width / 2, 6,
@@ -285,8 +291,11 @@ Array draw_paths(const PictureView& view, std::span<const uint8_t> rgb, std::spa
 
   const GainScale scale = gain_scale(links, scene.carrier_hz);
   canvas.clip(area);
-  Painter painter(canvas, view, depth, scene.scene->origin);
   std::vector<DrawnPath> paths = drawn_paths(links, scene.carrier_hz, colors, scale);
+  constexpr double many = 80.0;
+  const double finer =
+      std::clamp(std::sqrt(many / std::max<double>(1.0, static_cast<double>(paths.size()))), 0.45, 1.0);
+  Painter painter(canvas, view, depth, scene.scene->origin, finer);
   painter.paths(paths);
   // With many receivers names would hide the picture.
   constexpr size_t most_names = 12;
