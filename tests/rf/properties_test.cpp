@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,57 +51,82 @@ CandidateList every_sequence(const RadioModel& model, const dvec3&, uint32_t) {
   return exhaustive_candidates(model.facets.facet_count(), max_depth);
 }
 
-/// All stages for one transmitter and a list of receivers; `walls`: how many a path may pass.
-Links solve(const scene::Scene& scene, const dvec3& transmitter, std::span<const dvec3> receivers,
-            uint32_t walls, const CandidateSource& candidates = by_beams) {
-  RadioEffects effects;
-  effects.transmission = walls > 0;
-  const RadioModel model(scene, carrier_hz, effects);
-  PathOptions options;
-  options.max_depth = max_depth;
-  options.max_transmissions = walls;
-  PathSolver solver(model, options);
-  solver.set_candidates(candidates(model, transmitter, walls), transmitter, Source::transmitter);
+/// All stages for a scene; `walls`: how many a path may pass.
+class Rig {
+ public:
+  Rig(const scene::Scene& scene, uint32_t walls)
+      : walls_(walls),
+        model_(scene, carrier_hz, effects_of(walls)),
+        gpu_scene_(test::device(), scene, {}),
+        pass_(gpu_scene_, model_.kinds),
+        ring_(test::device(), 1, 1u << 16, 1u << 16) {}
 
-  EndState from, to;
-  from.position = transmitter;
-  std::vector<LinkGeometry> geometry;
-  std::vector<Segment> segments;
-  std::vector<size_t> first{0};
-  for (const dvec3& receiver : receivers) {
-    to.position = receiver;
-    geometry.push_back(solver.geometry(to));
-    solver.add_segments(geometry.back().paths, from, to, segments);
-    first.push_back(segments.size());
+  /// Looks for candidates; those for the receivers of paths().
+  void search(const dvec3& transmitter, const CandidateSource& candidates = by_beams) {
+    PathOptions options;
+    options.max_depth = max_depth;
+    options.max_transmissions = walls_;
+    solver_.emplace(model_, options);
+    solver_->set_candidates(candidates(model_, transmitter, walls_), transmitter, Source::transmitter);
+    transmitter_ = transmitter;
   }
 
-  gpu::Device& device = test::device();
-  scene::GpuScene gpu_scene(device, scene, {});
-  CrossingPass pass(gpu_scene, model.kinds);
-  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
-  gpu::TickSlot& slot = ring.begin();
-  gpu_scene.record_update(slot, std::vector{Pose{}});
-  const CrossingPass::Pending pending = pass.record(slot, segments);
-  ring.submit(slot);
-  ring.wait(slot);
-  const std::vector<Crossing> crossings = pass.collect(pending, segments);
-
-  Links links;
-  for (size_t r = 0; r < receivers.size(); ++r) {
-    to.position = receivers[r];
-    links.push_back(solver.finish(geometry[r].paths,
-                                  std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from, to));
+  Links paths(std::span<const dvec3> receivers) {
+    EndState from, to;
+    from.position = transmitter_;
+    std::vector<LinkGeometry> geometry;
+    std::vector<Segment> segments;
+    std::vector<size_t> first{0};
+    for (const dvec3& receiver : receivers) {
+      to.position = receiver;
+      geometry.push_back(solver_->geometry(to));
+      solver_->add_segments(geometry.back().paths, from, to, segments);
+      first.push_back(segments.size());
+    }
+    const std::vector<Crossing> crossings = trace(segments);
+    Links links;
+    for (size_t r = 0; r < receivers.size(); ++r) {
+      to.position = receivers[r];
+      links.push_back(solver_->finish(
+          geometry[r].paths, std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from, to));
+    }
+    return links;
   }
-  return links;
-}
+
+  static RadioEffects effects_of(uint32_t walls) {
+    RadioEffects effects;
+    effects.transmission = walls > 0;
+    return effects;
+  }
+
+ private:
+  std::vector<Crossing> trace(const std::vector<Segment>& segments) {
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_scene_.record_update(slot, std::vector{Pose{}});
+    const CrossingPass::Pending pending = pass_.record(slot, segments);
+    ring_.submit(slot);
+    ring_.wait(slot);
+    return pass_.collect(pending, segments);
+  }
+
+  uint32_t walls_;
+  RadioModel model_;
+  scene::GpuScene gpu_scene_;
+  CrossingPass pass_;
+  gpu::TickRing ring_;
+  std::optional<PathSolver> solver_;
+  dvec3 transmitter_{0.0};
+};
+
 Links solve(const scene::Scene& scene, const RandomScene& random, uint32_t walls) {
-  return solve(scene, random.transmitter, random.receivers, walls);
+  Rig rig(scene, walls);
+  rig.search(random.transmitter);
+  return rig.paths(random.receivers);
 }
 
 std::vector<std::vector<GeometricPath>> reference_of(const scene::Scene& scene, const RandomScene& random,
                                                      uint32_t walls) {
-  RadioEffects effects;
-  effects.transmission = walls > 0;
+  const RadioEffects effects = Rig::effects_of(walls);
   const std::vector<Pose> bodies{Pose{}};
   return reference::exhaustive_paths(scene, FacetWorld(scene), bodies, facet_kinds(scene, effects),
                                      random.transmitter, random.receivers,
@@ -136,6 +162,24 @@ bool same_bits(const Path& a, const Path& b) {
          a.arrival == b.arrival && std::equal(a.transfer, a.transfer + 4, b.transfer);
 }
 
+void expect_same_bits(const Links& expected, const Links& actual, const std::string& name) {
+  ASSERT_EQ(expected.size(), actual.size()) << name;
+  for (size_t r = 0; r < expected.size(); ++r) {
+    ASSERT_EQ(expected[r].size(), actual[r].size()) << name << ", receiver " << r;
+    for (size_t i = 0; i < expected[r].size(); ++i)
+      EXPECT_TRUE(same_bits(expected[r][i], actual[r][i]))
+          << name << ", receiver " << r << ": "
+          << text_of(expected[r][i].interactions, expected[r][i].length_m);
+  }
+}
+
+template <typename Move>
+void move_vertices(Links& links, const Move& move) {
+  for (auto& link : links)
+    for (Path& path : link)
+      for (dvec3& vertex : path.vertices) vertex = move(vertex);
+}
+
 /// Largest singular value of a 2 x 2 matrix.
 double spectral_norm(const Complex (&m)[4]) {
   double squares = 0.0;
@@ -145,161 +189,151 @@ double spectral_norm(const Complex (&m)[4]) {
                    (squares + std::sqrt(std::max(0.0, squares * squares - 4.0 * determinant * determinant))));
 }
 
-/// Runs `test(random, scene, walls, name)` on scenes of every kind, with walls passed and without.
-template <typename Test>
-void on_random_scenes(uint64_t seeds, const Test& test) {
+/// A scene of every kind for each of these seeds, with `walls` passed on a path at most.
+struct Draw {
+  RandomScene random;
+  scene::Scene scene;
+  uint32_t walls;
+  std::string name;
+};
+std::vector<Draw> draws(uint64_t seeds, std::initializer_list<uint32_t> walls) {
+  std::vector<Draw> list;
   for (uint64_t seed = 100; seed < 100 + seeds; ++seed)
-    for (uint32_t kind = 0; kind < random_scene_kinds; ++kind) {
-      const RandomScene random = random_scene(seed, kind, 5);
-      const scene::Scene scene = build(random);
-      for (const uint32_t walls : {0u, 2u})
-        test(random, scene, walls, fmt::format("{}, seed {}, {} walls", random.name, seed, walls));
-    }
+    for (uint32_t kind = 0; kind < random_scene_kinds; ++kind)
+      for (const uint32_t w : walls) {
+        const RandomScene random = random_scene(seed, kind, 6);
+        list.push_back(
+            {random, build(random), w, fmt::format("{}, seed {}, {} walls", random.name, seed, w)});
+      }
+  return list;
 }
 
 TEST(Properties, EveryPathOfTheReferenceAndNoOther) {
   size_t paths = 0, through_walls = 0;
-  on_random_scenes(
-      8, [&](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const auto reference = reference_of(scene, random, walls);
-        expect_same(reference, solve(scene, random, walls), name);
-        for (const auto& link : reference) {
-          paths += link.size();
-          for (const GeometricPath& path : link)
-            through_walls += std::ranges::any_of(path.interactions, [](const Interaction& i) {
-              return i.type == InteractionType::transmission;
-            });
-        }
-      });
-  EXPECT_GT(paths, 5000u);  // that there is something to find
-  EXPECT_GT(through_walls, 1000u);
+  for (const Draw& draw : draws(4, {0, 2})) {
+    const auto reference = reference_of(draw.scene, draw.random, draw.walls);
+    expect_same(reference, solve(draw.scene, draw.random, draw.walls), draw.name);
+    for (const auto& link : reference) {
+      paths += link.size();
+      for (const GeometricPath& path : link)
+        through_walls += std::ranges::any_of(
+            path.interactions, [](const Interaction& i) { return i.type == InteractionType::transmission; });
+    }
+  }
+  EXPECT_GT(paths, 2000u);  // that there is something to find
+  EXPECT_GT(through_walls, 100u);
 }
 
 TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const Links all = solve(scene, random.transmitter, random.receivers, walls, every_sequence);
-        const Links beams = solve(scene, random, walls);
-        for (size_t r = 0; r < all.size(); ++r) {
-          ASSERT_EQ(all[r].size(), beams[r].size()) << name << ", receiver " << r;
-          for (size_t i = 0; i < all[r].size(); ++i) EXPECT_TRUE(same_bits(all[r][i], beams[r][i])) << name;
-        }
-      });
+  for (const Draw& draw : draws(1, {0, 2})) {
+    Rig rig(draw.scene, draw.walls);
+    rig.search(draw.random.transmitter, every_sequence);
+    const Links all = rig.paths(draw.random.receivers);
+    rig.search(draw.random.transmitter);
+    expect_same_bits(all, rig.paths(draw.random.receivers), draw.name);
+  }
 }
 
 TEST(Properties, AReceiversPathsDependOnNoOther) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const Links all = solve(scene, random, walls);
-        for (size_t r = 0; r < all.size(); ++r) {
-          const Links alone = solve(scene, random.transmitter, std::span(&random.receivers[r], 1), walls);
-          ASSERT_EQ(alone[0].size(), all[r].size()) << name << ", receiver " << r;
-          for (size_t i = 0; i < all[r].size(); ++i) EXPECT_TRUE(same_bits(alone[0][i], all[r][i])) << name;
-        }
-      });
+  for (const Draw& draw : draws(1, {0, 2})) {
+    Rig rig(draw.scene, draw.walls);
+    rig.search(draw.random.transmitter);
+    const Links all = rig.paths(draw.random.receivers);
+    for (size_t r = 0; r < all.size(); ++r)
+      expect_same_bits({all[r]}, rig.paths(std::span(&draw.random.receivers[r], 1)), draw.name);
+    const Links some = rig.paths(std::vector{draw.random.receivers[4], draw.random.receivers[1]});
+    expect_same_bits({all[4], all[1]}, some, draw.name);
+  }
+}
+
+TEST(Properties, ThePathsOfTheReverseLinkAreTheSame) {
+  for (const Draw& draw : draws(1, {0, 2})) {
+    Rig rig(draw.scene, draw.walls);
+    rig.search(draw.random.transmitter);
+    const Links forward = rig.paths(std::span(draw.random.receivers).first(2));
+    for (size_t r = 0; r < forward.size(); ++r) {
+      rig.search(draw.random.receivers[r]);
+      Links back = rig.paths(std::span(&draw.random.transmitter, 1));
+      for (Path& path : back[0]) std::ranges::reverse(path.vertices);
+      expect_same(Links{forward[r]}, back, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
+    }
+  }
 }
 
 TEST(Properties, AShiftByUtmCoordinatesChangesNothing) {
   const dvec3 utm(500000.0, 5400000.0, 0.0);
-  on_random_scenes(
-      2, [&](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const Links near = solve(scene, random, walls);
-        // The origin moves along: every bit is the same.
-        const Links along = solve(build(random, {.shift = utm, .origin = utm}), random, walls);
-        for (size_t r = 0; r < near.size(); ++r) {
-          ASSERT_EQ(near[r].size(), along[r].size()) << name;
-          for (size_t i = 0; i < near[r].size(); ++i) EXPECT_TRUE(same_bits(near[r][i], along[r][i])) << name;
-        }
-        // It stays some way off, as when other objects set the bounds: 1e-9 m.
-        const dvec3 off(-37.0, 54.0, 8.0);
-        RandomScene moved = random;
-        moved.transmitter -= off;
-        for (dvec3& receiver : moved.receivers) receiver -= off;
-        Links shifted = solve(build(random, {.shift = utm, .origin = utm + off}), moved, walls);
-        for (auto& link : shifted)
-          for (Path& path : link)
-            for (dvec3& vertex : path.vertices) vertex += off;
-        expect_same(near, shifted, name, {.vertex_m = 1e-8, .length_m = 1e-9});
-      });
+  for (const Draw& draw : draws(1, {2})) {
+    const Links near = solve(draw.scene, draw.random, draw.walls);
+    // The origin moves along: every bit is the same.
+    expect_same_bits(near, solve(build(draw.random, {.shift = utm, .origin = utm}), draw.random, draw.walls),
+                     draw.name);
+    // It stays some way off, as when other objects set the bounds: 1e-9 m.
+    const dvec3 off(-37.0, 54.0, 8.0);
+    RandomScene moved = draw.random;
+    moved.transmitter -= off;
+    for (dvec3& receiver : moved.receivers) receiver -= off;
+    Links shifted = solve(build(draw.random, {.shift = utm, .origin = utm + off}), moved, draw.walls);
+    move_vertices(shifted, [&](const dvec3& vertex) { return vertex + off; });
+    expect_same(near, shifted, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
+  }
 }
 
 TEST(Properties, ATurnedSceneHasTurnedPaths) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const Links straight = solve(scene, random, walls);
-        for (const dquat& turn : {orientation_from_yaw_pitch_roll(0.7, 0.0, 0.0),
-                                  orientation_from_yaw_pitch_roll(-2.1, 0.4, 1.3)}) {
-          RandomScene turned = random;
-          turned.transmitter = turn * turned.transmitter;
-          for (dvec3& receiver : turned.receivers) receiver = turn * receiver;
-          Links links = solve(build(random, {.turn = turn}), turned, walls);
-          for (auto& link : links)
-            for (Path& path : link)
-              for (dvec3& vertex : path.vertices) vertex = glm::conjugate(turn) * vertex;
-          expect_same(straight, links, name, {.vertex_m = 1e-8, .length_m = 1e-9});
-        }
-      });
+  for (const Draw& draw : draws(2, {2})) {
+    const dquat turn = orientation_from_yaw_pitch_roll(-2.1, 0.4, 1.3);
+    RandomScene turned = draw.random;
+    turned.transmitter = turn * turned.transmitter;
+    for (dvec3& receiver : turned.receivers) receiver = turn * receiver;
+    Links links = solve(build(draw.random, {.turn = turn}), turned, draw.walls);
+    move_vertices(links, [&](const dvec3& vertex) { return glm::conjugate(turn) * vertex; });
+    expect_same(solve(draw.scene, draw.random, draw.walls), links, draw.name,
+                {.vertex_m = 1e-8, .length_m = 1e-9});
+  }
 }
 
 TEST(Properties, FinerTrianglesChangeNothing) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        expect_same(solve(scene, random, walls), solve(build(random, {.split = true}), random, walls), name,
-                    {.vertex_m = 1e-9, .length_m = 1e-9});
-      });
+  for (const Draw& draw : draws(2, {2}))
+    expect_same(solve(draw.scene, draw.random, draw.walls),
+                solve(build(draw.random, {.split = true}), draw.random, draw.walls), draw.name,
+                {.vertex_m = 1e-9, .length_m = 1e-9});
 }
 
 TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        std::vector<uint32_t> order(random.faces.size());
-        std::iota(order.rbegin(), order.rend(), 0u);
-        RandomStream draw(walls, 77);
-        for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[draw.bits() % i]);
-        const Links plain = solve(scene, random, walls),
-                    other = solve(build(random, {.order = order}), random, walls);
-        expect_same(plain, other, name, {.vertex_m = 1e-9, .length_m = 1e-9});
-        // And the same field by the same facets; of walls that stand in one place another one may have been named.
-        if (random.name == "terrace") return;
-        for (size_t r = 0; r < plain.size(); ++r)
-          for (const Path& path : plain[r]) {
-            const auto same = std::ranges::find_if(other[r], [&](const Path& p) {
-              return std::ranges::equal(p.interactions, path.interactions,
-                                        [&](const Interaction& a, const Interaction& b) {
-                                          return a.type == b.type && order[a.element] == b.element;
-                                        });
-            });
-            ASSERT_NE(same, other[r].end()) << name << ": " << text_of(path.interactions, path.length_m);
-            EXPECT_TRUE(std::equal(path.transfer, path.transfer + 4, same->transfer)) << name;
-          }
-      });
+  for (const Draw& draw : draws(2, {2})) {
+    std::vector<uint32_t> order(draw.random.faces.size());
+    std::iota(order.begin(), order.end(), 0u);
+    RandomStream random(draw.walls, 77);
+    for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
+    const Links plain = solve(draw.scene, draw.random, draw.walls);
+    const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.walls);
+    expect_same(plain, other, draw.name, {.vertex_m = 1e-9, .length_m = 1e-9});
+    // And the same field by the same facets; of walls that stand in one place another one may have been named.
+    if (draw.random.name == "terrace") continue;
+    for (size_t r = 0; r < plain.size(); ++r)
+      for (const Path& path : plain[r]) {
+        const auto same = std::ranges::find_if(other[r], [&](const Path& p) {
+          return std::ranges::equal(p.interactions, path.interactions,
+                                    [&](const Interaction& a, const Interaction& b) {
+                                      return a.type == b.type && order[a.element] == b.element;
+                                    });
+        });
+        ASSERT_NE(same, other[r].end()) << draw.name << ": " << text_of(path.interactions, path.length_m);
+        EXPECT_TRUE(std::equal(path.transfer, path.transfer + 4, same->transfer)) << draw.name;
+      }
+  }
 }
 
 TEST(Properties, NoPathGainsEnergy) {
   double largest = 0.0;
-  on_random_scenes(
-      4, [&](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        for (const auto& link : solve(scene, random, walls))
-          for (const Path& path : link) {
-            // What free space of that length would leave of the field bounds it.
-            const double gain = spectral_norm(path.transfer) * path.length_m;
-            EXPECT_LE(gain, 1.0 + 1e-12) << name << ": " << text_of(path.interactions, path.length_m);
-            if (!path.interactions.empty()) largest = std::max(largest, gain);
-          }
-      });
+  for (const Draw& draw : draws(2, {2}))
+    for (const auto& link : solve(draw.scene, draw.random, draw.walls))
+      for (const Path& path : link) {
+        // What free space of that length leaves of the field bounds it; the norm itself is good to sqrt(1e-16).
+        const double gain = spectral_norm(path.transfer) * path.length_m;
+        EXPECT_LE(gain, 1.0 + 1e-7) << draw.name << ": " << text_of(path.interactions, path.length_m);
+        if (!path.interactions.empty()) largest = std::max(largest, gain);
+      }
   EXPECT_GT(largest, 0.9);  // metal comes near
-}
-
-TEST(Properties, ThePathsOfTheReverseLinkAreTheSame) {
-  on_random_scenes(
-      2, [](const RandomScene& random, const scene::Scene& scene, uint32_t walls, const std::string& name) {
-        const Links forward = solve(scene, random, walls);
-        for (size_t r = 0; r < forward.size(); ++r) {
-          Links back = solve(scene, random.receivers[r], std::span(&random.transmitter, 1), walls);
-          for (Path& path : back[0]) std::ranges::reverse(path.vertices);
-          expect_same(Links{forward[r]}, back, name, {.vertex_m = 1e-8, .length_m = 1e-9});
-        }
-      });
 }
 
 TEST(PropertiesHardCase, N63_SearchesOfOneAndTwoThreadsAreTheSame) {
