@@ -37,6 +37,7 @@ struct Options {
   uint32_t width = 1600, height = 1000;
   PathColors colors = PathColors::gain;
   bool with_scene = false;
+  std::optional<double> within_db;
 };
 
 /// What is asked of which channel.
@@ -86,6 +87,8 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
                      options.instant.sequence);
   if (options.with_scene && options.glb.empty())
     throw_user_error("--with-scene: expected --glb FILE with it, found none");
+  if (options.within_db && options.glb.empty() && options.png.empty())
+    throw_user_error("--within: expected --png or --glb with it, found none");
   return request;
 }
 
@@ -163,11 +166,13 @@ void write_picture(const Options& options, const sim::Scenario& scenario, const 
   else
     chosen = scenario_view(options.view, scenario, world, engine.moment(), options.width);
   const render::CameraImages images = renderer.picture(chosen.view, chosen.excluded_body);
-  const PictureText text{
-      fmt::format("{}, {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>()),
-      fmt::format("tick {}, {:.3f} s, {:.4g} GHz", head["tick"].get<int64_t>(), head["time_s"].get<double>(),
-                  1e-9 * head["carrier_hz"].get<double>()),
-      head["transmitter"].get<std::string>()};
+  std::string title =
+      fmt::format("{}, {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>());
+  if (options.within_db) title += fmt::format(": paths within {:g} dB", *options.within_db);
+  const PictureText text{title,
+                         fmt::format("tick {}, {:.3f} s, {:.4g} GHz", head["tick"].get<int64_t>(),
+                                     head["time_s"].get<double>(), 1e-9 * head["carrier_hz"].get<double>()),
+                         head["transmitter"].get<std::string>()};
   const io::Bytes png = io::encode_png(
       draw_paths(chosen.view, images.rgb, images.depth, links, engine.scene(), options.colors, text));
   const std::filesystem::path file = options.png;
@@ -240,10 +245,11 @@ void run(const Options& options) {
   const Json head = head_of(options, request, scenario, world, plan, engine.moment());
   for (const auto& output : outputs) output->begin(head);
   PathTotals totals;
-  const std::vector<PathLink> links = solve(options, request, engine, outputs, totals);
+  std::vector<PathLink> links = solve(options, request, engine, outputs, totals);
   const Json tail = tail_of(totals, engine.channel());
   for (const auto& output : outputs) output->end(tail);
 
+  if (options.within_db) links = strong_paths(links, engine.scene().carrier_hz, *options.within_db);
   if (!options.png.empty()) write_picture(options, scenario, world, view_plan, head, links, engine);
   if (!options.glb.empty()) write_glb(options, head, links, engine);
   device.wait_idle();
@@ -288,6 +294,10 @@ void add_pictures(CLI::App& command, Options& options) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, PathColors>{{"gain", PathColors::gain}, {"kind", PathColors::kind}}))
       ->default_str("gain");
+  command
+      .add_option("--within", options.within_db,
+                  "draw and export no path that is more than this weaker than the strongest, dB [all]")
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--glb", options.glb, "write the paths as a glTF binary");
   command.add_flag("--with-scene", options.with_scene, "the scene's triangles too, in plain colours (--glb)");
 }

@@ -26,7 +26,7 @@ struct DrawnPath {
   const rf::Path* path = nullptr;
   double gain_db = 0.0;
   Color color;
-  double width = 2.0;
+  double width = 2.0, opacity = 1.0;
   std::vector<Stretch> stretches;
 };
 
@@ -88,10 +88,11 @@ void Painter::paths(std::vector<DrawnPath>& paths) {
       for (const Stretch& run :
            stretches_of(view_, depth_, path.path->vertices[i], path.path->vertices[i + 1]))
         path.stretches.push_back(run);
-  for (const DrawnPath& path : paths) lines(path, true, 1.4 * finer_, path.color, 0.5 * finer_);
+  for (const DrawnPath& path : paths)
+    lines(path, true, 1.4 * finer_, path.color, 0.5 * finer_ * path.opacity);
   for (const DrawnPath& path : paths) {
-    lines(path, false, (path.width + 2.4) * finer_, halo, 0.55);
-    lines(path, false, path.width * finer_, path.color, 1.0);
+    lines(path, false, (path.width + 2.4) * finer_, halo, 0.55 * path.opacity);
+    lines(path, false, path.width * finer_, path.color, path.opacity);
   }
   for (const DrawnPath& path : paths) markers(path);
 }
@@ -161,10 +162,14 @@ std::vector<DrawnPath> drawn_paths(std::span<const PathLink> links, double carri
   std::vector<DrawnPath> paths;
   for (const PathLink& link : links)
     for (const rf::Path& path : link.paths) {
-      DrawnPath drawn{&path, gain_db(path_gain(path, carrier_hz)), {}, 2.0, {}};
+      DrawnPath drawn;
+      drawn.path = &path;
+      drawn.gain_db = gain_db(path_gain(path, carrier_hz));
       drawn.color =
           colors == PathColors::gain ? color_of_gain(scale, drawn.gain_db) : color_of_kind(kind_of(path));
       drawn.width = 2.0 + 2.0 * scale.at(drawn.gain_db);
+      // Where colours do not tell, weak paths step back.
+      if (colors == PathColors::kind) drawn.opacity = 0.35 + 0.65 * scale.at(drawn.gain_db);
       paths.push_back(std::move(drawn));
     }
   // The strongest are drawn last, on top.

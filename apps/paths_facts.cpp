@@ -131,6 +131,17 @@ LinkFigures figures_of(const PathLink& link, double carrier_hz) {
   return figures;
 }
 
+std::vector<PathLink> strong_paths(std::span<const PathLink> links, double carrier_hz, double range_db) {
+  double strongest = 0.0;
+  for (const PathLink& link : links)
+    for (const rf::Path& path : link.paths) strongest = std::max(strongest, path_gain(path, carrier_hz));
+  const double least = strongest * from_decibels(-range_db);
+  std::vector<PathLink> strong(links.begin(), links.end());
+  for (PathLink& link : strong)
+    std::erase_if(link.paths, [&](const rf::Path& path) { return path_gain(path, carrier_hz) < least; });
+  return strong;
+}
+
 std::string id_text(uint64_t id) { return fmt::format("{:016x}", id); }
 
 }  // namespace greatx::apps

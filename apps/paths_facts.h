@@ -77,6 +77,9 @@ struct LinkFigures {
 };
 LinkFigures figures_of(const PathLink& link, double carrier_hz);
 
+/// Without the paths that are more than `range_db` weaker than the strongest of all links.
+std::vector<PathLink> strong_paths(std::span<const PathLink> links, double carrier_hz, double range_db);
+
 /// 16 hexadecimal digits.
 std::string id_text(uint64_t id);
 

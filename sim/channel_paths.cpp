@@ -31,10 +31,12 @@ rf::BeamSearchOptions beam_options(const ChannelConfig& config, const EffectPlan
   return options;
 }
 
-rf::CandidateSearchOptions ray_options(const ChannelConfig& config, const EffectPlan&, bool moving_bodies) {
+rf::CandidateSearchOptions ray_options(const ChannelConfig& config, const EffectPlan& plan,
+                                       bool moving_bodies) {
   rf::CandidateSearchOptions options;
   options.rays = config.rays;
   options.max_depth = config.max_depth;
+  options.max_transmissions = plan.transmission.on ? config.walls() : 0;
   options.moving_bodies = moving_bodies;
   return options;
 }
@@ -98,7 +100,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
         config_.name);
   if (search_ == Search::none) return;
   if (config_.candidates == "rays")
-    rays_.emplace(gpu_scene, ray_options(config_, plan, move_facets_));
+    rays_.emplace(gpu_scene, ray_options(config_, plan, move_facets_), model_.kinds);
   else
     beams_.emplace(model_.facets, model_.kinds, model_.wedges,
                    beam_options(config_, plan, move_facets_, transmitter_.body));

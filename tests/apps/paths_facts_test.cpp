@@ -93,6 +93,21 @@ TEST(PathFacts, ALinkWithoutPathsHasNoFiguresToSpeakOf) {
   EXPECT_FALSE(figures.first_delay_s || figures.delay_spread_s || figures.line_of_sight);
 }
 
+TEST(PathFacts, StrongPathsAreCountedFromTheStrongestOfAllLinks) {
+  std::vector<PathLink> links{sample_link(), sample_link()};  // the second path is 11 dB weaker
+  for (rf::Path& path : links[1].paths)
+    for (rf::Complex& t : path.transfer) t *= 0.1;
+  const auto counts = [&](double range_db) {
+    std::vector<size_t> counts;
+    for (const PathLink& link : strong_paths(links, carrier, range_db)) counts.push_back(link.paths.size());
+    return counts;
+  };
+  EXPECT_THAT(counts(0.0), ElementsAre(1u, 0u));
+  EXPECT_THAT(counts(15.0), ElementsAre(2u, 0u));
+  EXPECT_THAT(counts(25.0), ElementsAre(2u, 1u));
+  EXPECT_THAT(counts(100.0), ElementsAre(2u, 2u));
+}
+
 TEST(PathFacts, PathsAreSortedByDelayThenCanonically) {
   std::vector<rf::Path> paths(3);
   paths[0].delay_s = 2.0;
