@@ -278,13 +278,13 @@ TEST(CandidateWalls, InPartsItIsTheSame) {
 
 TEST(CandidateWalls, AWallThatIsThereTwiceIsPassedOnce) {
   TinyScene tiny;
-  for (const double x : {0.0, 0.0, 3.0}) tiny.quad({x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20});
+  for (const double x : {7.3, 7.3, 9.0}) tiny.quad({x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20});
   CandidateSearchOptions options;
   options.rays = 4096;
   options.max_depth = 2;
   options.max_transmissions = 1;
   const FacetKinds kinds{FacetKind::wall, FacetKind::wall, FacetKind::opaque};
-  for (const double x : {-2.0, 2.0})
+  for (const double x : {5.0, 8.0})
     EXPECT_TRUE(sequences(search(tiny.build(), kinds, options, {x, 0, 0}).list).contains({2})) << x;
 }
 
