@@ -40,11 +40,15 @@ struct Options {
   std::optional<double> within_db;
 };
 
+/// Rows of a picture that are not the scene's.
+constexpr uint32_t picture_bars = picture_head + picture_foot;
+
 /// What is asked of which channel.
 struct Request {
   uint32_t channel = 0;
-  std::vector<dvec3> points;     ///< of --receivers; empty: the channel's own
-  std::optional<uint32_t> only;  ///< of --receiver
+  std::vector<dvec3> points;         ///< of --receivers; empty: the channel's own
+  std::optional<uint32_t> only;      ///< of --receiver
+  std::optional<CameraName> camera;  ///< of --view; none: automatic
 };
 
 uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
@@ -85,6 +89,10 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
   if (options.instant.sequence >= scenario.sequences)
     throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1,
                      options.instant.sequence);
+  if (options.view != "auto")
+    request.camera = find_camera(options.view, scenario);
+  else if (options.height < picture_bars + 100)
+    throw_user_error("--height: expected {} or more, found {}", picture_bars + 100, options.height);
   if (options.with_scene && options.glb.empty())
     throw_user_error("--with-scene: expected --glb FILE with it, found none");
   if (options.within_db && options.glb.empty() && options.png.empty())
@@ -147,24 +155,16 @@ std::string closing_text(const PathTotals& totals, const Json& head, const Json&
   return text;
 }
 
-PictureView automatic_view(const Options& options, std::span<const PathLink> links, const PathScene& scene,
-                           PictureRenderer& renderer) {
-  const uint32_t bars = picture_head + picture_foot;
-  if (options.height < bars + 100)
-    throw_user_error("--height: expected {} or more, found {}", bars + 100, options.height);
-  return choose_view(links, scene, options.width, options.height - bars,
-                     [&](const PictureView& view) { return renderer.depth(view); });
-}
-
-void write_picture(const Options& options, const sim::Scenario& scenario, const sim::World& world,
-                   const sim::EffectPlan& plan, const Json& head, std::span<const PathLink> links,
-                   PathsEngine& engine) {
+void write_picture(const Options& options, const Request& request, const sim::Scenario& scenario,
+                   const sim::World& world, const sim::EffectPlan& plan, const Json& head,
+                   std::span<const PathLink> links, PathsEngine& engine) {
   PictureRenderer renderer(engine.gpu_scene(), engine.ring(), plan, scenario.environment, engine.moment());
   ScenarioView chosen;
-  if (options.view == "auto")
-    chosen.view = automatic_view(options, links, engine.scene(), renderer);
+  if (request.camera)
+    chosen = scenario_view(*request.camera, scenario, world, engine.moment(), options.width);
   else
-    chosen = scenario_view(options.view, scenario, world, engine.moment(), options.width);
+    chosen.view = choose_view(links, engine.scene(), options.width, options.height - picture_bars,
+                              [&](const PictureView& view) { return renderer.depth(view); });
   const render::CameraImages images = renderer.picture(chosen.view, chosen.excluded_body);
   std::string title =
       fmt::format("{}, {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>());
@@ -250,7 +250,7 @@ void run(const Options& options) {
   for (const auto& output : outputs) output->end(tail);
 
   if (options.within_db) links = strong_paths(links, engine.scene().carrier_hz, *options.within_db);
-  if (!options.png.empty()) write_picture(options, scenario, world, view_plan, head, links, engine);
+  if (!options.png.empty()) write_picture(options, request, scenario, world, view_plan, head, links, engine);
   if (!options.glb.empty()) write_glb(options, head, links, engine);
   device.wait_idle();
   check_validation(device);
@@ -289,7 +289,7 @@ void add_pictures(CLI::App& command, Options& options) {
   command
       .add_option("--height", options.height, "of the picture, pixels; a scenario's camera has its own shape")
       ->capture_default_str()
-      ->check(CLI::Range(240, 16384));
+      ->check(CLI::Range(1, 16384));
   command.add_option("--color", options.colors, "of lines: by gain, or by kind of path")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, PathColors>{{"gain", PathColors::gain}, {"kind", PathColors::kind}}))

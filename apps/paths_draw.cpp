@@ -167,14 +167,18 @@ std::vector<DrawnPath> drawn_paths(std::span<const PathLink> links, double carri
       drawn.gain_db = gain_db(path_gain(path, carrier_hz));
       drawn.color =
           colors == PathColors::gain ? color_of_gain(scale, drawn.gain_db) : color_of_kind(kind_of(path));
-      drawn.width = 2.0 + 2.0 * scale.at(drawn.gain_db);
-      // Where colours do not tell, weak paths step back.
-      if (colors == PathColors::kind) drawn.opacity = 0.35 + 0.65 * scale.at(drawn.gain_db);
       paths.push_back(std::move(drawn));
     }
   // The strongest are drawn last, on top.
   std::stable_sort(paths.begin(), paths.end(),
                    [](const DrawnPath& a, const DrawnPath& b) { return a.gain_db < b.gain_db; });
+  for (DrawnPath& path : paths) {
+    const double weakness =
+        std::min(1.0, (paths.back().gain_db - path.gain_db) / (scale.high_db - scale.low_db));
+    path.width = 4.0 - 2.0 * weakness;
+    // Where colours do not tell, weak paths step back.
+    if (colors == PathColors::kind) path.opacity = 1.0 - 0.65 * weakness;
+  }
   return paths;
 }
 

@@ -82,31 +82,37 @@ render::CameraImages PictureRenderer::picture(const PictureView& view,
   return render(pass, view);
 }
 
-ScenarioView scenario_view(const std::string& name, const sim::Scenario& scenario, const sim::World& world,
-                           const sim::Moment& moment, uint32_t width) {
+CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
   std::vector<std::string> cameras;
-  for (uint32_t n = 0; n < scenario.nodes.size(); ++n)
-    for (const sim::SensorConfig& sensor : scenario.nodes[n].sensors) {
-      const auto* config = std::get_if<sim::CameraConfig>(&sensor.config);
-      if (config == nullptr) continue;
-      cameras.push_back(scenario.nodes[n].name + "/" + sensor.name);
-      if (cameras.back() != name) continue;
-      ScenarioView result;
-      PictureView& view = result.view;
-      view.width = config->width;
-      view.height = config->height;
-      view.fx = config->fx;
-      view.fy = config->fy;
-      view.cx = config->cx;
-      view.cy = config->cy;
-      view.near_m = config->near_m;
-      view.local_from_sensor = world.scene.to_local(moment.motions[n].pose) * sim::mount_pose(sensor.mount);
-      if (world.body_of_node[n] != 0 && !config->see_own_body) result.excluded_body = world.body_of_node[n];
-      view = view.scaled(width);
-      return result;
+  for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
+    for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor) {
+      const sim::SensorConfig& config = scenario.nodes[node].sensors[sensor];
+      if (!std::holds_alternative<sim::CameraConfig>(config.config)) continue;
+      cameras.push_back(scenario.nodes[node].name + "/" + config.name);
+      if (cameras.back() == name) return {node, sensor};
     }
   throw_user_error("--view: expected auto or a camera of the scenario ({}), found '{}'",
                    cameras.empty() ? "it has none" : fmt::format("{}", fmt::join(cameras, ", ")), name);
+}
+
+ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
+                           const sim::Moment& moment, uint32_t width) {
+  const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
+  const auto& config = std::get<sim::CameraConfig>(sensor.config);
+  PictureView view;
+  view.width = config.width;
+  view.height = config.height;
+  view.fx = config.fx;
+  view.fy = config.fy;
+  view.cx = config.cx;
+  view.cy = config.cy;
+  view.near_m = config.near_m;
+  view.local_from_sensor =
+      world.scene.to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);
+  ScenarioView result{view.scaled(width), {}};
+  const uint32_t body = world.body_of_node[camera.node];
+  if (body != 0 && !config.see_own_body) result.excluded_body = body;
+  return result;
 }
 
 }  // namespace greatx::apps

@@ -39,13 +39,18 @@ class PictureRenderer {
   std::unique_ptr<render::CameraPass> depth_pass_;
 };
 
-/// A scenario's own camera as a view, `width` pixels wide; and the body that it does not see.
+/// A scenario's own camera, "node/sensor". Throws UserError naming the scenario's cameras if there is none of that name.
+struct CameraName {
+  uint32_t node = 0, sensor = 0;
+};
+CameraName find_camera(const std::string& name, const sim::Scenario& scenario);
+
+/// What it sees, `width` pixels wide; and the body that it does not see.
 struct ScenarioView {
   PictureView view;
   std::optional<uint32_t> excluded_body;
 };
-/// `name`: "node/sensor". Throws UserError naming the scenario's cameras if it is none.
-ScenarioView scenario_view(const std::string& name, const sim::Scenario& scenario, const sim::World& world,
+ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
                            const sim::Moment& moment, uint32_t width);
 
 }  // namespace greatx::apps

@@ -18,35 +18,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/program.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using greatx::apps::test::greatx;
+using greatx::apps::test::Outcome;
+using greatx::apps::test::read_file;
 using testing::HasSubstr;
-
-std::string read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
-Outcome greatx(const std::string& arguments, const std::string& before = "") {
-  std::string folder = (fs::temp_directory_path() / "greatx-cli-XXXXXX").string();
-  EXPECT_NE(mkdtemp(folder.data()), nullptr);
-  const std::string command =
-      fmt::format("{} exec '{}' {} >{}/out 2>{}/err", before, GREATX_PROGRAM, arguments, folder, folder);
-  const int status = std::system(fmt::format("/bin/sh -c \"{}\"", command).c_str());
-  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                  read_file(folder + "/out"), read_file(folder + "/err")};
-  fs::remove_all(folder);
-  return outcome;
-}
 
 constexpr const char* small_scenario = R"(greatx: 1
 name: small
@@ -126,7 +106,8 @@ class Cli : public testing::Test {
 
 TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_THAT(greatx("--help").out, HasSubstr("generate"));
-  for (const char* command : {"info", "generate", "inspect", "verify", "scene", "explain", "bench"}) {
+  for (const char* command :
+       {"info", "generate", "inspect", "verify", "scene", "explain", "paths", "bench"}) {
     const Outcome help = greatx(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("--help")) << command;

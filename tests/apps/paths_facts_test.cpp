@@ -98,9 +98,9 @@ TEST(PathFacts, StrongPathsAreCountedFromTheStrongestOfAllLinks) {
   for (rf::Path& path : links[1].paths)
     for (rf::Complex& t : path.transfer) t *= 0.1;
   const auto counts = [&](double range_db) {
-    std::vector<size_t> counts;
-    for (const PathLink& link : strong_paths(links, carrier, range_db)) counts.push_back(link.paths.size());
-    return counts;
+    std::vector<size_t> left;
+    for (const PathLink& link : strong_paths(links, carrier, range_db)) left.push_back(link.paths.size());
+    return left;
   };
   EXPECT_THAT(counts(0.0), ElementsAre(1u, 0u));
   EXPECT_THAT(counts(15.0), ElementsAre(2u, 0u));

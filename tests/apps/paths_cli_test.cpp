@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `greatx paths` from the command line, in a scene with closed forms: one mast above flat ground.
+#include <cmath>
+#include <numbers>
+#include <sched.h>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using greatx::apps::test::greatx;
+using greatx::apps::test::Outcome;
+using greatx::apps::test::read_file;
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double speed_of_light = 299792458.0;
+
+/// A triangle (0, 0, 0), (1, 0, 0), (0, 0, -1) of glTF: (0, 0), (1, 0), (0, 1) on the ground with z up.
+constexpr const char* ground_gltf =
+    R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "ground"}],
+    "materials": [{"name": "itu_medium_dry_ground", "pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.5, 0.3, 1]}}],
+    "meshes": [{"name": "ground", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+    "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})";
+
+constexpr const char* scenario = R"(greatx: 1
+name: flat
+ticks: 11
+tick_rate_hz: 10
+scene: {objects: [{name: ground, file: ground.gltf, scale: 2000, position_m: [-500, -500, 0]}]}
+nodes:
+  - name: bs
+    trajectory: {type: static, position_m: [0, 0, 20]}
+    sensors: [{name: panel, type: antenna, polarization: vh}]
+  - name: uav
+    trajectory: {type: waypoints, interpolation: linear, points: [{t_s: 0, position_m: [100, 0, 10]}, {t_s: 1, position_m: [110, 0, 10]}]}
+    sensors: [{name: antenna, type: antenna}]
+channels:
+  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2}
+  - {name: high, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, carrier_hz: 7e9}
+effects: {gas: off}
+)";
+
+class PathsCli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string folder = (fs::temp_directory_path() / "greatx-paths-XXXXXX").string();
+    ASSERT_NE(mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+    write("ground.gltf", ground_gltf);
+    write("flat.yaml", scenario);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  Outcome paths(const std::string& arguments, const std::string& before = "") const {
+    return greatx(fmt::format("paths {} {}", path("flat.yaml"), arguments), "GREATX_CACHE=off " + before);
+  }
+  json all(const std::string& arguments, const std::string& before = "") const {
+    const Outcome outcome = paths("--json " + arguments, before);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(outcome.out);
+  }
+  /// A grid of receivers above the ground, more than are solved at once.
+  std::string grid() const {
+    std::string text = "x,y,z\n";
+    for (int i = 0; i < 30; ++i)
+      for (int j = 0; j < 10; ++j)
+        text += fmt::format("{},{},{}\n", 10 * i - 150, 20 * j - 95, 1.5 + 0.01 * j);
+    write("grid.csv", text);
+    return path("grid.csv");
+  }
+  fs::path folder_;
+};
+
+TEST_F(PathsCli, TwoRaysAboveFlatGround) {
+  const json result = all("--tick 5");
+  EXPECT_EQ(result["channel"], "csi");
+  EXPECT_EQ(result["time_s"], 0.5);
+  ASSERT_EQ(result["receivers"].size(), 1u);
+  const json& link = result["receivers"][0];
+  EXPECT_EQ(link["name"], "uav/antenna");
+  EXPECT_TRUE(link["line_of_sight"]);
+  ASSERT_EQ(link["paths"].size(), 2u);
+  const json &sight = link["paths"][0], &echo = link["paths"][1];
+  // From (0, 0, 20) to (105, 0, 10).
+  EXPECT_NEAR(sight["length_m"], std::hypot(105.0, 10.0), 1e-9);
+  EXPECT_NEAR(echo["length_m"], std::hypot(105.0, 30.0), 1e-9);
+  EXPECT_NEAR(echo["delay_s"], std::hypot(105.0, 30.0) / speed_of_light, 1e-18);
+  EXPECT_EQ(echo["chain"], "R");
+  EXPECT_EQ(echo["interactions"][0]["objects"][0], "ground/ground");
+  EXPECT_EQ(echo["interactions"][0]["materials"][0], "itu_medium_dry_ground");
+  EXPECT_NEAR(echo["vertices_m"][1][0], 70.0, 1e-9);
+  EXPECT_NEAR(echo["vertices_m"][1][2], 0.0, 1e-9);
+  // 10 m/s along x, away.
+  EXPECT_NEAR(sight["doppler_hz"], -10.0 * 105.0 / std::hypot(105.0, 10.0) * 3.5e9 / speed_of_light, 1e-6);
+  EXPECT_NEAR(sight["gain_db"],
+              20.0 * std::log10(speed_of_light / 3.5e9 / (4.0 * std::numbers::pi * std::hypot(105.0, 10.0))),
+              1e-9);
+  EXPECT_NEAR(echo["departure"]["zenith_rad"], 0.5 * std::numbers::pi + std::atan2(30.0, 105.0), 1e-12);
+  EXPECT_TRUE(result["effects"]["reflection"]["on"]);
+  EXPECT_EQ(result["totals"]["paths_by_kind"]["reflection"], 1);
+  EXPECT_EQ(result["counters"]["paths"], 2);
+  EXPECT_FALSE(result["guarantee"].get<std::string>().empty());
+}
+
+TEST_F(PathsCli, TheTableSaysTheSame) {
+  const Outcome outcome = paths("--tick 5 --channel high");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("uav/antenna at (105.000, 0.000, 10.000) m, 105.475 m from the transmitter: 2 "
+                        "paths, with line of sight"));
+  EXPECT_THAT(outcome.out, HasSubstr("R ground/ground (itu_medium_dry_ground)"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 receiver, 2 paths (line of sight 1, reflection 1)"));
+  EXPECT_THAT(outcome.out, HasSubstr("effects on: "));
+}
+
+TEST_F(PathsCli, ReceiversAreSolvedAloneAsAmongOthers) {
+  const json batch = all("--receivers " + grid());
+  ASSERT_EQ(batch["receivers"].size(), 300u);
+  EXPECT_EQ(batch["totals"]["paths"], 600);
+  for (const int index : {0, 255, 256, 299}) {
+    const json alone = all(fmt::format("--receivers {} --receiver {}", path("grid.csv"), index));
+    ASSERT_EQ(alone["receivers"].size(), 1u);
+    EXPECT_EQ(alone["receivers"][0], batch["receivers"][static_cast<size_t>(index)]) << index;
+  }
+}
+
+TEST_F(PathsCli, AnyNumberOfThreadsGivesTheSameBytes) {
+  grid();
+  const std::string arguments =
+      fmt::format("--json --receivers {} --png {}", path("grid.csv"), path("grid.png"));
+  cpu_set_t all, first;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&first);
+  for (int cpu = 0; CPU_COUNT(&first) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &first);
+  ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);  // inherited by the program
+  const Outcome one = paths(arguments, "LP_NUM_THREADS=1");
+  ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+  const std::string picture = read_file(path("grid.png"));
+  const Outcome two = paths(arguments, "LP_NUM_THREADS=2");
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_FALSE(one.out.empty());
+  EXPECT_EQ(one.out, two.out);
+  EXPECT_EQ(picture, read_file(path("grid.png")));
+}
+
+TEST_F(PathsCli, JsonLinesAndCsvHoldOneReceiverALine) {
+  grid();
+  const Outcome outcome =
+      paths(fmt::format("--json-lines --receivers {} --csv-out {}", path("grid.csv"), path("out/g.csv")));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(outcome.out), csv(read_file(path("out/g.csv")));
+  size_t receivers = 0;
+  std::string row;
+  std::getline(csv, row);
+  EXPECT_EQ(
+      row, "receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns");
+  for (std::string line; std::getline(lines, line);) {
+    const json object = json::parse(line);
+    if (object["kind"] != "receiver") continue;
+    ASSERT_TRUE(std::getline(csv, row));
+    EXPECT_THAT(row, HasSubstr(fmt::format("{},{},", receivers, object["position_m"][0].get<double>())));
+    EXPECT_THAT(row, HasSubstr(fmt::format(",2,1,{},", object["gain_db"].get<double>())));
+    ++receivers;
+  }
+  EXPECT_EQ(receivers, 300u);
+  EXPECT_FALSE(std::getline(csv, row));
+}
+
+TEST_F(PathsCli, PicturesAndExportsAreWritten) {
+  const Outcome outcome = paths(fmt::format(
+      "--tick 3 --png {} --glb {} --with-scene --width 640 --height 480 --color kind --validation",
+      path("p/a.png"), path("p/a.glb")));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("wrote " + path("p/a.png")));
+  const std::string png = read_file(path("p/a.png"));
+  ASSERT_GT(png.size(), 1000u);
+  // Width and height of the header chunk, big-endian.
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\2\200\0\0\1\340", 8));
+  EXPECT_EQ(read_file(path("p/a.glb")).substr(0, 4), "glTF");
+  // greatx itself reads what it has written.
+  const Outcome read = greatx(fmt::format("scene info --optical-only {}", path("p/a.glb")));
+  EXPECT_EQ(read.code, 0) << read.err;
+}
+
+TEST_F(PathsCli, FaultyRequests) {
+  const auto fails = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = paths(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_EQ(outcome.out, "") << arguments;
+  };
+  write("gap.csv", "x,y,z\n1,2,3\n4,,6\n");
+  fails("--receivers " + path("gap.csv"), "gap.csv:3:3: y: expected a finite number, found a gap");
+  write("nan.csv", "1,2,nan\n");
+  fails("--receivers " + path("nan.csv"), "nan.csv:1:5: z: expected a finite number, found 'nan'");
+  write("empty.csv", "# nothing\n");
+  fails("--receivers " + path("empty.csv"), "empty.csv: expected one position (x, y, z) or more, found none");
+  fails("--receivers " + path("absent.csv"), "absent.csv: expected a readable file");
+  fails("--tick 11", "--tick: expected 0 to 10, the last tick of flat, found 11");
+  fails("--tick -1", "--tick");
+  fails("--sequence 1", "--sequence: expected 0 to 0, found 1");
+  fails("--channel low", "--channel: expected one of csi, high, found 'low'");
+  fails("--receiver 1", "--receiver: expected 0 to 0, or one of uav/antenna, found '1'");
+  fails("--with-scene", "--with-scene: expected --glb");
+  fails("--png a.png --height 200", "--height: expected 224 or more, found 200");
+  fails("--within 30", "--within: expected --png or --glb with it");
+  fails("--png a.png --view bs/panel",
+        "--view: expected auto or a camera of the scenario (it has none), found 'bs/panel'");
+}
+
+}  // namespace

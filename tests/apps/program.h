@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs the program as a user does.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace greatx::apps::test {
+
+inline std::string read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
+inline Outcome greatx(const std::string& arguments, const std::string& before = "") {
+  std::string folder = (std::filesystem::temp_directory_path() / "greatx-cli-XXXXXX").string();
+  EXPECT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string command =
+      fmt::format("{} exec '{}' {} >{}/out 2>{}/err", before, GREATX_PROGRAM, arguments, folder, folder);
+  const int status = std::system(fmt::format("/bin/sh -c \"{}\"", command).c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                  read_file(folder + "/out"), read_file(folder + "/err")};
+  std::filesystem::remove_all(folder);
+  return outcome;
+}
+
+}  // namespace greatx::apps::test
