@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace greatx::apps {
 
 namespace {
@@ -32,7 +30,8 @@ void PathsEngine::solve(const Take& take) { solve_batch(0, take); }
 
 void PathsEngine::solve(std::span<const dvec3> points, size_t first, const Take& take) {
   for (size_t begin = 0; begin < points.size(); begin += points_at_once) {
-    channel_->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)));
+    channel_->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)),
+                         first + begin);
     if (!solve_batch(first + begin, take)) return;
   }
 }
@@ -53,7 +52,7 @@ bool PathsEngine::solve_batch(size_t first, const Take& take) {
     const sim::ChannelEnd& end = channel_->receivers()[i];
     PathLink link;
     link.index = static_cast<uint32_t>(first + i);
-    link.name = end.node ? end.name : fmt::format("point {}", link.index);
+    link.name = end.name;
     link.transmitter_m = result.transmitter.position + origin;
     link.receiver_m = solved.receiver.position + origin;
     link.distance_m = solved.distance_m;

@@ -135,15 +135,15 @@ void ChannelPaths::choose_search(const EffectPlan& plan) {
     search_ = Search::every_tick;
 }
 
-void ChannelPaths::set_points(std::span<const dvec3> points) {
+void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
   receivers_.clear();
   for (size_t i = 0; i < points.size(); ++i)
     receivers_.push_back(
-        {fmt::format("point {}", i), std::nullopt, Pose{points[i], dquat(1.0, 0.0, 0.0, 0.0)}, 0});
+        {fmt::format("point {}", first + i), std::nullopt, Pose{points[i], dquat(1.0, 0.0, 0.0, 0.0)}, 0});
   // Points come by the thousand: one search from the transmitter serves them all.
   if (search_ == Search::once_from_receivers) search_ = Search::every_tick;
   ids_known_ = false;
-  placed_.clear();
+  if (!placed_.empty()) placed_.resize(1);  // the transmitter's
 }
 
 rf::EndState ChannelPaths::state_of(const ChannelEnd& end, const TickContext& context) const {
@@ -212,7 +212,9 @@ rf::PathSolver& ChannelPaths::solver(size_t index) {
 void ChannelPaths::start(const TickContext& context) {
   searching_.reset();
   ids_known_ = false;
+  searched_tick_ = -1;
   placed_.clear();
+  placements_told_ = 0;
   const bool once = search_ == Search::once_from_transmitter || search_ == Search::once_from_receivers;
   if (once && !solvers_.empty()) return;
   solvers_.clear();
@@ -247,6 +249,8 @@ void ChannelPaths::move_bodies(const TickContext& context) {
 void ChannelPaths::renew_candidates(const dvec3& transmitter, const TickContext& context) {
   if (search_ == Search::once_from_transmitter || search_ == Search::once_from_receivers) return;
   if (search_ == Search::every_tick && beams_) {
+    if (context.tick == searched_tick_) return;  // more points at the same tick
+    searched_tick_ = context.tick;
     solver(0).set_candidates(search(transmitter, context), transmitter, rf::Source::transmitter);
   } else if (searching_) {
     rf::CandidateSearchResult result = rays_->collect(*searching_);
@@ -338,7 +342,7 @@ bool ChannelPaths::moves(const ChannelEnd& end) const { return end.node && !is_s
 void ChannelPaths::check_placements(const TickContext& context) {
   constexpr size_t most_told = 5;
   placed_.resize(1 + receivers_.size());
-  size_t told = 0;
+  const bool said = placements_told_ > most_told;
   for (size_t i = 0; i < placed_.size(); ++i) {
     const ChannelEnd& end = i == 0 ? transmitter_ : receivers_[i - 1];
     Placed& placed = placed_[i];
@@ -350,7 +354,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
       if (!placement.free() && !placed.told) {
         placed.told = true;
         const bool wrong = placed.inside || placement.surface != rf::Placement::none;
-        if (++told <= most_told)
+        if (++placements_told_ <= most_told)
           spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
                       config_.name, context.tick, end.name,
                       rf::describe(placement, world_.scene, model_.kinds));
@@ -358,9 +362,9 @@ void ChannelPaths::check_placements(const TickContext& context) {
     }
     ends_inside_ += placed.inside;
   }
-  if (told > most_told)
-    spdlog::warn("channel '{}', tick {}: {} more ends lie inside or on something", config_.name, context.tick,
-                 told - most_told);
+  if (placements_told_ > most_told && !said)
+    spdlog::warn("channel '{}', tick {}: more ends lie inside or on something; the counters have them all",
+                 config_.name, context.tick);
 }
 
 void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {

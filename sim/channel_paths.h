@@ -56,7 +56,8 @@ class ChannelPaths {
 
   /// Points at rest, in the world, in place of the channel's receivers; before start(). May be called again between
   /// ticks with other points: what was found for the transmitter stays.
-  void set_points(std::span<const dvec3> points);
+  /// `first`: the number of the first of them, for names. May also be called again at the same tick.
+  void set_points(std::span<const dvec3> points, size_t first = 0);
   /// Before the first tick of a sequence: candidates from a static end (from the cache if it has them).
   void start(const TickContext& context);
   bool looks_ahead() const { return search_ == Search::every_tick && rays_.has_value(); }
@@ -122,6 +123,8 @@ class ChannelPaths {
     bool checked = false, inside = false, told = false;
   };
   std::vector<Placed> placed_;  ///< [1 + receivers]: transmitter, receivers; empty: nothing yet
+  size_t placements_told_ = 0;  ///< of this sequence
+  int64_t searched_tick_ = -1;  ///< of the candidates, if they are searched by beams at every tick
   uint64_t candidate_count_ = 0, candidate_overflow_ = 0, cache_hits_ = 0, path_overflow_ = 0;
   uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
 };

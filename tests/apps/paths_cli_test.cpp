@@ -46,6 +46,7 @@ nodes:
 channels:
   - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2}
   - {name: high, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, carrier_hz: 7e9}
+  - {name: down, tx: uav/antenna, rx: [bs/panel], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6}
 effects: {gas: off}
 )";
 
@@ -127,13 +128,19 @@ TEST_F(PathsCli, TheTableSaysTheSame) {
 }
 
 TEST_F(PathsCli, ReceiversAreSolvedAloneAsAmongOthers) {
-  const json batch = all("--receivers " + grid());
-  ASSERT_EQ(batch["receivers"].size(), 300u);
-  EXPECT_EQ(batch["totals"]["paths"], 600);
-  for (const int index : {0, 255, 256, 299}) {
-    const json alone = all(fmt::format("--receivers {} --receiver {}", path("grid.csv"), index));
-    ASSERT_EQ(alone["receivers"].size(), 1u);
-    EXPECT_EQ(alone["receivers"][0], batch["receivers"][static_cast<size_t>(index)]) << index;
+  grid();
+  for (const char* channel : {"csi", "down"}) {  // from a transmitter at rest, and from one that moves
+    const std::string arguments =
+        fmt::format("--tick 3 --channel {} --receivers {}", channel, path("grid.csv"));
+    const json batch = all(arguments);
+    ASSERT_EQ(batch["receivers"].size(), 300u);
+    EXPECT_EQ(batch["totals"]["paths"], 600);
+    EXPECT_EQ(batch["receivers"][299]["name"], "point 299");
+    for (const int index : {0, 255, 256, 299}) {
+      const json alone = all(fmt::format("{} --receiver {}", arguments, index));
+      ASSERT_EQ(alone["receivers"].size(), 1u);
+      EXPECT_EQ(alone["receivers"][0], batch["receivers"][static_cast<size_t>(index)]) << channel << index;
+    }
   }
 }
 
@@ -213,7 +220,7 @@ TEST_F(PathsCli, FaultyRequests) {
   fails("--tick 11", "--tick: expected 0 to 10, the last tick of flat, found 11");
   fails("--tick -1", "--tick");
   fails("--sequence 1", "--sequence: expected 0 to 0, found 1");
-  fails("--channel low", "--channel: expected one of csi, high, found 'low'");
+  fails("--channel low", "--channel: expected one of csi, high, down, found 'low'");
   fails("--receiver 1", "--receiver: expected 0 to 0, or one of uav/antenna, found '1'");
   fails("--with-scene", "--with-scene: expected --glb");
   fails("--png a.png --height 200", "--height: expected 224 or more, found 200");
