@@ -104,12 +104,12 @@ Surroundings::Surroundings(const scene::Scene& scene, const FacetKinds& kinds) :
   }
 }
 
-/// A facet of the surface that the ray comes out of without having gone in, or none.
-uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const {
-  const double reach = glm::length(shell.bounds.size()) + 1.0;
+/// Where the ray goes through surfaces, up to a distance, in its order.
+std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec3& point,
+                                                  const dvec3& direction, double reach_m) const {
   std::vector<uint32_t> near;
-  shell.tree.near_segment(point, point + reach * direction, 0.0, near);
-  std::vector<Hit> hits;
+  shell.tree.near_segment(point, point + reach_m * direction, 0.0, near);
+  std::vector<Hit> list;
   for (const uint32_t index : near) {
     const dvec3* corners = shell.triangles[index].corners;
     const dvec3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
@@ -121,19 +121,31 @@ uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, cons
     // What the point lies on is on neither side of it.
     if (std::abs(height) <= tolerance_of(point, corners[0]) * glm::length(normal)) continue;
     const double distance = height / slope;
-    if (distance > 0.0) hits.push_back({distance, shell.facets[index], slope > 0.0 ? 1 : -1});
+    if (distance > 0.0 && distance < reach_m)
+      list.push_back({distance, shell.facets[index], slope > 0.0 ? 1 : -1});
   }
-  std::sort(hits.begin(), hits.end());
-  int out = 0;
-  for (size_t i = 0; i < hits.size();) {
-    // Both sides of a sheet, or two walls back to back, are passed at once.
-    const double end = hits[i].distance + 1e-6;
-    uint32_t left = Placement::none;
-    for (; i < hits.size() && hits[i].distance <= end; ++i) {
-      out += hits[i].sign;
-      if (hits[i].sign > 0) left = hits[i].facet;
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// A facet of the surface that the ray comes out of without having gone in, or none.
+uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const {
+  const double all = glm::length(shell.bounds.size()) + glm::length(point - shell.bounds.center()) + 1.0;
+  // From inside a house its wall is near: the first look is short.
+  for (const double reach : {std::min(32.0, all), all}) {
+    const std::vector<Hit> list = hits(shell, point, direction, reach);
+    int out = 0;
+    for (size_t i = 0; i < list.size();) {
+      // Both sides of a sheet, or two walls back to back, are passed at once.
+      const double end = list[i].distance + 1e-6;
+      if (end > reach) break;
+      uint32_t left = Placement::none;
+      for (; i < list.size() && list[i].distance <= end; ++i) {
+        out += list[i].sign;
+        if (list[i].sign > 0) left = list[i].facet;
+      }
+      if (out > 0) return left;
     }
-    if (out > 0) return left;
   }
   return Placement::none;
 }

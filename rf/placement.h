@@ -59,6 +59,7 @@ class Surroundings {
   };
   struct Hit;
   uint32_t surrounding(const Shell& shell, const dvec3& point) const;
+  std::vector<Hit> hits(const Shell& shell, const dvec3& point, const dvec3& direction, double reach_m) const;
   uint32_t comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const;
   void touch(const Shell& shell, const dvec3& point, Placement& placement) const;
 
