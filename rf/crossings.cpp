@@ -44,17 +44,21 @@ std::vector<shared::GpuFoliageBox> foliage_boxes(const scene::Scene& scene, cons
 
 bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-shared::GpuSegment row_of(const Segment& s, size_t index) {
+shared::GpuSegment row_of(const Segment& s, size_t index, const FoliageVolumes& foliage) {
   GREATX_CHECK(finite(s.a) && finite(s.b), "segment {} from ({}, {}, {}) to ({}, {}, {})", index, s.a.x,
                s.a.y, s.a.z, s.b.x, s.b.y, s.b.z);
   GREATX_CHECK(s.walls <= shared::crossings_max, "segment {} may pass {} walls, expected at most {}", index,
                s.walls, shared::crossings_max);
-  return {vec3(s.a), vec3(s.b), s.facet_a, s.facet_b, s.body_a, s.body_b, s.other_a, s.other_b, s.walls};
+  const bool inside = foliage.may_contain(s.a) || foliage.may_contain(s.b);
+  return {vec3(s.a), vec3(s.b), s.facet_a,
+          s.facet_b, s.body_a,  s.body_b,
+          s.other_a, s.other_b, s.walls | (inside ? shared::crossings_end_in_foliage : 0)};
 }
 
 }  // namespace
 
-CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds) : scene_(&scene) {
+CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds)
+    : scene_(&scene), static_foliage_(scene.scene(), kinds) {
   const std::vector<scene::Facet>& facets = scene.scene().facets;
   GREATX_CHECK(kinds.size() == facets.size(), "kinds of {} facets, the scene has {}", kinds.size(),
                facets.size());
@@ -84,7 +88,7 @@ CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const 
   const std::span<shared::GpuSegment> rows = upload.as<shared::GpuSegment>();
   uint32_t most_walls = 0;
   for (size_t i = 0; i < segments.size(); ++i) {
-    rows[i] = row_of(segments[i], i);
+    rows[i] = row_of(segments[i], i, static_foliage_);
     most_walls = std::max(most_walls, segments[i].walls);
   }
 

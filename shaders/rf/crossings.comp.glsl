@@ -7,8 +7,8 @@
 // distance of the end to the surface's plane, not along the segment, so that grazing segments need no other bound and
 // nothing is cut off the segment itself.
 //
-// Walls are listed, opaque facets block. Foliage is left out of that, and asked for afterwards along the segments that
-// are not blocked: how much of a segment is inside needs the whole line, not the segment alone.
+// Walls are listed, opaque facets block. How much of a segment is inside foliage adds up on the way, as long as both ends
+// are outside for certain; else it needs the whole line, which is followed for those segments alone.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 #include "lib/trace.glsl"
@@ -51,6 +51,21 @@ struct Walls {
   float distances[crossings_max];  // from the segment's start
 };
 
+/// How much of a segment lies behind each crossing of a foliage's surface, + entering, - leaving, in units of
+/// 1 / crossings_foliage_one: integers, so that their order does not matter. `net`: times entered - times left.
+struct Depth {
+  int sum, net;
+};
+void add_crossing(inout Depth depth, GpuFacetPlane plane, vec3 direction, float at) {
+  int behind = int(round((1.0 - clamp(at, 0.0, 1.0)) * float(crossings_foliage_one)));
+  bool entering = dot(plane.normal, direction) < 0.0;
+  depth.sum += entering ? behind : -behind;
+  depth.net += entering ? 1 : -1;
+}
+/// From outside to outside a line leaves closed volumes as often as it enters them. One that does not has slipped through
+/// an edge, or met it twice.
+bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
+
 /// Whether two walls are passed in one place: parallel ones if they lie in one plane, which a segment passes but once
 /// (neighbours, duplicates); others if the segment meets their common edge. The three looks run beside each other, which
 /// shifts where they meet a wall: four times their offset allows for 60 degrees from the normal of both walls.
@@ -78,38 +93,49 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
   return true;
 }
 
-/// Whether what is met at `at` (metres from the start) ends the segment; walls that do not are added.
-bool stops(GpuSegment segment, GpuPrimitive primitive, uint triangle, float at, inout Walls walls) {
+/// Whether what is met at `at` along a ray, 0 to 1, ends the segment. Walls that do not are added, so is foliage.
+bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at, inout Walls walls,
+           inout Depth depth) {
   if (primitive.body == segment.body_a || primitive.body == segment.body_b) return false;
   uint facet = scene_facet(triangle);
   if (facet == rf_none) return true;
   if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a || facet == segment.other_b)
     return false;
   GpuFacetPlane plane = posed_plane(facet, primitive.body);
-  if (has_foliage && plane.kind == facet_kind_foliage) return false;
+  if (has_foliage && plane.kind == facet_kind_foliage) {
+    add_crossing(depth, plane, direction, at);
+    return false;
+  }
   if (lies_on(segment.a, plane) || lies_on(segment.b, plane)) return false;
   if (!has_walls || plane.kind != facet_kind_wall) return true;
-  return !add_wall(walls, segment.walls, facet, plane, at, largest(segment.a));
+  return !add_wall(walls, segment.walls & ~crossings_end_in_foliage, facet, plane, at * length(direction),
+                   largest(segment.a));
 }
 
-bool blocked_along(GpuSegment segment, Ray ray, float size, inout Walls walls) {
+bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth depth) {
+  depth = Depth(0, 0);
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
                         ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    float at = has_walls ? rayQueryGetIntersectionTEXT(query, false) * size : 0.0;
-    if (stops(segment, primitive, candidate_triangle(query, primitive), at, walls))
+    float at = has_walls || has_foliage ? rayQueryGetIntersectionTEXT(query, false) : 0.0;
+    if (stops(segment, ray.direction, primitive, candidate_triangle(query, primitive), at, walls, depth))
       rayQueryConfirmIntersectionEXT(query);
   }
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-bool blocked(GpuSegment segment, vec3 direction, out Walls walls) {
+/// `depth`: of the last look that is closed. The first one counts least: crowns are met in their very top more often than
+/// chance would have it, and the others look past it.
+bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth) {
   walls.count = 0u;
-  float size = has_walls ? length(direction) : 0.0;
-  for (uint which = 0u; which < looks; ++which)  // lib/trace.glsl: watertight whatever the driver
-    if (blocked_along(segment, look(segment.a, direction, which), size, walls)) return true;
+  depth = Depth(0, 1);
+  for (uint which = 0u; which < looks; ++which) {  // lib/trace.glsl: watertight whatever the driver
+    Depth found;
+    if (blocked_along(segment, look(segment.a, direction, which), walls, found)) return true;
+    if (has_foliage && (is_closed(found) || !is_closed(depth))) depth = found;
+  }
   return false;
 }
 
@@ -127,27 +153,33 @@ vec2 inside_box(GpuFoliageBox box, vec3 a, vec3 d) {
   return vec2(max(max(enter.x, enter.y), enter.z), min(min(leave.x, leave.y), leave.z));
 }
 
-/// The part of the line a + u d that holds every box it passes through; (0, 0) if no box meets the segment, 0 <= u <= 1.
+/// Whether an end may be inside foliage: of the static world as the host has found, of what moves by its box.
+bool ends_in_foliage(GpuSegment segment, vec3 direction) {
+  if ((segment.walls & crossings_end_in_foliage) != 0u) return true;
+  for (uint i = 0u; i < constants.foliage_boxes; ++i) {
+    GpuFoliageBox box = foliage[i];
+    if (box.body == 0u || box.body == segment.body_a || box.body == segment.body_b) continue;
+    vec2 inside = inside_box(box, segment.a, direction);
+    if (inside.x <= inside.y && ((inside.x <= 0.0 && inside.y >= 0.0) || (inside.x <= 1.0 && inside.y >= 1.0)))
+      return true;
+  }
+  return false;
+}
+
+/// The part of the line a + u d that holds every box it passes through.
 vec2 line_through_foliage(GpuSegment segment, vec3 d) {
   vec2 part = vec2(0.0, 1.0);
-  bool near = false;
   for (uint i = 0u; i < constants.foliage_boxes; ++i) {
     GpuFoliageBox box = foliage[i];
     if (box.body != 0u && (box.body == segment.body_a || box.body == segment.body_b)) continue;
     vec2 inside = inside_box(box, segment.a, d);
-    if (inside.x > inside.y) continue;
-    part = vec2(min(part.x, inside.x), max(part.y, inside.y));
-    near = near || (inside.x < 1.0 && inside.y > 0.0);
+    if (inside.x <= inside.y) part = vec2(min(part.x, inside.x), max(part.y, inside.y));
   }
-  return near ? part : vec2(0.0);
+  return part;
 }
 
-/// Sum over the line's crossings of how much of the segment lies behind each, + entering, - leaving, in units of
-/// 1 / crossings_foliage_one: integers, so that their order does not matter. `net`: times entered - times left, over the
-/// whole line, which begins and ends outside.
-int foliage_along(GpuSegment segment, Ray ray, vec2 part, out int net) {
-  int sum = 0;
-  net = 0;
+Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
+  Depth depth = Depth(0, 0);
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
@@ -155,32 +187,21 @@ int foliage_along(GpuSegment segment, Ray ray, vec2 part, out int net) {
     if (primitive.body == segment.body_a || primitive.body == segment.body_b) continue;
     uint facet = scene_facet(candidate_triangle(query, primitive));
     if (facet == rf_none || planes[facet].kind != facet_kind_foliage) continue;
-    float at = mix(part.x, part.y, rayQueryGetIntersectionTEXT(query, false));
-    int behind = int(round((1.0 - clamp(at, 0.0, 1.0)) * float(crossings_foliage_one)));
-    bool entering = dot(posed_plane(facet, primitive.body).normal, ray.direction) < 0.0;
-    sum += entering ? behind : -behind;
-    net += entering ? 1 : -1;
+    add_crossing(depth, posed_plane(facet, primitive.body), ray.direction,
+                 mix(part.x, part.y, rayQueryGetIntersectionTEXT(query, false)));
   }
-  return sum;
+  return depth;
 }
 
-/// The share of the segment inside foliage. The line is followed from outside of all foliage to outside, beyond both ends
-/// of the segment: so ends inside, or on, a volume need no rule of their own. A line that does not leave as often as it
-/// enters has slipped through an edge or met it twice: then the looks beside it decide. The first is not one of them at
-/// first, since crowns are met in their very top more often than chance would have it.
-uint foliage_share(GpuSegment segment, vec3 direction, out bool closed) {
-  closed = true;
+/// The same along the whole line, from outside of all foliage to outside, beyond both ends of the segment: so ends inside,
+/// or on, a volume need no rule of their own.
+Depth depth_on_line(GpuSegment segment, vec3 direction) {
   vec2 part = line_through_foliage(segment, direction);
-  if (part.x == part.y) return 0u;
   vec3 origin = segment.a + part.x * direction;
-  int sum = 0;
-  for (uint which = 0u; which < looks; ++which) {
-    int net;
-    sum = foliage_along(segment, look(origin, (part.y - part.x) * direction, (which + 1u) % looks), part, net);
-    closed = net == 0 && sum >= 0;
-    if (closed) break;
-  }
-  return uint(max(sum, 0));
+  Depth depth = Depth(0, 1);
+  for (uint which = 0u; which < looks && !is_closed(depth); ++which)
+    depth = depth_along(segment, look(origin, (part.y - part.x) * direction, (which + 1u) % looks), part);
+  return depth;
 }
 
 void main() {
@@ -195,15 +216,16 @@ void main() {
     return;
   }
   Walls walls;
-  if (blocked(segment, direction, walls)) {
+  Depth depth;
+  if (blocked(segment, direction, walls, depth)) {
     results[row] = crossings_blocked;
     return;
   }
   uint status = walls.count;
   if (has_foliage) {
-    bool closed;
-    results[row + 1u] = foliage_share(segment, direction, closed);
-    if (!closed) status |= crossings_foliage_open;
+    if (ends_in_foliage(segment, direction)) depth = depth_on_line(segment, direction);
+    results[row + 1u] = uint(max(depth.sum, 0));
+    if (!is_closed(depth)) status |= crossings_foliage_open;
   }
   results[row] = status;
   if (has_walls)

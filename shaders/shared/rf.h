@@ -47,12 +47,14 @@ const uint crossings_foliage_open =
     0x100u;  // flag: the line leaves foliage more or less often than it enters
 const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
 
+const uint crossings_end_in_foliage = 0x100u;  // flag: an end may be inside foliage of the static world
+
 struct GpuSegment {
   vec3 a, b;  // local coordinates
   uint facet_a, facet_b;
   uint body_a, body_b;
   uint other_a, other_b;
-  uint walls;  // that it may pass, <= crossings_max
+  uint walls;  // that it may pass, <= crossings_max; plus crossings_end_in_foliage
 };
 
 /// A facet's plane in its body's frame: (x - point) . normal = 0.
