@@ -33,21 +33,15 @@ struct Found {
   uint64_t cells = 0;
 };
 
-void widen(BeamHit& hit, const BeamHit& other) {
-  hit.min_a = std::min(hit.min_a, other.min_a), hit.max_a = std::max(hit.max_a, other.max_a);
-  hit.min_b = std::min(hit.min_b, other.min_b), hit.max_b = std::max(hit.max_b, other.max_b);
-}
-
-/// By facet, then walls; one rectangle for each.
+/// By facet, then walls; one region for each.
 void merge(std::vector<BeamHit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const BeamHit& a, const BeamHit& b) {
-    return std::tie(a.facet, a.walls, a.min_a, a.min_b, a.max_a, a.max_b) <
-           std::tie(b.facet, b.walls, b.min_a, b.min_b, b.max_a, b.max_b);
+    return std::tie(a.facet, a.walls) < std::tie(b.facet, b.walls);
   });
   size_t kept = 0;
   for (size_t i = 0; i < hits.size(); ++i) {
     if (kept > 0 && hits[kept - 1].facet == hits[i].facet && hits[kept - 1].walls == hits[i].walls)
-      widen(hits[kept - 1], hits[i]);
+      hits[kept - 1].region.add(hits[i].region);
     else
       hits[kept++] = hits[i];
   }
@@ -76,6 +70,7 @@ class Tree {
   std::vector<Found> expand_level(size_t first, size_t end, uint32_t depth) const;
   void list_node(uint32_t node, BeamSearchResult& result) const;
   PlaneWindow window_of(const Node& node) const;
+  SequenceBeam beam_of(uint32_t node, uint32_t depth) const;
 
   const BeamScene& scene_;
   const BeamSearchOptions& options_;
@@ -85,15 +80,11 @@ class Tree {
 
 void Tree::settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const {
   BeamView view(scene_);
-  view.look(beam, options_.edge_strips, wedges_);
-  BeamCellOptions options;
-  options.walls = static_cast<uint32_t>(walls_left(depth, passed));
-  options.tight = walls_left(depth + 1, 0) >= 0;
-  options.edge_strips = options_.edge_strips;
-  if (depth == 0 && options_.source_body != 0) options.transparent_body = options_.source_body;
+  const uint32_t carrier = depth == 0 && options_.source_body != 0 ? options_.source_body : none;
+  view.look(beam, options_.clearance_m, carrier, wedges_);
   BeamCells cells;
   const size_t first = found.hits.size();
-  cells.settle(view, options, found.hits, found.wedges);
+  cells.settle(view, static_cast<uint32_t>(walls_left(depth, passed)), found.hits, found.wedges);
   for (size_t i = first; i < found.hits.size(); ++i) found.hits[i].walls += passed;
   found.cells += cells.cells();
 }
@@ -128,8 +119,13 @@ Found Tree::expand(uint32_t index, uint32_t depth) const {
   Found found;
   for (const BeamHit& part : node.parts) {
     if (walls_left(depth, part.walls) < 0) continue;
-    beam.window = {(part.min_a - apex_a) / beam.near_m, (part.max_a - apex_a) / beam.near_m,
-                   (part.min_b - apex_b) / beam.near_m, (part.max_b - apex_b) / beam.near_m};
+    const FacetRegion& region = part.region;
+    beam.window = {(region.min_a - apex_a) / beam.near_m, (region.max_a - apex_a) / beam.near_m,
+                   (region.min_b - apex_b) / beam.near_m, (region.max_b - apex_b) / beam.near_m};
+    beam.min_sum = (region.min_sum - apex_a - apex_b) / beam.near_m;
+    beam.max_sum = (region.max_sum - apex_a - apex_b) / beam.near_m;
+    beam.min_difference = (region.min_difference - apex_a + apex_b) / beam.near_m;
+    beam.max_difference = (region.max_difference - apex_a + apex_b) / beam.near_m;
     settle(beam, depth, part.walls, found);
   }
   return found;
@@ -163,8 +159,8 @@ std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth) 
 PlaneWindow Tree::window_of(const Node& node) const {
   const BeamFacet& facet = scene_.facet(node.facet);
   const PosedFacet& posed = scene_.world().facet(facet.index);
-  BeamHit all = node.parts[0];
-  for (const BeamHit& part : node.parts) widen(all, part);
+  FacetRegion all;
+  for (const BeamHit& part : node.parts) all.add(part.region);
   PlaneWindow window{1e300, -1e300, 1e300, -1e300};
   for (const double a : {all.min_a, all.max_a})
     for (const double b : {all.min_b, all.max_b}) {
@@ -183,6 +179,30 @@ PlaneWindow Tree::window_of(const Node& node) const {
           std::max(window.min_v, posed.min_v) - room, std::min(window.max_v, posed.max_v) + room};
 }
 
+/// Around the parts that something may follow after.
+SequenceBeam Tree::beam_of(uint32_t index, uint32_t depth) const {
+  const Node& node = nodes_[index];
+  SequenceBeam beam;
+  beam.image = node.image;
+  if (node.parent == none) {
+    beam.walls = 0;
+    return beam;
+  }
+  FacetRegion all;
+  for (const BeamHit& part : node.parts) {
+    if (walls_left(depth, part.walls) < 0) continue;
+    all.add(part.region);
+    beam.walls = std::min(beam.walls, part.walls);
+  }
+  if (beam.walls == SequenceBeam::none) return beam;
+  const BeamFacet& facet = scene_.facet(node.facet);
+  beam.half_a = 0.5 * (all.max_a - all.min_a) * facet.axis_a;
+  beam.half_b = 0.5 * (all.max_b - all.min_b) * facet.axis_b;
+  beam.center = facet.reference + 0.5 * (all.min_a + all.max_a) * facet.axis_a +
+                0.5 * (all.min_b + all.max_b) * facet.axis_b;
+  return beam;
+}
+
 void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
   std::vector<uint32_t> sequence;
   for (uint32_t node = index; nodes_[node].parent != none; node = nodes_[node].parent)
@@ -194,11 +214,13 @@ void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
 
 BeamSearchResult Tree::grow() {
   BeamSearchResult result;
+  const uint32_t last_depth = std::min(options_.max_depth, options_.stop_depth);
   if (wedges_) result.list.wedge_offsets.push_back(0);
   list_node(0, result);
+  if (options_.max_depth > 0) result.beams.push_back(beam_of(0, 0));
   result.found = 1;
   size_t level = 0;
-  for (uint32_t depth = 0; depth < options_.max_depth; ++depth) {
+  for (uint32_t depth = 0; depth < last_depth; ++depth) {
     const size_t level_end = nodes_.size();
     for (size_t first = level; first < level_end; first += nodes_at_once) {
       const size_t end = std::min(level_end, first + nodes_at_once);
@@ -219,7 +241,9 @@ BeamSearchResult Tree::grow() {
           const dvec3& image = nodes_[i].image;
           child.image = image - 2.0 * (glm::dot(facet.normal, image) - facet.offset) * facet.normal;
           nodes_.push_back(std::move(child));
-          list_node(static_cast<uint32_t>(nodes_.size() - 1), result);
+          const uint32_t made = static_cast<uint32_t>(nodes_.size() - 1);
+          list_node(made, result);
+          if (depth + 1 < options_.max_depth) result.beams.push_back(beam_of(made, depth + 1));
         }
       }
     }
@@ -244,7 +268,10 @@ BeamSearch::BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::sp
 BeamSearchResult BeamSearch::search(const dvec3& source) const {
   GREATX_CHECK(std::isfinite(source.x) && std::isfinite(source.y) && std::isfinite(source.z),
                "source at ({}, {}, {})", source.x, source.y, source.z);
-  const BeamScene scene(*world_, *kinds_, wedges_, options_.moving_bodies);
+  if (!options_.moving_bodies && scene_ == nullptr)
+    scene_ = std::make_shared<const BeamScene>(*world_, *kinds_, wedges_, false);
+  if (scene_) return Tree(*scene_, options_, !wedges_.empty(), source).grow();
+  const BeamScene scene(*world_, *kinds_, wedges_, true);
   return Tree(scene, options_, !wedges_.empty(), source).grow();
 }
 

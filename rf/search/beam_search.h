@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Candidates with a guarantee: the tree of image sources, each with the beam through the facet that it was mirrored
-// at. Which facets a beam meets is decided by subdividing the beam's cross-section until each cell is settled
-// (J. Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969), with one rule: a facet is
-// dropped in a cell only if it is proven that nothing of it can be reached there. So the tree holds every sequence
-// that has a path to any receiver whatever; what it holds beyond these costs time, never truth.
+// Candidates with a guarantee: the tree of image sources, each with the beam through what of the facet it was mirrored at
+// is lit. Which facets a beam meets, and where, is worked out with polygons (beam_cells.h): a facet is dropped only where
+// it lies outside of the beam, or wholly behind others. So the tree holds every sequence that has a path to any receiver
+// whatever that keeps clear of edges by half a millimetre; what it holds beyond these costs time, never truth.
 //
 // Why beams and not rays that split: rays know only the directions they took. A beam is the whole set of directions,
-// so the answer does not depend on any spacing, and its prunings (side of the mirror, overlap of pyramids, covered
-// cells) are inequalities in fp64 with room for their roundings.
+// so the answer does not depend on any spacing, and its prunings (side of the mirror, overlap of pyramids, hidden
+// polygons) are inequalities in fp64 with room for their roundings.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -20,6 +20,7 @@
 #include "rf/candidates.h"
 #include "rf/facet_kind.h"
 #include "rf/facet_world.h"
+#include "rf/search/beam_scene.h"
 #include "scene/wedges.h"
 
 namespace greatx::rf {
@@ -34,11 +35,23 @@ struct BeamSearchOptions {
   bool moving_bodies = false;
   /// A body whose facets do not hide what its own antenna sees: the one that carries the source; 0: none.
   uint32_t source_body = 0;
-  /// The visibility test lets a segment end within shared::visibility_tolerance behind a surface. Along an edge that a
-  /// hidden facet shares with the one that hides it (the far wall of a house and its roof) this leaves a strip, at most
-  /// ten tolerances wide, in which the hidden facet counts as lit. true: sequences that live in such strips alone are
-  /// listed too. They lead into the inside of solids, and there are more of them than of all others.
-  bool edge_strips = false;
+  /// Paths that stay this far clear, in metres, of edges that they have no business with are found for certain: what stands
+  /// before a facet may be taken for wider by as much. 0: nothing is taken for hidden that is not, at the price of twice as
+  /// many sequences, most of which live in the seams between facets that meet.
+  double clearance_m = 5e-4;
+  /// Sequences of more facets are not looked for, those that could go on are found as if they were: less than max_depth
+  /// for who takes the last steps another way (MovingSearch).
+  uint32_t stop_depth = ~0u;
+};
+
+/// The beam of a sequence that can go on: what leaves its last facet within this rectangle of the facet's plane, away
+/// from the image.
+struct SequenceBeam {
+  static constexpr uint32_t none = ~0u;
+  dvec3 image{0.0};                ///< the source, mirrored at all facets
+  dvec3 center{0.0};               ///< of the rectangle, local coordinates
+  dvec3 half_a{0.0}, half_b{0.0};  ///< from there to the middles of its sides
+  uint32_t walls = none;           ///< at least so many have been passed; none: nothing can follow
 };
 
 struct BeamSearchResult {
@@ -49,6 +62,9 @@ struct BeamSearchResult {
   /// number that there can be.
   uint64_t found = 0;
   uint64_t cells = 0;  ///< cells of beams looked at: what the search cost
+  /// Of the sequences [0, beams.size()) of the list, all that have fewer than max_depth facets. That of the empty one is
+  /// everything: its rectangle says nothing.
+  std::vector<SequenceBeam> beams;
   uint64_t overflow() const { return found - list.size(); }
 };
 
@@ -57,7 +73,8 @@ class BeamSearch {
   /// `wedges` empty: none are looked for. All arguments are read by search() and must outlive it.
   BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
              const BeamSearchOptions& options);
-  /// Every sequence of facets whose beam from `source` (local coordinates) is not proven dark.
+  /// Every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Not to be called from two
+  /// threads at once.
   BeamSearchResult search(const dvec3& source) const;
   /// One sentence for `explain` and the run's summary.
   std::string guarantee() const;
@@ -68,6 +85,7 @@ class BeamSearch {
   const FacetKinds* kinds_;
   std::span<const scene::Wedge> wedges_;
   BeamSearchOptions options_;
+  mutable std::shared_ptr<const BeamScene> scene_;  ///< kept between searches if nothing in it moves
 };
 
 }  // namespace greatx::rf

@@ -19,8 +19,8 @@ namespace greatx::rf {
 namespace {
 
 /// Counts up when the search changes what it finds, so that old files are not met again.
-constexpr uint32_t search_version = 1;
-constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '1'};
+constexpr uint32_t search_version = 2;
+constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '2'};
 constexpr size_t checksum_bytes = 64;
 
 template <typename T>
@@ -66,6 +66,7 @@ std::string body_of(const BeamSearchResult& result) {
   append(bytes, result.list.windows);
   append(bytes, result.list.wedge_offsets);
   append(bytes, result.list.wedges);
+  append(bytes, result.beams);
   return bytes;
 }
 
@@ -76,8 +77,8 @@ std::optional<BeamSearchResult> result_of(std::string_view bytes) {
   Reader reader(bytes);
   if (!reader.value(head) || std::memcmp(head, magic, sizeof magic) != 0 || !reader.value(result.found) ||
       !reader.values(list.facets) || !reader.values(list.offsets) || !reader.values(list.windows) ||
-      !reader.values(list.wedge_offsets) || !reader.values(list.wedges) || !reader.done() ||
-      list.offsets.empty())
+      !reader.values(list.wedge_offsets) || !reader.values(list.wedges) || !reader.values(result.beams) ||
+      !reader.done() || list.offsets.empty())
     return std::nullopt;
   return result;
 }
