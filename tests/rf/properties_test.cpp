@@ -31,32 +31,34 @@ using rf::testing::random_scene_kinds;
 using rf::testing::RandomScene;
 
 constexpr double carrier_hz = 3.5e9;
-constexpr uint32_t max_depth = 3;
 
 using Links = std::vector<std::vector<Path>>;  ///< [receivers]
-using CandidateSource =
-    std::function<CandidateList(const RadioModel& model, const dvec3& transmitter, uint32_t walls)>;
+/// How deep paths go.
+struct Bounds {
+  uint32_t depth = 2, walls = 0;
+};
+using CandidateSource = std::function<CandidateList(const RadioModel&, const dvec3& transmitter, Bounds)>;
 
-CandidateList by_beams(const RadioModel& model, const dvec3& transmitter, uint32_t walls) {
+CandidateList by_beams(const RadioModel& model, const dvec3& transmitter, Bounds bounds) {
   BeamSearchOptions options;
-  options.max_depth = max_depth;
-  options.max_transmissions = walls;
+  options.max_depth = bounds.depth;
+  options.max_transmissions = bounds.walls;
   BeamSearchResult result = BeamSearch(model.facets, model.kinds, model.wedges, options).search(transmitter);
   EXPECT_EQ(result.overflow(), 0u);
   return std::move(result.list);
 }
 
 /// No search at all: every sequence there is.
-CandidateList every_sequence(const RadioModel& model, const dvec3&, uint32_t) {
-  return exhaustive_candidates(model.facets.facet_count(), max_depth);
+CandidateList every_sequence(const RadioModel& model, const dvec3&, Bounds bounds) {
+  return exhaustive_candidates(model.facets.facet_count(), bounds.depth);
 }
 
-/// All stages for a scene; `walls`: how many a path may pass.
+/// All stages for a scene.
 class Rig {
  public:
-  Rig(const scene::Scene& scene, uint32_t walls)
-      : walls_(walls),
-        model_(scene, carrier_hz, effects_of(walls)),
+  Rig(const scene::Scene& scene, Bounds bounds)
+      : bounds_(bounds),
+        model_(scene, carrier_hz, effects_of(bounds.walls)),
         gpu_scene_(test::device(), scene, {}),
         pass_(gpu_scene_, model_.kinds),
         ring_(test::device(), 1, 1u << 16, 1u << 16) {}
@@ -64,10 +66,10 @@ class Rig {
   /// Looks for candidates; those for the receivers of paths().
   void search(const dvec3& transmitter, const CandidateSource& candidates = by_beams) {
     PathOptions options;
-    options.max_depth = max_depth;
-    options.max_transmissions = walls_;
+    options.max_depth = bounds_.depth;
+    options.max_transmissions = bounds_.walls;
     solver_.emplace(model_, options);
-    solver_->set_candidates(candidates(model_, transmitter, walls_), transmitter, Source::transmitter);
+    solver_->set_candidates(candidates(model_, transmitter, bounds_), transmitter, Source::transmitter);
     transmitter_ = transmitter;
   }
 
@@ -109,7 +111,7 @@ class Rig {
     return pass_.collect(pending, segments);
   }
 
-  uint32_t walls_;
+  Bounds bounds_;
   RadioModel model_;
   scene::GpuScene gpu_scene_;
   CrossingPass pass_;
@@ -118,19 +120,19 @@ class Rig {
   dvec3 transmitter_{0.0};
 };
 
-Links solve(const scene::Scene& scene, const RandomScene& random, uint32_t walls) {
-  Rig rig(scene, walls);
+Links solve(const scene::Scene& scene, const RandomScene& random, Bounds bounds) {
+  Rig rig(scene, bounds);
   rig.search(random.transmitter);
   return rig.paths(random.receivers);
 }
 
 std::vector<std::vector<GeometricPath>> reference_of(const scene::Scene& scene, const RandomScene& random,
-                                                     uint32_t walls) {
-  const RadioEffects effects = Rig::effects_of(walls);
+                                                     Bounds bounds) {
+  const RadioEffects effects = Rig::effects_of(bounds.walls);
   const std::vector<Pose> bodies{Pose{}};
   return reference::exhaustive_paths(scene, FacetWorld(scene), bodies, facet_kinds(scene, effects),
                                      random.transmitter, random.receivers,
-                                     {.max_depth = max_depth, .max_transmissions = walls})
+                                     {.max_depth = bounds.depth, .max_transmissions = bounds.walls})
       .paths;
 }
 
@@ -145,7 +147,7 @@ void expect_same(const std::vector<std::vector<AnyPath>>& expected, const Links&
                  const std::string& what, const reference::ComparisonTolerance& tolerance = {}) {
   static constexpr const char* names[] = {"missing", "doubled", "extra"};
   ASSERT_EQ(expected.size(), actual.size());
-  Comparison comparison(max_depth, tolerance);
+  Comparison comparison(3, tolerance);
   for (uint32_t r = 0; r < actual.size(); ++r)
     comparison.add(r, polylines(expected[r]), polylines(actual[r]));
   for (const Comparison::Mismatch& m : comparison.mismatches())
@@ -189,30 +191,30 @@ double spectral_norm(const Complex (&m)[4]) {
                    (squares + std::sqrt(std::max(0.0, squares * squares - 4.0 * determinant * determinant))));
 }
 
-/// A scene of every kind for each of these seeds, with `walls` passed on a path at most.
+/// A scene of every kind for each of these seeds, each with all of these bounds.
 struct Draw {
   RandomScene random;
   scene::Scene scene;
-  uint32_t walls;
+  Bounds bounds;
   std::string name;
 };
-std::vector<Draw> draws(uint64_t seeds, std::initializer_list<uint32_t> walls) {
+std::vector<Draw> draws(uint64_t seeds, std::initializer_list<Bounds> bounds, uint32_t receivers = 6) {
   std::vector<Draw> list;
   for (uint64_t seed = 100; seed < 100 + seeds; ++seed)
     for (uint32_t kind = 0; kind < random_scene_kinds; ++kind)
-      for (const uint32_t w : walls) {
-        const RandomScene random = random_scene(seed, kind, 6);
-        list.push_back(
-            {random, build(random), w, fmt::format("{}, seed {}, {} walls", random.name, seed, w)});
+      for (const Bounds& b : bounds) {
+        const RandomScene random = random_scene(seed, kind, receivers);
+        list.push_back({random, build(random), b,
+                        fmt::format("{}, seed {}, depth {}, {} walls", random.name, seed, b.depth, b.walls)});
       }
   return list;
 }
 
 TEST(Properties, EveryPathOfTheReferenceAndNoOther) {
   size_t paths = 0, through_walls = 0;
-  for (const Draw& draw : draws(4, {0, 2})) {
-    const auto reference = reference_of(draw.scene, draw.random, draw.walls);
-    expect_same(reference, solve(draw.scene, draw.random, draw.walls), draw.name);
+  for (const Draw& draw : draws(4, {{2, 2}, {3, 0}, {3, 2}}, 10)) {
+    const auto reference = reference_of(draw.scene, draw.random, draw.bounds);
+    expect_same(reference, solve(draw.scene, draw.random, draw.bounds), draw.name);
     for (const auto& link : reference) {
       paths += link.size();
       for (const GeometricPath& path : link)
@@ -221,12 +223,12 @@ TEST(Properties, EveryPathOfTheReferenceAndNoOther) {
     }
   }
   EXPECT_GT(paths, 2000u);  // that there is something to find
-  EXPECT_GT(through_walls, 100u);
+  EXPECT_GT(through_walls, 200u);
 }
 
 TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {
-  for (const Draw& draw : draws(1, {0, 2})) {
-    Rig rig(draw.scene, draw.walls);
+  for (const Draw& draw : draws(1, {{2, 1}, {3, 0}})) {
+    Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter, every_sequence);
     const Links all = rig.paths(draw.random.receivers);
     rig.search(draw.random.transmitter);
@@ -235,8 +237,8 @@ TEST(Properties, TheSearchLeavesOutNothingThatEverySequenceFinds) {
 }
 
 TEST(Properties, AReceiversPathsDependOnNoOther) {
-  for (const Draw& draw : draws(1, {0, 2})) {
-    Rig rig(draw.scene, draw.walls);
+  for (const Draw& draw : draws(1, {{2, 1}, {3, 0}})) {
+    Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter);
     const Links all = rig.paths(draw.random.receivers);
     for (size_t r = 0; r < all.size(); ++r)
@@ -247,10 +249,10 @@ TEST(Properties, AReceiversPathsDependOnNoOther) {
 }
 
 TEST(Properties, ThePathsOfTheReverseLinkAreTheSame) {
-  for (const Draw& draw : draws(1, {0, 2})) {
-    Rig rig(draw.scene, draw.walls);
+  for (const Draw& draw : draws(1, {{2, 1}, {3, 0}})) {
+    Rig rig(draw.scene, draw.bounds);
     rig.search(draw.random.transmitter);
-    const Links forward = rig.paths(std::span(draw.random.receivers).first(2));
+    const Links forward = rig.paths(std::span(draw.random.receivers).first(1));
     for (size_t r = 0; r < forward.size(); ++r) {
       rig.search(draw.random.receivers[r]);
       Links back = rig.paths(std::span(&draw.random.transmitter, 1));
@@ -262,50 +264,50 @@ TEST(Properties, ThePathsOfTheReverseLinkAreTheSame) {
 
 TEST(Properties, AShiftByUtmCoordinatesChangesNothing) {
   const dvec3 utm(500000.0, 5400000.0, 0.0);
-  for (const Draw& draw : draws(1, {2})) {
-    const Links near = solve(draw.scene, draw.random, draw.walls);
+  for (const Draw& draw : draws(1, {{3, 2}})) {
+    const Links near = solve(draw.scene, draw.random, draw.bounds);
     // The origin moves along: every bit is the same.
-    expect_same_bits(near, solve(build(draw.random, {.shift = utm, .origin = utm}), draw.random, draw.walls),
+    expect_same_bits(near, solve(build(draw.random, {.shift = utm, .origin = utm}), draw.random, draw.bounds),
                      draw.name);
     // It stays some way off, as when other objects set the bounds: 1e-9 m.
     const dvec3 off(-37.0, 54.0, 8.0);
     RandomScene moved = draw.random;
     moved.transmitter -= off;
     for (dvec3& receiver : moved.receivers) receiver -= off;
-    Links shifted = solve(build(draw.random, {.shift = utm, .origin = utm + off}), moved, draw.walls);
+    Links shifted = solve(build(draw.random, {.shift = utm, .origin = utm + off}), moved, draw.bounds);
     move_vertices(shifted, [&](const dvec3& vertex) { return vertex + off; });
     expect_same(near, shifted, draw.name, {.vertex_m = 1e-8, .length_m = 1e-9});
   }
 }
 
 TEST(Properties, ATurnedSceneHasTurnedPaths) {
-  for (const Draw& draw : draws(2, {2})) {
+  for (const Draw& draw : draws(2, {{3, 1}})) {
     const dquat turn = orientation_from_yaw_pitch_roll(-2.1, 0.4, 1.3);
     RandomScene turned = draw.random;
     turned.transmitter = turn * turned.transmitter;
     for (dvec3& receiver : turned.receivers) receiver = turn * receiver;
-    Links links = solve(build(draw.random, {.turn = turn}), turned, draw.walls);
+    Links links = solve(build(draw.random, {.turn = turn}), turned, draw.bounds);
     move_vertices(links, [&](const dvec3& vertex) { return glm::conjugate(turn) * vertex; });
-    expect_same(solve(draw.scene, draw.random, draw.walls), links, draw.name,
+    expect_same(solve(draw.scene, draw.random, draw.bounds), links, draw.name,
                 {.vertex_m = 1e-8, .length_m = 1e-9});
   }
 }
 
 TEST(Properties, FinerTrianglesChangeNothing) {
-  for (const Draw& draw : draws(2, {2}))
-    expect_same(solve(draw.scene, draw.random, draw.walls),
-                solve(build(draw.random, {.split = true}), draw.random, draw.walls), draw.name,
+  for (const Draw& draw : draws(2, {{3, 1}}))
+    expect_same(solve(draw.scene, draw.random, draw.bounds),
+                solve(build(draw.random, {.split = true}), draw.random, draw.bounds), draw.name,
                 {.vertex_m = 1e-9, .length_m = 1e-9});
 }
 
 TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
-  for (const Draw& draw : draws(2, {2})) {
+  for (const Draw& draw : draws(2, {{3, 1}})) {
     std::vector<uint32_t> order(draw.random.faces.size());
     std::iota(order.begin(), order.end(), 0u);
-    RandomStream random(draw.walls, 77);
+    RandomStream random(5, 77);
     for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
-    const Links plain = solve(draw.scene, draw.random, draw.walls);
-    const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.walls);
+    const Links plain = solve(draw.scene, draw.random, draw.bounds);
+    const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.bounds);
     expect_same(plain, other, draw.name, {.vertex_m = 1e-9, .length_m = 1e-9});
     // And the same field by the same facets; of walls that stand in one place another one may have been named.
     if (draw.random.name == "terrace") continue;
@@ -325,8 +327,8 @@ TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
 
 TEST(Properties, NoPathGainsEnergy) {
   double largest = 0.0;
-  for (const Draw& draw : draws(2, {2}))
-    for (const auto& link : solve(draw.scene, draw.random, draw.walls))
+  for (const Draw& draw : draws(2, {{3, 1}}))
+    for (const auto& link : solve(draw.scene, draw.random, draw.bounds))
       for (const Path& path : link) {
         // What free space of that length leaves of the field bounds it; the norm itself is good to sqrt(1e-16).
         const double gain = spectral_norm(path.transfer) * path.length_m;
@@ -342,7 +344,7 @@ TEST(PropertiesHardCase, N63_SearchesOfOneAndTwoThreadsAreTheSame) {
     const scene::Scene scene = build(random);
     const RadioModel model(scene, carrier_hz, {});
     BeamSearchOptions options;
-    options.max_depth = max_depth;
+    options.max_depth = 3;
     CandidateList lists[2];
     for (uint32_t threads : {1u, 2u}) {
       options.threads = threads;

@@ -43,8 +43,8 @@ class SceneDraw {
     const double half = kind == 3 ? 5.0 : 22.0, top = kind == 3 ? 3.5 : 14.0;
     if (kind == 0) triangles(16);
     if (kind != 0 && kind != 3) quad({-32, -32, 0}, {64, 0, 0}, {0, 64, 0});
-    if (kind == 1) boxes(5, false);
-    if (kind == 2) boxes(5, true);
+    if (kind == 1) boxes(4, false);
+    if (kind == 2) boxes(4, true);
     if (kind == 3) room();
     if (kind == 4) terrace();
     const auto point = [&] {
@@ -104,9 +104,9 @@ class SceneDraw {
   }
   /// Houses that share a wall, which is there twice: once for each, looking either way.
   void terrace() {
-    double y = -18.0;
+    double y = -12.0;
     const double x = snapped(-4, 4), depth = snapped(5, 9), height = snapped(6, 11);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 3; ++i) {
       const double width = snapped(5, 9);
       box({x, y, 0}, {depth, 0, 0}, {0, width, 0}, height);
       y += width;
