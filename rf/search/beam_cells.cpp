@@ -8,12 +8,13 @@
 namespace greatx::rf {
 namespace {
 
-/// Cells are cut until they are this many times smaller than what is not settled in them: a facet that nobody has seen
-/// yet, the rectangle on a facet that has been seen.
-constexpr double unseen_parts = 64.0, rectangle_parts = 16.0, finest_parts = 0x1p24;
-constexpr uint32_t most_tries = 256;
-/// Beyond so many, pairs are not compared: the cell is too large to settle anything anyway.
-constexpr size_t most_for_shells = 64, most_for_contacts = 32, most_for_wedges = 24;
+/// Cells with fewer facets are not worth cutting; nor are those that have been cut so often.
+constexpr size_t facets_of_leaf = 24;
+constexpr uint32_t most_levels = 24;
+/// Pieces of one polygon; what else would cut them up further is left out, so that they stay too large.
+constexpr size_t most_pieces = 512;
+/// Corners sharper than this (sine of half the angle) are blunted when an outline is moved outwards.
+constexpr double sharp = 0.3;
 
 /// Slope halfway between two directions, by angle.
 double bisect(double a, double b) {
@@ -21,521 +22,408 @@ double bisect(double a, double b) {
   return (a * length_b + b * length_a) / (length_a + length_b);
 }
 
+/// Least and largest depth at which rays of a cell meet a plane.
+std::pair<double, double> depths(const ViewFacet& facet, const SlopeRect& rect) {
+  const HalfPlane sum{facet.na, facet.nb, facet.n};
+  const double least = sum.least(rect), most = sum.most(rect);
+  return {most > 0.0 ? std::max(facet.min_depth, facet.distance / most) : facet.max_depth,
+          least > 0.0 ? std::min(facet.max_depth, facet.distance / least) : facet.max_depth};
+}
+
+/// Cuts the part [from, to] of the segment a, b; false: nothing is left.
+bool cut(const HalfPlane& half, const dvec2& a, const dvec2& b, double& from, double& to) {
+  const double at_a = half.at(a), at_b = half.at(b);
+  if (at_a < 0.0 && at_b < 0.0) return false;
+  if (at_a < 0.0) from = std::max(from, at_a / (at_a - at_b));
+  if (at_b < 0.0) to = std::min(to, at_a / (at_a - at_b));
+  return from < to;
+}
+
 }  // namespace
 
-void BeamCells::settle(const BeamView& view, const BeamCellOptions& options, std::vector<BeamHit>& hits,
+void FacetRegion::add(double a, double b, double room) {
+  min_a = std::min(min_a, a - room), max_a = std::max(max_a, a + room);
+  min_b = std::min(min_b, b - room), max_b = std::max(max_b, b + room);
+  min_sum = std::min(min_sum, a + b - 2.0 * room), max_sum = std::max(max_sum, a + b + 2.0 * room);
+  min_difference = std::min(min_difference, a - b - 2.0 * room);
+  max_difference = std::max(max_difference, a - b + 2.0 * room);
+}
+
+void FacetRegion::add(const FacetRegion& other) {
+  min_a = std::min(min_a, other.min_a), max_a = std::max(max_a, other.max_a);
+  min_b = std::min(min_b, other.min_b), max_b = std::max(max_b, other.max_b);
+  min_sum = std::min(min_sum, other.min_sum), max_sum = std::max(max_sum, other.max_sum);
+  min_difference = std::min(min_difference, other.min_difference);
+  max_difference = std::max(max_difference, other.max_difference);
+}
+
+void BeamCells::settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
                        std::vector<uint32_t>& wedges) {
   view_ = &view;
-  options_ = options;
-  targets_.assign(view.facets().size() * (options.walls + 1), Target{});
-  done_.assign(view.facets().size(), 0);
-  now_.clear(), next_.clear();
-  cells_before_ = cells_;
-  look_at(view.beam().window, nullptr);
-  while (!next_.cells.empty()) {
-    std::swap(now_, next_);
-    next_.clear();
-    for (const Cell& cell : now_.cells) {
-      const SlopeRect& rect = cell.rect;
-      const double a = bisect(rect.min_a, rect.max_a), b = bisect(rect.min_b, rect.max_b);
-      // Angles that the sides span, up to a common factor.
-      const bool across = (rect.max_a - rect.min_a) * std::sqrt(1.0 + b * b) >=
-                          (rect.max_b - rect.min_b) * std::sqrt(1.0 + a * a);
-      SlopeRect first = rect, second = rect;
-      if (across)
-        first.max_a = second.min_a = a;
-      else
-        first.max_b = second.min_b = b;
-      look_at(first, &cell);
-      look_at(second, &cell);
-    }
-  }
-  report(hits, wedges);
-}
+  walls_ = std::min(walls, most_passed);
+  const size_t count = view.facets().size();
+  regions_.assign(count * (walls_ + 1), FacetRegion{});
+  lit_.assign(count, 0);
+  outlines_.clear();
+  halves_.clear();
+  lists_.clear();
+  for (uint32_t facet = 0; facet < count; ++facet)
+    if (view.facets()[facet].box.overlaps(view.beam().window)) lists_.push_back(facet);
+  for (const ViewFacet& facet : view.facets())
+    outlines_.resize(std::max<size_t>(outlines_.size(), facet.first_polygon + facet.polygon_count));
+  look_at(view.beam().window, 0, lists_.size(), 0);
 
-void BeamCells::look_at(const SlopeRect& rect, const Cell* parent) {
-  ++cells_;
-  const double roundings = 1e-14 * view_->longest_direction();
-  here_.rect = rect;
-  here_.a = 0.5 * (rect.min_a + rect.max_a), here_.b = 0.5 * (rect.min_b + rect.max_b);
-  here_.half_a = 0.5 * (rect.max_a - rect.min_a) * (1.0 + 1e-9) + roundings;
-  here_.half_b = 0.5 * (rect.max_b - rect.min_b) * (1.0 + 1e-9) + roundings;
-  entries_.clear();
-  edges_.clear();
-  if (parent) {
-    for (uint32_t i = parent->first_entry; i < parent->first_entry + parent->entry_count; ++i) {
-      const Entry& from = now_.entries[i];
-      inherit(from, std::span(now_.edges).subspan(from.first_edge, from.edge_count), parent);
-    }
-  } else {
-    std::vector<uint32_t> all;
-    for (uint32_t facet = 0; facet < view_->facets().size(); ++facet) {
-      const ViewFacet& from = view_->facets()[facet];
-      all.resize(from.edge_count);
-      for (uint32_t i = 0; i < from.edge_count; ++i) all[i] = from.first_edge + i;
-      Entry entry;
-      entry.facet = facet;
-      inherit(entry, all, nullptr);
-    }
-  }
-  choose_sample();
-  if (!find_presence(parent)) return;
-  find_surfaces();
-  drop_hidden();
-  mark_seen();
-  find_wedges();
-  if (settled())
-    take();
-  else
-    keep();
-}
-
-double BeamCells::half_range(const ViewFacet& facet) const {
-  return std::abs(facet.na) * here_.half_a + std::abs(facet.nb) * here_.half_b;
-}
-
-bool BeamCells::touches(const ViewEdge& edge) const {
-  if (edge.min_a > here_.a + here_.half_a || edge.max_a < here_.a - here_.half_a) return false;
-  if (edge.min_b > here_.b + here_.half_b || edge.max_b < here_.b - here_.half_b) return false;
-  const double from_line = edge.normal_a * here_.a + edge.normal_b * here_.b - edge.offset;
-  return std::abs(from_line) <=
-         std::abs(edge.normal_a) * here_.half_a + std::abs(edge.normal_b) * here_.half_b + edge.room;
-}
-
-bool BeamCells::near_sample(const ViewEdge& edge) const {
-  if (edge.min_a > here_.sample_a || edge.max_a < here_.sample_a) return false;
-  if (edge.min_b > here_.sample_b || edge.max_b < here_.sample_b) return false;
-  return std::abs(edge.normal_a * here_.sample_a + edge.normal_b * here_.sample_b - edge.offset) <= edge.room;
-}
-
-/// Takes a facet of the parent's over if any of it can be in this cell.
-void BeamCells::inherit(const Entry& from, std::span<const uint32_t> edges, const Cell*) {
-  if (done_[from.facet]) return;
-  const ViewFacet& facet = view_->facets()[from.facet];
-  const double sum = facet.slope_sum(here_.a, here_.b), range = half_range(facet);
-  if (facet.role == ViewFacet::Role::facet) {
-    if ((sum + range) * facet.max_depth < facet.distance * (1.0 - 1e-9)) return;  // farther than any of it
-    if ((sum - range) * view_->beam().near_m > facet.distance + facet.contact_m) return;  // behind the mirror
-  }
-  Entry entry = from;
-  entry.first_edge = static_cast<uint32_t>(edges_.size());
-  for (const uint32_t edge : edges)
-    if (touches(view_->edges()[edge])) edges_.push_back(edge);
-  entry.edge_count = static_cast<uint32_t>(edges_.size()) - entry.first_edge;
-  if (facet.role == ViewFacet::Role::wedge && entry.edge_count == 0) return;
-  if (!edges.empty()) entry.at_sample = unknown;  // its outline lies between the samples, perhaps
-  entry.gone = false, entry.walls = 0;
-  entry.stops = facet.role == ViewFacet::Role::facet && sum - range > 0.0 &&
-                facet.distance - (sum + range) * view_->beam().near_m >= view_->room_m() &&
-                view_->scene().facet(facet.scene_facet).body != options_.transparent_body;
-  entries_.push_back(entry);
-}
-
-/// A ray of the cell that no edge is near, so that every facet knows whether it is hit; else the centre's.
-void BeamCells::choose_sample() {
-  static constexpr double tries[][2] = {
-      {0.0, 0.0}, {0.31, 0.17}, {-0.23, 0.37}, {0.41, -0.29}, {-0.37, -0.19}};
-  for (const auto& at : tries) {
-    here_.sample_a = here_.a + at[0] * here_.half_a, here_.sample_b = here_.b + at[1] * here_.half_b;
-    const bool clear = std::none_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-      if (facet_of(entry).role == ViewFacet::Role::wedge) return false;
-      const auto edges = edges_of(entry);
-      return std::any_of(edges.begin(), edges.end(),
-                         [&](uint32_t edge) { return near_sample(view_->edges()[edge]); });
-    });
-    if (clear) return;
-  }
-  here_.sample_a = here_.a, here_.sample_b = here_.b;
-}
-
-/// Which outlines the sample is in, and so which facets cover the cell or have none of it. False: the cell is outside of
-/// the mirror.
-bool BeamCells::find_presence(const Cell*) {
-  size_t kept = 0;
-  for (size_t i = 0; i < entries_.size(); ++i) {
-    Entry& entry = entries_[i];
-    const ViewFacet& facet = facet_of(entry);
-    if (facet.role != ViewFacet::Role::wedge) {
-      const auto edges = edges_of(entry);
-      const double sum = facet.slope_sum(here_.sample_a, here_.sample_b);
-      const bool met = sum > 0.0 && facet.distance + facet.contact_m >= sum * view_->beam().near_m;
-      if (!met)
-        entry.at_sample = unknown;
-      else if (std::any_of(edges.begin(), edges.end(),
-                           [&](uint32_t edge) { return near_sample(view_->edges()[edge]); }))
-        entry.at_sample = unknown;
-      else if (entry.at_sample == unknown)
-        entry.at_sample = view_->contains(facet, here_.sample_a, here_.sample_b) ? present : absent;
-      if (edges.empty() && entry.at_sample == absent) {
-        if (facet.role == ViewFacet::Role::mirror) return false;
-        continue;
-      }
-      if (facet.role == ViewFacet::Role::mirror && edges.empty() && entry.at_sample == present) continue;
-      entry.covers = entry.stops && edges.empty() && entry.at_sample == present;
-    }
-    if (kept != i) entries_[kept] = entry;
-    ++kept;
-  }
-  entries_.resize(kept);
-  return true;
-}
-
-/// Is all of `facet` that the cell may hold behind the plane of `cover`, by more than `room` metres?
-bool BeamCells::in_front(const ViewFacet& cover, const ViewFacet& facet, double room) const {
-  const double rounding = view_->rounding_m();
-  const double sum = cover.slope_sum(here_.a, here_.b), range = half_range(cover);
-  const double reach = cover.distance + rounding + room;
-  if ((sum - range) * facet.min_depth > reach * (1.0 + 1e-12)) return true;
-  const double distance = facet.distance - rounding;
-  if (distance <= 0.0) return false;
-  // depth of facet / depth of cover, both affine over the cell: least at a corner
-  const double center = sum * distance - facet.slope_sum(here_.a, here_.b) * reach;
-  const double spread = std::abs(cover.na * distance - facet.na * reach) * here_.half_a +
-                        std::abs(cover.nb * distance - facet.nb * reach) * here_.half_b;
-  const double roundings = 1e-14 * view_->longest_direction() * (distance + reach);
-  return center - spread > roundings;
-}
-
-/// Will both be counted as walls passed by every path that passes them in this cell? Not walls in one plane or next to
-/// each other, which crossings take for one (shaders/rf/crossings.comp.glsl).
-bool BeamCells::apart(const ViewFacet& first, const ViewFacet& second) const {
-  const BeamScene& scene = view_->scene();
-  const BeamFacet &a = scene.facet(first.scene_facet), &b = scene.facet(second.scene_facet);
-  const double room = view_->room_m() + 1e-5 * scene.largest_coordinate();
-  if (std::abs(glm::dot(a.normal, b.normal)) > 0.99) {
-    if (std::abs(glm::dot(a.normal, b.reference) - a.offset) < room) return false;
-    if (std::abs(glm::dot(b.normal, a.reference) - b.offset) < room) return false;
-  }
-  return in_front(first, second, room);
-}
-
-void BeamCells::find_surfaces() {
-  surfaces_.clear();
-  members_.clear();
-  const auto inverse_depth = [&](const Entry& entry) {
-    const ViewFacet& facet = facet_of(entry);
-    return facet.slope_sum(here_.sample_a, here_.sample_b) / facet.distance;
-  };
-  for (uint32_t i = 0; i < entries_.size(); ++i) {
-    if (!entries_[i].covers) continue;
-    surfaces_.push_back({static_cast<uint32_t>(members_.size()), 1, inverse_depth(entries_[i]),
-                         facet_of(entries_[i]).kind == FacetKind::opaque});
-    members_.push_back(i);
-  }
-  if (entries_.size() <= most_for_shells) {
-    visited_.assign(entries_.size(), 0);
-    for (uint32_t i = 0; i < entries_.size(); ++i) {
-      const Entry& entry = entries_[i];
-      if (visited_[i] || entry.covers || !entry.stops || entry.at_sample != present) continue;
-      const size_t before = surfaces_.size();
-      grow_shell(i);
-      if (surfaces_.size() > before) surfaces_.back().inverse_depth = inverse_depth(entry);
-    }
-  }
-  std::stable_sort(surfaces_.begin(), surfaces_.end(),
-                   [](const Surface& a, const Surface& b) { return a.inverse_depth > b.inverse_depth; });
-}
-
-/// Facets that share an edge cover the cell together: from `start` on, each edge that may touch the cell needs a
-/// neighbour on its other side. Where all of them have one, the number of facets that a ray of the cell meets is odd or
-/// even all over the cell (only edges change it, two facets at a time), and if it is odd, no ray misses them all. That
-/// also holds for the mesh itself, whose corners may be off the planes.
-void BeamCells::grow_shell(uint32_t start) {
-  const uint32_t first = static_cast<uint32_t>(members_.size());
-  const auto add = [&](uint32_t member) {
-    if (std::find(members_.begin() + first, members_.end(), member) == members_.end())
-      members_.push_back(member);
-  };
-  const auto neighbour = [&](uint32_t member, const ViewEdge& edge) {
-    for (uint32_t i = 0; i < entries_.size(); ++i) {
-      const Entry& other = entries_[i];
-      if (i == member || !other.stops || other.at_sample == unknown || !facet_of(other).regular) continue;
-      for (const uint32_t index : edges_of(other)) {
-        const ViewEdge& shared = view_->edges()[index];
-        if (shared.edge == edge.edge && shared.left != edge.left) return i;
-      }
-    }
-    return ~0u;
-  };
-  add(start);
-  bool closed = facet_of(entries_[start]).regular;
-  for (uint32_t at = first; closed && at < members_.size(); ++at) {
-    const uint32_t member = members_[at];
-    for (const uint32_t index : edges_of(entries_[member])) {
-      const uint32_t other = neighbour(member, view_->edges()[index]);
-      closed = other != ~0u;
-      if (!closed) break;
-      add(other);
-    }
-  }
-  uint32_t met = 0;
-  bool opaque = true;
-  for (uint32_t at = first; at < members_.size(); ++at) {
-    visited_[members_[at]] = 1;
-    met += entries_[members_[at]].at_sample == present;
-    opaque = opaque && facet_of(entries_[members_[at]]).kind == FacetKind::opaque;
-  }
-  if (closed && met % 2 == 1)
-    surfaces_.push_back({first, static_cast<uint32_t>(members_.size()) - first, 0.0, opaque});
-  else
-    members_.resize(first);
-}
-
-void BeamCells::drop_hidden() {
-  const auto members = [&](const Surface& surface) {
-    return std::span(members_).subspan(surface.first, surface.count);
-  };
-  const auto all_in_front = [&](const Surface& surface, uint32_t index) {
-    const ViewFacet& facet = facet_of(entries_[index]);
-    for (const uint32_t member : members(surface)) {
-      const ViewFacet& cover = facet_of(entries_[member]);
-      if (member == index) return false;
-      if (cover.scene_facet == facet.wedge_faces[0] || cover.scene_facet == facet.wedge_faces[1])
-        return false;
-      if (in_front(cover, facet, view_->room_m())) continue;
-      // Beside a common edge nothing is well behind; what is there lies within a strip that the tolerance makes.
-      if (options_.edge_strips || facet.role != ViewFacet::Role::facet) return false;
-      if (!in_front(cover, facet, 0.0)) return false;
-      if (!view_->scene().meet_at_an_angle(cover.scene_facet, facet.scene_facet)) return false;
-    }
-    return true;
-  };
-  const auto all_apart = [&](const Surface& first, const Surface& second) {
-    for (const uint32_t a : members(first))
-      for (const uint32_t b : members(second))
-        if (a == b || !apart(facet_of(entries_[a]), facet_of(entries_[b]))) return false;
-    return true;
-  };
-  std::vector<const Surface*> counted;
-  for (const Surface& surface : surfaces_) {
-    const auto in_it = members(surface);
-    if (std::all_of(in_it.begin(), in_it.end(), [&](uint32_t member) { return entries_[member].gone; }))
-      continue;
-    const bool stops = surface.opaque || options_.walls == 0;
-    const bool counts = !stops && std::all_of(counted.begin(), counted.end(), [&](const Surface* other) {
-      return all_apart(*other, surface);
-    });
-    if (counts) counted.push_back(&surface);
-    if (!stops && !counts) continue;
-    for (uint32_t i = 0; i < entries_.size(); ++i) {
-      Entry& entry = entries_[i];
-      if (entry.gone || facet_of(entry).role == ViewFacet::Role::mirror || !all_in_front(surface, i))
-        continue;
-      if (stops || ++entry.walls > options_.walls) entry.gone = true;
-    }
-  }
-  if (options_.edge_strips || entries_.size() > most_for_contacts) return;
-  for (Entry& entry : entries_)
-    if (!entry.gone && facet_of(entry).role == ViewFacet::Role::facet && hidden_at_contact(entry))
-      entry.gone = true;
-}
-
-/// What the sample's ray meets first is there, and no smaller cell will prove otherwise.
-void BeamCells::mark_seen() {
-  struct Met {
-    uint32_t entry;
-    double depth;
-  };
-  std::vector<Met> met;
-  for (uint32_t i = 0; i < entries_.size(); ++i) {
-    const ViewFacet& facet = facet_of(entries_[i]);
-    if (facet.role == ViewFacet::Role::mirror && entries_[i].at_sample != present) return;
-    if (facet.role == ViewFacet::Role::facet && entries_[i].at_sample == present)
-      met.push_back({i, facet.distance / facet.slope_sum(here_.sample_a, here_.sample_b)});
-  }
-  std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
-    return a.depth != b.depth ? a.depth < b.depth : a.entry < b.entry;
-  });
-  uint32_t walls = 0;
-  double last = -1e300;
-  for (const Met& one : met) {
-    const Entry& entry = entries_[one.entry];
-    if (!entry.gone && walls <= entry.walls) target(entry).seen = true;
-    if (!entry.stops) continue;
-    if (facet_of(entry).kind == FacetKind::opaque || options_.walls == 0) return;
-    if (one.depth > last + view_->room_m() && ++walls > options_.walls) return;
-    last = one.depth;
-  }
-}
-
-/// Wedges that are in sight at one point need no proof any more.
-void BeamCells::find_wedges() {
-  if (entries_.size() > most_for_wedges) return;
-  for (Entry& entry : entries_) {
-    const ViewFacet& wedge = facet_of(entry);
-    if (wedge.role != ViewFacet::Role::wedge || entry.gone) continue;
-    const ViewEdge& edge = view_->edges()[edges_of(entry)[0]];
-    // The middle of what is in the cell.
-    dvec2 from = edge.ends[0], to = edge.ends[1];
-    const auto cut = [&](auto side) {
-      const double at_from = side(from), at_to = side(to);
-      if (at_from < 0.0 && at_to < 0.0) return false;
-      if (at_from < 0.0)
-        from = from + at_from / (at_from - at_to) * (to - from);
-      else if (at_to < 0.0)
-        to = from + at_from / (at_from - at_to) * (to - from);
-      return true;
-    };
-    if (!cut([&](const dvec2& x) { return x.x - here_.rect.min_a; }) ||
-        !cut([&](const dvec2& x) { return here_.rect.max_a - x.x; }) ||
-        !cut([&](const dvec2& x) { return x.y - here_.rect.min_b; }) ||
-        !cut([&](const dvec2& x) { return here_.rect.max_b - x.y; }))
-      continue;
-    const dvec2 middle = 0.5 * (from + to);
-    const double inverse_depth = wedge.slope_sum(middle.x, middle.y) / wedge.distance;
-    uint32_t walls = 0;
-    bool blocked = false;
-    for (const Entry& other : entries_) {
-      const ViewFacet& facet = facet_of(other);
-      if (facet.role == ViewFacet::Role::mirror)
-        blocked = blocked || !view_->contains(facet, middle.x, middle.y);
-      if (facet.role != ViewFacet::Role::facet || blocked) continue;
-      if (facet.scene_facet == wedge.wedge_faces[0] || facet.scene_facet == wedge.wedge_faces[1]) continue;
-      if (facet.slope_sum(middle.x, middle.y) <= inverse_depth * facet.distance) continue;
-      if (!view_->contains(facet, middle.x, middle.y)) continue;
-      blocked = facet.kind == FacetKind::opaque || ++walls > options_.walls;
-    }
-    if (blocked) continue;
-    targets_[entry.facet * (options_.walls + 1)].used = true;
-    done_[entry.facet] = 1;
-    entry.gone = true;
-  }
-}
-
-bool BeamCells::fine(const ViewFacet& facet, double parts) const {
-  return parts * std::max(here_.half_a, here_.half_b) * 2.0 <= facet.extent;
-}
-
-bool BeamCells::settled() {
-  if (cells_ - cells_before_ >= options_.most_cells) return true;
-  size_t left = 0;
-  bool partly_outside = false;
-  for (const Entry& entry : entries_) {
-    left += !entry.gone && facet_of(entry).role != ViewFacet::Role::mirror;
-    partly_outside = partly_outside || facet_of(entry).role == ViewFacet::Role::mirror;
-  }
-  if (left == 0 || (left == 1 && !partly_outside)) return true;
-  for (const Entry& entry : entries_) {
-    const ViewFacet& facet = facet_of(entry);
-    if (entry.gone || facet.role == ViewFacet::Role::mirror) continue;
-    Target& known = target(entry);
-    if (!known.seen && !fine(facet, unseen_parts)) return false;
-    if (!known.seen && known.tries < most_tries && !fine(facet, finest_parts)) {
-      ++known.tries;
-      return false;
-    }
-    if (known.seen && options_.tight && !fine(facet, rectangle_parts)) {
-      BeamHit window;
-      if (!project(facet, window)) continue;
-      if (window.min_a < known.min_a || window.max_a > known.max_a || window.min_b < known.min_b ||
-          window.max_b > known.max_b)
-        return false;
-    }
-  }
-  return true;
-}
-
-void BeamCells::take() {
-  for (const Entry& entry : entries_) {
-    const ViewFacet& facet = facet_of(entry);
-    if (entry.gone || facet.role == ViewFacet::Role::mirror) continue;
-    Target& known = target(entry);
-    if (facet.role == ViewFacet::Role::wedge) {
-      known.used = true;
-      done_[entry.facet] = 1;
-      continue;
-    }
-    BeamHit window;
-    if (!project(facet, window)) continue;
-    known.used = true;
-    known.min_a = std::min(known.min_a, window.min_a), known.max_a = std::max(known.max_a, window.max_a);
-    known.min_b = std::min(known.min_b, window.min_b), known.max_b = std::max(known.max_b, window.max_b);
-  }
-}
-
-/// The cell is to be cut: its lists go to the next generation.
-void BeamCells::keep() {
-  Cell cell{here_.rect, here_.sample_a, here_.sample_b, static_cast<uint32_t>(next_.entries.size()), 0};
-  for (const Entry& entry : entries_) {
-    if (entry.gone) continue;
-    Entry kept = entry;
-    kept.first_edge = static_cast<uint32_t>(next_.edges.size());
-    const auto edges = edges_of(entry);
-    next_.edges.insert(next_.edges.end(), edges.begin(), edges.end());
-    next_.entries.push_back(kept);
-  }
-  cell.entry_count = static_cast<uint32_t>(next_.entries.size()) - cell.first_entry;
-  next_.cells.push_back(cell);
-}
-
-/// The rectangle around the cell's projection onto a facet, within the facet's own; false: the cell has none of it.
-bool BeamCells::project(const ViewFacet& view, BeamHit& window) const {
-  const BeamFacet& facet = view_->scene().facet(view.scene_facet);
-  const Beam& beam = view_->beam();
-  window.min_a = window.min_b = 1e300, window.max_a = window.max_b = -1e300;
-  // The facet's own depths, as bounds of its sums.
-  const double least = view.distance / view.max_depth * (1.0 - 1e-9);
-  double most = view.distance / view.min_depth * (1.0 + 1e-9);
-  if (beam.near_m > 0.0) most = std::min(most, (view.distance + view.contact_m) / beam.near_m);
-  dvec2 polygon[8] = {{here_.a - here_.half_a, here_.b - here_.half_b},
-                      {here_.a + here_.half_a, here_.b - here_.half_b},
-                      {here_.a + here_.half_a, here_.b + here_.half_b},
-                      {here_.a - here_.half_a, here_.b + here_.half_b}};
-  int count = 4;
-  const auto cut = [&](double sign, double bound) {
-    dvec2 kept[8];
-    int kept_count = 0;
-    for (int i = 0; i < count; ++i) {
-      const dvec2 &from = polygon[i], &to = polygon[(i + 1) % count];
-      const double at_from = sign * (view.slope_sum(from.x, from.y) - bound);
-      const double at_to = sign * (view.slope_sum(to.x, to.y) - bound);
-      if (at_from >= 0.0) kept[kept_count++] = from;
-      if ((at_from < 0.0) != (at_to < 0.0))
-        kept[kept_count++] = from + at_from / (at_from - at_to) * (to - from);
-    }
-    std::copy(kept, kept + kept_count, polygon);
-    count = kept_count;
-  };
-  cut(1.0, least);
-  cut(-1.0, most);
-  if (count == 0) return false;
-  const double apex_a = glm::dot(facet.axis_a, beam.apex) - facet.offset_a;
-  const double apex_b = glm::dot(facet.axis_b, beam.apex) - facet.offset_b;
-  double farthest = 0.0;
-  for (int i = 0; i < count; ++i) {
-    const dvec3 direction = polygon[i].x * beam.right + polygon[i].y * beam.up + beam.forward;
-    const double depth = view.distance / std::clamp(view.slope_sum(polygon[i].x, polygon[i].y), least, most);
-    const double a = apex_a + depth * glm::dot(facet.axis_a, direction);
-    const double b = apex_b + depth * glm::dot(facet.axis_b, direction);
-    farthest = std::max(farthest, depth * glm::length(direction));
-    window.min_a = std::min(window.min_a, a), window.max_a = std::max(window.max_a, a);
-    window.min_b = std::min(window.min_b, b), window.max_b = std::max(window.max_b, b);
-  }
-  const double border = 2.0 * facet.tolerance_m + view_->rounding_m();
-  const double room = border + farthest * (4.0 * view_->rounding_m() / view.distance + 1e-13);
-  window.min_a = std::max(window.min_a - room, facet.min_a - border);
-  window.max_a = std::min(window.max_a + room, facet.max_a + border);
-  window.min_b = std::max(window.min_b - room, facet.min_b - border);
-  window.max_b = std::min(window.max_b + room, facet.max_b + border);
-  return window.min_a <= window.max_a && window.min_b <= window.max_b;
-}
-
-void BeamCells::report(std::vector<BeamHit>& hits, std::vector<uint32_t>& wedges) const {
   const size_t first_wedge = wedges.size();
-  const uint32_t levels = options_.walls + 1;
-  for (uint32_t i = 0; i < view_->facets().size(); ++i) {
-    const ViewFacet& facet = view_->facets()[i];
-    for (uint32_t walls = 0; walls < levels; ++walls) {
-      const Target& known = targets_[i * levels + walls];
-      if (!known.used) continue;
-      if (facet.role == ViewFacet::Role::wedge)
-        wedges.push_back(facet.scene_facet);
-      else
-        hits.push_back({facet.scene_facet, walls, known.min_a, known.max_a, known.min_b, known.max_b});
-    }
+  for (uint32_t i = 0; i < count; ++i) {
+    const ViewFacet& facet = view.facets()[i];
+    if (facet.is_wedge && lit_[i]) wedges.push_back(facet.scene_facet);
+    if (facet.is_wedge) continue;
+    for (uint32_t passed = 0; passed <= walls_; ++passed)
+      if (const FacetRegion& region = regions_[i * (walls_ + 1) + passed]; !region.empty())
+        hits.push_back({facet.scene_facet, passed, region});
   }
   std::sort(wedges.begin() + static_cast<ptrdiff_t>(first_wedge), wedges.end());
-  wedges.erase(std::unique(wedges.begin() + static_cast<ptrdiff_t>(first_wedge), wedges.end()), wedges.end());
+}
+
+/// The cell's facets are lists_[first, end), the last ones of the list.
+void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_t level) {
+  ++cells_;
+  drop_hidden(rect, first);
+  end = lists_.size();
+  if (end - first > facets_of_leaf && level < most_levels) {
+    const double a = bisect(rect.min_a, rect.max_a), b = bisect(rect.min_b, rect.max_b);
+    // Angles that the sides span, up to a common factor.
+    const bool across = (rect.max_a - rect.min_a) * std::sqrt(1.0 + b * b) >=
+                        (rect.max_b - rect.min_b) * std::sqrt(1.0 + a * a);
+    SlopeRect halves[2] = {rect, rect};
+    if (across)
+      halves[0].max_a = halves[1].min_a = a;
+    else
+      halves[0].max_b = halves[1].min_b = b;
+    size_t counts[2] = {0, 0};
+    for (int side = 0; side < 2; ++side)
+      for (size_t i = first; i < end; ++i)
+        counts[side] += view_->facets()[lists_[i]].box.overlaps(halves[side]);
+    // Not where cutting would but do the same work twice.
+    if (10 * std::max(counts[0], counts[1]) < 9 * (end - first)) {
+      for (const SlopeRect& half : halves) {
+        for (size_t i = first; i < end; ++i)
+          if (view_->facets()[lists_[i]].box.overlaps(half)) lists_.push_back(lists_[i]);
+        look_at(half, end, lists_.size(), level + 1);
+        lists_.resize(end);
+      }
+      return;
+    }
+  }
+  settle_leaf(rect, first);
+}
+
+/// Constraints of a polygon's rays: its edges, moved outwards by the clearance so that no gaps are left between
+/// neighbours, and that they start well before it.
+std::span<const HalfPlane> BeamCells::outline(uint32_t polygon, const ViewFacet& facet) {
+  Outline& known = outlines_[polygon];
+  if (known.count == 0) {
+    const ViewPolygon& shape = view_->polygons(facet)[polygon - facet.first_polygon];
+    const std::span<const dvec2> corners = view_->corners(shape);
+    const double wider = view_->clearance_m() / shape.max_depth;
+    known.first = static_cast<uint32_t>(halves_.size());
+    double area = 0.0;
+    for (size_t i = 1; i + 1 < corners.size(); ++i) {
+      const dvec2 u = corners[i] - corners[0], v = corners[i + 1] - corners[0];
+      area += u.x * v.y - u.y * v.x;
+    }
+    const double sign = area < 0.0 ? -1.0 : 1.0;
+    dvec2 before(0.0);
+    const size_t count = corners.size();
+    for (size_t i = 0; i <= count; ++i) {  // the first edge again, for the corner before it
+      const dvec2 &from = corners[i % count], &to = corners[(i + 1) % count];
+      const double length = std::hypot(to.x - from.x, to.y - from.y);
+      if (length == 0.0) continue;
+      const dvec2 inwards = sign / length * dvec2(from.y - to.y, to.x - from.x);
+      if (i < count)
+        halves_.push_back({inwards.x, inwards.y, wider - inwards.x * from.x - inwards.y * from.y});
+      const dvec2 bisector = before + inwards;
+      const double half = 0.5 * std::hypot(bisector.x, bisector.y);  // sine of half the angle
+      if (before != dvec2(0.0) && half < sharp) {
+        const dvec2 back = half > 1e-9 ? bisector / (2.0 * half) : 1.0 / length * (to - from);
+        halves_.push_back({back.x, back.y, wider - back.x * from.x - back.y * from.y});
+      }
+      before = inwards;
+    }
+    if (view_->beam().mirror != Beam::no_mirror && facet.start.least(view_->beam().window) < 0.0)
+      halves_.push_back(facet.start);
+    known.count = static_cast<uint32_t>(halves_.size()) - known.first;
+  }
+  return std::span(halves_).subspan(known.first, known.count);
+}
+
+bool BeamCells::covers(uint32_t index, const SlopeRect& rect) {
+  const ViewFacet& facet = view_->facets()[index];
+  const SlopeRect& box = facet.box;
+  const double wider = view_->clearance_m() / facet.max_depth;
+  if (box.min_a - wider > rect.min_a || box.max_a + wider < rect.max_a || box.min_b - wider > rect.min_b ||
+      box.max_b + wider < rect.max_b)
+    return false;
+  for (uint32_t i = 0; i < facet.polygon_count; ++i) {
+    const auto constraints = outline(facet.first_polygon + i, facet);
+    if (std::all_of(constraints.begin(), constraints.end(),
+                    [&](const HalfPlane& half) { return half.least(rect) >= 0.0; }))
+      return true;
+  }
+  return false;
+}
+
+/// Takes what the nearest facet that fills the cell hides off the last list.
+void BeamCells::drop_hidden(const SlopeRect& rect, size_t first) {
+  uint32_t cover = ~0u;
+  double nearest = 1e300;
+  for (size_t i = first; i < lists_.size(); ++i) {
+    const ViewFacet& facet = view_->facets()[lists_[i]];
+    if (!facet.hides || (facet.kind != FacetKind::opaque && walls_ > 0)) continue;
+    const double far = depths(facet, rect).second;
+    if (far < nearest && covers(lists_[i], rect)) cover = lists_[i], nearest = far;
+  }
+  if (cover == ~0u) return;
+  const ViewFacet& front = view_->facets()[cover];
+  const auto hidden = [&](uint32_t index) {
+    const ViewFacet& facet = view_->facets()[index];
+    if (index == cover) return false;
+    if (facet.is_wedge &&
+        (facet.wedge_faces[0] == front.scene_facet || facet.wedge_faces[1] == front.scene_facet))
+      return false;
+    return in_front(front, facet).least(rect) > 0.0;
+  };
+  lists_.erase(std::remove_if(lists_.begin() + static_cast<ptrdiff_t>(first), lists_.end(), hidden),
+               lists_.end());
+}
+
+void BeamCells::settle_leaf(const SlopeRect& rect, size_t first) {
+  entries_.clear();
+  for (size_t i = first; i < lists_.size(); ++i) {
+    const auto [near, far] = depths(view_->facets()[lists_[i]], rect);
+    entries_.push_back({lists_[i], near, far});
+  }
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return a.min_depth != b.min_depth ? a.min_depth < b.min_depth : a.facet < b.facet;
+  });
+  for (const Entry& entry : entries_) {
+    if (view_->facets()[entry.facet].is_wedge)
+      settle_wedge(rect, entry);
+    else
+      settle_facet(rect, entry);
+  }
+}
+
+/// Where `cover` is in front of `facet`, in slopes; of unit gradient where it has one.
+HalfPlane BeamCells::in_front(const ViewFacet& cover, const ViewFacet& facet) const {
+  const double room = facet.is_wedge
+                          ? view_->room_m()
+                          : view_->room_between({cover.na, cover.nb, cover.n}, {facet.na, facet.nb, facet.n});
+  const double reach = cover.distance + room + view_->rounding_m();
+  const double distance = facet.distance - view_->rounding_m();
+  if (reach <= 0.0 || distance <= 0.0) return {0.0, 0.0, -1.0};  // the apex is all but in its plane
+  HalfPlane front{cover.na * distance - facet.na * reach, cover.nb * distance - facet.nb * reach,
+                  cover.n * distance - facet.n * reach};
+  const double gradient = std::hypot(front.a, front.b);
+  if (gradient <= 1e-15 * (distance + reach))
+    return {0.0, 0.0, front.c > 1e-14 * (distance + reach) ? 1.0 : -1.0};
+  return {front.a / gradient, front.b / gradient, front.c / gradient};
+}
+
+/// Will two walls be counted as two by every path that passes them? Not if they are in one plane, which crossings take for
+/// one (shaders/rf/crossings.comp.glsl).
+bool BeamCells::apart(uint32_t wall, uint32_t other) const {
+  const BeamScene& scene = view_->scene();
+  const BeamFacet& a = scene.facet(view_->facets()[wall].scene_facet);
+  const BeamFacet& b = scene.facet(view_->facets()[other].scene_facet);
+  if (wall == other) return false;
+  if (std::abs(glm::dot(a.normal, b.normal)) < 0.99) return true;
+  const double room = view_->room_m() + 1e-5 * scene.largest_coordinate();
+  return std::abs(glm::dot(a.normal, b.reference) - a.offset) >= room &&
+         std::abs(glm::dot(b.normal, a.reference) - b.offset) >= room;
+}
+
+/// Counts a wall that a piece lies behind; false: that is one too many.
+bool BeamCells::passes_one_more(std::array<uint32_t, most_passed>& passed, uint32_t& walls,
+                                uint32_t wall) const {
+  for (uint32_t i = 0; i < walls; ++i)
+    if (!apart(passed[i], wall)) return true;
+  if (walls == walls_) return false;
+  passed[walls++] = wall;
+  return true;
+}
+
+void BeamCells::settle_facet(const SlopeRect& rect, const Entry& entry) {
+  const ViewFacet& facet = view_->facets()[entry.facet];
+  const Beam& beam = view_->beam();
+  const HalfPlane sides[] = {{1.0, 0.0, -rect.min_a},           {-1.0, 0.0, rect.max_a},
+                             {0.0, 1.0, -rect.min_b},           {0.0, -1.0, rect.max_b},
+                             {1.0, 1.0, -beam.min_sum},         {-1.0, -1.0, beam.max_sum},
+                             {1.0, -1.0, -beam.min_difference}, {-1.0, 1.0, beam.max_difference}};
+  for (const ViewPolygon& polygon : view_->polygons(facet)) {
+    if (!polygon.box.overlaps(rect)) continue;
+    Convex shape;
+    for (const dvec2& corner : view_->corners(polygon)) shape.add(corner);
+    if (std::all_of(std::begin(sides), std::end(sides),
+                    [&](const HalfPlane& side) { return clip(shape, side); }))
+      settle_polygon(facet, entry, shape);
+  }
+}
+
+/// Takes all that is in front away from a polygon; what is left is lit.
+void BeamCells::settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole) {
+  pieces_.assign(1, Piece{whole, 0, {}});
+  const SlopeRect box = whole.box();
+  double cut_by = 0.0;
+  for (const Entry& other : entries_) {
+    if (other.min_depth > entry.max_depth) break;
+    const ViewFacet& cover = view_->facets()[other.facet];
+    if (!cover.hides || other.facet == entry.facet || !cover.box.overlaps(box)) continue;
+    const HalfPlane front = in_front(cover, facet);
+    if (front.most(box) <= 0.0) continue;
+    for (uint32_t i = 0; i < cover.polygon_count && !pieces_.empty(); ++i) {
+      const uint32_t polygon = cover.first_polygon + i;
+      const ViewPolygon& shape = view_->polygons(cover)[i];
+      if (!shape.box.overlaps(box)) continue;
+      const auto constraints = outline(polygon, cover);
+      if (std::any_of(constraints.begin(), constraints.end(),
+                      [&](const HalfPlane& half) { return half.most(box) <= 0.0; }))
+        continue;
+      subtract(other.facet, front, constraints);
+      cut_by = std::max(cut_by, view_->clearance_m() / shape.max_depth);
+    }
+    if (pieces_.empty()) return;
+  }
+  for (const Piece& piece : pieces_)
+    add_to(regions_[entry.facet * (walls_ + 1) + piece.walls], facet, piece.shape, cut_by);
+}
+
+/// Takes away what is inside of all constraints, or counts a wall for it.
+void BeamCells::subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline) {
+  next_.clear();
+  const bool stops = view_->facets()[cover].kind == FacetKind::opaque || walls_ == 0;
+  for (Piece& piece : pieces_) {
+    const size_t before = next_.size();
+    Convex rest = piece.shape, inside, outside;
+    bool whole = pieces_.size() + next_.size() > most_pieces;
+    const auto cut_off = [&](const HalfPlane& half) {
+      if (!split(rest, half, inside, outside)) return false;
+      if (outside.count > 0 && inside.count > 0) {
+        next_.push_back(piece);
+        next_.back().shape = outside;
+      }
+      rest = inside;
+      return rest.count > 0;
+    };
+    whole = whole || !cut_off(front);
+    for (size_t i = 0; i < outline.size() && !whole; ++i) whole = !cut_off(outline[i]);
+    if (whole) {  // no ray of it is stopped, or it cannot be cut
+      next_.resize(before);
+      next_.push_back(piece);
+      continue;
+    }
+    if (stops || !passes_one_more(piece.passed, piece.walls, cover)) continue;
+    piece.shape = rest;
+    next_.push_back(piece);
+  }
+  std::swap(pieces_, next_);
+}
+
+/// The same for an edge, which is lit if any of it is.
+void BeamCells::settle_wedge(const SlopeRect& rect, const Entry& entry) {
+  if (lit_[entry.facet]) return;
+  const ViewFacet& wedge = view_->facets()[entry.facet];
+  const dvec2 &a = wedge.ends[0], &b = wedge.ends[1];
+  const Beam& beam = view_->beam();
+  const HalfPlane sides[] = {{1.0, 0.0, -rect.min_a},           {-1.0, 0.0, rect.max_a},
+                             {0.0, 1.0, -rect.min_b},           {0.0, -1.0, rect.max_b},
+                             {1.0, 1.0, -beam.min_sum},         {-1.0, -1.0, beam.max_sum},
+                             {1.0, -1.0, -beam.min_difference}, {-1.0, 1.0, beam.max_difference}};
+  Interval whole;
+  for (const HalfPlane& side : sides)
+    if (!cut(side, a, b, whole.from, whole.to)) return;
+  intervals_.assign(1, whole);
+  for (const Entry& other : entries_) {
+    if (other.min_depth > entry.max_depth) break;
+    const ViewFacet& cover = view_->facets()[other.facet];
+    if (!cover.hides || !cover.box.overlaps(wedge.box)) continue;
+    if (cover.scene_facet == wedge.wedge_faces[0] || cover.scene_facet == wedge.wedge_faces[1]) continue;
+    double from = 0.0, to = 1.0;
+    if (!cut(in_front(cover, wedge), a, b, from, to)) continue;
+    for (uint32_t i = 0; i < cover.polygon_count; ++i) {
+      double part_from = from, part_to = to;
+      const auto constraints = outline(cover.first_polygon + i, cover);
+      if (!std::all_of(constraints.begin(), constraints.end(),
+                       [&](const HalfPlane& half) { return cut(half, a, b, part_from, part_to); }))
+        continue;
+      next_intervals_.clear();
+      for (const Interval& interval : intervals_) subtract(interval, other.facet, part_from, part_to);
+      std::swap(intervals_, next_intervals_);
+    }
+    if (intervals_.empty()) return;
+  }
+  lit_[entry.facet] = 1;
+}
+
+void BeamCells::subtract(Interval interval, uint32_t cover, double from, double to) {
+  const double begin = std::max(interval.from, from), end = std::min(interval.to, to);
+  if (begin >= end) {
+    next_intervals_.push_back(interval);
+    return;
+  }
+  Interval part = interval;
+  if (interval.from < begin) part.to = begin, next_intervals_.push_back(part);
+  part = interval;
+  if (end < interval.to) part.from = end, next_intervals_.push_back(part);
+  if (view_->facets()[cover].kind == FacetKind::opaque || walls_ == 0) return;
+  if (!passes_one_more(interval.passed, interval.walls, cover)) return;
+  interval.from = begin, interval.to = end;
+  next_intervals_.push_back(interval);
+}
+
+/// Where a part of the facet's projection lies on the facet itself, `pad` (slopes) wider.
+void BeamCells::add_to(FacetRegion& region, const ViewFacet& view, const Convex& shape, double pad) const {
+  const BeamFacet& facet = view_->scene().facet(view.scene_facet);
+  const Beam& beam = view_->beam();
+  const double border = 2.0 * facet.tolerance_m + view_->rounding_m() + view_->clearance_m();
+  const double least = view.distance / view.max_depth * (1.0 - 1e-9);
+  const double apex_a = glm::dot(facet.axis_a, beam.apex) - facet.offset_a;
+  const double apex_b = glm::dot(facet.axis_b, beam.apex) - facet.offset_b;
+  const dvec3 to_a(glm::dot(facet.axis_a, beam.right), glm::dot(facet.axis_a, beam.up),
+                   glm::dot(facet.axis_a, beam.forward));
+  const dvec3 to_b(glm::dot(facet.axis_b, beam.right), glm::dot(facet.axis_b, beam.up),
+                   glm::dot(facet.axis_b, beam.forward));
+  FacetRegion found;
+  bool bounded = true;
+  const auto add = [&](const dvec2& x) {
+    double sum = view.slope_sum(x.x, x.y);
+    if (sum < least && pad > 0.0) bounded = bounded && sum > 0.5 * least;
+    sum = std::max(sum, 0.5 * least);
+    const double depth = view.distance / sum;
+    const double roundings = depth * (1.0 + std::abs(x.x) + std::abs(x.y)) * 1e-13 +
+                             4.0 * view_->rounding_m() * depth / view.distance;
+    found.add(apex_a + depth * (to_a.x * x.x + to_a.y * x.y + to_a.z),
+              apex_b + depth * (to_b.x * x.x + to_b.y * x.y + to_b.z), border + roundings);
+  };
+  for (uint32_t i = 0; i < shape.count; ++i) {
+    const dvec2& x = shape.at[i];
+    if (pad == 0.0) {
+      add(x);
+      continue;
+    }
+    for (const double a : {-pad, pad})
+      for (const double b : {-pad, pad}) add({x.x + a, x.y + b});
+  }
+  if (!bounded) {  // the padding reaches the plane's horizon
+    found = {};
+    for (const double a : {facet.min_a, facet.max_a})
+      for (const double b : {facet.min_b, facet.max_b}) found.add(a, b, border);
+  }
+  found.min_a = std::max(found.min_a, facet.min_a - border),
+  found.max_a = std::min(found.max_a, facet.max_a + border);
+  found.min_b = std::max(found.min_b, facet.min_b - border),
+  found.max_b = std::min(found.max_b, facet.max_b + border);
+  if (!found.empty() && found.min_b <= found.max_b) region.add(found);
 }
 
 }  // namespace greatx::rf

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -13,7 +14,6 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double least_sine = 0.1;
 constexpr uint32_t facets_per_box = 4;
 
 /// A corner of a triangle on its way to being welded.
@@ -40,12 +40,73 @@ std::vector<uint32_t> weld(std::vector<Corner>& corners, std::vector<dvec3>& ver
   return vertex_of;
 }
 
-/// A side of a triangle, turned so that the triangle is on its left as the facet's normal sees it.
-struct Side {
-  uint32_t low, high;  ///< vertices
-  bool upwards;        ///< from low to high
-  bool certain;        ///< the triangle knows which side of it is which
+/// Convex pieces on their way to being joined.
+class Pieces {
+ public:
+  /// `normal`: of their plane. `vertices`: all positions.
+  Pieces(const std::vector<dvec3>& vertices, const dvec3& normal) : vertices_(vertices), normal_(normal) {}
+  void add(std::array<uint32_t, 3> triangle) {
+    const double doubled = turn(triangle[0], triangle[1], triangle[2]);
+    if (doubled < 0.0) std::swap(triangle[1], triangle[2]);
+    loops_.emplace_back(triangle.begin(), triangle.end());
+  }
+  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn, 1983).
+  void join();
+  const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
+
+ private:
+  double turn(uint32_t a, uint32_t b, uint32_t c) const {
+    return glm::dot(normal_, glm::cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[b]));
+  }
+  uint32_t owner(uint32_t loop) {
+    while (owner_[loop] != loop) loop = owner_[loop] = owner_[owner_[loop]];
+    return loop;
+  }
+  void try_to_join(uint32_t first, uint32_t second, uint32_t from, uint32_t to);
+
+  const std::vector<dvec3>& vertices_;
+  dvec3 normal_;
+  std::vector<std::vector<uint32_t>> loops_;
+  std::vector<uint32_t> owner_;
 };
+
+void Pieces::join() {
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> edges;  // directed
+  for (uint32_t loop = 0; loop < loops_.size(); ++loop)
+    for (size_t i = 0; i < 3; ++i) edges[{loops_[loop][i], loops_[loop][(i + 1) % 3]}].push_back(loop);
+  owner_.resize(loops_.size());
+  std::iota(owner_.begin(), owner_.end(), 0u);
+  for (const auto& [edge, loops] : edges) {
+    if (edge.first >= edge.second || loops.size() != 1) continue;
+    const auto back = edges.find({edge.second, edge.first});
+    if (back == edges.end() || back->second.size() != 1) continue;
+    const uint32_t first = owner(loops[0]), second = owner(back->second[0]);
+    if (first != second) try_to_join(first, second, edge.first, edge.second);
+  }
+  std::erase_if(loops_, [](const std::vector<uint32_t>& loop) { return loop.empty(); });
+}
+
+/// `first` runs along the edge from `from` to `to`, `second` back.
+void Pieces::try_to_join(uint32_t first, uint32_t second, uint32_t from, uint32_t to) {
+  if (loops_[first].size() + loops_[second].size() - 2 > BeamPolygon::most_corners) return;
+  const auto opened = [&](const std::vector<uint32_t>& loop, uint32_t start) {  // from `start` once around
+    std::vector<uint32_t> turned(loop);
+    std::rotate(turned.begin(), std::find(turned.begin(), turned.end(), start), turned.end());
+    return turned;
+  };
+  std::vector<uint32_t> joined = opened(loops_[first], to);         // to ... from
+  const std::vector<uint32_t> rest = opened(loops_[second], from);  // from ... to
+  joined.insert(joined.end(), rest.begin() + 1, rest.end() - 1);
+  const size_t count = joined.size();
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t a = joined[i], b = joined[(i + 1) % count], c = joined[(i + 2) % count];
+    const bool ahead = glm::dot(vertices_[b] - vertices_[a], vertices_[c] - vertices_[b]) > 0.0;
+    if (const double turned = turn(a, b, c); turned < 0.0 || (turned == 0.0 && !ahead)) return;
+  }
+  loops_[first] = std::move(joined);
+  loops_[second].clear();
+  owner_[second] = first;
+}
 
 }  // namespace
 
@@ -78,8 +139,6 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
       for (uint32_t& vertex : triangle) vertex = vertex_of[place++];
     add(world, index, kinds[index], triangles);
   }
-  number_edges();
-  list_vertices();
   add_wedges(wedges);
   order_.resize(facets_.size());
   std::iota(order_.begin(), order_.end(), 0u);
@@ -100,66 +159,44 @@ void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
   facet.tolerance_m = posed.tolerance_m;
   facet.reference =
       posed.offset * posed.normal + posed.offset_u * posed.axis_u + posed.offset_v * posed.axis_v;
-  facet.first_border = static_cast<uint32_t>(borders_.size());
   facet.low = dvec3(1e300), facet.high = dvec3(-1e300);
-
-  std::vector<Side> sides;
-  for (const auto& triangle : triangles) {
-    const dvec3 corner[3] = {vertices_[triangle[0]], vertices_[triangle[1]], vertices_[triangle[2]]};
-    const double doubled = glm::dot(posed.normal, glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-    double longest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      longest = std::max(longest, glm::length(corner[(k + 1) % 3] - corner[k]));
-      facet.low = glm::min(facet.low, corner[k]);
-      facet.high = glm::max(facet.high, corner[k]);
-      facet.deviation_m = std::max(facet.deviation_m, std::abs(posed.distance(corner[k])));
-    }
-    const bool certain = std::abs(doubled) > 1e-9 * longest * longest;
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
-      if (from == to) continue;
-      sides.push_back({std::min(from, to), std::max(from, to), (from < to) == (doubled > 0.0), certain});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.upwards, a.certain) < std::tie(b.low, b.high, b.upwards, b.certain);
-  });
-  for (size_t first = 0; first < sides.size();) {
-    size_t end = first + 1;
-    while (end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high)
-      ++end;
-    const Side& side = sides[first];
-    const size_t uses = end - first;
-    const bool inner =
-        uses == 2 && side.upwards != sides[first + 1].upwards && side.certain && sides[first + 1].certain;
-    if (!inner)
-      borders_.push_back({0, side.upwards ? side.low : side.high, side.upwards ? side.high : side.low});
-    if (!inner && (uses > 1 || !side.certain)) facet.regular = false;
-    first = end;
-  }
-  facet.border_count = static_cast<uint32_t>(borders_.size()) - facet.first_border;
-
   facet.axis_a = posed.axis_u;
-  double longest = 0.0;
-  for (const BeamBorder& border : borders(facet)) {
-    dvec3 along = vertices_[border.to] - vertices_[border.from];
-    along -= glm::dot(along, facet.normal) * facet.normal;
-    if (const double length = glm::length(along); length > longest) {
-      longest = length;
-      facet.axis_a = along / length;
-    }
-  }
+  add_polygons(facet, triangles);
   facet.axis_b = glm::cross(facet.normal, facet.axis_a);
   facet.offset_a = glm::dot(facet.axis_a, facet.reference);
   facet.offset_b = glm::dot(facet.axis_b, facet.reference);
   facet.min_a = facet.min_b = 1e300, facet.max_a = facet.max_b = -1e300;
-  for (const BeamBorder& border : borders(facet)) {
-    const dvec3 from_reference = vertices_[border.from] - facet.reference;
-    const double a = glm::dot(facet.axis_a, from_reference), b = glm::dot(facet.axis_b, from_reference);
-    facet.min_a = std::min(facet.min_a, a), facet.max_a = std::max(facet.max_a, a);
-    facet.min_b = std::min(facet.min_b, b), facet.max_b = std::max(facet.max_b, b);
-  }
+  for (const BeamPolygon& polygon : polygons(facet))
+    for (const uint32_t corner : corners(polygon)) {
+      const dvec3 from_reference = vertices_[corner] - facet.reference;
+      const double a = glm::dot(facet.axis_a, from_reference), b = glm::dot(facet.axis_b, from_reference);
+      facet.min_a = std::min(facet.min_a, a), facet.max_a = std::max(facet.max_a, a);
+      facet.min_b = std::min(facet.min_b, b), facet.max_b = std::max(facet.max_b, b);
+    }
   facets_.push_back(facet);
+}
+
+void BeamScene::add_polygons(BeamFacet& facet, std::span<const std::array<uint32_t, 3>> triangles) {
+  Pieces pieces(vertices_, facet.normal);
+  for (const auto& triangle : triangles) pieces.add(triangle);
+  pieces.join();
+  facet.first_polygon = static_cast<uint32_t>(polygons_.size());
+  double longest = 0.0;
+  for (const std::vector<uint32_t>& loop : pieces.loops()) {
+    polygons_.push_back({static_cast<uint32_t>(corners_.size()), static_cast<uint32_t>(loop.size())});
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const dvec3 &from = vertices_[loop[i]], &to = vertices_[loop[(i + 1) % loop.size()]];
+      corners_.push_back(loop[i]);
+      facet.low = glm::min(facet.low, from);
+      facet.high = glm::max(facet.high, from);
+      const dvec3 along = (to - from) - glm::dot(to - from, facet.normal) * facet.normal;
+      if (const double length = glm::length(along); length > longest) {
+        longest = length;
+        facet.axis_a = along / length;
+      }
+    }
+  }
+  facet.polygon_count = static_cast<uint32_t>(polygons_.size()) - facet.first_polygon;
 }
 
 void BeamScene::add_wedges(std::span<const scene::Wedge> wedges) {
@@ -183,38 +220,6 @@ void BeamScene::add_wedges(std::span<const scene::Wedge> wedges) {
   for (uint32_t i = 0; i < wedges_.size(); ++i) {
     BeamFacet& facet = facets_[wedges_[i].faces[0]];
     if (facet.wedge_count++ == 0) facet.first_wedge = i;
-  }
-}
-
-void BeamScene::number_edges() {
-  std::vector<uint32_t> order(borders_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto ends = [&](uint32_t border) -> std::pair<uint32_t, uint32_t> {
-    return std::minmax(borders_[border].from, borders_[border].to);
-  };
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    const auto ends_a = ends(a), ends_b = ends(b);
-    return ends_a != ends_b ? ends_a < ends_b : a < b;
-  });
-  uint32_t edge = 0;
-  for (size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && ends(order[i]) != ends(order[i - 1])) ++edge;
-    borders_[order[i]].edge = edge;
-  }
-}
-
-void BeamScene::list_vertices() {
-  first_facet_vertex_.push_back(0);
-  for (const BeamFacet& facet : facets_) {
-    const auto begin = static_cast<ptrdiff_t>(facet_vertices_.size());
-    for (const BeamBorder& border : borders(facet)) {
-      facet_vertices_.push_back(border.from);
-      facet_vertices_.push_back(border.to);
-    }
-    std::sort(facet_vertices_.begin() + begin, facet_vertices_.end());
-    facet_vertices_.erase(std::unique(facet_vertices_.begin() + begin, facet_vertices_.end()),
-                          facet_vertices_.end());
-    first_facet_vertex_.push_back(static_cast<uint32_t>(facet_vertices_.size()));
   }
 }
 
@@ -244,29 +249,6 @@ void BeamScene::build_boxes(uint32_t node, uint32_t first, uint32_t count) {
     build_boxes(box.first + 1, first + count / 2, count - count / 2);
   }
   boxes_[node] = box;
-}
-
-bool BeamScene::has_vertex(uint32_t facet, uint32_t vertex) const {
-  const auto begin = facet_vertices_.begin();
-  return std::binary_search(begin + first_facet_vertex_[facet], begin + first_facet_vertex_[facet + 1],
-                            vertex);
-}
-
-bool BeamScene::meet_at_an_angle(uint32_t a, uint32_t b) const {
-  const dvec3 sine = glm::cross(facets_[a].normal, facets_[b].normal);
-  if (glm::dot(sine, sine) < least_sine * least_sine) return false;
-  const uint32_t* at_a = facet_vertices_.data() + first_facet_vertex_[a];
-  const uint32_t* at_b = facet_vertices_.data() + first_facet_vertex_[b];
-  const uint32_t* const end_a = facet_vertices_.data() + first_facet_vertex_[a + 1];
-  const uint32_t* const end_b = facet_vertices_.data() + first_facet_vertex_[b + 1];
-  while (at_a != end_a && at_b != end_b) {
-    if (*at_a == *at_b) return true;
-    if (*at_a < *at_b)
-      ++at_a;
-    else
-      ++at_b;
-  }
-  return false;
 }
 
 void BeamScene::gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const {

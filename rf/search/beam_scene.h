@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as beams meet it: facets with their outlines, welded where the mesh is, in a tree of boxes.
+// The scene as beams meet it: facets as convex polygons, in a tree of boxes.
 #pragma once
 
 #include <array>
@@ -16,27 +16,23 @@
 
 namespace greatx::rf {
 
-/// A piece of a facet's outline, with the facet on its left as the facet's normal sees it.
-struct BeamBorder {
-  uint32_t edge = 0;          ///< the same number for all facets that have an edge with these two ends
-  uint32_t from = 0, to = 0;  ///< vertices
+/// A convex piece of a facet, counter-clockwise as its normal sees it.
+struct BeamPolygon {
+  static constexpr uint32_t most_corners = 8;
+  uint32_t first = 0, count = 0;  ///< corners
 };
 
 struct BeamFacet {
   uint32_t index = 0;  ///< in the FacetWorld
   FacetKind kind = FacetKind::opaque;
   uint32_t body = 0;
-  /// Each inner edge belongs to two triangles on either side of it. If not (triangles twice, three at one edge, slivers
-  /// that do not know their side), such edges are among the borders, and crossing one says nothing.
-  bool regular = true;
-  uint32_t first_border = 0, border_count = 0;
+  uint32_t first_polygon = 0, polygon_count = 0;
   uint32_t first_wedge = 0, wedge_count = 0;
   dvec3 normal{0.0};  ///< unit
   double offset = 0.0;
   double tolerance_m = 0.0;               ///< PosedFacet::tolerance_m
-  double deviation_m = 0.0;               ///< of the mesh's corners from the plane
   dvec3 reference{0.0};                   ///< a corner, in the plane
-  dvec3 axis_a{0.0}, axis_b{0.0};         ///< in the plane, unit, axis_a along the longest border
+  dvec3 axis_a{0.0}, axis_b{0.0};         ///< in the plane, unit, axis_a along the longest edge
   double offset_a = 0.0, offset_b = 0.0;  ///< a = axis_a . x - offset_a
   double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
   dvec3 low{0.0}, high{0.0};
@@ -65,18 +61,18 @@ class BeamScene {
   const FacetWorld& world() const { return *world_; }
   uint32_t facet_count() const { return static_cast<uint32_t>(facets_.size()); }
   const BeamFacet& facet(uint32_t index) const { return facets_[index]; }
-  std::span<const BeamBorder> borders(const BeamFacet& facet) const {
-    return std::span(borders_).subspan(facet.first_border, facet.border_count);
+  std::span<const BeamPolygon> polygons(const BeamFacet& facet) const {
+    return std::span(polygons_).subspan(facet.first_polygon, facet.polygon_count);
+  }
+  /// Vertices.
+  std::span<const uint32_t> corners(const BeamPolygon& polygon) const {
+    return std::span(corners_).subspan(polygon.first, polygon.count);
   }
   /// Those that belong to a facet; each belongs to one of its faces.
   std::span<const BeamWedge> wedges(const BeamFacet& facet) const {
     return std::span(wedges_).subspan(facet.first_wedge, facet.wedge_count);
   }
   const dvec3& vertex(uint32_t index) const { return vertices_[index]; }
-  uint32_t vertex_count() const { return static_cast<uint32_t>(vertices_.size()); }
-  bool has_vertex(uint32_t facet, uint32_t vertex) const;
-  /// Do two facets meet in a vertex of the mesh at an angle (its sine at least 0.1)?
-  bool meet_at_an_angle(uint32_t a, uint32_t b) const;
   /// Largest absolute coordinate of a vertex, metres.
   double largest_coordinate() const { return largest_coordinate_; }
 
@@ -91,17 +87,16 @@ class BeamScene {
   };
   void add(const FacetWorld& world, uint32_t index, FacetKind kind,
            std::span<const std::array<uint32_t, 3>> triangles);
+  void add_polygons(BeamFacet& facet, std::span<const std::array<uint32_t, 3>> triangles);
   void add_wedges(std::span<const scene::Wedge> wedges);
-  void number_edges();
-  void list_vertices();
   void build_boxes(uint32_t node, uint32_t first, uint32_t count);
 
   const FacetWorld* world_;
   std::vector<dvec3> vertices_;
   std::vector<BeamFacet> facets_;
-  std::vector<BeamBorder> borders_;
+  std::vector<BeamPolygon> polygons_;
+  std::vector<uint32_t> corners_;
   std::vector<BeamWedge> wedges_;
-  std::vector<uint32_t> facet_vertices_, first_facet_vertex_;  ///< of each facet, ascending
   std::vector<Box> boxes_;
   std::vector<uint32_t> order_;
   double largest_coordinate_ = 0.0;

@@ -5,19 +5,16 @@
 // the inverse depth of a plane is an affine function.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/vec.h"
 #include "rf/search/beam_scene.h"
+#include "rf/search/convex.h"
 
 namespace greatx::rf {
-
-struct SlopeRect {
-  double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
-  friend bool operator==(const SlopeRect&, const SlopeRect&) = default;
-};
 
 /// All rays from the apex with slopes inside the window: direction a * right + b * up + forward. They start at depth
 /// near_m (the mirror), depth being counted along `forward`.
@@ -27,34 +24,31 @@ struct Beam {
   dvec3 right{0.0}, up{0.0}, forward{0.0};  ///< unit, perpendicular
   double near_m = 0.0;                      ///< 0: no mirror, rays start at the apex
   SlopeRect window;
-  uint32_t mirror = no_mirror;  ///< in the BeamScene
+  double min_sum = -1e300, max_sum = 1e300;                ///< of a + b
+  double min_difference = -1e300, max_difference = 1e300;  ///< of a - b
+  uint32_t mirror = no_mirror;                             ///< in the BeamScene
 };
 
-/// A piece of an outline in slopes.
-struct ViewEdge {
-  double min_a, max_a, min_b, max_b;  ///< with room for where the edge may be
-  double normal_a, normal_b,
-      offset;                  ///< |normal . x - offset|: distance from its line; normal of unit length
-  double room;                 ///< how far it may be from where it is drawn
-  dvec2 ends[2];               ///< from, to
-  uint32_t edge, vertices[2];  ///< of the scene; none: the end is cut off
-  bool left;  ///< a choice of side, opposite for two facets on either side of their common edge
+/// A convex piece of a facet in slopes.
+struct ViewPolygon {
+  uint32_t first = 0, count = 0;  ///< corners
+  SlopeRect box;
+  double max_depth = 0.0;  ///< of its corners
 };
 
 struct ViewFacet {
-  enum class Role : uint8_t { facet, mirror, wedge };
-  Role role = Role::facet;
   uint32_t scene_facet = 0;  ///< BeamScene's; of a wedge: its index in the list given
   FacetKind kind = FacetKind::opaque;
-  bool regular = true;
+  bool is_wedge = false;  ///< an edge: two points, no polygons
+  bool hides = false;     ///< stops rays, those in `start` at least
   /// Depth along the ray with slopes x is distance / (n + na a + nb b).
   double n = 0.0, na = 0.0, nb = 0.0;
   double distance = 0.0;                    ///< of its plane from the apex, > 0
-  double min_depth = 0.0, max_depth = 0.0;  ///< of its points, with room; none of it is outside
-  double contact_m =
-      0.0;  ///< rays may start this far behind its plane and still meet it where it touches the mirror
-  uint32_t first_edge = 0, edge_count = 0;
-  double extent = 0.0;  ///< longer side of the rectangle around its projection, cut to the window
+  double min_depth = 0.0, max_depth = 0.0;  ///< of its points
+  HalfPlane start;                          ///< rays that start well before it
+  SlopeRect box;
+  uint32_t first_polygon = 0, polygon_count = 0;
+  dvec2 ends[2];                         ///< of a wedge
   uint32_t wedge_faces[2] = {~0u, ~0u};  ///< BeamScene's; they never hide it
 
   double slope_sum(double a, double b) const { return n + na * a + nb * b; }
@@ -64,23 +58,29 @@ struct ViewFacet {
 class BeamView {
  public:
   explicit BeamView(const BeamScene& scene) : scene_(&scene) {}
-  /// Forgets the beam before. `edge_strips`: see BeamSearchOptions; `wedges`: look at them, too.
-  void look(const Beam& beam, bool edge_strips, bool wedges);
+  /// Forgets the beam before. `clearance_m`: see BeamSearchOptions; `transparent_body`: its facets hide nothing;
+  /// `wedges`: look at them, too.
+  void look(const Beam& beam, double clearance_m, uint32_t transparent_body, bool wedges);
 
   const BeamScene& scene() const { return *scene_; }
   const Beam& beam() const { return beam_; }
-  /// The mirror first, if the beam has one; then facets, then wedges, each in ascending order.
+  /// Facets, then wedges, each in ascending order.
   std::span<const ViewFacet> facets() const { return facets_; }
-  std::span<const ViewEdge> edges() const { return edges_; }
-  /// Errors of positions in this beam, metres: what roundings of the apex can do.
-  double rounding_m() const { return rounding_m_; }
-  /// Room that a cover needs before and behind it, metres: four times shared::visibility_tolerance.
+  std::span<const ViewPolygon> polygons(const ViewFacet& facet) const {
+    return std::span(polygons_).subspan(facet.first_polygon, facet.polygon_count);
+  }
+  std::span<const dvec2> corners(const ViewPolygon& polygon) const {
+    return std::span(corners_).subspan(polygon.first, polygon.count);
+  }
+  /// BeamSearchOptions::clearance_m with room for the mesh's fp32; 0: none.
+  double clearance_m() const { return clearance_m_; }
+  /// Room that a cover needs before and behind it if nothing else is known, metres: four times
+  /// shared::visibility_tolerance.
   double room_m() const { return room_m_; }
-  /// Length of the direction with the largest slopes of the window.
-  double longest_direction() const { return longest_direction_; }
-
-  /// Does a facet hold the point that the ray with these slopes meets its plane at?
-  bool contains(const ViewFacet& facet, double a, double b) const;
+  double rounding_m() const { return rounding_m_; }
+  /// How far behind a plane something must be to be hidden by what lies in it, metres. Planes that meet at an angle need
+  /// no room, for what they hide too much lies within the clearance of the edge that they meet in.
+  double room_between(const dvec3& normal, const dvec3& other) const;
 
  private:
   dvec3 in_frame(const dvec3& point) const {
@@ -88,22 +88,19 @@ class BeamView {
     return {glm::dot(beam_.right, from_apex), glm::dot(beam_.up, from_apex),
             glm::dot(beam_.forward, from_apex)};
   }
-  void add_mirror();
-  void add_facet(uint32_t scene_facet, bool edge_strips);
-  void add_wedge(const BeamWedge& wedge, bool edge_strips);
-  bool hidden_by_its_mirror(const BeamFacet& facet, const ViewFacet& view, bool edge_strips) const;
-  void add_edge(ViewFacet& view, dvec3 from, dvec3 to, double displacement_m, double least_depth,
-                ViewEdge edge);
-  void finish(ViewFacet& view);
+  void add_facet(uint32_t scene_facet, uint32_t transparent_body);
+  bool add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
+                   double least_rise);
+  void add_wedge(const BeamWedge& wedge);
+  void find_start(ViewFacet& view, const BeamFacet& facet);
 
   const BeamScene* scene_;
   Beam beam_;
-  SlopeRect clip_;  ///< the window with a wide border
-  double rounding_m_ = 0.0, room_m_ = 0.0, mesh_m_ = 0.0, longest_direction_ = 0.0, longest_clip_ = 0.0;
+  double rounding_m_ = 0.0, room_m_ = 0.0, clearance_m_ = 0.0, longest_direction_ = 0.0;
   std::vector<ViewFacet> facets_;
-  std::vector<ViewEdge> edges_;
+  std::vector<ViewPolygon> polygons_;
+  std::vector<dvec2> corners_;
   std::vector<uint32_t> gathered_;
-  std::vector<dvec3> corners_;  ///< of the facet being added: its borders' ends, in the beam's frame
 };
 
 }  // namespace greatx::rf

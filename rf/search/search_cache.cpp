@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "core/error.h"
 #include "core/hash.h"
 
 namespace greatx::rf {
@@ -19,8 +20,8 @@ namespace greatx::rf {
 namespace {
 
 /// Counts up when the search changes what it finds, so that old files are not met again.
-constexpr uint32_t search_version = 2;
-constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '2'};
+constexpr uint32_t search_version = 3;
+constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '3'};
 constexpr size_t checksum_bytes = 64;
 
 template <typename T>
@@ -66,33 +67,65 @@ std::string body_of(const BeamSearchResult& result) {
   append(bytes, result.list.windows);
   append(bytes, result.list.wedge_offsets);
   append(bytes, result.list.wedges);
-  append(bytes, result.beams);
+  // Number by number: the struct has a gap.
+  std::vector<double> rectangles;
+  std::vector<uint32_t> walls;
+  for (const SequenceBeam& beam : result.beams) {
+    for (const dvec3& v : {beam.image, beam.center, beam.half_a, beam.half_b})
+      rectangles.insert(rectangles.end(), {v.x, v.y, v.z});
+    walls.push_back(beam.walls);
+  }
+  append(bytes, rectangles);
+  append(bytes, walls);
   return bytes;
 }
 
 std::optional<BeamSearchResult> result_of(std::string_view bytes) {
   char head[sizeof magic];
+  std::vector<double> rectangles;
+  std::vector<uint32_t> walls;
   BeamSearchResult result;
   CandidateList& list = result.list;
   Reader reader(bytes);
   if (!reader.value(head) || std::memcmp(head, magic, sizeof magic) != 0 || !reader.value(result.found) ||
       !reader.values(list.facets) || !reader.values(list.offsets) || !reader.values(list.windows) ||
-      !reader.values(list.wedge_offsets) || !reader.values(list.wedges) || !reader.values(result.beams) ||
-      !reader.done() || list.offsets.empty())
+      !reader.values(list.wedge_offsets) || !reader.values(list.wedges) || !reader.values(rectangles) ||
+      !reader.values(walls) || !reader.done() || list.offsets.empty() ||
+      rectangles.size() != 12 * walls.size())
     return std::nullopt;
+  for (size_t i = 0; i < walls.size(); ++i) {
+    SequenceBeam beam;
+    const double* next = rectangles.data() + 12 * i;
+    for (dvec3* v : {&beam.image, &beam.center, &beam.half_a, &beam.half_b})
+      for (int axis = 0; axis < 3; ++axis) (*v)[axis] = *next++;
+    beam.walls = walls[i];
+    result.beams.push_back(beam);
+  }
   return result;
 }
 
 }  // namespace
 
-std::string search_key(const std::string& scene_hash, const FacetKinds& kinds, const dvec3& source,
-                       const BeamSearchOptions& options, bool wedges) {
+std::string search_key(const std::string& scene_hash, const FacetKinds& kinds,
+                       std::span<const scene::Wedge> wedges, const dvec3& source,
+                       const BeamSearchOptions& options) {
+  // By name, so that a new option is a compiler's error here until it is decided whether it changes the result.
+  const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
+               stop_depth] = options;
+  static_cast<void>(threads);
+  GREATX_CHECK(!moving_bodies, "the key of a search says nothing of where bodies stand");
   Sha256 hash;
   hash.update_value(search_version).update(scene_hash);
-  hash.update(std::as_bytes(std::span(kinds)));
+  hash.update_value(static_cast<uint64_t>(kinds.size())).update(std::as_bytes(std::span(kinds)));
   hash.update_value(source.x).update_value(source.y).update_value(source.z);
-  hash.update_value(options.max_depth).update_value(options.max_transmissions).update_value(options.capacity);
-  hash.update_value(static_cast<uint8_t>(wedges));
+  hash.update_value(max_depth).update_value(max_transmissions).update_value(capacity);
+  hash.update_value(source_body).update_value(clearance_m).update_value(stop_depth);
+  hash.update_value(static_cast<uint64_t>(wedges.size()));
+  for (const scene::Wedge& wedge : wedges) {
+    for (const dvec3& end : {wedge.a, wedge.b})
+      hash.update_value(end.x).update_value(end.y).update_value(end.z);
+    hash.update_value(wedge.facet_0).update_value(wedge.facet_n).update_value(wedge.body);
+  }
   return hash.hex();
 }
 

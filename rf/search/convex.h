@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Convex polygons in the plane of slopes, cut by half-planes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/vec.h"
+
+namespace greatx::rf {
+
+struct SlopeRect {
+  double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
+  void add(const dvec2& x) {
+    min_a = std::min(min_a, x.x), max_a = std::max(max_a, x.x);
+    min_b = std::min(min_b, x.y), max_b = std::max(max_b, x.y);
+  }
+  bool overlaps(const SlopeRect& other) const {
+    return min_a <= other.max_a && other.min_a <= max_a && min_b <= other.max_b && other.min_b <= max_b;
+  }
+  static SlopeRect none() { return {1e300, -1e300, 1e300, -1e300}; }
+  friend bool operator==(const SlopeRect&, const SlopeRect&) = default;
+};
+
+/// Inside: a x + b y + c >= 0.
+struct HalfPlane {
+  double a = 0.0, b = 0.0, c = 1.0;
+  double at(const dvec2& x) const { return a * x.x + b * x.y + c; }
+  /// Largest and least value on a rectangle.
+  double most(const SlopeRect& rect) const {
+    return std::max(a * rect.min_a, a * rect.max_a) + std::max(b * rect.min_b, b * rect.max_b) + c;
+  }
+  double least(const SlopeRect& rect) const {
+    return std::min(a * rect.min_a, a * rect.max_a) + std::min(b * rect.min_b, b * rect.max_b) + c;
+  }
+};
+
+struct Convex {
+  static constexpr uint32_t capacity = 24;
+  uint32_t count = 0;
+  std::array<dvec2, capacity> at;
+
+  bool add(const dvec2& x) {
+    if (count == capacity) return false;
+    at[count++] = x;
+    return true;
+  }
+  SlopeRect box() const {
+    SlopeRect box = SlopeRect::none();
+    for (uint32_t i = 0; i < count; ++i) box.add(at[i]);
+    return box;
+  }
+  static Convex of(const SlopeRect& rect) {
+    Convex shape;
+    shape.add({rect.min_a, rect.min_b}), shape.add({rect.max_a, rect.min_b});
+    shape.add({rect.max_a, rect.max_b}), shape.add({rect.min_a, rect.max_b});
+    return shape;
+  }
+};
+
+/// Keeps what is inside; false: nothing of it is. A polygon that has no room for more corners stays as it is.
+bool clip(Convex& shape, const HalfPlane& half);
+/// Both sides; either may come out empty. False: no room for more corners, nothing done.
+bool split(const Convex& shape, const HalfPlane& half, Convex& inside, Convex& outside);
+
+}  // namespace greatx::rf
