@@ -186,8 +186,8 @@ rf::CandidateList ChannelPaths::search(const dvec3& source, const TickContext& c
   // What moves stands elsewhere in the next run.
   const std::string key = move_facets_ || search_ == Search::every_tick
                               ? std::string()
-                              : rf::search_key(world_.scene.hash, model_.kinds, source, beams_->options(),
-                                               !model_.wedges.empty());
+                              : rf::search_key(world_.scene.hash, model_.kinds, model_.wedges, source,
+                                               beams_->options());
   if (!key.empty()) {
     if (auto known = cache.load(key)) {
       ++cache_hits_;

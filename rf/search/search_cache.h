@@ -5,8 +5,8 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/vec.h"
@@ -15,10 +15,12 @@
 
 namespace greatx::rf {
 
-/// Everything that decides a search's result, as one SHA-256: the scene's hash, the kinds of its facets, the source's
-/// 64-bit coordinates, depth, walls, capacity, whether wedges are looked for, and the version of the search itself.
-std::string search_key(const std::string& scene_hash, const FacetKinds& kinds, const dvec3& source,
-                       const BeamSearchOptions& options, bool wedges);
+/// Everything that decides the result of a search among what stands still, as one SHA-256: the scene's hash, the kinds of
+/// its facets, the wedges (which depend on the effects, too), the source's 64-bit coordinates, every option but the number
+/// of threads, and the version of the search itself. Not for searches among moving bodies.
+std::string search_key(const std::string& scene_hash, const FacetKinds& kinds,
+                       std::span<const scene::Wedge> wedges, const dvec3& source,
+                       const BeamSearchOptions& options);
 
 /// A folder of results, one file each, `<key>.beams`: read and written whole, replaced at once (never half a file), with
 /// a checksum. A file that is damaged or cannot be read is as good as none.
