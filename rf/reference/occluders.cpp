@@ -71,10 +71,14 @@ bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   return in_plane(stretch.a) || in_plane(stretch.b);
 }
 
+/// The rule that rf/crossings.h states: walls in one plane are one, so are walls met in their common edge, within the
+/// tolerance of visibility.
 bool Occluders::one_wall(const Stretch& stretch, const WallPassed& a, const WallPassed& b) const {
-  const double apart = std::abs(a.t - b.t) * glm::distance(stretch.a, stretch.b);
+  const double tolerance = 1e-4 + 0x1p-22 * std::max(largest(stretch.a), largest(stretch.b));
   const dvec3 turned = glm::cross(world_->facet(a.facet).normal, world_->facet(b.facet).normal);
-  return apart <= 1e-6 && glm::length(turned) <= 1e-9;
+  if (glm::length(turned) < 1e-3)
+    return std::abs(world_->facet(a.facet).distance(first_corners_[b.facet])) <= tolerance;
+  return std::abs(a.t - b.t) * glm::distance(stretch.a, stretch.b) <= tolerance;
 }
 
 bool Occluders::free_but_for(const Stretch& stretch, uint32_t budget, std::vector<WallPassed>& passed) const {
