@@ -11,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/radio_bench.h"
 #include "apps/recall.h"
 #include "apps/session.h"
 #include "apps/summary.h"
@@ -28,6 +29,8 @@ struct Options {
   bool discard = false, json = false;
   bool recall = false;
   RecallOptions recall_options;
+  bool radio = false;
+  RadioBenchOptions radio_options;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -142,6 +145,13 @@ void run(const Options& options) {
     print(result);
 }
 
+void run_radio(const Options& options) {
+  RadioBenchOptions radio = options.radio_options;
+  radio.warm_up = options.warm_up;
+  const nlohmann::json result = radio_bench(options.scenario, options.run, radio);
+  std::cout << (options.json ? result.dump(2) + "\n" : radio_bench_text(result));
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -174,7 +184,20 @@ void add_bench(CLI::App& app) {
   command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0, 24));
+  command->add_flag(
+      "--radio", options->radio,
+      "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
+      "with diffraction and scattering, many receivers in one call");
+  command->add_option("--many", options->radio_options.receivers, "of --radio: receivers in one call")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--row-seconds", options->radio_options.seconds,
+                   "of --radio: a row of ticks ends after so long")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->callback([options, command] {
+    if (options->radio) return run_radio(*options);
     if (!options->recall) return run(*options);
     options->recall_options.scenario = options->scenario;
     options->recall_options.run = options->run;

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --radio`: what the channels of a scenario cost apart from everything else.
+// `greatx bench --radio`: what the first channel of a scenario costs apart from everything else. Each row is measured in a
+// process of its own (apps/row_process.h), so its memory is its own.
 #pragma once
+
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -13,10 +16,19 @@ namespace greatx::apps {
 struct RadioBenchOptions {
   uint32_t receivers = 1000;  ///< of the row that solves many in one call
   int64_t warm_up = 5;
+  double seconds =
+      10.0;  ///< a row of ticks ends after the scenario's last one or as long as this, with 3 ticks at least
 };
 
-/// Rows, ms: first CIR since the start of the command, search without the cache, a tick in steady state (paths, fields,
-/// frequency response, nothing written), many receivers in one call, and the same with diffraction, scattering, and both.
+/// One JSON object: scenario, device, driver, facets, and
+/// - first_cir: ms from the start of the process to the record of the first tick, and whether the search was cached (if it
+///   was not, it is measured again, when it is);
+/// - search: ms, candidates and guarantee of the beam search, the cache left out;
+/// - ticks: for line of sight + reflection + transmission, the same with diffraction, with scattering, and with both:
+///   tick_ms of the whole pipelined tick (nothing written), and stage by stage, one after the other: geometry_ms,
+///   crossings_ms (GPU: until the submission is done), fields_ms, response_ms (the frequency response of all receivers);
+/// - many: `receivers` points in one call, ms and paths.
+/// Each row has cpu_s and peak_rss_bytes; `target` is the figure and `ratio` the measured one over it.
 nlohmann::json radio_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const RadioBenchOptions& options);
 std::string radio_bench_text(const nlohmann::json& result);
