@@ -300,33 +300,39 @@ void BeamCells::settle_polygon(const ViewFacet& facet, const Entry& entry, const
 
 /// Takes away what is inside of all constraints, or counts a wall for it.
 void BeamCells::subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline) {
-  next_.clear();
   const bool stops = view_->facets()[cover].kind == FacetKind::opaque || walls_ == 0;
-  for (Piece& piece : pieces_) {
-    const size_t before = next_.size();
-    Convex rest = piece.shape, inside, outside;
-    bool whole = pieces_.size() + next_.size() > most_pieces;
-    const auto cut_off = [&](const HalfPlane& half) {
-      if (!split(rest, half, inside, outside)) return false;
-      if (outside.count > 0 && inside.count > 0) {
-        next_.push_back(piece);
-        next_.back().shape = outside;
+  const size_t count = pieces_.size();
+  for (size_t i = 0; i < count; ++i) {
+    if (!find_cuts(pieces_[i].shape, front, outline)) continue;
+    if (pieces_.size() + cuts_.size() > most_pieces) continue;
+    if (pieces_[i].shape.count + 2 * cuts_.size() > Convex::capacity) continue;
+    Convex inside, outside;
+    for (const HalfPlane& half : cuts_) {
+      split(pieces_[i].shape, half, inside, outside);
+      if (outside.count > 0) {
+        pieces_.push_back(pieces_[i]);
+        pieces_.back().shape = outside;
       }
-      rest = inside;
-      return rest.count > 0;
-    };
-    whole = whole || !cut_off(front);
-    for (size_t i = 0; i < outline.size() && !whole; ++i) whole = !cut_off(outline[i]);
-    if (whole) {  // no ray of it is stopped, or it cannot be cut
-      next_.resize(before);
-      next_.push_back(piece);
-      continue;
+      pieces_[i].shape = inside;
     }
-    if (stops || !passes_one_more(piece.passed, piece.walls, cover)) continue;
-    piece.shape = rest;
-    next_.push_back(piece);
+    if (stops || !passes_one_more(pieces_[i].passed, pieces_[i].walls, cover)) pieces_[i].shape.count = 0;
   }
-  std::swap(pieces_, next_);
+  std::erase_if(pieces_, [](const Piece& piece) { return piece.shape.count == 0; });
+}
+
+/// Which constraints run through a polygon? False: it is outside of one.
+bool BeamCells::find_cuts(const Convex& shape, const HalfPlane& front, std::span<const HalfPlane> outline) {
+  cuts_.clear();
+  const auto look = [&](const HalfPlane& half) {
+    double least = 1e300, most = -1e300;
+    for (uint32_t i = 0; i < shape.count; ++i) {
+      const double value = half.at(shape.at[i]);
+      least = std::min(least, value), most = std::max(most, value);
+    }
+    if (least < 0.0) cuts_.push_back(half);
+    return most > 0.0;
+  };
+  return look(front) && std::all_of(outline.begin(), outline.end(), look);
 }
 
 /// The same for an edge, which is lit if any of it is.

@@ -72,16 +72,17 @@ class BeamCells {
   bool apart(uint32_t wall, uint32_t other) const;
   bool passes_one_more(std::array<uint32_t, most_passed>& passed, uint32_t& walls, uint32_t wall) const;
   void subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline);
+  bool find_cuts(const Convex& shape, const HalfPlane& front, std::span<const HalfPlane> outline);
   void subtract(Interval interval, uint32_t cover, double from, double to);
   std::span<const HalfPlane> outline(uint32_t polygon, const ViewFacet& facet);
   void add_to(FacetRegion& region, const ViewFacet& facet, const Convex& shape, double pad) const;
-  bool is_known(uint32_t facet) const;
 
   const BeamView* view_ = nullptr;
   uint32_t walls_ = 0;
   std::vector<uint32_t> lists_;  ///< of the cells that are open
   std::vector<Entry> entries_;   ///< of the leaf, nearest first
-  std::vector<Piece> pieces_, next_;
+  std::vector<Piece> pieces_;
+  std::vector<HalfPlane> cuts_;
   std::vector<Interval> intervals_, next_intervals_;
   std::vector<HalfPlane> halves_;
   std::vector<Outline> outlines_;     ///< [polygons of the view]

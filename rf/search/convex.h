@@ -44,6 +44,13 @@ struct Convex {
   uint32_t count = 0;
   std::array<dvec2, capacity> at;
 
+  Convex() = default;
+  Convex(const Convex& other) { *this = other; }
+  Convex& operator=(const Convex& other) {  // what is there, not all that there is room for
+    count = other.count;
+    std::copy_n(other.at.begin(), count, at.begin());
+    return *this;
+  }
   bool add(const dvec2& x) {
     if (count == capacity) return false;
     at[count++] = x;
