@@ -276,12 +276,17 @@ BeamSearchResult BeamSearch::search(const dvec3& source) const {
 }
 
 std::string BeamSearch::guarantee() const {
-  return fmt::format(
-      "beams: no facet sequence with a path of up to {} reflections{} is left out, whatever the receiver",
-      options_.max_depth,
+  const std::string walls =
       options_.max_transmissions > 0
           ? fmt::format(" and walls passed (walls: at most {})", options_.max_transmissions)
-          : std::string());
+          : std::string();
+  const std::string clear = options_.clearance_m > 0.0
+                                ? fmt::format(" and is {:g} mm clear of edges", 1e3 * options_.clearance_m)
+                                : std::string();
+  return fmt::format(
+      "beams: no facet sequence is left out that has a path of up to {} reflections{}{}, whatever the "
+      "receiver",
+      options_.max_depth, walls, clear);
 }
 
 }  // namespace greatx::rf
