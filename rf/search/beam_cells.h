@@ -6,6 +6,7 @@
 // that cross need no order of their own: the side on which one is in front of the other is a half-plane of slopes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -65,6 +66,7 @@ class BeamCells {
   void drop_hidden(const SlopeRect& rect, size_t first);
   bool covers(uint32_t facet, const SlopeRect& rect);
   void settle_leaf(const SlopeRect& rect, size_t first);
+  std::array<HalfPlane, 8> sides_of(const SlopeRect& rect) const;
   void settle_facet(const SlopeRect& rect, const Entry& entry);
   void settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole);
   void settle_wedge(const SlopeRect& rect, const Entry& entry);
