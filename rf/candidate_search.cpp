@@ -168,7 +168,7 @@ std::vector<uint32_t> CandidateSearch::kinds_of(const FacetKinds& kinds) {
   GREATX_CHECK(kinds.empty() || kinds.size() == facets, "kinds of {} facets, the scene has {}", kinds.size(),
                facets);
   const auto any = [&](FacetKind kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
-  foliage_ = any(FacetKind::foliage);
+  foliage_ = any(FacetKind::foliage) || any(FacetKind::absent);
   // To depth 1 there is nothing behind a wall to reflect at.
   walls_ = any(FacetKind::wall) && options_.max_transmissions > 0 && options_.max_depth > 1;
   std::vector<uint32_t> words(facets, static_cast<uint32_t>(FacetKind::opaque));

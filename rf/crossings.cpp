@@ -13,6 +13,7 @@ namespace {
 
 static_assert(static_cast<uint32_t>(FacetKind::wall) == shared::facet_kind_wall);
 static_assert(static_cast<uint32_t>(FacetKind::foliage) == shared::facet_kind_foliage);
+static_assert(static_cast<uint32_t>(FacetKind::absent) == shared::facet_kind_absent);
 
 shared::GpuFacetPlane plane_of(const scene::Scene& scene, const scene::Facet& facet, FacetKind kind) {
   GREATX_CHECK(facet.triangle_count > 0, "facet of instance {} without triangles", facet.instance);

@@ -119,7 +119,8 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
   std::vector<uint32_t> taken;
   for (uint32_t index = 0; index < world.facet_count(); ++index) {
     const PosedFacet& facet = world.facet(index);
-    if (kinds[index] == FacetKind::foliage || (facet.body != 0 && !moving_bodies)) continue;
+    if (kinds[index] == FacetKind::foliage || kinds[index] == FacetKind::absent) continue;
+    if (facet.body != 0 && !moving_bodies) continue;
     if (facet.triangle_count == 0) continue;
     taken.push_back(index);
     for (uint32_t t = 0; t < facet.triangle_count; ++t)

@@ -44,7 +44,7 @@ Hit next_hit(Way way) {
                         infinite_range);
   while (rayQueryProceedEXT(query)) {
     uint facet = scene_facet(candidate_triangle(query, scene_primitive(candidate_primitive(query))));
-    if (facet != way.left_facet && kinds[facet] != facet_kind_foliage) rayQueryConfirmIntersectionEXT(query);
+    if (facet != way.left_facet && kinds[facet] < facet_kind_foliage) rayQueryConfirmIntersectionEXT(query);
   }
   return committed_hit(query, infinite_range);
 }

@@ -106,6 +106,7 @@ bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint tria
     add_crossing(depth, plane, direction, at);
     return false;
   }
+  if (plane.kind == facet_kind_absent) return false;
   if (lies_on(segment.a, plane) || lies_on(segment.b, plane)) return false;
   if (!has_walls || plane.kind != facet_kind_wall) return true;
   return !add_wall(walls, segment.walls & ~crossings_end_in_foliage, facet, plane, at * length(direction),

@@ -30,6 +30,7 @@ struct CandidateConstants {
 // rf::FacetKind, where its values matter.
 const uint facet_kind_wall = 1u;
 const uint facet_kind_foliage = 2u;
+const uint facet_kind_absent = 3u;
 
 // ------------------------------------------------------------------------------------------------------- crossings
 

@@ -32,10 +32,10 @@ class HandScene {
   /// A square of 2 * half metres around (0, 0, height), facing up.
   uint32_t ground(double half, double height = 0.0, uint32_t material = 0);
 
-  scene::Scene scene;
-
- private:
+  /// Triangles in one plane.
   uint32_t facet(const std::vector<scene::FacetTriangle>& triangles, uint32_t material, uint32_t body);
+
+  scene::Scene scene;
 };
 
 }  // namespace greatx::rf::testing

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Facets that are absent (foliage while that effect is off) are as if they were not there, on the device, too.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rf/candidate_search.h"
+#include "tests/rf/crossings_support.h"
+
+namespace greatx::rf {
+namespace {
+
+using test::cross;
+using test::segment;
+using test::TinyScene;
+
+/// A mirror behind a crown; kinds in that order.
+TinyScene mirror_behind_a_box() {
+  TinyScene tiny;
+  tiny.object("mirror").quad({0, -9, -9}, {0, 9, -9}, {0, 9, 9}, {0, -9, 9});
+  tiny.object("crown").box({2, -5, -5}, {6, 5, 5});
+  return tiny;
+}
+FacetKinds kinds_with(FacetKind crown) {
+  FacetKinds kinds(7, crown);
+  kinds[0] = FacetKind::opaque;
+  return kinds;
+}
+
+TEST(AbsentFacets, StandInNobodysWay) {
+  const scene::Scene scene = mirror_behind_a_box().build();
+  const std::vector<Segment> segments{segment({9, 0, 0}, {1, 0, 0}),    // through it
+                                      segment({4, 0, 0}, {1, 0, 0}),    // out of it
+                                      segment({9, 0, 0}, {-1, 0, 0}),   // and through the mirror
+                                      segment({2, -9, 0}, {2, 9, 0})};  // in the plane of one of its faces
+  std::vector<bool> blocked;
+  for (const Crossing& crossing : cross(scene, kinds_with(FacetKind::absent), segments)) {
+    blocked.push_back(crossing.blocked);
+    EXPECT_TRUE(crossing.walls.empty());
+    EXPECT_EQ(crossing.foliage_m, 0.0);
+  }
+  EXPECT_THAT(blocked, testing::ElementsAre(false, false, true, false));
+  // As walls they do stand there, as foliage they take their share.
+  EXPECT_THAT(cross(scene, kinds_with(FacetKind::wall), segments)[0].blocked, true);
+  EXPECT_NEAR(cross(scene, kinds_with(FacetKind::foliage), segments)[0].foliage_m, 4.0, 1e-3);
+}
+
+TEST(AbsentFacets, RaysMeetWhatIsBehindThem) {
+  const scene::Scene scene = mirror_behind_a_box().build();
+  scene::GpuScene gpu_scene(test::device(), scene, {});
+  const auto sequences = [&](FacetKind crown) {
+    CandidateSearchOptions options;
+    options.rays = 1 << 12;
+    options.max_depth = 2;
+    CandidateSearch search(gpu_scene, options, kinds_with(crown));
+    const CandidateList list = search.search(std::vector{Pose{}}, {9, 0.3, 0.2}).list;
+    std::vector<std::vector<uint32_t>> all;
+    for (size_t i = 0; i < list.size(); ++i)
+      if (!list.sequence(i).empty()) all.emplace_back(list.sequence(i).begin(), list.sequence(i).end());
+    return all;
+  };
+  EXPECT_THAT(sequences(FacetKind::absent), testing::ElementsAre(std::vector<uint32_t>{0}));
+  EXPECT_THAT(sequences(FacetKind::foliage), testing::ElementsAre(std::vector<uint32_t>{0}));
+  EXPECT_THAT(sequences(FacetKind::opaque), testing::Contains(std::vector<uint32_t>{6}));
+}
+
+}  // namespace
+}  // namespace greatx::rf
