@@ -28,8 +28,9 @@ bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
   return true;
 }
 
-/// Canonical order, then the first of each polyline.
-void finish(std::vector<GeometricPath>& paths) {
+}  // namespace
+
+void keep_distinct(std::vector<GeometricPath>& paths) {
   std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
     return interactions_less(a.interactions, b.interactions);
   });
@@ -43,8 +44,6 @@ void finish(std::vector<GeometricPath>& paths) {
   }
   paths.resize(kept);
 }
-
-}  // namespace
 
 ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
                      Source end)
@@ -206,7 +205,7 @@ std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
     path.length_m = glm::length(target - images_[index]);
     paths.push_back(std::move(path));
   }
-  finish(paths);
+  keep_distinct(paths);
   return paths;
 }
 

@@ -98,6 +98,9 @@ class ImageTree {
   std::vector<uint32_t> used_facets_;       ///< ascending
 };
 
+/// Canonical order; of paths with the same polyline the first. What solve() does, for paths of several trees.
+void keep_distinct(std::vector<GeometricPath>& paths);
+
 /// The same for a single pair: builds the tree, solves, forgets.
 std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
                                        const dvec3& receiver, const CandidateList& candidates);

@@ -3,14 +3,11 @@
 #include "sim/channel_paths.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include <spdlog/spdlog.h>
 
 #include "core/parallel.h"
-#include "core/units.h"
-#include "rf/search/search_cache.h"
 #include "sim/radio_plan.h"
 
 namespace greatx::sim {
@@ -19,37 +16,6 @@ namespace {
 
 bool is_static(const Scenario& scenario, uint32_t node) {
   return std::holds_alternative<StaticTrajectory>(scenario.nodes[node].trajectory);
-}
-
-rf::BeamSearchOptions beam_options(const ChannelConfig& config, const EffectPlan& plan, bool moving_bodies,
-                                   uint32_t source_body) {
-  rf::BeamSearchOptions options;
-  options.source_body = source_body;
-  options.max_depth = config.max_depth;
-  options.max_transmissions = plan.transmission.on ? config.walls() : 0;
-  options.moving_bodies = moving_bodies;
-  return options;
-}
-
-rf::CandidateSearchOptions ray_options(const ChannelConfig& config, const EffectPlan& plan,
-                                       bool moving_bodies) {
-  rf::CandidateSearchOptions options;
-  options.rays = config.rays;
-  options.max_depth = config.max_depth;
-  options.max_transmissions = plan.transmission.on ? config.walls() : 0;
-  options.moving_bodies = moving_bodies;
-  return options;
-}
-
-rf::PathOptions path_options(const ChannelConfig& config, bool moving_bodies) {
-  rf::PathOptions options;
-  options.max_depth = config.max_depth;
-  options.max_transmissions = config.walls();
-  options.max_reflections_after = config.max_reflections_after;
-  options.patch_m = config.scattering_patch_m;
-  options.max_paths = config.max_paths;
-  options.moving_bodies = moving_bodies;
-  return options;
 }
 
 /// Straight from the nodes' poses: what the paths' own lengths are checked against.
@@ -90,20 +56,10 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
       surroundings_(world.scene, model_.kinds),
       crossings_(crossings) {
   for (const std::string& name : config_.receivers) receivers_.push_back(end_of(name));
-  choose_search(plan);
-  const bool wedges = plan.diffraction.on;
-  if (wedges && config_.candidates == "rays")
-    throw_user_error_at(
-        config_.where,
-        "channel '{}': candidates: expected beams, since diffraction is on and rays meet no edges; "
-        "found rays",
-        config_.name);
-  if (search_ == Search::none) return;
-  if (config_.candidates == "rays")
-    rays_.emplace(gpu_scene, ray_options(config_, plan, move_facets_), model_.kinds);
-  else
-    beams_.emplace(model_.facets, model_.kinds, model_.wedges,
-                   beam_options(config_, plan, move_facets_, transmitter_.body));
+  const bool receivers_rest =
+      std::none_of(receivers_.begin(), receivers_.end(), [&](const ChannelEnd& end) { return moves(end); });
+  search_.emplace(gpu_scene, model_, plan, config_,
+                  ChannelSearch::Ends{!moves(transmitter_), receivers_rest, transmitter_.body});
 }
 
 ChannelEnd ChannelPaths::end_of(const std::string& name) const {
@@ -115,33 +71,12 @@ ChannelEnd ChannelPaths::end_of(const std::string& name) const {
       fmt::format("channel '{}' refers to '{}', which the parser let pass", config_.name, name));
 }
 
-void ChannelPaths::choose_search(const EffectPlan& plan) {
-  const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
-  if (!bounces || config_.max_depth == 0) return;
-  const bool receivers_static = std::all_of(receivers_.begin(), receivers_.end(), [&](const ChannelEnd& end) {
-    return !end.node || is_static(scenario_, *end.node);
-  });
-  if (config_.search == "every_tick" || plan.moving_reflectors.on)
-    search_ = Search::every_tick;
-  else if (is_static(scenario_, *transmitter_.node))
-    search_ = Search::once_from_transmitter;
-  else if (receivers_static)
-    search_ = Search::once_from_receivers;
-  else if (config_.search == "once")
-    throw_user_error_at(config_.where,
-                        "channel '{}': search: expected auto or every_tick, since both ends move; found once",
-                        config_.name);
-  else
-    search_ = Search::every_tick;
-}
-
 void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
   receivers_.clear();
   for (size_t i = 0; i < points.size(); ++i)
     receivers_.push_back(
         {fmt::format("point {}", first + i), std::nullopt, Pose{points[i], dquat(1.0, 0.0, 0.0, 0.0)}, 0});
-  // Points come by the thousand: one search from the transmitter serves them all.
-  if (search_ == Search::once_from_receivers) search_ = Search::every_tick;
+  search_->set_points();
   ids_known_ = false;
   if (!placed_.empty()) placed_.resize(1);  // the transmitter's
 }
@@ -163,77 +98,22 @@ rf::EndState ChannelPaths::state_of(const ChannelEnd& end, const TickContext& co
   return state;
 }
 
-rf::CandidateList ChannelPaths::found(rf::CandidateList list, uint64_t overflow) {
-  candidate_count_ = std::max<uint64_t>(candidate_count_, list.size());
-  if (overflow > 0)
-    spdlog::warn("channel '{}': {} candidates beyond the bound were left out", config_.name, overflow);
-  candidate_overflow_ += overflow;
-  if (list.size() == 0 || !list.sequence(0).empty()) {  // rays do not list the line of sight
-    list.add({});
-    list.make_canonical();
-  }
-  return list;
-}
-
-rf::CandidateList ChannelPaths::search(const dvec3& source, const TickContext& context) {
-  if (rays_) {
-    rf::CandidateSearchResult result = rays_->search(context.body_poses, source);
-    const uint64_t overflow = result.overflow();
-    return found(std::move(result.list), overflow);
-  }
-  if (!beams_) return found({}, 0);
-  const rf::SearchCache cache = rf::SearchCache::standard();
-  // What moves stands elsewhere in the next run.
-  const std::string key = move_facets_ || search_ == Search::every_tick
-                              ? std::string()
-                              : rf::search_key(world_.scene.hash, model_.kinds, model_.wedges, source,
-                                               beams_->options());
-  if (!key.empty()) {
-    if (auto known = cache.load(key)) {
-      ++cache_hits_;
-      const uint64_t overflow = known->overflow();
-      return found(std::move(known->list), overflow);
-    }
-    if (world_.scene.facets.size() > 1000)
-      spdlog::info("channel '{}': searching {} facets to depth {}; kept for the next run", config_.name,
-                   world_.scene.facets.size(), config_.max_depth);
-  }
-  rf::BeamSearchResult result = beams_->search(source);
-  if (!key.empty()) cache.store(key, result);
-  const uint64_t overflow = result.overflow();
-  return found(std::move(result.list), overflow);
-}
-
-rf::PathSolver& ChannelPaths::solver(size_t index) {
-  while (solvers_.size() <= index) solvers_.emplace_back(model_, path_options(config_, move_facets_));
-  return solvers_[index];
+std::vector<dvec3> ChannelPaths::receiver_positions(const TickContext& context) const {
+  std::vector<dvec3> positions;
+  for (const ChannelEnd& end : receivers_) positions.push_back(state_of(end, context).position);
+  return positions;
 }
 
 void ChannelPaths::start(const TickContext& context) {
-  searching_.reset();
   ids_known_ = false;
-  searched_tick_ = -1;
   placed_.clear();
   placements_told_ = 0;
-  const bool once = search_ == Search::once_from_transmitter || search_ == Search::once_from_receivers;
-  if (once && !solvers_.empty()) return;
-  solvers_.clear();
   move_bodies(context);
-  if (search_ == Search::once_from_receivers) {
-    for (size_t r = 0; r < receivers_.size(); ++r) {
-      const dvec3 source = state_of(receivers_[r], context).position;
-      solver(r).set_candidates(search(source, context), source, rf::Source::receiver);
-    }
-    return;
-  }
-  // Every tick by beams is done in record().
-  if (search_ == Search::every_tick && beams_) return;
-  const dvec3 source = state_of(transmitter_, context).position;
-  solver(0).set_candidates(search(source, context), source, rf::Source::transmitter);
+  search_->start(state_of(transmitter_, context).position, receiver_positions(context), context.body_poses);
 }
 
 void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
-  searching_ = rays_->record(slot, state_of(transmitter_, next).position);
+  search_->record_ahead(slot, state_of(transmitter_, next).position);
 }
 
 void ChannelPaths::move_bodies(const TickContext& context) {
@@ -246,28 +126,12 @@ void ChannelPaths::move_bodies(const TickContext& context) {
     }
 }
 
-void ChannelPaths::renew_candidates(const dvec3& transmitter, const TickContext& context) {
-  if (search_ == Search::once_from_transmitter || search_ == Search::once_from_receivers) return;
-  if (search_ == Search::every_tick && beams_) {
-    if (context.tick == searched_tick_) return;  // more points at the same tick
-    searched_tick_ = context.tick;
-    solver(0).set_candidates(search(transmitter, context), transmitter, rf::Source::transmitter);
-  } else if (searching_) {
-    rf::CandidateSearchResult result = rays_->collect(*searching_);
-    const uint64_t overflow = result.overflow();
-    solver(0).set_candidates(found(std::move(result.list), overflow), transmitter, rf::Source::transmitter);
-    searching_.reset();
-  } else {
-    solver(0).move_source(transmitter);
-  }
-}
-
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
   flight.transmitter = state_of(transmitter_, context);
   move_bodies(context);
   check_placements(context);
-  renew_candidates(flight.transmitter.position, context);
+  search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
   flight.links.assign(receivers_.size(), {});
   std::vector<uint64_t> overflow(receivers_.size());
@@ -276,9 +140,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     link.receiver = state_of(receivers_[r], context);
     link.distance_m =
         glm::distance(world_position(transmitter_, context), world_position(receivers_[r], context));
-    rf::LinkGeometry geometry = search_ == Search::once_from_receivers
-                                    ? solvers_[r].geometry(flight.transmitter)
-                                    : solvers_[0].geometry(link.receiver);
+    rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver);
     link.paths = std::move(geometry.paths);
     overflow[r] = geometry.overflow;
   });
@@ -292,7 +154,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     path_overflow_ += overflow[r];
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
-    solvers_[0].add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
+    search_->solver().add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
     link.segment_count = flight.segments.size() - link.first_segment;
   }
   flight.crossings = crossings_.record(slot, flight.segments);
@@ -308,9 +170,9 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     LinkInFlight& link = flight.links[r];
     result.links[r].receiver = link.receiver;
     result.links[r].distance_m = link.distance_m;
-    result.links[r].paths =
-        solvers_[0].finish(link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count),
-                           flight.transmitter, link.receiver);
+    result.links[r].paths = search_->solver().finish(
+        link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
+        link.receiver);
   });
   if (!ids_known_) ids_.assign(result.links.size(), {});
   for (size_t r = 0; r < result.links.size(); ++r) {
@@ -368,30 +230,13 @@ void ChannelPaths::check_placements(const TickContext& context) {
 }
 
 void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
-  counters["candidates"] = candidate_count_;
-  counters["candidate_overflow"] = candidate_overflow_;
-  counters["candidates_from_cache"] = cache_hits_;
+  search_->count(counters);
   counters["geometric_paths"] = geometric_paths_;
   counters["path_overflow"] = path_overflow_;
   counters["paths"] = lit_paths_;
   counters["path_births"] = births_;
   counters["path_deaths"] = deaths_;
   counters["ends_inside_solids"] = ends_inside_;
-}
-
-std::vector<std::pair<std::string, std::string>> ChannelPaths::notes() const {
-  constexpr const char* searches[] = {"none", "once, from the transmitter", "once, from each receiver",
-                                      "every tick, from the transmitter"};
-  std::vector<std::pair<std::string, std::string>> notes;
-  notes.emplace_back("search", searches[static_cast<uint32_t>(search_)]);
-  if (beams_) notes.emplace_back("guarantee", beams_->guarantee());
-  if (rays_)
-    notes.emplace_back(
-        "guarantee",
-        fmt::format(
-            "{} rays: a sequence whose beam is narrower than their spacing, {:.2g} mrad, may be missed",
-            config_.rays, 1e3 * std::sqrt(4.0 * pi / config_.rays)));
-  return notes;
 }
 
 }  // namespace greatx::sim

@@ -15,10 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "rf/candidate_search.h"
 #include "rf/path_solver.h"
 #include "rf/placement.h"
-#include "rf/search/beam_search.h"
+#include "sim/channel_search.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
@@ -60,7 +59,7 @@ class ChannelPaths {
   void set_points(std::span<const dvec3> points, size_t first = 0);
   /// Before the first tick of a sequence: candidates from a static end (from the cache if it has them).
   void start(const TickContext& context);
-  bool looks_ahead() const { return search_ == Search::every_tick && rays_.has_value(); }
+  bool looks_ahead() const { return search_->looks_ahead(); }
   void record_ahead(gpu::TickSlot& slot, const TickContext& next);
   void record(gpu::TickSlot& slot, const TickContext& context);
   Result collect(const gpu::TickSlot& slot);
@@ -71,11 +70,9 @@ class ChannelPaths {
   /// Candidates, overflows, paths; names without the channel's.
   void count(std::map<std::string, uint64_t>& counters) const;
   /// How candidates are found and what that guarantees: (name, text).
-  std::vector<std::pair<std::string, std::string>> notes() const;
+  std::vector<std::pair<std::string, std::string>> notes() const { return search_->notes(); }
 
  private:
-  /// Where candidates come from.
-  enum class Search { none, once_from_transmitter, once_from_receivers, every_tick };
   struct LinkInFlight {
     rf::EndState receiver;
     double distance_m = 0.0;
@@ -90,13 +87,9 @@ class ChannelPaths {
   };
 
   ChannelEnd end_of(const std::string& name) const;
-  void choose_search(const EffectPlan& plan);
   rf::EndState state_of(const ChannelEnd& end, const TickContext& context) const;
-  rf::CandidateList found(rf::CandidateList list, uint64_t overflow);
-  rf::CandidateList search(const dvec3& source, const TickContext& context);
-  rf::PathSolver& solver(size_t index);
+  std::vector<dvec3> receiver_positions(const TickContext& context) const;
   void move_bodies(const TickContext& context);
-  void renew_candidates(const dvec3& transmitter, const TickContext& context);
   void note_births(size_t link, const std::vector<rf::Path>& paths);
   void check_placements(const TickContext& context);
   bool moves(const ChannelEnd& end) const;
@@ -110,11 +103,7 @@ class ChannelPaths {
   rf::RadioModel model_;
   rf::Surroundings surroundings_;
   rf::CrossingPass& crossings_;
-  Search search_ = Search::none;
-  std::optional<rf::BeamSearch> beams_;
-  std::optional<rf::CandidateSearch> rays_;
-  std::optional<rf::CandidateSearch::Pending> searching_;  ///< recorded with the tick before
-  std::vector<rf::PathSolver> solvers_;                    ///< [1], or [receivers] when they are the source
+  std::optional<ChannelSearch> search_;
   std::array<InFlight, slots_in_flight> in_flight_;
   std::vector<std::vector<uint64_t>> ids_;  ///< [receivers] of the paths at the tick before, ascending
   bool ids_known_ = false;
@@ -124,9 +113,8 @@ class ChannelPaths {
   };
   std::vector<Placed> placed_;  ///< [1 + receivers]: transmitter, receivers; empty: nothing yet
   size_t placements_told_ = 0;  ///< of this sequence
-  int64_t searched_tick_ = -1;  ///< of the candidates, if they are searched by beams at every tick
-  uint64_t candidate_count_ = 0, candidate_overflow_ = 0, cache_hits_ = 0, path_overflow_ = 0;
-  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
+  uint64_t path_overflow_ = 0, geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0,
+           ends_inside_ = 0;
 };
 
 }  // namespace greatx::sim

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/search/moving_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "rf/search/target_images.h"
+
+namespace greatx::rf {
+namespace {
+
+/// Facets of body 0 alone, or of all others alone: what is left out counts as foliage, which no beam meets.
+FacetKinds kinds_of(const FacetWorld& world, const FacetKinds& kinds, bool moving) {
+  FacetKinds chosen = kinds;
+  for (uint32_t i = 0; i < world.facet_count(); ++i)
+    if ((world.facet(i).body != 0) != moving) chosen[i] = FacetKind::foliage;
+  return chosen;
+}
+
+}  // namespace
+
+/// One search: what moves where it stands now, and the targets' images.
+struct MovingSearch::Walk {
+  Walk(const MovingSearch& of, std::span<const dvec3> targets, bool with_fixed)
+      : search(of),
+        options(of.options_),
+        fixed_too(with_fixed),
+        fixed(*of.fixed_),
+        moving(*of.world_, kinds_of(*of.world_, *of.kinds_, true), {}, true),
+        extent_m(std::max(fixed.largest_coordinate(), moving.largest_coordinate())) {
+    for (const dvec3& target : targets) {
+      extent_m = std::max({extent_m, std::abs(target.x), std::abs(target.y), std::abs(target.z)});
+      fixed_images.emplace_back(fixed, target);
+      if (options.moving_bodies) moving_images.emplace_back(moving, target);
+    }
+  }
+
+  /// Sequences found, one after the other, each with its length before it.
+  struct Found {
+    std::vector<uint32_t> sequences;
+    std::vector<uint32_t> current;                ///< the world's facets, on the way
+    std::vector<std::vector<uint32_t>> gathered;  ///< [depth], of both scenes
+    void add(uint32_t last) {
+      sequences.push_back(static_cast<uint32_t>(current.size()) + 1);
+      sequences.insert(sequences.end(), current.begin(), current.end());
+      sequences.push_back(last);
+    }
+  };
+
+  void end_at(const Pyramid& pyramid, const BeamScene& scene, const std::vector<TargetImages>& images,
+              Found& found) const {
+    for (const TargetImages& target : images)
+      target.reached_from(pyramid, [&](uint32_t facet) {
+        const uint32_t index = scene.facet(facet).index;
+        if (found.current.empty() || found.current.back() != index) found.add(index);
+      });
+  }
+
+  /// The sequence goes on from its last facet to a facet of `scene`, and beyond.
+  void enter(const Pyramid& pyramid, const BeamScene& scene, Found& found) const {
+    const size_t depth = found.current.size();
+    if (found.gathered.size() <= depth) found.gathered.resize(depth + 1);
+    std::vector<uint32_t> facets = std::move(found.gathered[depth]);
+    facets.clear();
+    scene.gather(pyramid.region(), facets);
+    for (const uint32_t facet : facets) enter(pyramid, scene.facet(facet), found);
+    found.gathered[depth] = std::move(facets);
+  }
+  void enter(const Pyramid& pyramid, const BeamFacet& facet, Found& found) const {
+    if (!found.current.empty() && found.current.back() == facet.index) return;
+    const std::optional<SequenceBeam> beam = cut_to(pyramid, facet);
+    if (!beam) return;
+    const std::optional<Pyramid> next = make_pyramid(*beam, facet, extent_m);
+    if (!next) return;
+    found.current.push_back(facet.index);
+    go_on(*next, found);
+    found.current.pop_back();
+  }
+  /// From a sequence that has a moving facet.
+  void go_on(const Pyramid& pyramid, Found& found) const {
+    end_at(pyramid, fixed, fixed_images, found);
+    end_at(pyramid, moving, moving_images, found);
+    if (found.current.size() + 2 > options.max_depth) return;
+    enter(pyramid, fixed, found);
+    enter(pyramid, moving, found);
+  }
+
+  /// What follows sequence `index` of the tree, which is at rest.
+  void after(size_t index, Found& found) const {
+    const SequenceBeam& beam = search.beams_[index];
+    if (beam.walls == SequenceBeam::none) return;
+    const auto sequence = search.sequences_.sequence(index);
+    found.current.assign(sequence.begin(), sequence.end());
+    Pyramid pyramid;
+    pyramid.apex = beam.image;
+    if (!sequence.empty()) {
+      const std::optional<Pyramid> made =
+          make_pyramid(beam, fixed.facet(search.fixed_facet_[sequence.back()]), extent_m);
+      if (!made) return;
+      pyramid = *made;
+    }
+    const bool goes_on = sequence.size() + 2 <= options.max_depth;
+    if (fixed_too) end_at(pyramid, fixed, fixed_images, found);
+    if (fixed_too && goes_on && sequence.size() == search.tree_depth_) enter(pyramid, fixed, found);
+    if (!options.moving_bodies) return;
+    end_at(pyramid, moving, moving_images, found);
+    if (goes_on && !sequence.empty()) enter(pyramid, moving, found);
+  }
+  /// What follows the moving facet `facet` as the first one.
+  void first_at(uint32_t facet, Found& found) const {
+    Pyramid everything;
+    everything.apex = search.source_;
+    if (options.max_depth >= 2) enter(everything, moving.facet(facet), found);
+  }
+
+  const MovingSearch& search;
+  const MovingSearchOptions& options;
+  bool fixed_too;
+  const BeamScene& fixed;
+  BeamScene moving;
+  double extent_m;
+  std::vector<TargetImages> fixed_images, moving_images;  ///< [targets]
+};
+
+MovingSearch::MovingSearch(const FacetWorld& world, const FacetKinds& kinds,
+                           const MovingSearchOptions& options)
+    : world_(&world), kinds_(&kinds), options_(options) {
+  fixed_ = std::make_shared<const BeamScene>(world, kinds_of(world, kinds, false),
+                                             std::span<const scene::Wedge>{}, false);
+  fixed_facet_.assign(world.facet_count(), ~0u);
+  for (uint32_t i = 0; i < fixed_->facet_count(); ++i) fixed_facet_[fixed_->facet(i).index] = i;
+}
+
+void MovingSearch::set_tree(const BeamSearchResult& tree, const dvec3& source) {
+  GREATX_CHECK(tree.beams.size() <= tree.list.size(), "{} beams of {} sequences", tree.beams.size(),
+               tree.list.size());
+  source_ = source;
+  beams_ = tree.beams;
+  sequences_ = {};
+  tree_depth_ = 0;
+  for (size_t i = 0; i < beams_.size(); ++i) {
+    const auto sequence = tree.list.sequence(i);
+    sequences_.add(sequence);
+    tree_depth_ = std::max(tree_depth_, static_cast<uint32_t>(sequence.size()));
+  }
+}
+
+CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_too) const {
+  CandidateList list;
+  if (fixed_too) list.add({});
+  if (options_.max_depth == 0) return list;
+  GREATX_CHECK(has_tree(), "{} targets, but no tree of the world at rest", targets.size());
+  const Walk walk(*this, targets, fixed_too);
+  const size_t first_moving = options_.moving_bodies ? walk.moving.facet_count() : 0;
+  std::vector<Walk::Found> found(first_moving + beams_.size());
+  parallel_for(found.size(), options_.threads, [&](size_t i) {
+    if (i < first_moving)
+      walk.first_at(static_cast<uint32_t>(i), found[i]);
+    else
+      walk.after(i - first_moving, found[i]);
+    found[i].gathered = {};
+  });
+  for (const Walk::Found& part : found)
+    for (size_t at = 0; at < part.sequences.size(); at += part.sequences[at] + 1)
+      list.add(std::span(part.sequences).subspan(at + 1, part.sequences[at]));
+  list.make_canonical();
+  return list;
+}
+
+std::string MovingSearch::guarantee(bool fixed_too) const {
+  return fmt::format(
+      "between the ends where they are, by sides of mirrors, pyramids and rectangles alone: no sequence of "
+      "up to {} "
+      "reflections{} is left out",
+      options_.max_depth, fixed_too ? "" : " with a moving facet");
+}
+
+}  // namespace greatx::rf
