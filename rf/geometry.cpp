@@ -51,15 +51,15 @@ ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const Candida
   GREATX_CHECK(candidates.is_canonical(), "{} candidate sequences are not in canonical order",
                candidates.size());
   build(candidates);
-  update(source);
-  if (candidates.windows.empty()) return;
-  for (size_t i = 0; i < candidates.size(); ++i)
+  mirror(source);
+  for (size_t i = 0; i < candidates.windows.size(); ++i)
     if (const uint32_t index = node_of_sequence_[i]; index != none) {
       const PlaneWindow& window = candidates.windows[i];
       Node& node = nodes_[index];
       node.min_u = window.min_u, node.max_u = window.max_u, node.min_v = window.min_v,
       node.max_v = window.max_v;
     }
+  build_filter();
 }
 
 void ImageTree::build(const CandidateList& candidates) {
@@ -95,6 +95,11 @@ void ImageTree::build(const CandidateList& candidates) {
 }
 
 void ImageTree::update(const dvec3& source) {
+  mirror(source);
+  build_filter();
+}
+
+void ImageTree::mirror(const dvec3& source) {
   source_ = source;
   for (size_t i = 0; i < nodes_.size(); ++i) {
     Node& node = nodes_[i];
@@ -132,14 +137,32 @@ bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) 
   return true;
 }
 
-/// Does the straight line from the node's image to the target pass the window of its facet? Never false for a path that
-/// exists: the test leaves more room than trace().
+/// By which a node's window is wider than trace() asks for, so that no path that exists is lost before. Roundings of u and
+/// v grow with the distance to the image, not with the facet.
+double ImageTree::room(const Node& node, double tolerance_m) {
+  return 2.0 * tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
+}
+
+void ImageTree::build_filter() {
+  filtered_.clear();
+  std::vector<ImageWindow> windows;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (!node.candidate) continue;
+    const double wider = room(node, world_->facet(used_facets_[node.slot]).tolerance_m);
+    filtered_.push_back(i);
+    windows.push_back({node.slot, node.distance, node.u, node.v, node.min_u - wider, node.max_u + wider,
+                       node.min_v - wider, node.max_v + wider});
+  }
+  filter_.build(windows, static_cast<uint32_t>(used_facets_.size()));
+}
+
+/// Does the straight line from the node's image to the target pass the window of its facet?
 bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
   if (node.distance * target.distance >= 0.0) return false;  // the target is behind the mirror
   const double t = node.distance / (node.distance - target.distance);
   const double u = node.u + t * (target.u - node.u), v = node.v + t * (target.v - node.v);
-  // Roundings of u and v grow with the distance to the image, not with the facet.
-  const double room = 2.0 * target.tolerance + 1e-12 * (std::abs(node.u) + std::abs(node.v));
+  const double room = ImageTree::room(node, target.tolerance);
   return u >= node.min_u - room && u <= node.max_u + room && v >= node.min_v - room && v <= node.max_v + room;
 }
 
@@ -175,22 +198,30 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
   return true;
 }
 
+/// Nodes whose image the target sees through the facet, were nothing before it.
+std::vector<uint32_t> ImageTree::seen_from(const dvec3& target) const {
+  std::vector<uint32_t> indices, nodes;
+  for (uint32_t slot = 0; slot < used_facets_.size(); ++slot) {
+    const PosedFacet& facet = world_->facet(used_facets_[slot]);
+    const dvec2 at = facet.plane_coordinates(target);
+    const TargetInFacet seen{facet.distance(target), at.x, at.y, facet.tolerance_m};
+    indices.clear();
+    filter_.collect(slot, seen.distance, seen.u, seen.v, indices);
+    for (const uint32_t index : indices)
+      if (may_reach(nodes_[filtered_[index]], seen)) nodes.push_back(filtered_[index]);
+  }
+  return nodes;
+}
+
 std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
   std::vector<GeometricPath> paths;
   const double direct = glm::length(target - source_);
   const bool outwards = end_ == Source::transmitter;
   const dvec3 first = outwards ? source_ : target, last = outwards ? target : source_;
   if (line_of_sight_ && direct > shortest_line_of_sight_m) paths.push_back({{}, {first, last}, direct, 0.0});
-  std::vector<TargetInFacet> targets(used_facets_.size());
-  for (size_t slot = 0; slot < targets.size(); ++slot) {
-    const PosedFacet& facet = world_->facet(used_facets_[slot]);
-    const dvec2 at = facet.plane_coordinates(target);
-    targets[slot] = {facet.distance(target), at.x, at.y, facet.tolerance_m};
-  }
   Chain chain;
-  for (uint32_t index = 0; index < nodes_.size(); ++index) {
-    const Node& node = nodes_[index];
-    if (!node.candidate || !may_reach(node, targets[node.slot]) || !trace(index, target, chain)) continue;
+  for (const uint32_t index : seen_from(target)) {
+    if (!trace(index, target, chain)) continue;
     if (outwards) {  // the chain runs from the target back
       std::reverse(chain.facets.begin(), chain.facets.end());
       std::reverse(chain.points.begin(), chain.points.end());

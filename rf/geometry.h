@@ -12,6 +12,7 @@
 #include "rf/candidates.h"
 #include "rf/facet_world.h"
 #include "rf/path.h"
+#include "rf/reach_filter.h"
 
 namespace greatx::rf {
 
@@ -19,7 +20,7 @@ namespace greatx::rf {
 enum class Source : uint32_t { transmitter, receiver };
 
 /// The images of one end of the channel in every candidate's facets, shared between candidates with a common
-/// prefix (a trie). Built once for a static source; solve() then costs a few nanoseconds for each sequence
+/// prefix (a trie). Built once for a static source; solve() then costs about a nanosecond for each sequence
 /// that cannot reach the target and a full chain of intersections for each that may.
 ///
 /// What counts as a path:
@@ -81,7 +82,11 @@ class ImageTree {
     double distance = 0.0, u = 0.0, v = 0.0, tolerance = 0.0;
   };
   void build(const CandidateList& candidates);
+  void mirror(const dvec3& source);
+  void build_filter();
+  static double room(const Node& node, double tolerance_m);
   bool may_reach(const Node& node, const TargetInFacet& target) const;
+  std::vector<uint32_t> seen_from(const dvec3& target) const;
   struct Chain {  ///< from the target inwards
     FacetSequence facets;
     std::vector<dvec3> points;
@@ -96,6 +101,8 @@ class ImageTree {
   std::vector<Node> nodes_;                 ///< parents before children
   std::vector<dvec3> images_;               ///< [nodes]
   std::vector<uint32_t> used_facets_;       ///< ascending
+  ReachFilter filter_;                      ///< groups: slots
+  std::vector<uint32_t> filtered_;          ///< nodes that are candidates, by the filter's indices
 };
 
 /// Canonical order; of paths with the same polyline the first. What solve() does, for paths of several trees.
