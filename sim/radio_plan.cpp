@@ -26,7 +26,8 @@ struct Asks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
-  double longest_record_s = 0.0, carrier_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
+  std::vector<double> carriers_hz;  ///< [channels]
+  double longest_record_s = 0.0, highest_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
 };
 
 /// What the scene's surfaces are to radio.
@@ -47,7 +48,8 @@ Asks asks_of(const Scenario& scenario) {
     asks.time_samples = std::max(asks.time_samples, channel.time_samples);
     asks.longest_record_s =
         std::max(asks.longest_record_s, (channel.time_samples - 1) * channel.time_spacing_s);
-    asks.carrier_hz = std::max(asks.carrier_hz, channel.carrier_hz);
+    asks.carriers_hz.push_back(channel.carrier_hz);
+    asks.highest_hz = std::max(asks.highest_hz, channel.carrier_hz);
     asks.lowest_hz = std::min(asks.lowest_hz, channel.carrier_hz);
     asks.every_tick |= channel.search == "every_tick";
     (channel.candidates == "rays" ? asks.rays : asks.beams) = true;
@@ -169,6 +171,12 @@ void plan_transmission(EffectPlan& plan, const Radio& radio) {
             : "");
 }
 
+/// Asked for, but there is nothing for it to act on.
+void deny(Effect& effect) {
+  effect.on = false;
+  effect.reason = "asked for, but nothing to act on" + effect.reason.substr(effect.reason.find(" ("));
+}
+
 /// Effects that cost a search or thousands of paths, and that a scenario therefore asks for by name.
 void plan_on_request(EffectPlan& plan, const Radio& radio) {
   const bool deep = radio.on() && radio.asks.max_depth > 0;
@@ -179,7 +187,7 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
                       : (deep ? "the scene has no edge" : "max_depth is 0")),
       edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
             : "");
-  if (plan.diffraction.on && !edges) plan.diffraction.on = false;
+  if (plan.diffraction.on && !edges) deny(plan.diffraction);
   plan.diffraction_lit_region = radio.planner.decide(
       "diffraction_lit_region", plan.diffraction.on,
       plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
@@ -189,56 +197,81 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
   plan.scattering = radio.planner.decide("scattering", false,
                                          radio.why(rough ? "not asked for (effects: {scattering: on})"
                                                          : "no material has a scattering coefficient"));
-  if (plan.scattering.on && !rough) plan.scattering.on = false;
+  if (plan.scattering.on && !rough) deny(plan.scattering);
   plan.dispersion = radio.planner.decide(
       "dispersion", false,
       radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
 }
 
+/// The most that the air does to any path of any channel.
+struct Most {
+  double db = 0.0, carrier_hz = 0.0;  ///< of the channel that it does it to
+  double outside_hz = 0.0;            ///< a carrier that the recommendation does not cover; 0: none
+};
+using AirBound = double (*)(const rf::Weather&, double frequency_hz, double distance_m);
+
+Most most_of(const Asks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
+             AirBound bound) {
+  Most most;
+  for (const double carrier : asks.carriers_hz) {
+    if (!covers(carrier)) {
+      most.outside_hz = carrier;
+      continue;
+    }
+    // Attenuation by gas has lines: the highest carrier need not be the one that loses most.
+    const double db = bound(weather, carrier, distance_m);
+    if (most.carrier_hz == 0.0 || db > most.db) most.db = db, most.carrier_hz = carrier;
+  }
+  return most;
+}
+
+/// Gas, rain, fog. Outside its recommendation's range an effect has no bound: it stays off, and says so.
+Effect plan_air(const Radio& radio, const char* name, const Most& most, double longest_m, double tolerance,
+                const std::string& none, const char* source) {
+  const bool needed = radio.on() && most.db > tolerance;
+  const bool no_bound = !radio.on() || most.db == 0.0;
+  return radio.planner.decide(
+      name, needed,
+      radio.why(needed ? "more than the tolerance"
+                : most.outside_hz > 0.0
+                    ? fmt::format("{} does not cover {:.4g} GHz", source, most.outside_hz * 1e-9)
+                : most.db == 0.0 ? none
+                                 : "within the tolerance"),
+      no_bound ? ""
+               : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most.db,
+                             longest_m, most.carrier_hz * 1e-9, tolerance));
+}
+
 /// Effects that a bound decides.
 void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
   const double tolerance = scenario.tolerance_db;
-  const auto bounded = [&](const char* name, double most_db, const std::string& none) {
-    const bool needed = radio.on() && most_db > tolerance;
-    return radio.planner.decide(
-        name, needed,
-        radio.why(most_db == 0.0 ? none
-                  : needed       ? "more than the tolerance"
-                                 : "within the tolerance"),
-        !radio.on() || most_db == 0.0
-            ? ""
-            : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most_db,
-                          longest_m, radio.asks.carrier_hz * 1e-9, tolerance));
-  };
   const rf::Weather weather = weather_of(scenario.environment);
-  const double f = radio.asks.carrier_hz;
-  // Outside its recommendation's range an effect has no bound: it stays off, and says so.
-  const auto covered = [&](bool covers, double amount, double (*most)(const rf::Weather&, double, double)) {
-    return radio.on() && covers && amount > 0.0 ? most(weather, f, longest_m) : 0.0;
-  };
-  const auto none = [&](bool covers, const char* reason, const char* source) {
-    return covers ? std::string(reason) : fmt::format("{} does not cover {:.4g} GHz", source, f * 1e-9);
-  };
-  const bool gas = rf::gas_model_covers(f), rain = rf::rain_model_covers(f), fog = rf::fog_model_covers(f);
-  plan.gas = bounded("gas", covered(gas, 1.0, rf::most_gas_db), none(gas, "no air", "P.676-13"));
-  plan.rain =
-      bounded("rain", covered(rain, weather.rain_mm_h, rf::most_rain_db), none(rain, "no rain", "P.838-3"));
-  plan.fog = bounded("fog", covered(fog, weather.fog_g_m3, rf::most_fog_db), none(fog, "no fog", "P.840"));
+  const Asks& asks = radio.asks;
+  const Most gas = most_of(asks, weather, longest_m, rf::gas_model_covers, rf::most_gas_db);
+  plan.gas = plan_air(radio, "gas", gas, longest_m, tolerance, "no air", "P.676-13");
+  Most rain, fog;
+  if (weather.rain_mm_h > 0.0)
+    rain = most_of(asks, weather, longest_m, rf::rain_model_covers, rf::most_rain_db);
+  plan.rain = plan_air(radio, "rain", rain, longest_m, tolerance, "no rain", "P.838-3");
+  if (weather.fog_g_m3 > 0.0) fog = most_of(asks, weather, longest_m, rf::fog_model_covers, rf::most_fog_db);
+  plan.fog = plan_air(radio, "fog", fog, longest_m, tolerance, "no fog", "P.840");
   const bool leaves = radio.on() && radio.surfaces.foliage;
   plan.foliage = radio.planner.decide(
       "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
-  const double g =
-      rf::roughness_parameter(radio.surfaces.roughness_m, 1.0, speed_of_light / std::max(f, 1.0));
-  const double rough_db = -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
+  const double g = rf::roughness_parameter(radio.surfaces.roughness_m, 1.0,
+                                           speed_of_light / std::max(asks.highest_hz, 1.0));
+  const double rough_db =
+      asks.max_depth * -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
   const bool rough = plan.reflection.on && rough_db > tolerance;
-  plan.roughness = radio.planner.decide(
-      "roughness", rough,
-      radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
-                : rough                           ? "more than the tolerance"
-                                                  : "within the tolerance"),
-      radio.surfaces.roughness_m == 0.0 || !radio.on()
-          ? ""
-          : fmt::format("at most {:.3g} dB a reflection, tolerance {:.3g} dB", rough_db, tolerance));
+  plan.roughness =
+      radio.planner.decide("roughness", rough,
+                           radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
+                                     : rough                           ? "more than the tolerance"
+                                                                       : "within the tolerance"),
+                           radio.surfaces.roughness_m == 0.0 || !radio.on()
+                               ? ""
+                               : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
+                                             rough_db, asks.max_depth, tolerance));
 }
 
 /// Speeds are not known before the run: the Doppler bound is stated per m/s.
@@ -249,7 +282,7 @@ void plan_doppler(EffectPlan& plan, const Radio& radio) {
       radio.why(doppler ? fmt::format("{} time samples a record", radio.asks.time_samples)
                         : "one time sample a record: shifts are reported with the paths, phases do not turn"),
       doppler ? fmt::format("{:.3g} turns per m/s within a record",
-                            radio.asks.longest_record_s * radio.asks.carrier_hz / speed_of_light)
+                            radio.asks.longest_record_s * radio.asks.highest_hz / speed_of_light)
               : "");
 }
 
