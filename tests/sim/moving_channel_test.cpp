@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Channels that keep their search between ticks, among meshes that move, against the same with a whole search at every tick.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/simulator.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace greatx::sim {
+namespace {
+
+struct Keep : RecordSink {
+  std::vector<Packet> packets;
+  void write(Packet packet) override { packets.push_back(std::move(packet)); }
+};
+
+struct Outcome {
+  std::vector<SensorSpec> sensors;
+  std::vector<Packet> packets;
+  RunStatistics statistics;
+  bool reflect = false;  ///< moving reflectors
+
+  std::string note(const std::string& name) const {
+    for (const auto& [key, text] : statistics.notes)
+      if (key == name) return text;
+    return {};
+  }
+  uint64_t counter(const std::string& name) const { return statistics.counters.at(name); }
+};
+
+Outcome run(const std::string& yaml) {
+  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
+  const World world = load_world(scenario);
+  const EffectPlan plan = make_effect_plan(scenario, world.scene);
+  Keep keep;
+  Outcome result;
+  result.reflect = plan.moving_reflectors.on;
+  Simulator simulator(test::device(), scenario, world, plan);
+  result.sensors = simulator.sensors();
+  simulator.start(0, 0);
+  while (simulator.step(keep)) {
+  }
+  result.statistics = simulator.statistics();
+  result.packets = std::move(keep.packets);
+  return result;
+}
+
+/// Every array of every record, byte for byte.
+void expect_same_bytes(const Outcome& a, const Outcome& b) {
+  ASSERT_EQ(a.packets.size(), b.packets.size());
+  for (size_t p = 0; p < a.packets.size(); ++p) {
+    ASSERT_EQ(a.packets[p].records.size(), b.packets[p].records.size());
+    for (size_t r = 0; r < a.packets[p].records.size(); ++r) {
+      const Record &first = a.packets[p].records[r], &second = b.packets[p].records[r];
+      const SensorSpec& spec = a.sensors[first.sensor];
+      for (size_t i = 0; i < spec.arrays.size(); ++i) {
+        EXPECT_EQ(first.arrays[i].shape, second.arrays[i].shape) << p << spec.name << spec.arrays[i].name;
+        EXPECT_TRUE(first.arrays[i].bytes == second.arrays[i].bytes) << p << spec.name << spec.arrays[i].name;
+      }
+    }
+  }
+}
+
+const std::string antenna =
+    "    sensors: [{name: antenna, type: antenna, mount: {position_m: [0, 0, 2.2]}}]\n";
+
+/// A street with a mast, a car and a drone, all with antennas.
+std::string street(const std::string& channel, const std::string& effects) {
+  return "greatx: 1\nname: test\nseed: 5\nticks: 5\ntick_rate_hz: 2\n"
+         "scene: {generate: {kind: canyon, seed: 3, size_m: 80}}\n"
+         "nodes:\n"
+         "  - name: bs\n    trajectory: {type: static, position_m: [1, -20, 6]}\n" +
+         antenna +
+         "  - name: car\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -15, 0]}, "
+         "{t_s: 2, position_m: [-2, 12, 0]}]}\n    model: {generate: {kind: car, variant: hatchback}}\n" +
+         antenna +
+         "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [3, 15, 9]}, "
+         "{t_s: 2, position_m: [-3, -5, 5]}]}\n    model: {generate: {kind: quadrotor, variant: large}}\n" +
+         antenna +
+         "channels:\n  - {name: csi, rate_hz: 2, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 3, " +
+         channel + "}\neffects: {moving_reflectors: on" + effects + "}\n";
+}
+
+TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
+  const std::string link = "tx: bs/antenna, rx: [uav/antenna, car/antenna]";
+  const Outcome kept = run(street(link, "")), whole = run(street(link + ", search: every_tick", ""));
+  EXPECT_TRUE(kept.reflect);
+  EXPECT_GT(kept.counter("csi.paths"), 20u);
+  EXPECT_THAT(kept.note("csi.search"), testing::HasSubstr("every tick for what moves"));
+  EXPECT_THAT(kept.note("csi.guarantee_moving"), testing::HasSubstr("with a moving facet"));
+  expect_same_bytes(kept, whole);
+  // What moves does reflect.
+  std::string still = street(link, "");
+  still.replace(still.find("moving_reflectors: on"), 21, "moving_reflectors: off");
+  EXPECT_NE(run(still).counter("csi.paths"), kept.counter("csi.paths"));
+}
+
+TEST(MovingChannel, StaticReceiversKeepTheirs) {
+  const std::string link = "tx: uav/antenna, rx: [bs/antenna]";
+  const Outcome kept = run(street(link, ", transmission: off"));
+  EXPECT_THAT(kept.note("csi.search"), testing::StartsWith("once, from each receiver"));
+  // From the other end, the same sequences the other way round: compared with the whole search from there.
+  const Outcome whole = run(street(link + ", search: every_tick", ", transmission: off"));
+  EXPECT_EQ(kept.counter("csi.paths"), whole.counter("csi.paths"));
+  EXPECT_EQ(kept.counter("csi.path_births"), whole.counter("csi.path_births"));
+}
+
+TEST(MovingChannel, BothEndsMove) {
+  for (const std::string effects : {"", ", transmission: off"}) {
+    const std::string link = "tx: car/antenna, rx: [uav/antenna]";
+    const Outcome between = run(street(link, effects)),
+                  whole = run(street(link + ", search: every_tick", effects));
+    EXPECT_GT(between.counter("csi.paths"), 10u);
+    EXPECT_THAT(between.note("csi.search"), testing::StartsWith("every tick, from both ends"));
+    EXPECT_LT(between.counter("csi.candidates"), whole.counter("csi.candidates"));
+    expect_same_bytes(between, whole);
+  }
+}
+
+TEST(MovingChannel, DiffractionWithMovingReflectorsSearchesWholeAndSaysSo) {
+  const Outcome r = run(street("tx: bs/antenna, rx: [uav/antenna]", ", diffraction: on"));
+  EXPECT_THAT(r.note("csi.search"), testing::StartsWith("every tick, from the transmitter"));
+  EXPECT_THAT(r.note("csi.reuse"), testing::StartsWith("none"));
+}
+
+}  // namespace
+}  // namespace greatx::sim
