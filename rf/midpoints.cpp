@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/error.h"
 #include "rf/diffraction.h"
@@ -93,57 +92,125 @@ struct Midpoints::Chain {
 
 Midpoints::Midpoints(const RadioModel& model, const MidpointOptions& options)
     : model_(&model), options_(options) {
-  if (!model.effects.scattering) return;
-  patches_ = scattering_patches(*model.scene, model.kinds, options.patch_m);
-  patch_offsets_.assign(model.kinds.size() + 1, 0);
-  for (const Patch& patch : patches_) ++patch_offsets_[patch.facet + 1];
-  for (size_t i = 1; i < patch_offsets_.size(); ++i) patch_offsets_[i] += patch_offsets_[i - 1];
+  if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, options.patch_m);
 }
 
+/// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of the wedge's
+/// field (edge_dyadic).
 Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidates) const {
+  const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
+    const scene::Wedge& wedge = model_->wedges[index];
+    return facets.empty() || (facets.back() != wedge.facet_0 && facets.back() != wedge.facet_n);
+  };
   Arrivals arrivals;
   arrivals.offsets.assign(model_->wedges.size() + 1, 0);
-  for (const uint32_t wedge : candidates.wedges) ++arrivals.offsets[wedge + 1];
+  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
+    for (const uint32_t wedge : candidates.wedges_of(sequence))
+      arrivals.offsets[wedge + 1] += leads_to(candidates.sequence(sequence), wedge);
   for (size_t i = 1; i < arrivals.offsets.size(); ++i) arrivals.offsets[i] += arrivals.offsets[i - 1];
-  arrivals.sequences.resize(candidates.wedges.size());
+  arrivals.sequences.resize(arrivals.offsets.back());
   std::vector<uint32_t> next(arrivals.offsets.begin(), arrivals.offsets.end() - 1);
   for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
-    for (const uint32_t wedge : candidates.wedges_of(sequence)) arrivals.sequences[next[wedge]++] = sequence;
+    for (const uint32_t wedge : candidates.wedges_of(sequence))
+      if (leads_to(candidates.sequence(sequence), wedge)) arrivals.sequences[next[wedge]++] = sequence;
   return arrivals;
 }
 
-/// A sequence that ends with a facet says that the one without it leads there.
-Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates) const {
-  std::map<std::vector<uint32_t>, uint32_t> index_of;
+/// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the answer] where
+/// on the facet; or empty.
+Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates,
+                                                  std::vector<PlaneWindow>& windows) const {
+  struct Pair {
+    uint32_t facet, prefix, sequence;
+  };
+  std::vector<Pair> pairs;
+  // In the canonical order a sequence comes after the one without its last facet, and so do their order's neighbours.
+  uint32_t prefix = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     const auto facets = candidates.sequence(i);
-    if (facets.size() + 1 <= options_.max_depth) index_of[{facets.begin(), facets.end()}] = i;
+    if (facets.empty() || facets.size() > options_.max_depth) continue;
+    const auto shorter = facets.first(facets.size() - 1);
+    while (prefix < i && sequence_less(candidates.sequence(prefix), shorter)) ++prefix;
+    if (std::ranges::equal(candidates.sequence(prefix), shorter)) pairs.push_back({facets.back(), prefix, i});
   }
-  std::vector<std::pair<uint32_t, uint32_t>> pairs;  // facet, prefix
-  for (uint32_t i = 0; i < candidates.size(); ++i) {
-    const auto facets = candidates.sequence(i);
-    if (facets.empty()) continue;
-    const auto prefix = index_of.find({facets.begin(), facets.end() - 1});
-    if (prefix != index_of.end()) pairs.emplace_back(facets.back(), prefix->second);
-  }
-  std::sort(pairs.begin(), pairs.end());
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.facet != b.facet ? a.facet < b.facet : a.prefix < b.prefix;
+  });
   Arrivals arrivals;
   arrivals.offsets.assign(model_->kinds.size() + 1, 0);
-  for (const auto& [facet, prefix] : pairs) {
-    ++arrivals.offsets[facet + 1];
-    arrivals.sequences.push_back(prefix);
+  windows.clear();
+  for (const Pair& pair : pairs) {
+    ++arrivals.offsets[pair.facet + 1];
+    arrivals.sequences.push_back(pair.prefix);
+    if (!candidates.windows.empty()) windows.push_back(candidates.windows[pair.sequence]);
   }
   for (size_t i = 1; i < arrivals.offsets.size(); ++i) arrivals.offsets[i] += arrivals.offsets[i - 1];
   return arrivals;
 }
 
-void Midpoints::set_candidates(const CandidateList& candidates) {
-  if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
-  if (model_->effects.scattering) at_facets_ = arrivals_at_facets(candidates);
+dvec3 Midpoints::center(const Patch& patch) const {
+  const uint32_t body = model_->facets.facet(patch.facet).body;
+  return body == 0 ? patch.center : model_->facets.motion(body).pose.apply(patch.center);
 }
 
-void Midpoints::diffract(const Chain& chain, uint32_t index, std::vector<GeometricPath>& paths) const {
-  const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
+Midpoints::PatchArrivals Midpoints::arrivals_at_patches(const Arrivals& at_facets,
+                                                        const std::vector<PlaneWindow>& windows,
+                                                        const ImageTree& tree) const {
+  PatchArrivals at_patches;
+  at_patches.offsets.push_back(0);
+  GeometricPath path;
+  for (const Patch& patch : patches_) {
+    const PosedFacet& facet = model_->facets.facet(patch.facet);
+    const dvec3 point = center(patch);
+    const dvec2 at = facet.plane_coordinates(point);
+    const double room = 2.0 * facet.tolerance_m;
+    const auto outside = [&](const PlaneWindow& window) {
+      return at.x < window.min_u - room || at.x > window.max_u + room || at.y < window.min_v - room ||
+             at.y > window.max_v + room;
+    };
+    for (uint32_t i = at_facets.offsets[patch.facet]; i < at_facets.offsets[patch.facet + 1]; ++i) {
+      if (!windows.empty() && outside(windows[i])) continue;
+      const uint32_t sequence = at_facets.sequences[i];
+      path.interactions.clear();
+      path.vertices.clear();
+      if (!tree.reach(sequence, point, path)) continue;
+      at_patches.arrivals.push_back({static_cast<uint32_t>(at_patches.facets.size()),
+                                     static_cast<uint32_t>(path.interactions.size()),
+                                     path.vertices.empty() ? tree.source() : path.vertices.back(),
+                                     glm::length(point - tree.image(sequence))});
+      for (const Interaction& reflection : path.interactions) at_patches.facets.push_back(reflection.element);
+      at_patches.points.insert(at_patches.points.end(), path.vertices.begin(), path.vertices.end());
+    }
+    at_patches.offsets.push_back(static_cast<uint32_t>(at_patches.arrivals.size()));
+  }
+  return at_patches;
+}
+
+/// Where nothing is known of what a point sees: every patch may be.
+Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const {
+  PatchArrivals at_patches;
+  at_patches.offsets.push_back(0);
+  for (const Patch& patch : patches_) {
+    at_patches.arrivals.push_back({0, 0, from, glm::length(center(patch) - from)});
+    at_patches.offsets.push_back(static_cast<uint32_t>(at_patches.arrivals.size()));
+  }
+  return at_patches;
+}
+
+void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
+  if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
+  if (!model_->effects.scattering) return;
+  std::vector<PlaneWindow> windows;
+  at_facets_ = arrivals_at_facets(candidates, windows);
+  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+}
+
+void Midpoints::move(const ImageTree& tree) {
+  if (model_->effects.scattering) at_patches_ = arrivals_at_patches(at_facets_, {}, tree);
+}
+
+void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t index,
+                         std::vector<GeometricPath>& paths) const {
   const std::optional<dvec3> point =
       keller_point(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
   if (!point) return;
@@ -159,42 +226,62 @@ void Midpoints::diffract(const Chain& chain, uint32_t index, std::vector<Geometr
   paths.push_back(std::move(path));
 }
 
-void Midpoints::scatter(const Chain& chain, const Patch& patch, std::vector<GeometricPath>& paths) const {
-  const PosedFacet& facet = model_->facets.facet(patch.facet);
-  const dvec3 point = model_->facets.motion(facet.body).pose.apply(patch.center);
-  GeometricPath path;
-  if (!chain.assemble({InteractionType::scattering, patch.facet, patch.number}, point, path)) return;
-  // What comes from one side is scattered back to it.
-  const size_t middle = chain.tree.depth(chain.prefix) + 1;
-  const double from = facet.distance(path.vertices[middle - 1]),
-               to = facet.distance(path.vertices[middle + 1]);
-  if (std::min(std::abs(from), std::abs(to)) <= facet.tolerance_m || from * to < 0.0) return;
-  path.patch_area_m2 = patch.area_m2;
-  if (chain.tree.end() == Source::receiver) reverse(path);
-  paths.push_back(std::move(path));
-}
-
-/// Every prefix with every suffix at every wedge and patch that both reach.
-void Midpoints::join(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
-                     const Arrivals& facets, std::vector<GeometricPath>& paths) const {
-  const auto each = [&](std::span<const uint32_t> from, std::span<const uint32_t> to, const auto& meet) {
+/// Every prefix with every suffix at every wedge that both lead to.
+void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
+                               std::vector<GeometricPath>& paths) const {
+  for (uint32_t index = 0; index + 1 < at_wedges_.offsets.size(); ++index) {
+    const auto from = at_wedges_.of(index), to = wedges.of(index);
+    if (from.empty() || to.empty()) continue;
+    const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
     for (const uint32_t suffix : to)
       for (const uint32_t prefix : from)
         if (tree.depth(prefix) + 1 + suffixes.depth(suffix) <= options_.max_depth)
-          meet(Chain{tree, suffixes, prefix, suffix});
-  };
-  for (uint32_t wedge = 0; wedge + 1 < at_wedges_.offsets.size(); ++wedge)
-    each(at_wedges_.of(wedge), wedges.of(wedge), [&](const Chain& chain) { diffract(chain, wedge, paths); });
-  for (const Patch& patch : patches_)
-    each(at_facets_.of(patch.facet), facets.of(patch.facet),
-         [&](const Chain& chain) { scatter(chain, patch, paths); });
+          diffract({tree, suffixes, prefix, suffix}, wedge, index, paths);
+  }
+}
+
+/// Every prefix with every suffix at a patch: what comes from one side is scattered back to it.
+void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t number,
+                        const PatchArrivals& suffixes, std::vector<GeometricPath>& paths) const {
+  const Patch& patch = patches_[number];
+  const PosedFacet& facet = model_->facets.facet(patch.facet);
+  const dvec3 point = center(patch);
+  for (const PatchArrival& after : suffixes.of(number)) {
+    const double to = facet.distance(after.from);
+    if (std::abs(to) <= facet.tolerance_m) continue;
+    for (const PatchArrival& before : at_patches_.of(number)) {
+      const size_t count = before.depth + 1 + after.depth;
+      if (count > options_.max_depth) continue;
+      const double from = facet.distance(before.from);
+      if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) continue;
+      GeometricPath& path = paths.emplace_back();
+      path.interactions.reserve(count);
+      path.vertices.reserve(count + 2);
+      path.vertices.push_back(tree.source());
+      for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
+        path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
+        path.vertices.push_back(at_patches_.points[i]);
+      }
+      path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
+      path.vertices.push_back(point);
+      for (uint32_t i = after.first + after.depth; i-- > after.first;) {
+        path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
+        path.vertices.push_back(suffixes.points[i]);
+      }
+      path.vertices.push_back(target);
+      path.length_m = before.length_m + after.length_m;
+      path.patch_area_m2 = patch.area_m2;
+      if (tree.end() == Source::receiver) reverse(path);
+    }
+  }
 }
 
 void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
                       std::vector<GeometricPath>& paths) const {
+  const bool searched = options_.max_reflections_after > 0;
   CandidateList list;
-  Arrivals wedges, facets;
-  if (options_.max_reflections_after > 0) {
+  Arrivals wedges;
+  if (searched) {
     BeamSearchOptions search;
     search.max_depth = options_.max_reflections_after + 1;
     search.max_transmissions = options_.max_transmissions;
@@ -203,19 +290,25 @@ void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t targe
     search.threads = 1;  // targets are solved side by side
     list = BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target).list;
     wedges = arrivals_at_wedges(list);
-    facets = arrivals_at_facets(list);
   } else {
-    // Nothing is known of what the target sees: every wedge and facet may be reached straight.
+    // Nothing is known of what the target sees: every wedge may be reached straight.
     list.add({});
-    wedges.offsets.resize(model_->wedges.size() + 1);
-    facets.offsets.resize(model_->kinds.size() + 1);
-    for (Arrivals* all : {&wedges, &facets}) {
-      for (size_t i = 0; i < all->offsets.size(); ++i) all->offsets[i] = static_cast<uint32_t>(i);
-      all->sequences.assign(all->offsets.size() - 1, 0);
-    }
+    for (uint32_t i = 0; i <= model_->wedges.size(); ++i) wedges.offsets.push_back(i);
+    wedges.sequences.assign(model_->wedges.size(), 0);
   }
   const Source other = tree.end() == Source::transmitter ? Source::receiver : Source::transmitter;
-  join(tree, ImageTree(model_->facets, target, list, other), wedges, facets, paths);
+  const ImageTree suffixes(model_->facets, target, list, other);
+  join_at_wedges(tree, suffixes, wedges, paths);
+  if (patches_.empty() || at_patches_.arrivals.empty()) return;
+  PatchArrivals at_patches;
+  if (searched) {
+    std::vector<PlaneWindow> windows;
+    const Arrivals facets = arrivals_at_facets(list, windows);
+    at_patches = arrivals_at_patches(facets, windows, suffixes);
+  } else {
+    at_patches = straight_to_patches(target);
+  }
+  for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
 }
 
 }  // namespace greatx::rf

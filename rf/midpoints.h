@@ -42,10 +42,13 @@ class Midpoints {
   /// `model` is read by every call and must outlive this.
   Midpoints(const RadioModel& model, const MidpointOptions& options);
 
-  /// Which sequences reach which wedges and facets; `candidates` from the source, with wedges if diffraction is on.
-  void set_candidates(const CandidateList& candidates);
-  /// Appends every such path between the source of `tree` (built from the same candidates) and `target` (carried by `target_body`), from transmitter
-  /// to receiver.
+  /// Which sequences lead to which wedges and patches; `tree` is built from the same candidates, which list wedges if
+  /// diffraction is on. Patches outside the window of their facet are left out: nothing of the beam gets there.
+  void set_candidates(const CandidateList& candidates, const ImageTree& tree);
+  /// The source of `tree` has moved, or bodies have: windows hold no more.
+  void move(const ImageTree& tree);
+  /// Appends every such path between the source of `tree` (as it was given last) and `target` (carried by `target_body`),
+  /// from transmitter to receiver, in no particular order.
   void solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
              std::vector<GeometricPath>& paths) const;
 
@@ -57,19 +60,40 @@ class Midpoints {
       return std::span(sequences).subspan(offsets[element], offsets[element + 1] - offsets[element]);
     }
   };
+  /// A sequence that ends at a patch, all the way from its end of the path.
+  struct PatchArrival {
+    uint32_t first = 0, depth = 0;  ///< reflections, into PatchArrivals::facets and points, outwards
+    dvec3 from{0.0};                ///< vertex before the patch
+    double length_m = 0.0;          ///< to the patch's centre
+  };
+  struct PatchArrivals {
+    std::vector<uint32_t> offsets;  ///< [patches + 1] into arrivals
+    std::vector<PatchArrival> arrivals;
+    std::vector<uint32_t> facets;
+    std::vector<dvec3> points;
+    std::span<const PatchArrival> of(size_t patch) const {
+      return std::span(arrivals).subspan(offsets[patch], offsets[patch + 1] - offsets[patch]);
+    }
+  };
   struct Chain;
   Arrivals arrivals_at_wedges(const CandidateList& candidates) const;
-  Arrivals arrivals_at_facets(const CandidateList& candidates) const;
-  void diffract(const Chain& chain, uint32_t wedge, std::vector<GeometricPath>& paths) const;
-  void scatter(const Chain& chain, const Patch& patch, std::vector<GeometricPath>& paths) const;
-  void join(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges, const Arrivals& facets,
-            std::vector<GeometricPath>& paths) const;
+  Arrivals arrivals_at_facets(const CandidateList& candidates, std::vector<PlaneWindow>& windows) const;
+  PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
+                                    const ImageTree& tree) const;
+  PatchArrivals straight_to_patches(const dvec3& from) const;
+  dvec3 center(const Patch& patch) const;
+  void diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t index,
+                std::vector<GeometricPath>& paths) const;
+  void scatter(const ImageTree& tree, const dvec3& target, size_t patch, const PatchArrivals& suffixes,
+               std::vector<GeometricPath>& paths) const;
+  void join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
+                      std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
   MidpointOptions options_;
   std::vector<Patch> patches_;
-  std::vector<uint32_t> patch_offsets_;  ///< [facets + 1] into patches_
   Arrivals at_wedges_, at_facets_;
+  PatchArrivals at_patches_;
 };
 
 }  // namespace greatx::rf

@@ -88,13 +88,14 @@ PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
   tree_.emplace(model_->facets, source, candidates, end);
-  if (midpoints_) midpoints_->set_candidates(candidates);
+  if (midpoints_) midpoints_->set_candidates(candidates, *tree_);
 }
 
 void PathSolver::move_source(const dvec3& source) {
   GREATX_CHECK(tree_.has_value(), "the source moved to ({}, {}, {}) before it had candidates", source.x,
                source.y, source.z);
   tree_->update(source);
+  if (midpoints_) midpoints_->move(*tree_);
 }
 
 LinkGeometry PathSolver::geometry(const EndState& end) const {

@@ -3,9 +3,13 @@
 #include "rf/radio_model.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "rf/atmosphere/foliage.h"
+#include "rf/fresnel.h"
 
 namespace greatx::rf {
 
@@ -14,7 +18,10 @@ namespace {
 FacetKind kind_of(const scene::Material& material, const RadioEffects& effects) {
   if (!material.radio) return FacetKind::opaque;
   if (material.radio->foliage) return effects.field.foliage ? FacetKind::foliage : FacetKind::absent;
-  return effects.transmission && penetrable(*material.radio) ? FacetKind::wall : FacetKind::opaque;
+  if (!effects.transmission || !penetrable(*material.radio)) return FacetKind::opaque;
+  const bool dark =
+      effects.lowest_carrier_hz > 0.0 && wall_loss_db(material, effects.lowest_carrier_hz) >= dark_wall_db;
+  return dark ? FacetKind::opaque : FacetKind::wall;
 }
 
 std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds, bool free_edges) {
@@ -47,11 +54,21 @@ bool penetrable(const scene::RadioMaterial& material) {
                              [](const scene::RadioLayer& layer) { return layer.thickness_m > 0.0; });
 }
 
+double wall_loss_db(const scene::Material& material, double frequency_hz) {
+  const RadioSurface surface = radio_surface(*material.radio, frequency_hz, material.name);
+  const FresnelCoefficients through = multilayer(surface.front, speed_of_light / frequency_hz, 1.0);
+  return -20.0 * std::log10(std::abs(through.t_te));
+}
+
 FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects) {
+  std::vector<std::optional<FacetKind>> known(scene.materials.size());
   FacetKinds kinds;
   kinds.reserve(scene.facets.size());
-  for (const scene::Facet& facet : scene.facets)
-    kinds.push_back(kind_of(scene.materials[facet.material], effects));
+  for (const scene::Facet& facet : scene.facets) {
+    std::optional<FacetKind>& kind = known[facet.material];
+    if (!kind) kind = kind_of(scene.materials[facet.material], effects);
+    kinds.push_back(*kind);
+  }
   return kinds;
 }
 

@@ -42,6 +42,9 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
   effects.field.foliage = plan.foliage.on;
   effects.field.seed = scenario.seed;
   effects.weather = weather_of(scenario.environment);
+  for (const ChannelConfig& channel : scenario.channels)
+    if (effects.lowest_carrier_hz == 0.0 || channel.carrier_hz < effects.lowest_carrier_hz)
+      effects.lowest_carrier_hz = channel.carrier_hz;
   return effects;
 }
 

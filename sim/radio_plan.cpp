@@ -33,7 +33,7 @@ struct Asks {
 /// What the scene's surfaces are to radio.
 struct Surfaces {
   bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
-  size_t walls = 0;            ///< materials that let waves pass
+  size_t walls = 0;            ///< materials that let waves pass (rf::dark_wall_db)
   double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
   std::string clearest;        ///< the material that has it
   double roughness_m = 0.0;
@@ -57,13 +57,6 @@ Asks asks_of(const Scenario& scenario) {
   return asks;
 }
 
-/// -20 lg |T| at normal incidence.
-double wall_loss_db(const scene::Material& material, double frequency_hz) {
-  const rf::RadioSurface surface = rf::radio_surface(*material.radio, frequency_hz, material.name);
-  const rf::FresnelCoefficients through = rf::multilayer(surface.front, speed_of_light / frequency_hz, 1.0);
-  return -20.0 * std::log10(std::abs(through.t_te));
-}
-
 Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
   Surfaces surfaces;
   std::vector<bool> seen(scene.materials.size(), false);
@@ -81,7 +74,8 @@ Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
     surfaces.scattering |= material.radio->scattering_coefficient > 0.0;
     surfaces.roughness_m = std::max(surfaces.roughness_m, material.radio->roughness_m);
     if (!rf::penetrable(*material.radio)) continue;
-    const double loss = wall_loss_db(material, asks.lowest_hz);
+    const double loss = rf::wall_loss_db(material, asks.lowest_hz);
+    if (loss >= rf::dark_wall_db) continue;
     if (surfaces.walls++ == 0 || loss < surfaces.least_loss_db) {
       surfaces.least_loss_db = loss;
       surfaces.clearest = material.name;
@@ -154,20 +148,20 @@ void plan_reflection(EffectPlan& plan, const Radio& radio) {
 }
 
 void plan_transmission(EffectPlan& plan, const Radio& radio) {
-  // A wall that takes 100 dB leaves nothing that a receiver could tell from nothing.
-  constexpr double dark_db = 100.0;
   const Surfaces& surfaces = radio.surfaces;
   const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
   plan.transmission = radio.planner.decide(
-      "transmission", walls && surfaces.least_loss_db < dark_db,
+      "transmission", walls,
       radio.why(
           radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
           : surfaces.walls == 0
-              ? "no material lets waves pass: all are half-spaces (no thickness given)"
+              ? fmt::format("no material lets waves pass: all are half-spaces (no thickness given), or "
+                            "take {:.0f} dB or more",
+                            rf::dark_wall_db)
               : fmt::format("{} materials let waves pass, up to {} walls", surfaces.walls, radio.asks.walls)),
       walls ? fmt::format(
                   "the clearest, {}, takes {:.2f} dB at normal incidence and {:.4g} GHz; dark from {:.0f} dB",
-                  surfaces.clearest, surfaces.least_loss_db, radio.asks.lowest_hz * 1e-9, dark_db)
+                  surfaces.clearest, surfaces.least_loss_db, radio.asks.lowest_hz * 1e-9, rf::dark_wall_db)
             : "");
 }
 

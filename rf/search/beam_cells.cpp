@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace greatx::rf {
 namespace {
 
@@ -49,7 +51,8 @@ void FacetRegion::add(const FacetRegion& other) {
 void BeamCells::settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
                        std::vector<uint32_t>& wedges) {
   view_ = &view;
-  walls_ = std::min(walls, most_passed);
+  GREATX_CHECK(walls <= most_passed, "{} walls, at most {}", walls, most_passed);
+  walls_ = walls;
   const size_t count = view.facets().size();
   regions_.assign(count * (walls_ + 1), FacetRegion{});
   lit_.assign(count, 0);

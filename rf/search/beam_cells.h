@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rf/search/beam_view.h"
+#include "shaders/shared/rf.h"
 
 namespace greatx::rf {
 
@@ -40,7 +41,7 @@ class BeamCells {
   uint64_t cells() const { return cells_; }  ///< looked at since the start
 
  private:
-  static constexpr uint32_t most_passed = 4;
+  static constexpr uint32_t most_passed = shared::crossings_max;
   /// What is left of a facet: a convex part, and the walls before it.
   struct Piece {
     Convex shape;

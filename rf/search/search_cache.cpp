@@ -20,7 +20,7 @@ namespace greatx::rf {
 namespace {
 
 /// Counts up when the search changes what it finds, so that old files are not met again.
-constexpr uint32_t search_version = 4;
+constexpr uint32_t search_version = 5;
 constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '3'};
 constexpr size_t checksum_bytes = 64;
 
