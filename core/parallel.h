@@ -8,18 +8,26 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <sched.h>
 #include <thread>
 #include <vector>
 
 namespace greatx {
 
-/// Calls work(index) for every index below `count`, on up to `threads` threads (0: as many as the machine has). Which
+/// Cores that this process may run on: fewer than the machine has under taskset or in a container.
+inline size_t usable_cores() {
+  cpu_set_t cores;
+  if (sched_getaffinity(0, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) > 0)
+    return static_cast<size_t>(CPU_COUNT(&cores));
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// Calls work(index) for every index below `count`, on up to `threads` threads (0: usable_cores()). Which
 /// thread takes which index is chance: work() must write to what belongs to its index alone, so that the result is
 /// not. The first exception is thrown again here.
 template <typename Work>
 void parallel_for(size_t count, uint32_t threads, const Work& work) {
-  const size_t machine = std::max(1u, std::thread::hardware_concurrency());
-  const size_t workers = std::min(count, threads == 0 ? machine : size_t{threads});
+  const size_t workers = std::min(count, threads == 0 ? usable_cores() : size_t{threads});
   if (workers <= 1) {
     for (size_t index = 0; index < count; ++index) work(index);
     return;

@@ -30,6 +30,7 @@ struct Outcome {
 
 /// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
 inline Outcome greatx(const std::string& arguments, const std::string& before = "") {
+  setenv("GREATX_CACHE", "off", 0);  // unless a test says otherwise
   std::string folder = (std::filesystem::temp_directory_path() / "greatx-cli-XXXXXX").string();
   EXPECT_NE(mkdtemp(folder.data()), nullptr);
   const std::string command =

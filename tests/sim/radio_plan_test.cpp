@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which radio effects a scenario calls for, why, and that what is left out is as small as the plan says.
+#include "sim/radio_plan.h"
+
+#include <cmath>
+#include <complex>
+#include <regex>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "tests/sim/radio_run.h"
+
+namespace greatx::sim {
+namespace {
+
+using sim::testing::radio_material;
+using sim::testing::RadioRun;
+using sim::testing::run;
+using test::TinyScene;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A base station and a terminal 30 m apart above the ground, one channel.
+std::string scenario(const std::string& channel = "", const std::string& more = "") {
+  return "greatx: 1\nname: test\nseed: 5\nticks: 1\ntick_rate_hz: 10\n"
+         "nodes:\n"
+         "  - name: bs\n    trajectory: {type: static, position_m: [-15, 0, 8]}\n"
+         "    sensors: [{name: antenna, type: antenna}]\n"
+         "  - name: ue\n    trajectory: {type: static, position_m: [15, 1, 1.5]}\n"
+         "    sensors: [{name: antenna, type: antenna}]\n"
+         "channels:\n  - {name: csi, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
+         "bandwidth_hz: 20e6, max_depth: 2" +
+         channel + "}\n" + more;
+}
+
+/// A ground and a wall of these materials.
+scene::Scene street(scene::Material ground, scene::Material wall) {
+  TinyScene tiny;
+  const uint32_t g = tiny.material_as(ground), w = tiny.material_as(wall);
+  tiny.object("ground", 0, g).quad({-30, -20, 0}, {30, -20, 0}, {30, 20, 0}, {-30, 20, 0});
+  tiny.object("wall", 0, w).quad({-30, 9, 0}, {30, 9, 0}, {30, 9, 12}, {-30, 9, 12});
+  tiny.object("fence", 0, w).quad({5, -20, 0}, {5, 20, 0}, {5, 20, 1}, {5, -20, 1});
+  return tiny.build();
+}
+scene::Scene street() { return street(radio_material("medium_dry_ground"), radio_material("concrete")); }
+
+EffectPlan plan(const std::string& yaml, const scene::Scene& scene) {
+  return make_effect_plan(parse_scenario(yaml, "test.yaml", "."), scene);
+}
+
+void expect(const Effect& effect, bool on, const std::string& reason, const std::string& bound = "") {
+  EXPECT_EQ(effect.on, on) << effect.name << ": " << effect.reason;
+  EXPECT_THAT(effect.reason, HasSubstr(reason)) << effect.name;
+  EXPECT_THAT(effect.bound, HasSubstr(bound)) << effect.name;
+}
+
+const std::string switches(const std::string& effects) { return "effects: {" + effects + "}\n"; }
+
+TEST(RadioPlan, WithoutAChannelThereIsNone) {
+  std::string yaml = scenario();
+  yaml.resize(yaml.find("channels:"));
+  const EffectPlan none = plan(yaml, street());
+  for (const Effect* effect : {&none.channel, &none.line_of_sight, &none.reflection, &none.transmission,
+                               &none.diffraction, &none.scattering, &none.roughness, &none.gas, &none.rain,
+                               &none.fog, &none.foliage, &none.dispersion, &none.doppler})
+    expect(*effect, false, "no channel");
+}
+
+TEST(RadioPlan, ReflectionsComeWithSurfacesAndDepth) {
+  expect(plan(scenario(), street()).reflection, true, "up to 2", "none is missed");
+  expect(plan(scenario(", candidates: rays"), street()).reflection, true, "up to 2", "may be missed");
+  expect(plan(scenario(), TinyScene().build()).reflection, false, "no surface");
+  std::string flat = scenario();
+  flat.replace(flat.find("max_depth: 2"), 12, "max_depth: 0");
+  expect(plan(flat, street()).reflection, false, "max_depth is 0");
+  expect(plan(scenario("", switches("reflection: off")), street()).reflection, false, "switched off (");
+  expect(plan(scenario("", switches("line_of_sight: off")), street()).line_of_sight, false, "switched off (");
+}
+
+TEST(RadioPlan, TransmissionComesWithThinWalls) {
+  expect(plan(scenario(), street()).transmission, false, "no material lets waves pass");
+  const scene::Scene thin = street(radio_material("medium_dry_ground"), radio_material("glass", 0.01));
+  const EffectPlan walls = plan(scenario(), thin);
+  expect(walls.transmission, true, "1 materials let waves pass, up to 2 walls", "glass wall, takes");
+  expect(plan(scenario(", max_transmissions: 0"), thin).transmission, false, "max_transmissions");
+  expect(plan(scenario("", switches("transmission: off")), thin).transmission, false, "switched off (");
+  const scene::Scene dark = street(radio_material("medium_dry_ground"), radio_material("metal", 0.002));
+  expect(plan(scenario(), dark).transmission, false, "take 100 dB or more");
+}
+
+TEST(RadioPlan, TheAirComesWithDistanceAndFrequency) {
+  const scene::Scene scene = street();
+  expect(plan(scenario(", carrier_hz: 3.5e9"), scene).gas, false, "within the tolerance", "at most");
+  expect(plan(scenario(", carrier_hz: 39e9"), scene).gas, true, "more than the tolerance", "at 39 GHz");
+  expect(plan(scenario(", carrier_hz: 39e9", "tolerance_db: 1\n"), scene).gas, false, "within the tolerance");
+  expect(plan(scenario(", carrier_hz: 39e9", switches("gas: off")), scene).gas, false, "switched off (more");
+  expect(plan(scenario("", switches("gas: on")), scene).gas, true, "switched on (within");
+  EXPECT_THAT(plan(scenario(), scene).rain.bound, IsEmpty());
+  expect(plan(scenario(), scene).rain, false, "no rain");
+  expect(plan(scenario("", "environment: {rain_mm_h: 2}\n"), scene).rain, false, "within the tolerance",
+         "at most");
+  expect(plan(scenario(", carrier_hz: 28e9", "environment: {rain_mm_h: 25}\n"), scene).rain, true, "more");
+  expect(plan(scenario(), scene).fog, false, "no fog");
+  expect(plan(scenario("", "environment: {fog_g_m3: 0.05}\n"), scene).fog, false, "within", "at most");
+  expect(plan(scenario(", carrier_hz: 39e9", "environment: {fog_g_m3: 0.5}\n"), scene).fog, true, "more");
+  expect(plan(scenario(", carrier_hz: 0.5e9"), TinyScene().build()).gas, false, "does not cover 0.5 GHz");
+}
+
+TEST(RadioPlan, TheAirIsBoundedForTheChannelThatItTakesMostFrom) {
+  // The oxygen band at 60 GHz takes ten times what 80 GHz loses.
+  const std::string two =
+      scenario(", carrier_hz: 60e9") +
+      "  - {name: second, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
+      "bandwidth_hz: 20e6, carrier_hz: 80e9}\n";
+  expect(plan(two, TinyScene().build()).gas, true, "more", "at 60 GHz");
+}
+
+TEST(RadioPlan, RoughnessComesWithHeightsThatMatterOverAllReflections) {
+  const auto rough = [](double rms_m) {
+    scene::Material ground = radio_material("medium_dry_ground");
+    ground.radio->roughness_m = rms_m;
+    return street(ground, radio_material("concrete"));
+  };
+  expect(plan(scenario(), rough(0.0)).roughness, false, "no material has one");
+  expect(plan(scenario(), rough(1e-4)).roughness, false, "within", "over 2 reflections");
+  expect(plan(scenario(), rough(1e-2)).roughness, true, "more than the tolerance");
+  // 0.3 mm: 0.0084 dB a reflection, within the tolerance of 0.01 dB once and beyond it twice.
+  std::string once = scenario();
+  once.replace(once.find("max_depth: 2"), 12, "max_depth: 1");
+  EXPECT_FALSE(plan(once, rough(3e-4)).roughness.on);
+  EXPECT_TRUE(plan(scenario(), rough(3e-4)).roughness.on);
+}
+
+TEST(RadioPlan, FoliageComesWithCrowns) {
+  expect(plan(scenario(), street()).foliage, false, "the scene has none");
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage.emplace();
+  expect(plan(scenario(), street(radio_material("concrete"), leaves)).foliage, true, "crowns");
+}
+
+TEST(RadioPlan, WhatIsAskedForByName) {
+  const EffectPlan silent = plan(scenario(), street());
+  expect(silent.diffraction, false, "not asked for (effects: {diffraction: on})", "6 dB");
+  expect(silent.diffraction_lit_region, false, "diffraction is off");
+  expect(silent.scattering, false, "no material has a scattering coefficient");
+  expect(silent.dispersion, false, "not asked for");
+  const EffectPlan asked =
+      plan(scenario("", switches("diffraction: on, dispersion: on, free_edges: on")), street());
+  expect(asked.diffraction, true, "switched on (");
+  expect(asked.diffraction_lit_region, true, "continuous");
+  expect(asked.free_edges, true, "switched on (");
+  expect(asked.dispersion, true, "switched on (");
+  // Nothing to act on: off, and the reason does not say on.
+  expect(plan(scenario("", switches("scattering: on")), street()).scattering, false,
+         "nothing to act on (no material has");
+  expect(plan(scenario("", switches("diffraction: on")), TinyScene().build()).diffraction, false,
+         "nothing to act on (the scene has no edge)");
+  scene::Material wall = radio_material("concrete");
+  wall.radio->scattering_coefficient = 0.3;
+  const scene::Scene scatters = street(radio_material("medium_dry_ground"), wall);
+  expect(plan(scenario(), scatters).scattering, false, "not asked for");
+  expect(plan(scenario("", switches("scattering: on")), scatters).scattering, true, "switched on (");
+}
+
+TEST(RadioPlan, DopplerComesWithTimeSamples) {
+  expect(plan(scenario(), street()).doppler, false, "one time sample");
+  expect(plan(scenario(", time_samples: 8"), street()).doppler, true, "8 time samples", "turns per m/s");
+}
+
+TEST(RadioPlan, EveryEffectHasAReasonAndUnknownNamesAreErrors) {
+  for (const Effect* effect : std::as_const(*std::make_unique<EffectPlan>(plan(scenario(), street()))).all())
+    EXPECT_FALSE(effect->reason.empty()) << effect->name;
+  try {
+    plan(scenario("", switches("difraction: on")), street());
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("effects: 'difraction' is no effect; expected one of"));
+    EXPECT_THAT(error.what(), HasSubstr("diffraction"));
+  }
+  EXPECT_THROW(plan(scenario("", switches("channel: off")), street()), UserError);
+}
+
+TEST(RadioPlan, WeatherThatIsNoneIsAnErrorByField) {
+  for (const auto& [field, value] : {std::pair("temperature_k", "20"), std::pair("pressure_hpa", "-1"),
+                                     std::pair("water_vapour_g_m3", "nan"), std::pair("rain_mm_h", "-3"),
+                                     std::pair("fog_g_m3", "11"), std::pair("rain", "3")}) {
+    try {
+      plan(scenario("", fmt::format("environment: {{{}: {}}}\n", field, value)), street());
+      ADD_FAILURE() << field;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("test.yaml:"))) << field;
+      EXPECT_THAT(error.what(), HasSubstr(std::string("environment.") + field)) << field;
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------- what is left out
+
+/// The number of dB in "at most 0.00123 dB ...".
+double bound_db(const Effect& effect) {
+  std::smatch match;
+  EXPECT_TRUE(std::regex_search(effect.bound, match, std::regex("at most ([0-9.e+-]+) dB")))
+      << effect.name << ": " << effect.bound;
+  return match.empty() ? 0.0 : std::stod(match[1]);
+}
+
+/// No H(f) may change by more than this many dB change every path's amplitude.
+void expect_within(const RadioRun& plain, const RadioRun& forced, double most_db, const std::string& name) {
+  double amplitudes = 0.0;
+  for (const std::complex<float>& a : plain.values<std::complex<float>>(0, "amplitude"))
+    amplitudes += static_cast<double>(std::abs(a));
+  ASSERT_GT(amplitudes, 0.0);
+  const auto a = plain.values<std::complex<float>>(0, "cfr"),
+             b = forced.values<std::complex<float>>(0, "cfr");
+  ASSERT_EQ(a.size(), b.size());
+  double largest = 0.0;
+  for (size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::abs(std::complex<double>(a[i]) - std::complex<double>(b[i])));
+  EXPECT_LE(largest, (1.0 - std::pow(10.0, -most_db / 20.0) + 2e-7) * amplitudes) << name;
+}
+
+TEST(RadioPlan, ForcedWhereItIsWithinTheToleranceItChangesLessThanItsBound) {
+  scene::Material ground = radio_material("medium_dry_ground");
+  ground.radio->roughness_m = 1e-4;
+  const scene::Scene scene = street(ground, radio_material("concrete"));
+  const std::string weather = "environment: {rain_mm_h: 2, fog_g_m3: 0.02}\n";
+  const RadioRun plain = run(scenario("", weather), scene);
+  ASSERT_GE(plain.values<int32_t>(0, "path_count")[0], 4);
+  for (const char* name : {"gas", "rain", "fog", "roughness"}) {
+    const auto effect = [&](const RadioRun& r) {
+      for (const Effect* e : r.plan.all())
+        if (e->name == name) return *e;
+      throw std::runtime_error(name);
+    };
+    EXPECT_FALSE(effect(plain).on) << name;
+    EXPECT_THAT(effect(plain).reason, HasSubstr("within the tolerance"));
+    const RadioRun forced = run(scenario("", weather + switches(fmt::format("{}: on", name))), scene);
+    EXPECT_TRUE(effect(forced).on) << name;
+    const double bound = bound_db(effect(forced));
+    EXPECT_LE(bound, 0.01) << name << ": the tolerance";
+    expect_within(plain, forced, bound, name);
+    EXPECT_FALSE(plain.array(0, "amplitude").bytes == forced.array(0, "amplitude").bytes)
+        << name << " is to act when it is switched on";
+  }
+}
+
+TEST(RadioPlan, ForcedWhereThereIsNothingItChangesNoByte) {
+  const scene::Scene scene = street();
+  const RadioRun plain = run(scenario(), scene);
+  for (const char* name : {"rain", "fog", "foliage", "roughness", "transmission", "doppler"})
+    sim::testing::expect_same_bytes(plain, run(scenario("", switches(fmt::format("{}: on", name))), scene),
+                                    name);
+}
+
+TEST(RadioPlan, WallsThatAreDarkAreOpaqueAmongOthers) {
+  // 2 mm of metal take thousands of dB: as a half-space, to the last byte, even beside panes that let waves pass.
+  const scene::Material pane = radio_material("glass", 0.01);
+  for (const scene::Material& ground : {radio_material("medium_dry_ground"), pane}) {
+    const RadioRun thick = run(scenario("", switches("transmission: on")),
+                               street(ground, radio_material("metal"))),
+                   thin = run(scenario("", switches("transmission: on")),
+                              street(ground, radio_material("metal", 0.002)));
+    EXPECT_EQ(thick.values<uint64_t>(0, "id"), thin.values<uint64_t>(0, "id"));
+    expect_within(thick, thin, 1e-5, "metal");
+  }
+}
+
+TEST(RadioPlan, DispersionLeavesTheCarrierAlone) {
+  const scene::Scene scene = street(radio_material("concrete"), radio_material("glass", 0.01));
+  const std::string wide = ", carrier_hz: 28e9";
+  const RadioRun plain = run(scenario(wide), scene),
+                 forced = run(scenario(wide, switches("dispersion: on")), scene);
+  const auto a = plain.values<std::complex<float>>(0, "cfr"),
+             b = forced.values<std::complex<float>>(0, "cfr");
+  EXPECT_LT(std::abs(a[8] - b[8]), 1e-6f * std::abs(a[8])) << "f_8 is the carrier";
+  EXPECT_GT(std::abs(a[0] - b[0]), 1e-6f * std::abs(a[0])) << "10 MHz beside it";
+}
+
+TEST(RadioPlan, CrownsThatAreOffAreNotThere) {
+  scene::Material leaves;
+  leaves.name = "leaves";
+  leaves.radio.emplace().foliage.emplace();
+  TinyScene with, without;
+  for (TinyScene* tiny : {&with, &without}) {
+    const uint32_t g = tiny->material_as(radio_material("medium_dry_ground")), l = tiny->material_as(leaves);
+    tiny->object("ground", 0, g).quad({-30, -20, 0}, {30, -20, 0}, {30, 20, 0}, {-30, 20, 0});
+    if (tiny == &with) tiny->object("crown", 0, l).box({-3, -4, 0.5}, {3, 4, 7});
+  }
+  const RadioRun none = run(scenario(), without.build());
+  ASSERT_EQ(none.values<int32_t>(0, "path_count")[0], 2);
+  for (const char* candidates : {"", ", candidates: rays, rays: 20000"}) {
+    const RadioRun off = run(scenario(candidates, switches("foliage: off")), with.build());
+    EXPECT_TRUE(off.array(0, "cfr").bytes == none.array(0, "cfr").bytes) << candidates;
+    const RadioRun on = run(scenario(candidates), with.build());
+    EXPECT_EQ(on.values<int32_t>(0, "path_count")[0], 2) << candidates;
+    EXPECT_GT(on.values<double>(0, "foliage")[0], 5.0) << candidates;
+    EXPECT_LT(on.values<double>(0, "path_gain")[0], 0.9 * none.values<double>(0, "path_gain")[0]);
+  }
+}
+
+}  // namespace
+}  // namespace greatx::sim
