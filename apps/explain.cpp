@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/session.h"
+#include "sim/channel_notes.h"
 
 namespace greatx::apps {
 
@@ -30,6 +31,10 @@ void run(const Options& options) {
                                  {"switchable", effect->switchable},
                                  {"reason", effect->reason},
                                  {"bound", effect->bound}});
+    json["channels"] = nlohmann::json::object();
+    for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel)
+      for (const auto& [name, text] : sim::channel_notes(scenario, world, plan, channel))
+        json["channels"][scenario.channels[channel].name][name] = text;
     std::cout << json.dump(2) << '\n';
     return;
   }
@@ -41,6 +46,11 @@ void run(const Options& options) {
                              effect->switchable ? " " : "*", effect->reason,
                              effect->bound.empty() ? "" : " — " + effect->bound);
   std::cout << "* follows from the sensors; the others can be switched under `effects:` in the scenario\n";
+  for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel) {
+    std::cout << fmt::format("channel '{}', candidates:\n", scenario.channels[channel].name);
+    for (const auto& [name, text] : sim::channel_notes(scenario, world, plan, channel))
+      std::cout << fmt::format("  {:<18} {}\n", name, text);
+  }
 }
 
 }  // namespace

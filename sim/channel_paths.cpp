@@ -61,7 +61,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
   for (const std::string& name : config_.receivers) receivers_.push_back(end_of(name));
   const bool receivers_rest =
       std::none_of(receivers_.begin(), receivers_.end(), [&](const ChannelEnd& end) { return moves(end); });
-  search_.emplace(gpu_scene, model_, plan, config_,
+  search_.emplace(&gpu_scene, model_, plan, config_,
                   ChannelSearch::Ends{!moves(transmitter_), receivers_rest, transmitter_.body});
 }
 

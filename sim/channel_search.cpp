@@ -45,7 +45,7 @@ rf::PathOptions path_options(const ChannelConfig& config, bool moving_bodies) {
 
 }  // namespace
 
-ChannelSearch::ChannelSearch(scene::GpuScene& gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
+ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
                              const ChannelConfig& config, const Ends& ends)
     : model_(model),
       config_(config),
@@ -60,10 +60,10 @@ ChannelSearch::ChannelSearch(scene::GpuScene& gpu_scene, const rf::RadioModel& m
         "found rays",
         config_.name);
   if (way_ == Way::none) return;
-  if (config_.candidates == "rays")
-    rays_.emplace(gpu_scene, ray_options(config_, walls_, move_facets_), model_.kinds);
-  else
+  if (config_.candidates != "rays")
     make_beams();
+  else if (gpu_scene != nullptr)
+    rays_.emplace(*gpu_scene, ray_options(config_, walls_, move_facets_), model_.kinds);
 }
 
 void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
@@ -259,7 +259,7 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes() const {
     notes.emplace_back("reuse",
                        "none: diffraction, scattering or a list of points with moving reflectors; the whole "
                        "search runs at every tick");
-  if (rays_)
+  if (way_ != Way::none && !beams_)
     notes.emplace_back(
         "guarantee",
         fmt::format(

@@ -28,9 +28,9 @@ class ChannelSearch {
     bool transmitter_rests = false, receivers_rest = false;
     uint32_t transmitter_body = 0;  ///< that carries it; 0: none
   };
-  /// All arguments but `ends` must outlive this. Throws UserError if `search: once` is asked for and no end stands still, or
-  /// diffraction is on and candidates come from rays.
-  ChannelSearch(scene::GpuScene& gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
+  /// All arguments but `ends` must outlive this. `gpu_scene` null: notes() alone may be called. Throws UserError if
+  /// `search: once` is asked for and no end stands still, or diffraction is on and candidates come from rays.
+  ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
                 const ChannelConfig& config, const Ends& ends);
 
   /// From now on the receivers are points at rest, perhaps thousands, others at each call of renew().
