@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include <spdlog/spdlog.h>
+
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
@@ -24,8 +26,9 @@ FacetKind kind_of(const scene::Material& material, const RadioEffects& effects) 
   return dark ? FacetKind::opaque : FacetKind::wall;
 }
 
-std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds, bool free_edges) {
-  std::vector<scene::Wedge> wedges = scene::find_wedges(scene, {.free_edges = free_edges});
+std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds& kinds,
+                                    const scene::WedgeOptions& options, uint64_t& too_short) {
+  std::vector<scene::Wedge> wedges = scene::find_wedges(scene, options, &too_short);
   const auto hard = [&](uint32_t facet) {
     return facet == scene::no_facet || kinds[facet] == FacetKind::opaque || kinds[facet] == FacetKind::wall;
   };
@@ -79,7 +82,12 @@ RadioModel::RadioModel(const scene::Scene& radio_scene, double carrier_hz, const
       surfaces(radio_scene, carrier_hz),
       kinds(facet_kinds(radio_scene, which)) {
   if (effects.field.foliage) check_foliage(radio_scene, carrier_hz);
-  if (effects.diffraction) wedges = wedges_of(radio_scene, kinds, effects.free_edges);
+  if (!effects.diffraction) return;
+  const scene::WedgeOptions options{.free_edges = effects.free_edges};
+  wedges = wedges_of(radio_scene, kinds, options, short_wedges);
+  if (short_wedges > 0)
+    spdlog::info("scene '{}': {} edges shorter than {} m do not diffract", radio_scene.name, short_wedges,
+                 options.min_length_m);
 }
 
 FieldModel RadioModel::field_model() const {

@@ -50,6 +50,7 @@ struct RadioModel {
   RadioSurfaces surfaces;
   FacetKinds kinds;
   std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
+  uint64_t short_wedges = 0;         ///< edges that diffract but are left out as too short (WedgeOptions)
 
   FieldModel field_model() const;
 };

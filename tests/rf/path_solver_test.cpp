@@ -4,6 +4,7 @@
 // All stages together on scenes of a few facets: candidates, geometry, crossings on the device, fields.
 #include "rf/path_solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -45,6 +46,7 @@ TinyScene materials() {
 
 struct Solved {
   std::vector<Path> paths;
+  size_t geometric = 0;  ///< before anything stood in the way
   std::vector<std::string> chains() const {
     std::vector<std::string> all;
     for (const Path& path : paths) {
@@ -56,9 +58,9 @@ struct Solved {
   }
 };
 
-/// `end`: which of the two is the source that candidates run from.
+/// `end`: which of the two is the source that candidates run from; `windows` false: these are forgotten.
 Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const RadioEffects& effects,
-             const PathOptions& options, Source end = Source::transmitter) {
+             const PathOptions& options, Source end = Source::transmitter, bool windows = true) {
   gpu::Device& device = test::device();
   scene::GpuScene gpu_scene(device, scene, {});
   const RadioModel model(scene, carrier_hz, effects);
@@ -67,7 +69,8 @@ Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const 
   search.max_depth = options.max_depth;
   search.max_transmissions = effects.transmission ? options.max_transmissions : 0;
   const dvec3 source = end == Source::transmitter ? tx : rx;
-  const BeamSearchResult found = BeamSearch(model.facets, model.kinds, model.wedges, search).search(source);
+  BeamSearchResult found = BeamSearch(model.facets, model.kinds, model.wedges, search).search(source);
+  if (!windows) found.list.windows.clear();
   PathSolver solver(model, options);
   solver.set_candidates(found.list, source, end);
 
@@ -83,7 +86,8 @@ Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const 
   const CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver)};
+  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver),
+          link.paths.size()};
 }
 
 RadioEffects with_walls() {
@@ -246,6 +250,111 @@ TEST(PathSolver, ScatteredPowerConvergesWithThePatches) {
     before = power;
   }
   EXPECT_LT(change, 0.03);
+}
+
+/// A house that hides parts of a wall and of the ground that scatter.
+TinyScene hidden_patches() {
+  TinyScene tiny = materials();
+  tiny.object("ground", 0, 3).quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0});
+  tiny.object("wall", 0, 3).quad({-20, 25, 0}, {20, 25, 0}, {20, 25, 12}, {-20, 25, 12});
+  tiny.object("house", 0, 3).box({-4, 0, 0}, {5, 6, 7});
+  return tiny;
+}
+
+bool same_bits(const std::vector<Path>& a, const std::vector<Path>& b) {
+  return std::ranges::equal(a, b, [](const Path& p, const Path& q) {
+    return p.interactions == q.interactions && p.vertices == q.vertices && p.length_m == q.length_m &&
+           std::ranges::equal(p.transfer, q.transfer);
+  });
+}
+
+TEST(PathSolver, PatchesThatABeamDoesNotReachAreLeftOutBeforeTheyAreTraced) {
+  const scene::Scene scene = hidden_patches().build();
+  RadioEffects effects;
+  effects.scattering = true;
+  for (const uint32_t after : {0u, 1u})
+    for (const Source end : {Source::transmitter, Source::receiver}) {
+      const PathOptions options{.max_depth = 2, .max_reflections_after = after, .patch_m = 4.0};
+      const dvec3 tx(1, -9, 3), rx(7, 14, 2);
+      const Solved with = solve(scene, tx, rx, effects, options, end);
+      const Solved without = solve(scene, tx, rx, effects, options, end, false);
+      EXPECT_TRUE(same_bits(with.paths, without.paths));
+      EXPECT_GT(with.paths.size(), 100u);
+      EXPECT_LE(with.geometric, without.geometric - (after == 0));
+    }
+}
+
+TEST(PathSolver, ASourceThatMovesScattersFromWhereItIs) {
+  const scene::Scene scene = hidden_patches().build();
+  RadioEffects effects;
+  effects.scattering = true;
+  const RadioModel model(scene, carrier_hz, effects);
+  const PathOptions options{.max_depth = 2, .patch_m = 4.0};
+  const dvec3 first(1, -9, 3), second(-3, -11, 4);
+  CandidateList list = exhaustive_candidates(model.facets.facet_count(), 2);
+  PathSolver moved(model, options), there(model, options);
+  moved.set_candidates(list, first, Source::transmitter);
+  there.set_candidates(list, second, Source::transmitter);
+  const auto geometry = [](const PathSolver& solver) {
+    return solver.geometry({.position = {7, 14, 2}}).paths;
+  };
+  const auto same = [](const GeometricPath& a, const GeometricPath& b) {
+    return a.interactions == b.interactions && a.vertices == b.vertices && a.length_m == b.length_m;
+  };
+  EXPECT_FALSE(std::ranges::equal(geometry(moved), geometry(there), same));
+  moved.move_source(second);
+  EXPECT_TRUE(std::ranges::equal(geometry(moved), geometry(there), same));
+  EXPECT_GT(geometry(there).size(), 100u);
+}
+
+TEST(PathSolver, AWedgesOwnFaceDoesNotReflectRightBesideIt) {
+  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection just before it
+  // would have a point of its own.
+  TinyScene tiny = materials();
+  tiny.object("wall", 0, 2)
+      .face({{dvec3(0, 0, 0), dvec3(10, 0, 0), dvec3(10, 0, 8)},
+             {dvec3(0, 0, 0), dvec3(10, 0, 8), dvec3(0, -5e-5, 8)}});
+  tiny.object("screen", 0, 2).quad({-20, -20, -5}, {30, -20, -5}, {30, -20, 30}, {-20, -20, 30});
+  const scene::Scene scene = tiny.build();
+  RadioEffects effects;
+  effects.diffraction = effects.free_edges = true;
+  const RadioModel model(scene, carrier_hz, effects);
+  const auto top = std::ranges::find_if(model.wedges, [](const scene::Wedge& wedge) {
+    return std::min(wedge.a.z, wedge.b.z) > 7.0 && wedge.facet_0 == 0;
+  });
+  ASSERT_NE(top, model.wedges.end());
+  const scene::Wedge& wedge = *top;
+  CandidateList list = exhaustive_candidates(model.facets.facet_count(), 2);
+  for (size_t i = 0; i < list.size(); ++i) {
+    list.wedge_offsets.push_back(static_cast<uint32_t>(i));
+    list.wedges.push_back(static_cast<uint32_t>(top - model.wedges.begin()));
+  }
+  list.wedge_offsets.push_back(static_cast<uint32_t>(list.size()));
+  PathSolver solver(model, {.max_depth = 3});
+  solver.set_candidates(list, {4, -6, 5}, Source::transmitter);
+  int beside = 0, elsewhere = 0;
+  for (const GeometricPath& path : solver.geometry({.position = {6, 5, 10}}).paths)
+    for (size_t i = 1; i < path.interactions.size(); ++i) {
+      if (path.interactions[i].type != InteractionType::diffraction) continue;
+      const uint32_t before = path.interactions[i - 1].element;
+      ++(before == wedge.facet_0 || before == wedge.facet_n ? beside : elsewhere);
+    }
+  EXPECT_EQ(beside, 0);
+  EXPECT_GT(elsewhere, 0) << "the screen reflects towards the edge";
+}
+
+TEST(RadioModel, CountsEdgesThatAreTooShortToDiffract) {
+  TinyScene tiny = materials();
+  tiny.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
+  tiny.object("grain", 0, 2).box({20, 0, 0}, {20.0005, 5, 5});
+  RadioEffects effects;
+  effects.diffraction = true;
+  const scene::Scene scene = tiny.build();
+  const RadioModel model(scene, carrier_hz, effects);
+  EXPECT_EQ(model.wedges.size(), 12u + 8u);
+  EXPECT_EQ(model.short_wedges, 4u);
+  effects.diffraction = false;
+  EXPECT_EQ(RadioModel(scene, carrier_hz, effects).short_wedges, 0u);
 }
 
 TEST(PathSolver, APathBeyondTheBoundIsCounted) {
