@@ -27,6 +27,7 @@ class Channel:
         self.sensor = next(s for s in channels if name in (None, s["name"]))
         self.meta = self.sensor["metadata"]
         self.materials = self.info["run"]["materials"]
+        self.effects = self.info["run"]["effects"]
         root = self.folder / f"sequence_{sequence:04d}"
         self.root = root / self.sensor["name"]
         self.cfr = np.load(self.root / "cfr.npy", mmap_mode="r")

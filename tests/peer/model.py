@@ -62,20 +62,56 @@ def fresnel(wall, cosine, wavelength):
     return (cosine - y_te) / (cosine + y_te), -(1 / cosine - y_tm) / (1 / cosine + y_tm)
 
 
-def transfer(points, walls, wavelength):
-    """2x2 transfer of a path through points [n + 2, 3] with n walls, world basis of departure and arrival. The normals
-    are the bisectors: nothing of the scene is needed."""
-    k = unit(np.diff(points, axis=0))
+def passed(wall, cosine, wavelength):
+    """(t_TE, t_TM) of a wall as a sheet, by chain (ABCD) matrices of its layers; the way that the wave would have gone in
+    vacuum is taken off, since the path's length has it."""
+    te = np.eye(2, dtype=complex)
+    tm = np.eye(2, dtype=complex)
+    for eta, thickness in wall:
+        n = np.sqrt(complex(eta) - 1 + cosine**2)
+        n = -n if n.imag > 0 else n
+        angle = 2 * np.pi / wavelength * n * thickness
+        for matrix, y in ((te, n), (tm, complex(eta) / n)):
+            matrix[:] = matrix @ np.array([[np.cos(angle), 1j * np.sin(angle) / y], [1j * y * np.sin(angle), np.cos(angle)]])
+    way = np.exp(2j * np.pi / wavelength * cosine * sum(thickness for _, thickness in wall))
+    return [way * 2 * y / (y * m[0, 0] + y * y * m[0, 1] + m[1, 0] + y * m[1, 1]) for m, y in ((te, cosine), (tm, 1 / cosine))]
+
+
+REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = 1, 2, 3, 4
+
+
+def bisectors(points, types):
+    """The normals of the facets that a path is reflected at, by interaction; NaN where it is not."""
+    turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
+    k = unit(np.diff(points[turning], axis=0))  # walls passed do not bend
+    normals = np.full((len(types), 3), np.nan)
+    for i, at in enumerate(np.flatnonzero(turning)[1:-1] - 1):
+        if types[at] == REFLECTION:
+            normals[at] = unit(k[i + 1] - k[i])
+    return normals
+
+
+def transfer(points, types, walls, normals, wavelength):
+    """2x2 transfer of a path through points [n + 2, 3] with n interactions (reflections, walls passed), world basis of
+    departure and arrival. Normals of reflections are the bisectors: nothing of the scene is needed but those of the walls
+    passed, given in `normals` [n, 3]."""
+    own = bisectors(points, types)
+    turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
+    k = unit(np.diff(points[turning], axis=0))
     dyad = np.eye(3, dtype=complex)
+    run = 0
     for i, wall in enumerate(walls):
-        normal = unit(k[i + 1] - k[i])
-        cosine = abs(k[i] @ normal)
-        te, tm = fresnel(wall, cosine, wavelength)
-        across = np.cross(k[i], normal)
+        through = types[i] == TRANSMISSION
+        normal = normals[i] if through else own[i]
+        before, after = k[run], k[run if through else run + 1]
+        run += not through
+        cosine = abs(before @ normal)
+        te, tm = passed(wall, cosine, wavelength) if through else fresnel(wall, cosine, wavelength)
+        across = np.cross(before, normal)
         if np.linalg.norm(across) < 1e-8:
-            across = np.cross(k[i], [1, 0, 0] if abs(k[i][0]) < .5 else [0, 1, 0])
+            across = np.cross(before, [1, 0, 0] if abs(before[0]) < .5 else [0, 1, 0])
         s = unit(across)
-        dyad = (te * np.outer(s, s) + tm * np.outer(np.cross(k[i + 1], s), np.cross(k[i], s))) @ dyad
+        dyad = (te * np.outer(s, s) + tm * np.outer(np.cross(after, s), np.cross(before, s))) @ dyad
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
     return np.array(basis(-k[-1])) @ dyad @ np.array(basis(k[0])).T / length
 
