@@ -14,6 +14,8 @@
 namespace greatx::rf {
 namespace {
 
+constexpr size_t facets_a_lot = 16, beams_a_lot = 64;
+
 /// Facets of body 0 alone, or of all others alone: what is left out counts as foliage, which no beam meets.
 FacetKinds kinds_of(const FacetWorld& world, const FacetKinds& kinds, bool moving) {
   FacetKinds chosen = kinds;
@@ -115,6 +117,7 @@ struct MovingSearch::Walk {
   void first_at(uint32_t facet, Found& found) const {
     Pyramid everything;
     everything.apex = search.source_;
+    found.current.clear();
     if (options.max_depth >= 2) enter(everything, moving.facet(facet), found);
   }
 
@@ -156,14 +159,19 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
   if (options_.max_depth == 0) return list;
   GREATX_CHECK(has_tree(), "{} targets, but no tree of the world at rest", targets.size());
   const Walk walk(*this, targets, fixed_too);
-  const size_t first_moving = options_.moving_bodies ? walk.moving.facet_count() : 0;
-  std::vector<Walk::Found> found(first_moving + beams_.size());
-  parallel_for(found.size(), options_.threads, [&](size_t i) {
-    if (i < first_moving)
-      walk.first_at(static_cast<uint32_t>(i), found[i]);
+  // In small lots, so that threads share the work and each lot's memory serves many.
+  const size_t moving = options_.moving_bodies ? walk.moving.facet_count() : 0;
+  const size_t moving_lots = (moving + facets_a_lot - 1) / facets_a_lot;
+  std::vector<Walk::Found> found(moving_lots + (beams_.size() + beams_a_lot - 1) / beams_a_lot);
+  parallel_for(found.size(), options_.threads, [&](size_t lot) {
+    if (lot < moving_lots)
+      for (size_t i = lot * facets_a_lot; i < std::min(moving, (lot + 1) * facets_a_lot); ++i)
+        walk.first_at(static_cast<uint32_t>(i), found[lot]);
     else
-      walk.after(i - first_moving, found[i]);
-    found[i].gathered = {};
+      for (size_t i = (lot - moving_lots) * beams_a_lot;
+           i < std::min(beams_.size(), (lot - moving_lots + 1) * beams_a_lot); ++i)
+        walk.after(i, found[lot]);
+    found[lot].gathered = {};
   });
   for (const Walk::Found& part : found)
     for (size_t at = 0; at < part.sequences.size(); at += part.sequences[at] + 1)

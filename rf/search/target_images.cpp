@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace greatx::rf {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 /// nothing costs one exact solve.
 constexpr double room_m = 1e-5, relative_room = 1e-12;
 constexpr double side_room_m = 1e-3, most_side_room_m = 1.0;
-constexpr uint32_t images_per_box = 6;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -148,41 +148,90 @@ TargetImages::TargetImages(const BeamScene& scene, const dvec3& target) : scene_
     images_.push_back({target - 2.0 * distance * facet.normal, i});
   }
   if (images_.empty()) return;
-  boxes_.reserve(images_.size());
-  boxes_.emplace_back();
-  split(0, 0, static_cast<uint32_t>(images_.size()));
+  for (const Image& image : images_) extent_m_ = std::max(extent_m_, largest(image.position));
+  nodes_.emplace_back();
+  build(0, 0, static_cast<uint32_t>(images_.size()));
 }
 
-void TargetImages::split(uint32_t index, uint32_t first, uint32_t count) {
-  dvec3 low(1e300), high(-1e300);
-  for (uint32_t i = first; i < first + count; ++i) {
-    low = glm::min(low, images_[i].position);
-    high = glm::max(high, images_[i].position);
+void TargetImages::build(uint32_t index, uint32_t first, uint32_t count) {
+  // Halved three times along the longest side.
+  uint32_t bounds[lanes + 1] = {first, first + count};
+  uint32_t parts = 1;
+  for (; count > lanes && parts < lanes; parts *= 2) {
+    for (uint32_t i = parts; i-- > 0;) bounds[2 * i + 2] = bounds[i + 1];
+    for (uint32_t i = 0; i < parts; ++i) {
+      const uint32_t from = bounds[2 * i], to = bounds[2 * i + 2], middle = (from + to) / 2;
+      bounds[2 * i + 1] = middle;
+      dvec3 low(1e300), high(-1e300);
+      for (uint32_t k = from; k < to; ++k)
+        low = glm::min(low, images_[k].position), high = glm::max(high, images_[k].position);
+      const dvec3 size = high - low;
+      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      const auto begin = images_.begin();
+      std::nth_element(begin + from, begin + middle, begin + to, [&](const Image& a, const Image& b) {
+        return a.position[axis] != b.position[axis] ? a.position[axis] < b.position[axis] : a.facet < b.facet;
+      });
+    }
   }
-  Box box{0.5 * (low + high), 0.5 * (high - low), first, count};
-  if (count > images_per_box) {
-    const dvec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto begin = images_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count, [&](const Image& a, const Image& b) {
-      return a.position[axis] != b.position[axis] ? a.position[axis] < b.position[axis] : a.facet < b.facet;
-    });
-    box.first = static_cast<uint32_t>(boxes_.size()), box.count = 0;
-    boxes_.resize(boxes_.size() + 2);
-    split(box.first, first, count / 2);
-    split(box.first + 1, first + count / 2, count - count / 2);
+  Node node;
+  node.leaf = parts == 1;
+  node.count = node.leaf ? count : lanes;
+  node.first = node.leaf ? first : static_cast<uint32_t>(nodes_.size());
+  if (!node.leaf) nodes_.resize(nodes_.size() + lanes);
+  for (uint32_t lane = 0; lane < node.count; ++lane) {
+    const uint32_t from = node.leaf ? first + lane : bounds[lane],
+                   to = node.leaf ? from + 1 : bounds[lane + 1];
+    dvec3 low(1e300), high(-1e300);
+    for (uint32_t k = from; k < to; ++k)
+      low = glm::min(low, images_[k].position), high = glm::max(high, images_[k].position);
+    for (int axis = 0; axis < 3; ++axis) {
+      node.center[axis][lane] = static_cast<float>(0.5 * (low[axis] + high[axis]));
+      node.half[axis][lane] = static_cast<float>(0.5 * (high[axis] - low[axis]));
+    }
+    if (!node.leaf) build(node.first + lane, from, to - from);
   }
-  boxes_[index] = box;
+  nodes_[index] = node;
 }
 
-bool TargetImages::outside(const Box& box, const Pyramid& pyramid) {
-  for (const HalfSpace& side : pyramid.region()) {
-    const double center = glm::dot(side.normal, box.center) - side.offset;
-    const double reach = std::abs(side.normal.x) * box.half.x + std::abs(side.normal.y) * box.half.y +
-                         std::abs(side.normal.z) * box.half.z;
-    if (center < -reach) return true;
+TargetImages::Sides TargetImages::sides_of(const Pyramid& pyramid) const {
+  Sides sides;
+  sides.count = pyramid.side_count;
+  for (uint32_t i = 0; i < sides.count; ++i) {
+    const HalfSpace& side = pyramid.sides[i];
+    // Some twenty roundings of 2^-24 of the largest number in the sums.
+    const double room = 0x1p-19 * (4.0 * extent_m_ + std::abs(side.offset));
+    for (int axis = 0; axis < 3; ++axis) {
+      sides.normal[i][axis] = static_cast<float>(side.normal[axis]);
+      sides.span[i][axis] = std::abs(sides.normal[i][axis]);
+    }
+    sides.offset[i] = static_cast<float>(side.offset - room);
   }
-  return false;
+  return sides;
+}
+
+std::array<float, TargetImages::lanes> TargetImages::within(const Node& node, const Sides& sides) {
+  // Four at a time, said so that compilers do it; memcpy costs nothing.
+  using Four = float __attribute__((vector_size(16)));
+  std::array<float, lanes> least;
+  for (uint32_t first = 0; first < lanes; first += 4) {
+    const auto four = [first](const float(&all)[lanes]) {
+      Four some;
+      std::memcpy(&some, all + first, sizeof some);
+      return some;
+    };
+    const Four x = four(node.center[0]), y = four(node.center[1]), z = four(node.center[2]);
+    const Four half_x = four(node.half[0]), half_y = four(node.half[1]), half_z = four(node.half[2]);
+    Four all = Four{} + 1e30f;
+    for (uint32_t i = 0; i < sides.count; ++i) {
+      const float* n = sides.normal[i];
+      const float* s = sides.span[i];
+      const Four reach =
+          n[0] * x + n[1] * y + n[2] * z + s[0] * half_x + s[1] * half_y + s[2] * half_z - sides.offset[i];
+      all = reach < all ? reach : all;
+    }
+    std::memcpy(least.data() + first, &all, sizeof all);
+  }
+  return least;
 }
 
 /// Does the straight line from the apex to the target's image pass the pyramid's rectangle, and then the facet's?
