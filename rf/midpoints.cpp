@@ -118,7 +118,7 @@ Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidate
 
 /// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the answer] where
 /// on the facet; or empty.
-Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates,
+Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
                                                   std::vector<PlaneWindow>& windows) const {
   struct Pair {
     uint32_t facet, prefix, sequence;
@@ -128,7 +128,8 @@ Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidate
   uint32_t prefix = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     const auto facets = candidates.sequence(i);
-    if (facets.empty() || facets.size() > options_.max_depth) continue;
+    if (facets.empty() || facets.size() > options_.max_depth || facets.size() - 1 > most_reflections)
+      continue;
     const auto shorter = facets.first(facets.size() - 1);
     while (prefix < i && sequence_less(candidates.sequence(prefix), shorter)) ++prefix;
     if (std::ranges::equal(candidates.sequence(prefix), shorter)) pairs.push_back({facets.back(), prefix, i});
@@ -201,7 +202,7 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
   if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
   if (!model_->effects.scattering) return;
   std::vector<PlaneWindow> windows;
-  at_facets_ = arrivals_at_facets(candidates, windows);
+  at_facets_ = arrivals_at_facets(candidates, options_.max_reflections_before_scattering, windows);
   at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
 }
 
@@ -303,7 +304,7 @@ void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t targe
   PatchArrivals at_patches;
   if (searched) {
     std::vector<PlaneWindow> windows;
-    const Arrivals facets = arrivals_at_facets(list, windows);
+    const Arrivals facets = arrivals_at_facets(list, options_.max_reflections_after, windows);
     at_patches = arrivals_at_patches(facets, windows, suffixes);
   } else {
     at_patches = straight_to_patches(target);

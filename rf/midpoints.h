@@ -33,6 +33,7 @@ struct MidpointOptions {
   uint32_t max_depth = 3;              ///< interactions on a path
   uint32_t max_transmissions = 0;      ///< of them walls passed
   uint32_t max_reflections_after = 0;  ///< on the target's side; more than 0: a search at every target
+  uint32_t max_reflections_before_scattering = ~0u;  ///< on the source's side
   double patch_m = 10.0;
   bool moving_bodies = false;  ///< facets of bodies other than 0 reflect
 };
@@ -77,7 +78,8 @@ class Midpoints {
   };
   struct Chain;
   Arrivals arrivals_at_wedges(const CandidateList& candidates) const;
-  Arrivals arrivals_at_facets(const CandidateList& candidates, std::vector<PlaneWindow>& windows) const;
+  Arrivals arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
+                              std::vector<PlaneWindow>& windows) const;
   PatchArrivals arrivals_at_patches(const Arrivals& at_facets, const std::vector<PlaneWindow>& windows,
                                     const ImageTree& tree) const;
   PatchArrivals straight_to_patches(const dvec3& from) const;

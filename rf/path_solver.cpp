@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/error.h"
 
@@ -69,8 +70,53 @@ bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<
   return true;
 }
 
+/// The interaction that is a diffraction or a scattering.
+std::optional<size_t> bend_of(const GeometricPath& path) {
+  for (size_t i = 0; i < path.interactions.size(); ++i)
+    if (path.interactions[i].type == InteractionType::diffraction ||
+        path.interactions[i].type == InteractionType::scattering)
+      return i;
+  return std::nullopt;
+}
+
+/// Segments straight from an end of the link to a patch, by patch, end and walls that may be passed: all paths that are
+/// scattered there share them. Looked up only, never walked.
+struct StraightToPatches {
+  std::unordered_map<uint64_t, uint32_t> known[2][shared::crossings_max + 1];
+
+  std::unordered_map<uint64_t, uint32_t>& at(bool receiver, uint32_t walls) { return known[receiver][walls]; }
+};
+
+/// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first, where it leads
+/// straight to an end, and the others only if that one is clear. `segments` of the path, the first of the batch's index
+/// `first`.
+void hang_on_one(const GeometricPath& path, size_t bend, std::span<Segment> segments, size_t first,
+                 StraightToPatches& straight) {
+  const bool to_receiver = bend + 2 == segments.size(), to_transmitter = bend == 0;
+  const size_t leader = to_receiver || !to_transmitter ? bend + 1 : bend;
+  for (size_t i = 0; i < segments.size(); ++i)
+    if (i != leader) segments[i].only_if = static_cast<uint32_t>(first + leader);
+  const Interaction& patch = path.interactions[bend];
+  if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
+  const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
+  const auto [known, is_new] = straight.at(to_receiver, segments[leader].walls)
+                                   .try_emplace(key, static_cast<uint32_t>(first + leader));
+  if (!is_new) segments[leader].same_as = known->second;
+}
+
 bool less(const GeometricPath& a, const GeometricPath& b) {
   return interactions_less(a.interactions, b.interactions);
+}
+
+/// Reflections alone before a diffraction, that before a scattering; shorter chains before longer ones.
+bool matters_more(const GeometricPath& a, const GeometricPath& b) {
+  const auto kind = [](const GeometricPath& path) {
+    InteractionType most = InteractionType::reflection;
+    for (const Interaction& interaction : path.interactions) most = std::max(most, interaction.type);
+    return most;
+  };
+  const InteractionType kind_a = kind(a), kind_b = kind(b);
+  return kind_a != kind_b ? kind_a < kind_b : a.interactions.size() < b.interactions.size();
 }
 
 }  // namespace
@@ -78,12 +124,14 @@ bool less(const GeometricPath& a, const GeometricPath& b) {
 PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
     : model_(&model), options_(options), field_(model.field_model()) {
   if (model.effects.diffraction || model.effects.scattering)
-    midpoints_.emplace(model, MidpointOptions{.max_depth = options.max_depth,
-                                              .max_transmissions =
-                                                  model.effects.transmission ? options.max_transmissions : 0,
-                                              .max_reflections_after = options.max_reflections_after,
-                                              .patch_m = options.patch_m,
-                                              .moving_bodies = options.moving_bodies});
+    midpoints_.emplace(
+        model,
+        MidpointOptions{.max_depth = options.max_depth,
+                        .max_transmissions = model.effects.transmission ? options.max_transmissions : 0,
+                        .max_reflections_after = options.max_reflections_after,
+                        .max_reflections_before_scattering = options.max_reflections_before_scattering,
+                        .patch_m = options.patch_m,
+                        .moving_bodies = options.moving_bodies});
 }
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
@@ -114,7 +162,9 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
   }
   if (link.paths.size() > options_.max_paths) {
     link.overflow = link.paths.size() - options_.max_paths;
+    std::stable_sort(link.paths.begin(), link.paths.end(), matters_more);
     link.paths.resize(options_.max_paths);
+    std::sort(link.paths.begin(), link.paths.end(), less);
   }
   return link;
 }
@@ -128,8 +178,9 @@ uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
 void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                               const EndState& receiver, std::vector<Segment>& segments) const {
   const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
+  StraightToPatches straight;
   for (const GeometricPath& path : paths) {
-    const size_t count = path.interactions.size();
+    const size_t count = path.interactions.size(), first = segments.size();
     const uint32_t walls = walls_allowed(path);
     for (size_t i = 0; i <= count; ++i) {
       Segment segment{.a = path.vertices[i], .b = path.vertices[i + 1], .walls = walls};
@@ -145,6 +196,8 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
       if (i == count) segment.body_b = body_or_none(receiver.body);
       segments.push_back(segment);
     }
+    if (const std::optional<size_t> bend = bend_of(path))
+      hang_on_one(path, *bend, std::span(segments).subspan(first), first, straight);
   }
 }
 

@@ -34,10 +34,13 @@ struct PathOptions {
   uint32_t max_depth = 3;          ///< interactions on a path, of whatever type
   uint32_t max_transmissions = 3;  ///< of them walls passed
   uint32_t max_reflections_after =
-      0;                  ///< of them reflections after a diffraction or scattering, on the target's side
-  double patch_m = 10.0;  ///< longest side of a scattering patch
+      0;  ///< of them reflections after a diffraction or scattering, on the target's side
+  uint32_t max_reflections_before_scattering =
+      ~0u;                         ///< of them reflections between the source and a scattering
+  double patch_m = 10.0;           ///< longest side of a scattering patch
   bool moving_bodies = false;      ///< facets of bodies other than 0 reflect
-  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced
+  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced:
+                                   ///< scattering first, then diffraction, the longest chains before others
 };
 
 /// A link's paths before the GPU has answered.

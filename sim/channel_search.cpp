@@ -37,6 +37,7 @@ rf::PathOptions path_options(const ChannelConfig& config, bool moving_bodies) {
   options.max_depth = config.max_depth;
   options.max_transmissions = config.walls();
   options.max_reflections_after = config.max_reflections_after;
+  options.max_reflections_before_scattering = config.max_reflections_before_scattering;
   options.patch_m = config.scattering_patch_m;
   options.max_paths = config.max_paths;
   options.moving_bodies = moving_bodies;

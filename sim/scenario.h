@@ -188,6 +188,8 @@ struct ChannelConfig {
   std::optional<uint32_t> max_transmissions;  ///< of them walls passed; none given: max_depth
   uint32_t max_reflections_after =
       0;  ///< of them reflections between a diffraction or scattering and the searched-for end
+  /// Of them reflections between the end that is searched from and a scattering.
+  uint32_t max_reflections_before_scattering = 1;
   double scattering_patch_m = 10.0;  ///< longest side of the pieces that scatter as one
   uint32_t max_paths = 100'000;      ///< geometric paths of a link and tick; what is beyond is reported
   std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)

@@ -115,7 +115,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   const FieldMap map(
       field, {"name", "tx", "rx", "rate_hz", "carrier_hz", "subcarrier_spacing_hz", "bandwidth_hz",
               "subcarriers", "time_samples", "time_spacing_s", "max_depth", "max_transmissions",
-              "max_reflections_after", "scattering_patch_m", "max_paths", "candidates", "rays", "search"});
+              "max_reflections_after", "max_reflections_before_scattering", "scattering_patch_m", "max_paths",
+              "candidates", "rays", "search"});
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = map.require("name", "a name").name();
@@ -134,6 +135,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
   if (const auto f = map.find("max_transmissions")) channel.max_transmissions = f->integer32(0, 8);
   if (const auto f = map.find("max_reflections_after")) channel.max_reflections_after = f->integer32(0, 4);
+  if (const auto f = map.find("max_reflections_before_scattering"))
+    channel.max_reflections_before_scattering = f->integer32(0, 16);
   if (const auto f = map.find("scattering_patch_m")) channel.scattering_patch_m = f->positive();
   if (const auto f = map.find("max_paths")) channel.max_paths = f->integer32(1, 1u << 30);
   if (const auto f = map.find("candidates")) {
