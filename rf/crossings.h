@@ -29,6 +29,11 @@ struct Segment {
   uint32_t other_a = shared::rf_none;  ///< the second face of the wedge in `a`; rf_none: none
   uint32_t other_b = shared::rf_none;
   uint32_t walls = 0;  ///< FacetKind::wall that it may pass, at most shared::crossings_max
+  /// An earlier segment of the batch that is the same: its answer holds for this one. rf_none: none.
+  uint32_t same_as = shared::rf_none;
+  /// A segment of the batch that has to be clear: if it is blocked, this one counts as blocked without being looked at. That
+  /// one hangs on none itself. rf_none: none.
+  uint32_t only_if = shared::rf_none;
 };
 
 /// What a segment meets.
@@ -64,17 +69,19 @@ class CrossingPass {
   /// Where the answers of one batch will be; valid until its slot is begun again.
   struct Pending {
     gpu::Slice results;
-    uint32_t count = 0;
-    uint32_t row_words = 0;  ///< of each segment's result
+    uint32_t row_words = 0;             ///< of each row
+    std::vector<uint32_t> row_of = {};  ///< [segments]
   };
 
   /// Records a batch among the scene as scene.record_update left it in this tick. Each segment's answer
-  /// depends on it alone. An empty batch records nothing.
+  /// depends on it alone (and on the segment that it hangs on). An empty batch records nothing.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, std::span<const Segment> segments);
   /// In the order of the segments; after the slot's submission is done. `segments`: those that were recorded.
   std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments) const;
 
  private:
+  void dispatch(gpu::Cmd& cmd, uint32_t first, uint32_t count, uint32_t row_words);
+
   scene::GpuScene* scene_;
   FoliageVolumes static_foliage_;
   gpu::ComputePipeline pipeline_;

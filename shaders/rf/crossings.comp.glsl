@@ -21,7 +21,7 @@ layout(constant_id = 1) const bool has_foliage = true;
 layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer SegmentsBlock { GpuSegment segments[]; };
 layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock { GpuFacetPlane planes[]; };
 layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock { GpuFoliageBox foliage[]; };
-layout(set = 0, binding = crossings_results_binding, scalar) writeonly buffer ResultsBlock { uint results[]; };
+layout(set = 0, binding = crossings_results_binding, scalar) buffer ResultsBlock { uint results[]; };
 
 layout(push_constant, scalar) uniform Constants { CrossingConstants constants; };
 
@@ -206,10 +206,14 @@ Depth depth_on_line(GpuSegment segment, vec3 direction) {
 }
 
 void main() {
-  uint index = gl_GlobalInvocationID.x;
-  if (index >= constants.count) return;
+  if (gl_GlobalInvocationID.x >= constants.count) return;
+  uint index = constants.first + gl_GlobalInvocationID.x;
   GpuSegment segment = segments[index];
   uint row = index * constants.row_words;
+  if (segment.only_if != rf_none && results[segment.only_if * constants.row_words] == crossings_blocked) {
+    results[row] = crossings_blocked;
+    return;
+  }
   vec3 direction = segment.b - segment.a;
   if (direction == vec3(0.0)) {  // nothing fits between a point and itself
     results[row] = 0u;

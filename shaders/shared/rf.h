@@ -41,7 +41,7 @@ const uint crossings_results_binding = first_pass_binding + 3u;  // uint[count *
 const uint crossings_group = 64u;
 const uint crossings_max = 8u;  // walls on a segment, at most
 
-// A row of the results: crossings_blocked, the rest undefined; or the number of walls (plus crossings_foliage_open), then,
+// A row of the results: crossings_blocked (also if the segment that it hangs on is), the rest undefined; or the number of walls (plus crossings_foliage_open), then,
 // if the pass has foliage, the share of the segment inside it, then, if it has walls, the facets passed.
 const uint crossings_blocked = 0xffffffffu;
 const uint crossings_foliage_open =
@@ -55,7 +55,8 @@ struct GpuSegment {
   uint facet_a, facet_b;
   uint body_a, body_b;
   uint other_a, other_b;
-  uint walls;  // that it may pass, <= crossings_max; plus crossings_end_in_foliage
+  uint walls;    // that it may pass, <= crossings_max; plus crossings_end_in_foliage
+  uint only_if;  // a row of a dispatch before: if that is blocked, so is this, unseen; rf_none: none
 };
 
 /// A facet's plane in its body's frame: (x - point) . normal = 0.
@@ -73,7 +74,7 @@ struct GpuFoliageBox {
 };
 
 struct CrossingConstants {
-  uint count;
+  uint first, count;  // rows of this dispatch
   uint row_words;
   uint foliage_boxes;
 };
@@ -91,7 +92,7 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::CandidateConstants) == 28);
-static_assert(sizeof(greatx::shared::GpuSegment) == 52);
+static_assert(sizeof(greatx::shared::GpuSegment) == 56);
 static_assert(sizeof(greatx::shared::GpuFacetPlane) == 32);
 static_assert(sizeof(greatx::shared::GpuFoliageBox) == 28);
 #endif
