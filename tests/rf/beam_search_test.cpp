@@ -338,6 +338,41 @@ TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
   }
 }
 
+// ------------------------------------------------------------------- numbered hard cases, by the search and all after it
+
+TEST(BeamSearchHardCase, N18_APathByTheDiagonalOfAQuadIsOne) {
+  SearchScene scene;
+  scene.hand.quad({0, -4, 0}, {0, 4, 0}, {0, 4, 8}, {0, -4, 8});
+  scene.source = {3, 1, 5};
+  scene.receivers = {{3, -1, 3}, {6, -2, 2}};  // both by points of the diagonal, one of them its middle
+  scene.drawn = 0;
+  EXPECT_THAT(expect_perfect(scene, "diagonal"), ElementsAre(2, 2, 0, 0));
+}
+
+TEST(BeamSearchHardCase, N20_ACornerIsMetOnce) {
+  SearchScene scene;
+  scene.hand.room({8, 7, 4});
+  scene.source = {1.5, 1.0, 1.2};
+  scene.receivers = {{4.5, 3.0, 1.2}, {6.0, 4.0, 2.2}};  // xy and yx are one path, by the corner itself
+  scene.drawn = 0;
+  scene.depth = 2;
+  EXPECT_THAT(expect_perfect(scene, "corner"), ElementsAre(2, 12, 36));
+}
+
+TEST(BeamSearchHardCase, N23_TwoWallsFourMillimetresApartAreBothKept) {
+  SearchScene scene;
+  scene.hand.quad({0, -9, 0}, {0, 9, 0}, {0, 9, 9}, {0, -9, 9});
+  scene.hand.quad({-0.004, -9, 0}, {-0.004, 9, 0}, {-0.004, 9, 9}, {-0.004, -9, 9});
+  scene.low = {0.5, -3, 3}, scene.high = {6, 3, 6};
+  scene.source = {3, 1, 5};
+  EXPECT_EQ(expect_perfect(scene, "opaque")[1], 40u) << "the one in front";
+  scene.kinds.assign(2, FacetKind::wall);
+  scene.walls = 2;
+  EXPECT_EQ(expect_perfect(scene, "walls")[3], 40u) << "the one behind, through the other twice";
+  scene.kinds[0] = FacetKind::absent;
+  EXPECT_EQ(expect_perfect(scene, "the one behind")[1], 40u);
+}
+
 TEST(BeamSearch, RandomScenes) {
   size_t paths = 0, deep = 0;
   for (uint64_t seed = 300; seed < 320; ++seed)
