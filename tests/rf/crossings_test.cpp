@@ -108,6 +108,46 @@ TEST(Crossings, EmptyBatchRecordsNothing) {
   ring.wait(slot);
 }
 
+TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
+  RandomStream random(8, 4);
+  std::vector<Segment> alone;
+  for (int i = 0; i < 600; ++i) {
+    const auto point = [&] {
+      const double x = random.uniform(-30, 30), y = random.uniform(-30, 30);
+      return dvec3(x, y, random.uniform(-1, 15));
+    };
+    const dvec3 a = point();
+    alone.push_back(segment(a, point()));
+  }
+  // Every third one decides for the one before it and the one after it; every other of these is the same as an earlier one.
+  for (uint32_t i = 7; i + 1 < alone.size(); i += 6) alone[i] = alone[i - 6 < 7 ? 1 : i - 6];
+  std::vector<Segment> batch = alone;
+  for (uint32_t i = 1; i + 1 < batch.size(); i += 3) batch[i - 1].only_if = batch[i + 1].only_if = i;
+  for (uint32_t i = 7; i + 1 < batch.size(); i += 6) batch[i].same_as = 1;
+  const scene::Scene scene = wall_on_ground().build();
+  const std::vector<uint8_t> each = visible(scene, alone), answers = visible(scene, batch);
+  size_t unseen = 0, seen = 0;
+  for (uint32_t i = 0; i < batch.size(); ++i) {
+    const uint32_t leader = batch[i].only_if;
+    const bool looked_at = leader == shared::rf_none || each[leader] != 0;
+    EXPECT_EQ(answers[i], looked_at ? each[i] : 0) << i;
+    ++(looked_at ? seen : unseen);
+  }
+  EXPECT_GT(unseen, 50u);
+  EXPECT_GT(seen, 300u);
+}
+
+TEST(Crossings, SegmentsHangOnEarlierAnswersAlone) {
+  const scene::Scene scene = wall_on_ground().build();
+  std::vector<Segment> chain(3, segment({10, 0, 8}, {30, 0, 8}));
+  chain[1].only_if = 0;
+  chain[2].only_if = 1;
+  EXPECT_THROW(visible(scene, chain), ContractError);
+  std::vector<Segment> later(2, segment({10, 0, 8}, {30, 0, 8}));
+  later[0].same_as = 1;
+  EXPECT_THROW(visible(scene, later), ContractError);
+}
+
 TEST(Crossings, EachAnswerDependsOnItsSegmentAlone) {
   RandomStream random(4, 4);
   std::vector<Segment> segments;
