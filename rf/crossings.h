@@ -29,7 +29,8 @@ struct Segment {
   uint32_t other_a = shared::rf_none;  ///< the second face of the wedge in `a`; rf_none: none
   uint32_t other_b = shared::rf_none;
   uint32_t walls = 0;  ///< FacetKind::wall that it may pass, at most shared::crossings_max
-  /// An earlier segment of the batch that is the same: its answer holds for this one. rf_none: none.
+  /// An earlier segment of the batch with the same ends, that may pass as many walls at least: its answer, with all its walls,
+  /// is this one's. rf_none: none.
   uint32_t same_as = shared::rf_none;
   /// A segment of the batch that has to be clear: if it is blocked, this one counts as blocked without being looked at. That
   /// one hangs on none itself. rf_none: none.

@@ -79,29 +79,27 @@ std::optional<size_t> bend_of(const GeometricPath& path) {
   return std::nullopt;
 }
 
-/// Segments straight from an end of the link to a patch, by patch, end and walls that may be passed: all paths that are
-/// scattered there share them. Looked up only, never walked.
+/// Segments straight from a patch to an end of the link (0: the transmitter, 1: the receiver): all paths that are scattered
+/// there share them. Looked up only, never walked.
 struct StraightToPatches {
-  std::unordered_map<uint64_t, uint32_t> known[2][shared::crossings_max + 1];
-
-  std::unordered_map<uint64_t, uint32_t>& at(bool receiver, uint32_t walls) { return known[receiver][walls]; }
+  std::unordered_map<uint64_t, uint32_t> to[2];
 };
 
 /// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first, where it leads
-/// straight to an end, and the others only if that one is clear. `segments` of the path, the first of the batch's index
-/// `first`.
-void hang_on_one(const GeometricPath& path, size_t bend, std::span<Segment> segments, size_t first,
+/// straight to an end, and the others only if that one is clear. `segments` from `first` on are the path's.
+void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
                  StraightToPatches& straight) {
-  const bool to_receiver = bend + 2 == segments.size(), to_transmitter = bend == 0;
-  const size_t leader = to_receiver || !to_transmitter ? bend + 1 : bend;
-  for (size_t i = 0; i < segments.size(); ++i)
-    if (i != leader) segments[i].only_if = static_cast<uint32_t>(first + leader);
+  const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;
+  const size_t leader = first + (to_receiver || !to_transmitter ? bend + 1 : bend);
+  for (size_t i = first; i < segments.size(); ++i)
+    if (i != leader) segments[i].only_if = static_cast<uint32_t>(leader);
   const Interaction& patch = path.interactions[bend];
   if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
   const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
-  const auto [known, is_new] = straight.at(to_receiver, segments[leader].walls)
-                                   .try_emplace(key, static_cast<uint32_t>(first + leader));
-  if (!is_new) segments[leader].same_as = known->second;
+  const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
+  // The paths that may pass most walls, those of fewest interactions, come first. finish() counts walls again.
+  if (!is_new && segments[known->second].walls >= segments[leader].walls)
+    segments[leader].same_as = known->second;
 }
 
 bool less(const GeometricPath& a, const GeometricPath& b) {
@@ -196,8 +194,7 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
       if (i == count) segment.body_b = body_or_none(receiver.body);
       segments.push_back(segment);
     }
-    if (const std::optional<size_t> bend = bend_of(path))
-      hang_on_one(path, *bend, std::span(segments).subspan(first), first, straight);
+    if (const std::optional<size_t> bend = bend_of(path)) hang_on_one(path, *bend, first, segments, straight);
   }
 }
 
