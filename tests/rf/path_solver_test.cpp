@@ -343,6 +343,41 @@ TEST(PathSolver, AWedgesOwnFaceDoesNotReflectRightBesideIt) {
   EXPECT_GT(elsewhere, 0) << "the screen reflects towards the edge";
 }
 
+TEST(PathSolver, AWedgeDiffractsWhereItsBodyIsNow) {
+  TinyScene tiny = materials();
+  const uint32_t body = tiny.body("van");
+  tiny.object("van", body, 2).box({0, 0, 0}, {4, 2, 2});
+  const scene::Scene scene = tiny.build();
+  RadioEffects effects;
+  effects.diffraction = true;
+  RadioModel model(scene, carrier_hz, effects);
+  CandidateList list;
+  list.add({});
+  list.wedge_offsets = {0, static_cast<uint32_t>(model.wedges.size())};
+  for (uint32_t i = 0; i < model.wedges.size(); ++i) list.wedges.push_back(i);
+  PathSolver solver(model, {.max_depth = 1, .moving_bodies = true});
+  solver.set_candidates(list, {-3, 1, 3}, Source::transmitter);
+  // Over the roof's near and far edges, at y = 1 by symmetry: they move with the van.
+  const auto edges = [&] {
+    std::vector<dvec3> points;
+    for (const GeometricPath& path : solver.geometry({.position = {40, 1, 3}}).paths)
+      if (path.interactions.size() == 1 && std::abs(path.vertices[1].y - 1.0) < 1e-9)
+        points.push_back(path.vertices[1]);
+    return points;
+  };
+  const std::vector<dvec3> before = edges();
+  ASSERT_FALSE(before.empty());
+  Motion motion;
+  motion.pose.position = {10, 0, 0.25};
+  model.facets.move(body, motion);
+  const std::vector<dvec3> after = edges();
+  ASSERT_EQ(after.size(), before.size());
+  for (size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(after[i].x - before[i].x, 10.0, 1e-9);
+    EXPECT_NEAR(after[i].z - before[i].z, 0.25, 1e-9);
+  }
+}
+
 TEST(RadioModel, CountsEdgesThatAreTooShortToDiffract) {
   TinyScene tiny = materials();
   tiny.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
