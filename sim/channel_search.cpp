@@ -127,6 +127,7 @@ void ChannelSearch::start(const dvec3& transmitter, std::span<const dvec3> recei
                           std::span<const Pose> bodies) {
   searching_.reset();
   renewed_tick_ = -1;
+  seams_.reset();
   if (once() && !fixed_.empty()) return;
   fixed_.clear();
   moving_.clear();
@@ -186,6 +187,7 @@ void ChannelSearch::take(size_t index, rf::CandidateList list, uint64_t overflow
 }
 
 void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers) {
+  if (!moving_searches_.empty()) seams_.emplace(moving_searches_[0].seams());
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
   if (way_ == Way::every_tick && beams_) {
@@ -226,8 +228,11 @@ rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& trans
   const size_t source = from_receivers ? index : 0;
   const rf::EndState& target = from_receivers ? transmitter : receiver;
   rf::LinkGeometry link = fixed_[source].geometry(target);
+  if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
   if (moving_.empty()) return link;
   rf::LinkGeometry more = moving_[source].geometry(target);
+  seams_->drop_behind(more.paths, from_receivers ? rf::Source::receiver : rf::Source::transmitter,
+                      from_receivers ? receiver.body : transmitter.body);
   link.overflow += more.overflow;
   link.paths.insert(link.paths.end(), std::make_move_iterator(more.paths.begin()),
                     std::make_move_iterator(more.paths.end()));

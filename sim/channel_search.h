@@ -82,6 +82,7 @@ class ChannelSearch {
   /// `moving_`, if facets of moving bodies reflect and an end rests, what they add at this tick.
   std::vector<rf::PathSolver> fixed_, moving_;
   std::vector<rf::MovingSearch> moving_searches_;
+  std::optional<rf::Seams> seams_;  ///< of this tick
   int64_t renewed_tick_ = -1;
   uint64_t fixed_count_ = 0, candidates_ = 0, overflow_ = 0, cache_hits_ = 0;
 };

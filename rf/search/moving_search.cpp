@@ -180,6 +180,11 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
   return list;
 }
 
+Seams MovingSearch::seams() const {
+  return Seams(fixed_, BeamScene(*world_, kinds_of(*world_, *kinds_, true), {}, true), options_.max_depth,
+               options_.max_transmissions);
+}
+
 std::string MovingSearch::guarantee(bool fixed_too) const {
   return fmt::format(
       "between the ends where they are, by sides of mirrors, pyramids and rectangles alone: no sequence of "

@@ -27,6 +27,7 @@
 #include "rf/facet_world.h"
 #include "rf/search/beam_scene.h"
 #include "rf/search/beam_search.h"
+#include "rf/search/seams.h"
 
 namespace greatx::rf {
 
@@ -53,6 +54,8 @@ class MovingSearch {
   /// Those of facets at rest as well, and the empty one.
   CandidateList all(std::span<const dvec3> targets) const { return search(targets, true); }
 
+  /// For the paths of these sequences, while bodies stand where they are now.
+  Seams seams() const;
   /// Two sentences for the run's summary: of moving(), or of all().
   std::string guarantee(bool fixed_too) const;
   const MovingSearchOptions& options() const { return options_; }

@@ -163,7 +163,9 @@ class Channel {
       both.set_tree(BeamSearch(model_.facets, model_.kinds, {}, options).search(tx.position), tx.position);
       last = both.all(std::span(&rx.position, 1));
       fixed_.set_candidates(last, tx.position, Source::transmitter);
-      return fixed_.geometry(rx);
+      LinkGeometry link = fixed_.geometry(rx);
+      both.seams().drop_behind(link.paths, Source::transmitter, tx.body);
+      return link;
     }
     if (!reuse_) {  // once
       const BeamSearchResult tree =
@@ -175,7 +177,9 @@ class Channel {
     last = reuse_->moving(std::span(&rx.position, 1));
     moving_.set_candidates(last, tx.position, Source::transmitter);
     LinkGeometry link = fixed_.geometry(rx);
-    for (GeometricPath& path : moving_.geometry(rx).paths) link.paths.push_back(std::move(path));
+    LinkGeometry more = moving_.geometry(rx);
+    reuse_->seams().drop_behind(more.paths, Source::transmitter, tx.body);
+    for (GeometricPath& path : more.paths) link.paths.push_back(std::move(path));
     keep_distinct(link.paths);
     return link;
   }
@@ -391,6 +395,40 @@ TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   }
   EXPECT_GT(with_body, 100u);
   EXPECT_GT(all, with_body);
+}
+
+/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the visibility test alone
+/// would let a path reach the inside of its top, a tolerance below the edge.
+TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
+  TinyScene tiny;
+  testing::add_radio_materials(tiny);
+  const uint32_t body = tiny.body("box");
+  tiny.object("box", body, metal).box({-1, -1, -1}, {1, 1, 1});
+  const scene::Scene scene = tiny.build();
+  RadioModel model(scene, carrier_hz, {});
+  MovingSearch search(model.facets, model.kinds, {});
+  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's inside.
+  const dvec3 target(-0.5, 0.0, 0.5);
+  for (const double behind : {4e-5, 1e-3, -4e-5}) {
+    const dvec3 at(-1.0 + behind, 0.0, 1.0), source = at - dvec3(3.0, 0.0, 3.0);
+    const double down = target.x - at.x;  // to the target at the same slope
+    const dvec3 end(target.x, 0.0, 1.0 - down);
+    CandidateList list;
+    const uint32_t top[] = {1};
+    list.add(top);
+    std::vector<GeometricPath> paths = solve_paths(model.facets, source, end, list);
+    EXPECT_EQ(paths.size(), behind > 0.0 ? 1u : 0u);
+    search.seams().drop_behind(paths, Source::transmitter, 0);
+    EXPECT_THAT(paths, IsEmpty());
+  }
+  // From outside and above: nothing is behind anything.
+  CandidateList list;
+  const uint32_t top[] = {1};
+  list.add(top);
+  std::vector<GeometricPath> paths = solve_paths(model.facets, {-2, 0, 2.0}, {0.0002, 0, 2.0}, list);
+  ASSERT_EQ(paths.size(), 1u);
+  search.seams().drop_behind(paths, Source::transmitter, 0);
+  EXPECT_EQ(paths.size(), 1u);
 }
 
 TEST(MovingSearch, SeveralTargetsAreServedAtOnceAndEmptyListsAreFine) {
