@@ -111,7 +111,7 @@ void ChannelPaths::start(const TickContext& context) {
   ids_known_ = false;
   placed_.clear();
   placements_told_ = 0;
-  move_bodies(context);
+  move_bodies(bodies_at(context));
   search_->start(state_of(transmitter_, context).position, receiver_positions(context), context.body_poses);
 }
 
@@ -119,20 +119,26 @@ void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
   search_->record_ahead(slot, state_of(transmitter_, next).position);
 }
 
-void ChannelPaths::move_bodies(const TickContext& context) {
-  if (!move_facets_) return;
+ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
+  Bodies bodies;
   for (uint32_t node = 0; node < context.nodes.size(); ++node)
     if (const uint32_t body = world_.body_of_node[node]; body != 0) {
       Motion motion = context.nodes[node];
       motion.pose = world_.scene.to_local(motion.pose);
-      model_.facets.move(body, motion);
+      bodies.emplace_back(body, motion);
     }
+  return bodies;
+}
+
+void ChannelPaths::move_bodies(const Bodies& bodies) {
+  for (const auto& [body, motion] : bodies) model_.facets.move(body, motion);
 }
 
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
   flight.transmitter = state_of(transmitter_, context);
-  move_bodies(context);
+  flight.bodies = bodies_at(context);
+  move_bodies(flight.bodies);
   check_placements(context);
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
@@ -166,6 +172,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
 ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   InFlight& flight = in_flight_[slot.index];
   const std::vector<rf::Crossing> crossings = crossings_.collect(flight.crossings, flight.segments);
+  move_bodies(flight.bodies);  // the tick after this one may have been recorded
   Result result;
   result.transmitter = flight.transmitter;
   result.links.resize(flight.links.size());

@@ -79,7 +79,9 @@ class ChannelPaths {
     size_t first_segment = 0, segment_count = 0;
     std::vector<rf::GeometricPath> paths;
   };
+  using Bodies = std::vector<std::pair<uint32_t, Motion>>;  ///< that move: body, local_from_body
   struct InFlight {
+    Bodies bodies;
     rf::EndState transmitter;
     std::vector<LinkInFlight> links;
     std::vector<rf::Segment> segments;
@@ -89,7 +91,8 @@ class ChannelPaths {
   ChannelEnd end_of(const std::string& name) const;
   rf::EndState state_of(const ChannelEnd& end, const TickContext& context) const;
   std::vector<dvec3> receiver_positions(const TickContext& context) const;
-  void move_bodies(const TickContext& context);
+  Bodies bodies_at(const TickContext& context) const;
+  void move_bodies(const Bodies& bodies);
   void note_births(size_t link, const std::vector<rf::Path>& paths);
   void check_placements(const TickContext& context);
   bool moves(const ChannelEnd& end) const;

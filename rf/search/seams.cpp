@@ -30,10 +30,8 @@ bool Seams::is_behind(const GeometricPath& path, Source source, uint32_t source_
   };
   for (size_t leg = 0; leg < count; ++leg) {  // from vertex `leg` to the next
     const uint32_t ignored = leg == 0 ? source_body : 0;
-    for (const BeamScene* scene : {fixed_.get(), &moving_}) {
-      if (leg > 0) walls += passed(*scene, vertex(leg), vertex(leg + 1), facet(leg), ignored);
+    for (const BeamScene* scene : {fixed_.get(), &moving_})
       walls += passed(*scene, vertex(leg + 1), vertex(leg), facet(leg + 1), ignored);
-    }
   }
   return walls > max_transmissions_ || walls + count > max_depth_;
 }

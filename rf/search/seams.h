@@ -25,16 +25,15 @@ class Seams {
         max_depth_(max_depth),
         max_transmissions_(max_transmissions) {}
 
-  /// Removes paths of reflections alone one of whose legs passes, within `reach_m` of a point of reflection, a facet that
-  /// stands at an angle to the one it is reflected at: an opaque one, or more walls than the path may have. Not on the leg
-  /// to the target, which no beam has looked at; not facets of `source_body`, which carries the source (0: none), on the
-  /// first leg.
+  /// Removes paths of reflections alone one of whose legs passes, within `reach_m` before its point of reflection, a facet
+  /// that stands at an angle to the one it is reflected at: an opaque one, or more walls than the path may have. Legs run
+  /// from the source; not facets of `source_body`, which carries it (0: none), on the first one.
   void drop_behind(std::vector<GeometricPath>& paths, Source source, uint32_t source_body) const;
 
  private:
   static constexpr double reach_m = 5e-3;
   bool is_behind(const GeometricPath& path, Source source, uint32_t source_body) const;
-  /// Walls passed near `point`, coming from or going to `other`; opaque: more than any path may pass.
+  /// Walls passed on the last millimetres from `other` to `point`; opaque: more than any path may pass.
   uint32_t passed(const BeamScene& scene, const dvec3& point, const dvec3& other, uint32_t facet,
                   uint32_t ignored_body) const;
 
