@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@
 #include "core/units.h"
 #include "rf/channel.h"
 #include "rf/search/beam_search.h"
-#include "sim/channel_paths.h"
+#include "sim/channel_sensor.h"
 #include "sim/moment.h"
 #include "sim/plan_options.h"
 #include "sim/simulator.h"
@@ -165,21 +166,6 @@ nlohmann::json pipelined(gpu::Device& device, const sim::Scenario& scenario, con
           {"paths", per(counter(statistics, "paths"), statistics.packets)}};
 }
 
-rf::ArrayPose array_of(const sim::Scenario& scenario, const std::string& name, const rf::EndState& end) {
-  for (const sim::NodeConfig& node : scenario.nodes)
-    for (const sim::SensorConfig& sensor : node.sensors) {
-      if (node.name + "/" + sensor.name != name) continue;
-      const auto& antenna = std::get<sim::AntennaConfig>(sensor.config);
-      const bool two =
-          antenna.polarization == sim::Polarization::vh || antenna.polarization == sim::Polarization::slant;
-      rf::AntennaArray array;  // what its patterns are costs nothing
-      array.polarization = two ? rf::Polarization::slant : rf::Polarization::v;
-      array.rows = antenna.rows, array.columns = antenna.columns;
-      return {array, end.orientation};
-    }
-  throw ContractError("no antenna '" + name + "', which the parser let pass");
-}
-
 /// The same ticks stage by stage, each waiting for the one before.
 nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const sim::World& world,
                       const sim::EffectPlan& plan, const RadioBenchOptions& options) {
@@ -188,6 +174,10 @@ nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const 
   gpu::TickRing ring(device, sim::slots_in_flight, 4u << 20, 4u << 20);
   rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(world.scene, sim::radio_effects(plan, scenario)));
   sim::ChannelPaths channel(gpu_scene, crossings, plan, scenario, world, 0);
+  const rf::AntennaArray transmitter = sim::antenna_array(scenario, config.transmitter, config.carrier_hz);
+  std::vector<rf::AntennaArray> receivers;
+  for (const std::string& name : config.receivers)
+    receivers.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
   const auto trajectories = sim::make_paths(scenario, 0);
   const rf::ChannelGrid grid{config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers,
                              config.time_samples, config.time_spacing_s};
@@ -208,9 +198,8 @@ nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const 
     const sim::ChannelPaths::Result result = channel.collect(slot);
     times[3] = Clock::now();
     for (size_t r = 0; r < result.links.size(); ++r)
-      rf::frequency_response(result.links[r].paths,
-                             array_of(scenario, config.transmitter, result.transmitter),
-                             array_of(scenario, config.receivers[r], result.links[r].receiver), grid);
+      rf::frequency_response(result.links[r].paths, {transmitter, result.transmitter.orientation},
+                             {receivers[r], result.links[r].receiver.orientation}, grid);
     times[4] = Clock::now();
     for (int i = 0; i < 4 && tick >= options.warm_up; ++i)
       stages[i].push_back(std::chrono::duration<double, std::milli>(times[i + 1] - times[i]).count());

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include "apps/commands.h"
 #include "apps/progress.h"
@@ -187,6 +188,8 @@ void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& optio
   if (!options.json)
     std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9}\n", "rays", "candidates",
                              "found", "missing", "doubled", "recall", "search s", "solve s");
+  const spdlog::level::level_enum level = spdlog::get_level();
+  spdlog::set_level(spdlog::level::err);  // where receivers stand has been said by the beams
   for (uint32_t log2 = 14; log2 <= options.max_rays_log2; ++log2) {
     const Answer answer = solve(device, c, 1u << log2);
     const Comparison::Counts all = compare(c, answer).all();
@@ -201,6 +204,7 @@ void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& optio
                                all.doubled, 100.0 * all.recall(), answer.search_s, answer.solve_s)
                 << std::flush;
   }
+  spdlog::set_level(level);
 }
 
 }  // namespace

@@ -164,8 +164,8 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
     return std::move(*known);
   }
   if (model_.scene->facets.size() > 1000)
-    spdlog::info("channel '{}': searching {} facets to depth {}; kept for the next run", config_.name,
-                 model_.scene->facets.size(), config_.max_depth);
+    spdlog::info("channel '{}': searching {} facets to depth {}{}", config_.name, model_.scene->facets.size(),
+                 config_.max_depth, cache.folder().empty() ? "" : "; kept for the next run");
   rf::BeamSearchResult result = beams_->search(source);
   cache.store(key, result);
   return result;

@@ -36,7 +36,9 @@ rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz) {
   return array;
 }
 
-rf::AntennaArray array_called(const Scenario& scenario, const std::string& name, double carrier_hz) {
+}  // namespace
+
+rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors)
       if (node.name + "/" + sensor.name == name)
@@ -44,17 +46,15 @@ rf::AntennaArray array_called(const Scenario& scenario, const std::string& name,
   throw ContractError(fmt::format("no antenna '{}', which the parser let pass", name));
 }
 
-}  // namespace
-
 ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                              const Scenario& scenario, const World& world, uint32_t channel)
     : world_(world),
       config_(scenario.channels[channel]),
       doppler_(plan.doppler.on),
       paths_(gpu_scene, crossings, plan, scenario, world, channel),
-      transmitter_array_(array_called(scenario, config_.transmitter, config_.carrier_hz)) {
+      transmitter_array_(antenna_array(scenario, config_.transmitter, config_.carrier_hz)) {
   for (const std::string& name : config_.receivers)
-    receiver_arrays_.push_back(array_called(scenario, name, config_.carrier_hz));
+    receiver_arrays_.push_back(antenna_array(scenario, name, config_.carrier_hz));
   for (const rf::AntennaArray& receiver : receiver_arrays_)
     if (receiver.port_count() != receiver_arrays_[0].port_count())
       throw_user_error_at(config_.where,

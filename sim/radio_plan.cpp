@@ -144,7 +144,7 @@ void plan_reflection(EffectPlan& plan, const Radio& radio) {
                 : asks.every_tick        ? "candidates are searched at every tick"
                                   : "candidates of the static world are searched once; moving meshes block "
                                     "paths but do not reflect "
-                                    "them (search: every_tick to have that)"));
+                                    "them (effects: {moving_reflectors: on} to have that)"));
 }
 
 void plan_transmission(EffectPlan& plan, const Radio& radio) {
