@@ -187,10 +187,10 @@ Seams MovingSearch::seams() const {
 
 std::string MovingSearch::guarantee(bool fixed_too) const {
   return fmt::format(
-      "between the ends where they are, by sides of mirrors, pyramids and rectangles alone: no sequence of "
-      "up to {} "
-      "reflections{} is left out",
-      options_.max_depth, fixed_too ? "" : " with a moving facet");
+      "between the ends where they are: by bounds alone, no sequence of up to {} reflections{} is left out "
+      "whose "
+      "beginning at rest is among the beams' ({:.2g} mm clear of edges)",
+      options_.max_depth, fixed_too ? "" : " with a moving facet", 1e3 * BeamSearchOptions{}.clearance_m);
 }
 
 }  // namespace greatx::rf

@@ -56,7 +56,7 @@ class MovingSearch {
 
   /// For the paths of these sequences, while bodies stand where they are now.
   Seams seams() const;
-  /// Two sentences for the run's summary: of moving(), or of all().
+  /// One sentence for the run's summary: of moving(), or of all().
   std::string guarantee(bool fixed_too) const;
   const MovingSearchOptions& options() const { return options_; }
 
