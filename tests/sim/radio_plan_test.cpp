@@ -173,7 +173,8 @@ TEST(RadioPlan, DopplerComesWithTimeSamples) {
 }
 
 TEST(RadioPlan, EveryEffectHasAReasonAndUnknownNamesAreErrors) {
-  for (const Effect* effect : std::as_const(*std::make_unique<EffectPlan>(plan(scenario(), street()))).all())
+  const EffectPlan whole = plan(scenario(), street());
+  for (const Effect* effect : whole.all())
     EXPECT_FALSE(effect->reason.empty()) << effect->name;
   try {
     plan(scenario("", switches("difraction: on")), street());
