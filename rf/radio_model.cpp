@@ -10,7 +10,10 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/foliage.h"
+#include "rf/atmosphere/gas.h"
+#include "rf/atmosphere/rain.h"
 #include "rf/fresnel.h"
 
 namespace greatx::rf {
@@ -97,9 +100,12 @@ FieldModel RadioModel::field_model() const {
   model.effects = effects.field;
   model.wedges = wedges;
   const FieldEffects& field = effects.field;
-  if (field.gas || field.rain || field.fog)
-    model.attenuation =
-        path_attenuation(effects.weather, surfaces.carrier_hz(), {field.gas, field.rain, field.fog});
+  // An effect is on if any channel needs it; those that it does not cover go without, and the plan says so.
+  const double hz = surfaces.carrier_hz();
+  const WeatherEffects weather{field.gas && gas_model_covers(hz), field.rain && rain_model_covers(hz),
+                               field.fog && fog_model_covers(hz)};
+  if (weather.gas || weather.rain || weather.fog)
+    model.attenuation = path_attenuation(effects.weather, hz, weather);
   if (field.foliage) model.foliage = foliage_of(*scene, kinds);
   return model;
 }

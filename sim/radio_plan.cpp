@@ -224,9 +224,12 @@ Effect plan_air(const Radio& radio, const char* name, const Most& most, double l
                 const std::string& none, const char* source) {
   const bool needed = radio.on() && most.db > tolerance;
   const bool no_bound = !radio.on() || most.db == 0.0;
-  return radio.planner.decide(
+  const std::string but = most.outside_hz > 0.0 ? fmt::format("; not at {:.4g} GHz, which {} does not cover",
+                                                              most.outside_hz * 1e-9, source)
+                                                : std::string();
+  Effect effect = radio.planner.decide(
       name, needed,
-      radio.why(needed ? "more than the tolerance"
+      radio.why(needed ? "more than the tolerance" + but
                 : most.outside_hz > 0.0
                     ? fmt::format("{} does not cover {:.4g} GHz", source, most.outside_hz * 1e-9)
                 : most.db == 0.0 ? none
@@ -234,6 +237,10 @@ Effect plan_air(const Radio& radio, const char* name, const Most& most, double l
       no_bound ? ""
                : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most.db,
                              longest_m, most.carrier_hz * 1e-9, tolerance));
+  if (effect.on && most.outside_hz > 0.0 && most.carrier_hz == 0.0)
+    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on", name,
+                     source, most.outside_hz * 1e-9);
+  return effect;
 }
 
 /// Effects that a bound decides.

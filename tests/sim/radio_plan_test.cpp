@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "rf/radio_model.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
@@ -119,6 +120,21 @@ TEST(RadioPlan, TheAirIsBoundedForTheChannelThatItTakesMostFrom) {
   expect(plan(two, TinyScene().build()).gas, true, "more", "at 60 GHz");
 }
 
+TEST(RadioPlan, AChannelThatTheAirDoesNotCoverGoesWithoutAndThePlanSaysSo) {
+  const scene::Scene scene = TinyScene().build();
+  const std::string two =
+      scenario(", carrier_hz: 39e9") +
+      "  - {name: second, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
+      "bandwidth_hz: 20e6, carrier_hz: 0.5e9}\n";
+  expect(plan(two + switches("gas: on"), scene).gas, true, "not at 0.5 GHz, which P.676-13 does not cover");
+  rf::RadioEffects effects;
+  effects.field.gas = effects.field.rain = true;
+  effects.weather.rain_mm_h = 25.0;
+  EXPECT_TRUE(rf::RadioModel(scene, 0.5e9, effects).field_model().attenuation.none());
+  EXPECT_FALSE(rf::RadioModel(scene, 39e9, effects).field_model().attenuation.none());
+  EXPECT_THROW(plan(scenario(", carrier_hz: 0.5e9", switches("gas: on")), scene), UserError);
+}
+
 TEST(RadioPlan, RoughnessComesWithHeightsThatMatterOverAllReflections) {
   const auto rough = [](double rms_m) {
     scene::Material ground = radio_material("medium_dry_ground");
@@ -174,8 +190,7 @@ TEST(RadioPlan, DopplerComesWithTimeSamples) {
 
 TEST(RadioPlan, EveryEffectHasAReasonAndUnknownNamesAreErrors) {
   const EffectPlan whole = plan(scenario(), street());
-  for (const Effect* effect : whole.all())
-    EXPECT_FALSE(effect->reason.empty()) << effect->name;
+  for (const Effect* effect : whole.all()) EXPECT_FALSE(effect->reason.empty()) << effect->name;
   try {
     plan(scenario("", switches("difraction: on")), street());
     FAIL();
