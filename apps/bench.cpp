@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/measure.h"
 #include "apps/progress.h"
 #include "apps/radio_bench.h"
 #include "apps/recall.h"
@@ -33,15 +34,6 @@ struct Options {
   RadioBenchOptions radio_options;
 };
 
-using Clock = std::chrono::steady_clock;
-double milliseconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-struct Discard : RecordSink {
-  void write(Packet) override {}
-};
-
 /// A folder of its own below the temporary folder, removed at the end.
 class ScratchFolder {
  public:
@@ -58,15 +50,6 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
-
-nlohmann::json distribution(std::vector<double> samples) {
-  if (samples.empty()) return {{"count", 0}};
-  std::sort(samples.begin(), samples.end());
-  return {{"count", samples.size()},
-          {"min", samples.front()},
-          {"median", samples[samples.size() / 2]},
-          {"max", samples.back()}};
-}
 
 void print(const nlohmann::json& result) {
   const auto row = [](const std::string& name, const nlohmann::json& d) {

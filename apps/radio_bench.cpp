@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/measure.h"
 #include "apps/paths_engine.h"
 #include "apps/recall_scene.h"
 #include "apps/row_process.h"
@@ -25,29 +26,10 @@ namespace greatx::apps {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and scattering: what Sionna
 /// RT 2.2.0 needs for a position there.
 constexpr double first_cir_target_ms = 1000.0, search_target_ms = 10'000.0, tick_target_ms = 2.5,
                  many_target_ms = 3000.0, many_target_bytes = 1073741824.0, sionna_effects_ms = 430.0;
-
-double milliseconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-struct Discard : RecordSink {
-  void write(Packet) override {}
-};
-
-nlohmann::json distribution(std::vector<double> samples) {
-  if (samples.empty()) return {{"count", 0}};
-  std::sort(samples.begin(), samples.end());
-  return {{"count", samples.size()},
-          {"min", samples.front()},
-          {"median", samples[samples.size() / 2]},
-          {"max", samples.back()}};
-}
 
 void set_target(nlohmann::json& row, double target, double measured) {
   row["target"] = target;

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/commands.h"
+#include "apps/measure.h"
 #include "apps/progress.h"
 #include "apps/recall_scene.h"
 #include "rf/reference/comparison.h"
@@ -26,11 +27,6 @@ namespace greatx::apps {
 namespace {
 
 using rf::reference::Comparison;
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 /// A scene with its transmitter and receivers, and what the reference says.
 struct Case {
   sim::Scenario scenario;
