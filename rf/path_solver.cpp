@@ -119,6 +119,14 @@ bool matters_more(const GeometricPath& a, const GeometricPath& b) {
 
 }  // namespace
 
+void keep_most(LinkGeometry& link, uint64_t most) {
+  if (link.paths.size() <= most) return;
+  link.overflow += link.paths.size() - most;
+  std::stable_sort(link.paths.begin(), link.paths.end(), matters_more);
+  link.paths.resize(most);
+  std::sort(link.paths.begin(), link.paths.end(), less);
+}
+
 PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
     : model_(&model), options_(options), field_(model.field_model()) {
   if (model.effects.diffraction || model.effects.scattering)
@@ -158,12 +166,7 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
     midpoints_->solve(*tree_, target, end.body, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
-  if (link.paths.size() > options_.max_paths) {
-    link.overflow = link.paths.size() - options_.max_paths;
-    std::stable_sort(link.paths.begin(), link.paths.end(), matters_more);
-    link.paths.resize(options_.max_paths);
-    std::sort(link.paths.begin(), link.paths.end(), less);
-  }
+  keep_most(link, options_.max_paths);
   return link;
 }
 

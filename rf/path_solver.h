@@ -40,7 +40,7 @@ struct PathOptions {
   double patch_m = 10.0;           ///< longest side of a scattering patch
   bool moving_bodies = false;      ///< facets of bodies other than 0 reflect
   uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced:
-                                   ///< scattering first, then diffraction, the longest chains before others
+                                   ///< keep_most()
 };
 
 /// A link's paths before the GPU has answered.
@@ -48,6 +48,10 @@ struct LinkGeometry {
   std::vector<GeometricPath> paths;  ///< canonical order; reflections, diffraction, scattering, no walls yet
   uint64_t overflow = 0;             ///< paths beyond PathOptions::max_paths
 };
+
+/// Takes what is beyond `most` paths (in canonical order, before and after) off a link, and counts it: scattering first, then
+/// diffraction, the longest chains before others.
+void keep_most(LinkGeometry& link, uint64_t most);
 
 class PathSolver {
  public:

@@ -237,10 +237,7 @@ rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& trans
   link.paths.insert(link.paths.end(), std::make_move_iterator(more.paths.begin()),
                     std::make_move_iterator(more.paths.end()));
   rf::keep_distinct(link.paths);
-  if (const size_t most = fixed_[source].options().max_paths; link.paths.size() > most) {
-    link.overflow += link.paths.size() - most;
-    link.paths.resize(most);
-  }
+  rf::keep_most(link, fixed_[source].options().max_paths);
   return link;
 }
 

@@ -23,7 +23,6 @@ struct SlopeRect {
     return min_a <= other.max_a && other.min_a <= max_a && min_b <= other.max_b && other.min_b <= max_b;
   }
   static SlopeRect none() { return {1e300, -1e300, 1e300, -1e300}; }
-  friend bool operator==(const SlopeRect&, const SlopeRect&) = default;
 };
 
 /// Inside: a x + b y + c >= 0.
@@ -60,12 +59,6 @@ struct Convex {
     SlopeRect box = SlopeRect::none();
     for (uint32_t i = 0; i < count; ++i) box.add(at[i]);
     return box;
-  }
-  static Convex of(const SlopeRect& rect) {
-    Convex shape;
-    shape.add({rect.min_a, rect.min_b}), shape.add({rect.max_a, rect.min_b});
-    shape.add({rect.max_a, rect.max_b}), shape.add({rect.min_a, rect.max_b});
-    return shape;
   }
 };
 

@@ -16,11 +16,11 @@ namespace {
 
 constexpr size_t facets_a_lot = 16, beams_a_lot = 64;
 
-/// Facets of body 0 alone, or of all others alone: what is left out counts as foliage, which no beam meets.
-FacetKinds kinds_of(const FacetWorld& world, const FacetKinds& kinds, bool moving) {
+/// Those of facets that move; the others are left out.
+FacetKinds moving_kinds(const FacetWorld& world, const FacetKinds& kinds) {
   FacetKinds chosen = kinds;
   for (uint32_t i = 0; i < world.facet_count(); ++i)
-    if ((world.facet(i).body != 0) != moving) chosen[i] = FacetKind::foliage;
+    if (world.facet(i).body == 0) chosen[i] = FacetKind::absent;
   return chosen;
 }
 
@@ -33,7 +33,7 @@ struct MovingSearch::Walk {
         options(of.options_),
         fixed_too(with_fixed),
         fixed(*of.fixed_),
-        moving(*of.world_, kinds_of(*of.world_, *of.kinds_, true), {}, true),
+        moving(*of.world_, moving_kinds(*of.world_, *of.kinds_), {}, true),
         extent_m(std::max(fixed.largest_coordinate(), moving.largest_coordinate())) {
     for (const dvec3& target : targets) {
       extent_m = std::max({extent_m, std::abs(target.x), std::abs(target.y), std::abs(target.z)});
@@ -133,8 +133,7 @@ struct MovingSearch::Walk {
 MovingSearch::MovingSearch(const FacetWorld& world, const FacetKinds& kinds,
                            const MovingSearchOptions& options)
     : world_(&world), kinds_(&kinds), options_(options) {
-  fixed_ = std::make_shared<const BeamScene>(world, kinds_of(world, kinds, false),
-                                             std::span<const scene::Wedge>{}, false);
+  fixed_ = std::make_shared<const BeamScene>(world, kinds, std::span<const scene::Wedge>{}, false);
   fixed_facet_.assign(world.facet_count(), ~0u);
   for (uint32_t i = 0; i < fixed_->facet_count(); ++i) fixed_facet_[fixed_->facet(i).index] = i;
 }
@@ -181,7 +180,7 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
 }
 
 Seams MovingSearch::seams() const {
-  return Seams(fixed_, BeamScene(*world_, kinds_of(*world_, *kinds_, true), {}, true), options_.max_depth,
+  return Seams(fixed_, BeamScene(*world_, moving_kinds(*world_, *kinds_), {}, true), options_.max_depth,
                options_.max_transmissions);
 }
 
