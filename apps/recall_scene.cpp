@@ -86,12 +86,9 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
 
 dvec3 transmitter_position(const sim::Scenario& scenario, const sim::World& world,
                            const sim::Moment& moment) {
-  const std::string& name = scenario.channels[0].transmitter;
-  for (size_t node = 0; node < scenario.nodes.size(); ++node)
-    for (const sim::SensorConfig& sensor : scenario.nodes[node].sensors)
-      if (scenario.nodes[node].name + "/" + sensor.name == name)
-        return world.scene.to_local((moment.motions[node].pose * sim::mount_pose(sensor.mount)).position);
-  throw ContractError(fmt::format("the channel's transmitter '{}' is no sensor", name));
+  const auto [node, sensor] = sim::sensor_place(scenario, scenario.channels[0].transmitter);
+  const Pose mount = sim::mount_pose(scenario.nodes[node].sensors[sensor].mount);
+  return world.scene.to_local((moment.motions[node].pose * mount).position);
 }
 
 std::vector<dvec3> draw_receivers(const scene::Scene& scene, uint64_t seed, uint32_t count) {

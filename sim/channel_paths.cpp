@@ -66,12 +66,8 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
 }
 
 ChannelEnd ChannelPaths::end_of(const std::string& name) const {
-  for (uint32_t node = 0; node < scenario_.nodes.size(); ++node)
-    for (const SensorConfig& sensor : scenario_.nodes[node].sensors)
-      if (scenario_.nodes[node].name + "/" + sensor.name == name)
-        return {name, node, mount_pose(sensor.mount), world_.body_of_node[node]};
-  throw ContractError(
-      fmt::format("channel '{}' refers to '{}', which the parser let pass", config_.name, name));
+  const auto [node, sensor] = sensor_place(scenario_, name);
+  return {name, node, mount_pose(scenario_.nodes[node].sensors[sensor].mount), world_.body_of_node[node]};
 }
 
 void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {

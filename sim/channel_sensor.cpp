@@ -39,11 +39,8 @@ rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz) {
 }  // namespace
 
 rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz) {
-  for (const NodeConfig& node : scenario.nodes)
-    for (const SensorConfig& sensor : node.sensors)
-      if (node.name + "/" + sensor.name == name)
-        return array_of(std::get<AntennaConfig>(sensor.config), carrier_hz);
-  throw ContractError(fmt::format("no antenna '{}', which the parser let pass", name));
+  const auto [node, sensor] = sensor_place(scenario, name);
+  return array_of(std::get<AntennaConfig>(scenario.nodes[node].sensors[sensor].config), carrier_hz);
 }
 
 ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,

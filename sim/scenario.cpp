@@ -14,9 +14,8 @@ namespace {
 constexpr int64_t most_ticks = 1'000'000'000'000;
 
 Environment parse_environment(const Field& field) {
-  const FieldMap map(field,
-                     {"sun", "sky_illuminance_lux", "temperature_k", "pressure_hpa", "water_vapour_g_m3", "rain_mm_h",
-                      "fog_g_m3"});
+  const FieldMap map(field, {"sun", "sky_illuminance_lux", "temperature_k", "pressure_hpa",
+                             "water_vapour_g_m3", "rain_mm_h", "fog_g_m3"});
   Environment environment;
   if (const auto sun_field = map.find("sun")) {
     const FieldMap sun(*sun_field, {"azimuth_deg", "elevation_deg", "illuminance_lux"});
@@ -108,6 +107,19 @@ Scenario parse_scenario(const std::string& text, const std::string& name, const 
   if (const auto f = map.find("tolerance_db")) scenario.tolerance_db = f->non_negative();
   check_names(root, scenario);
   return scenario;
+}
+
+std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name) {
+  for (uint32_t node = 0; node < nodes.size(); ++node)
+    for (uint32_t sensor = 0; sensor < nodes[node].sensors.size(); ++sensor)
+      if (nodes[node].name + "/" + nodes[node].sensors[sensor].name == name) return SensorPlace{node, sensor};
+  return std::nullopt;
+}
+
+SensorPlace sensor_place(const Scenario& scenario, const std::string& name) {
+  const std::optional<SensorPlace> place = find_sensor(scenario.nodes, name);
+  GREATX_CHECK(place.has_value(), "no sensor '{}', which the parser let pass", name);
+  return *place;
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets) {

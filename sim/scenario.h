@@ -220,6 +220,14 @@ struct Scenario {
   double tolerance_db = 0.01;             ///< an effect that cannot matter more than this stays off
 };
 
+/// Where a sensor called "node/sensor" is.
+struct SensorPlace {
+  uint32_t node = 0, sensor = 0;  ///< indices into Scenario::nodes, NodeConfig::sensors
+};
+std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name);
+/// Of a name that the parser has checked, such as a channel's ends.
+SensorPlace sensor_place(const Scenario& scenario, const std::string& name);
+
 /// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
 /// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
 /// sensors).

@@ -71,19 +71,12 @@ void check_references(const std::vector<NodeReference>& references, const std::v
   }
 }
 
-const SensorConfig* find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name) {
-  for (const NodeConfig& node : nodes)
-    for (const SensorConfig& sensor : node.sensors)
-      if (name == node.name + "/" + sensor.name) return &sensor;
-  return nullptr;
-}
-
 /// The name, "node/sensor", of an antenna.
 std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>& nodes) {
   const std::string name = field.text();
   const std::string expected = "an antenna as node/sensor";
-  const SensorConfig* sensor = find_sensor(nodes, name);
-  if (!sensor) {
+  const std::optional<SensorPlace> place = find_sensor(nodes, name);
+  if (!place) {
     std::vector<std::string> antennas;
     for (const NodeConfig& node : nodes)
       for (const SensorConfig& candidate : node.sensors)
@@ -91,9 +84,10 @@ std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>
           antennas.push_back(node.name + "/" + candidate.name);
     field.fail(expected, fmt::format("unknown '{}'{}", name, suggestion(name, antennas)));
   }
-  if (std::holds_alternative<CameraConfig>(sensor->config))
+  const SensorConfig& sensor = nodes[place->node].sensors[place->sensor];
+  if (std::holds_alternative<CameraConfig>(sensor.config))
     field.fail(expected, fmt::format("'{}', a camera", name));
-  if (std::holds_alternative<LidarConfig>(sensor->config))
+  if (std::holds_alternative<LidarConfig>(sensor.config))
     field.fail(expected, fmt::format("'{}', a LiDAR", name));
   return name;
 }
