@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -52,13 +53,7 @@ channels:
 /// A folder of its own with the small scenario in it.
 class Cli : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-    write("small.yaml", small_scenario);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { write("small.yaml", small_scenario); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void write(const std::string& name, const std::string& text) const {
@@ -101,7 +96,8 @@ class Cli : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     ASSERT_TRUE(fs::exists(frame));
   }
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Cli, HelpIsThereForEveryCommand) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -53,13 +54,9 @@ effects: {gas: off}
 class PathsCli : public testing::Test {
  protected:
   void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-paths-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
     write("ground.gltf", ground_gltf);
     write("flat.yaml", scenario);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void write(const std::string& name, const std::string& text) const {
@@ -82,7 +79,8 @@ class PathsCli : public testing::Test {
     write("grid.csv", text);
     return path("grid.csv");
   }
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(PathsCli, TwoRaysAboveFlatGround) {

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace greatx::apps::test {
 
 inline std::string read_file(const std::filesystem::path& file) {
@@ -31,15 +33,13 @@ struct Outcome {
 /// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
 inline Outcome greatx(const std::string& arguments, const std::string& before = "") {
   setenv("GREATX_CACHE", "off", 0);  // unless a test says otherwise
-  std::string folder = (std::filesystem::temp_directory_path() / "greatx-cli-XXXXXX").string();
-  EXPECT_NE(mkdtemp(folder.data()), nullptr);
+  const greatx::test::TemporaryFolder temporary;
+  const std::string folder = temporary.path().string();
   const std::string command =
       fmt::format("{} exec '{}' {} >{}/out 2>{}/err", before, GREATX_PROGRAM, arguments, folder, folder);
   const int status = std::system(fmt::format("/bin/sh -c \"{}\"", command).c_str());
-  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                  read_file(folder + "/out"), read_file(folder + "/err")};
-  std::filesystem::remove_all(folder);
-  return outcome;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(folder + "/out"),
+          read_file(folder + "/err")};
 }
 
 }  // namespace greatx::apps::test

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::apps::test {
 namespace {
@@ -42,18 +43,13 @@ channels:
 
 class RadioBench : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-radio-bench-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-    std::ofstream(folder_ / "street.yaml") << street;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { std::ofstream(folder_ / "street.yaml") << street; }
   Outcome bench(const std::string& more, const std::string& cache) const {
     return greatx(fmt::format("bench --radio {}/street.yaml --many 7 --warm-up 1 {}", folder_.string(), more),
                   "GREATX_CACHE=" + cache);
   }
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(RadioBench, HasEveryRow) {

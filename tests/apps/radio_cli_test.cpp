@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -47,14 +48,10 @@ constexpr const char* radio = R"(materials:
 class RadioCli : public testing::Test {
  protected:
   void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-radio-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
     write_box();
     write("radio.yaml", radio);
     write("house.yaml", scenario);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void write(const std::string& name, const std::string& text) const {
@@ -106,7 +103,8 @@ class RadioCli : public testing::Test {
       EXPECT_FALSE(fs::exists(folder_ / "out")) << what;
     }
   }
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(RadioCli, TheSceneOfTheseTestsIsSound) {

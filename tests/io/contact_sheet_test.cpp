@@ -14,7 +14,7 @@
 #include "io/summary.h"
 #include "io/verify.h"
 #include "tests/io/sample_run.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
 namespace {
@@ -70,7 +70,7 @@ TEST(Colors, NeighbouringIdsDiffer) {
 }
 
 TEST(ContactSheet, ShowsASampleRun) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     DatasetWriter writer(folder.path() / "set", sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));
@@ -87,7 +87,7 @@ TEST(ContactSheet, ShowsASampleRun) {
 
 TEST(ContactSheet, WorksForAnySensorAlone) {
   for (size_t keep = 0; keep < 4; ++keep) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     DatasetInfo info = sample_info();
     info.sensors = {info.sensors[keep]};
     {
@@ -108,7 +108,7 @@ TEST(ContactSheet, WorksForAnySensorAlone) {
 
 /// One path of known delay and amplitude: a line at that delay, |a| in dB, in the picture of |h|.
 TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   constexpr double spacing = 240e3, delay = 700e-9, amplitude = 1e-4;
   DatasetInfo info;
   info.ticks_per_sequence = 2;
@@ -152,7 +152,7 @@ TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
 }
 
 TEST(Summary, CountsWhatIsThere) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     DatasetWriter writer(folder.path(), sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));

@@ -9,7 +9,7 @@
 #include "io/dataset_reader.h"
 #include "io/verify.h"
 #include "tests/io/sample_run.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
 namespace {
@@ -38,7 +38,7 @@ void write_whole_run(const std::filesystem::path& folder, uint32_t threads = 2) 
 }
 
 TEST(Dataset, WhatIsWrittenIsReadBack) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_run(folder.path() / "set");
   const DatasetReader reader(folder.path() / "set");
   EXPECT_TRUE(reader.finished());
@@ -68,7 +68,7 @@ TEST(Dataset, WhatIsWrittenIsReadBack) {
 }
 
 TEST(Dataset, VerifiesAndLeavesNothingBehind) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_run(folder.path());
   EXPECT_EQ(problems_of(folder.path()), "");
   for (const auto& [path, text] : contents(folder.path())) {
@@ -78,7 +78,7 @@ TEST(Dataset, VerifiesAndLeavesNothingBehind) {
 }
 
 TEST(Dataset, FollowsTheDocumentedLayout) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_run(folder.path());
   const auto files = contents(folder.path());
   for (const char* path : {"manifest.json", "dataset.json", "scenario.yaml", "sequence_0000/index.csv",
@@ -93,7 +93,7 @@ TEST(Dataset, FollowsTheDocumentedLayout) {
 }
 
 TEST(Dataset, ThreadsDoNotChangeAByte) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const uint32_t threads : {1, 2, 4}) write_whole_run(folder.path() / std::to_string(threads), threads);
   const auto one = contents(folder.path() / "1");
   EXPECT_EQ(contents(folder.path() / "2"), one);
@@ -101,7 +101,7 @@ TEST(Dataset, ThreadsDoNotChangeAByte) {
 }
 
 TEST(Dataset, ASmallQueueIsOnlySlower) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const DatasetInfo info = sample_info();
   DatasetWriter writer(folder.path(), info, {.threads = 3, .queue_packets = 1});
   EXPECT_TRUE(write_sample_run(writer, info));
@@ -110,7 +110,7 @@ TEST(Dataset, ASmallQueueIsOnlySlower) {
 }
 
 TEST(Dataset, AFolderWithOtherFilesIsLeftAlone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_file_atomically(folder.path() / "thesis.txt", std::string_view("years of work"));
   for (const bool resume : {false, true}) {
     EXPECT_THAT(message_of([&] { DatasetWriter(folder.path(), sample_info(), {.resume = resume}); }),
@@ -120,7 +120,7 @@ TEST(Dataset, AFolderWithOtherFilesIsLeftAlone) {
 }
 
 TEST(Dataset, AFinishedSetIsNotOverwritten) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_run(folder.path());
   const auto before = contents(folder.path());
   EXPECT_THAT(message_of([&] { DatasetWriter(folder.path(), sample_info()); }),
@@ -133,7 +133,7 @@ TEST(Dataset, AFinishedSetIsNotOverwritten) {
 }
 
 TEST(Dataset, AnotherRunIsNotResumed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     DatasetWriter writer(folder.path(), sample_info());
     EXPECT_FALSE(write_sample_run(writer, sample_info(), 20));
@@ -149,14 +149,14 @@ TEST(Dataset, AnotherRunIsNotResumed) {
 }
 
 TEST(Dataset, TwoWritersDoNotMeet) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   DatasetWriter first(folder.path(), sample_info());
   EXPECT_THAT(message_of([&] { DatasetWriter(folder.path(), sample_info(), {.resume = true}); }),
               HasSubstr("another process"));
 }
 
 TEST(Dataset, AnUnwritablePlaceIsNamed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_file_atomically(folder.path() / "file", std::string_view("x"));
   const std::string message =
       message_of([&] { DatasetWriter(folder.path() / "file" / "set", sample_info()); });
@@ -167,7 +167,7 @@ TEST(Dataset, AnUnwritablePlaceIsNamed) {
 }
 
 TEST(Dataset, SensorNamesStayInsideTheFolder) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"../evil", "/etc", "a//b", "", "a/./b", "tab\t"}) {
     DatasetInfo info = sample_info();
     info.sensors[0].name = name;
@@ -179,7 +179,7 @@ TEST(Dataset, SensorNamesStayInsideTheFolder) {
 }
 
 TEST(Dataset, ARecordMustBeWhatWasDeclared) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const DatasetInfo info = sample_info();
   DatasetWriter writer(folder.path(), info);
   writer.begin_sequence(0);
@@ -197,7 +197,7 @@ TEST(Dataset, ARecordMustBeWhatWasDeclared) {
 }
 
 TEST(Dataset, ANanFailsTheRunByName) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const DatasetInfo info = sample_info();
   DatasetWriter writer(folder.path(), info);
   writer.begin_sequence(0);

@@ -14,7 +14,7 @@
 #include "io/npy.h"
 #include "io/ply.h"
 #include "io/png.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -143,7 +143,7 @@ TEST(Depth24, DecodesWithinHalfACode) {
 }
 
 TEST(Exr, DepthIsExactWithInfinityAndNan) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Array depth(DType::f32, {31, 45});
   RandomStream random(3, 0);
   for (float& value : depth.as<float>()) value = static_cast<float>(random.uniform(0.1, 5000.0));
@@ -158,7 +158,7 @@ TEST(Exr, DepthIsExactWithInfinityAndNan) {
 }
 
 TEST(Exr, RgbIsExact) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const int64_t width : {1, 2, 640}) {
     Array image(DType::f32, {5, width, 3});
     RandomStream random(4, 0);
@@ -186,7 +186,7 @@ TEST(Exr, SamePixelsGiveTheSameBytesInEveryThread) {
 }
 
 TEST(Exr, BrokenFileIsAUserError) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Bytes file = encode_exr(Array(DType::f32, {16, 16}));
   file.resize(file.size() / 2);
   write_file_atomically(folder.path() / "z.exr", file);
@@ -202,9 +202,9 @@ TEST(Npy, HeaderIsAlignedAndFixed) {
 }
 
 TEST(Npy, RoundTripsEveryTypeAndAxisCount) {
-  const TemporaryFolder folder;
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32, DType::f64,
-                            DType::complex64}) {
+  const test::TemporaryFolder folder;
+  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32,
+                            DType::f64, DType::complex64}) {
     for (const std::vector<int64_t>& shape : {std::vector<int64_t>{}, std::vector<int64_t>{5},
                                               std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
       Array array(dtype, shape);
@@ -219,7 +219,7 @@ TEST(Npy, RoundTripsEveryTypeAndAxisCount) {
 }
 
 TEST(Npy, ReadsRows) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<int32_t> values(12);
   std::iota(values.begin(), values.end(), 0);
   write_file_atomically(folder.path() / "a.npy", encode_npy(Array::of<int32_t>({4, 3}, values)));
@@ -230,7 +230,7 @@ TEST(Npy, ReadsRows) {
 }
 
 TEST(Npy, TruncatedOrForeignFileIsAUserError) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Bytes file = encode_npy(Array(DType::f64, {3}));
   file.pop_back();
   write_file_atomically(folder.path() / "a.npy", file);
@@ -265,7 +265,7 @@ TEST(Ply, MayBeEmpty) {
 }
 
 TEST(File, ErrorsNameTheFileAndTheReason) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_file_atomically(folder.path() / "file", std::string_view("x"));
   try {
     write_file_atomically(folder.path() / "file" / "below", std::string_view("x"));

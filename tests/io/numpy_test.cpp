@@ -7,7 +7,7 @@
 #include "io/file.h"
 #include "io/npy.h"
 #include "tests/io/sample_run.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
 namespace {
@@ -18,7 +18,7 @@ int python(const std::filesystem::path& folder, const std::string& script) {
 }
 
 TEST(NumPy, MemoryMapsTheStackedCsi) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     DatasetWriter writer(folder.path() / "set", sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));
@@ -38,7 +38,7 @@ assert numpy.array_equal(csi.reshape(7, 64), expected.astype(numpy.complex64))
 }
 
 TEST(NumPy, ReadsIndexAndRaggedArrays) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     DatasetWriter writer(folder.path() / "set", sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));
@@ -61,11 +61,11 @@ assert offsets.shape == (8,) and offsets[-1] == len(delay) == len(vertices) and 
 }
 
 TEST(NumPy, ReadsEveryTypeAndShape) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::string script = "import numpy\n";
   int count = 0;
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32, DType::f64,
-                            DType::complex64}) {
+  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32,
+                            DType::f64, DType::complex64}) {
     for (const std::vector<int64_t>& shape : {std::vector<int64_t>{}, std::vector<int64_t>{5},
                                               std::vector<int64_t>{0, 3}, std::vector<int64_t>{4, 3, 2}}) {
       const std::string name = fmt::format("a{}.npy", count++);

@@ -17,7 +17,7 @@
 #include "io/journal.h"
 #include "io/verify.h"
 #include "tests/io/sample_run.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
 namespace {
@@ -45,7 +45,7 @@ class Resume : public testing::Test {
  protected:
   /// The run that was never interrupted, written once.
   static void SetUpTestSuite() {
-    whole_folder = std::make_unique<TemporaryFolder>();
+    whole_folder = std::make_unique<test::TemporaryFolder>();
     DatasetWriter writer(whole(), sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));
   }
@@ -73,10 +73,10 @@ class Resume : public testing::Test {
   }
 
   const DatasetInfo info_ = sample_info();
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 
  private:
-  inline static std::unique_ptr<TemporaryFolder> whole_folder;
+  inline static std::unique_ptr<test::TemporaryFolder> whole_folder;
 };
 
 TEST_F(Resume, AKilledRunLeavesWholeRecordsAndIsFinishedToTheSameBytes) {

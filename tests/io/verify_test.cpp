@@ -16,7 +16,7 @@
 #include "io/npy.h"
 #include "io/ply.h"
 #include "tests/io/sample_run.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::io {
 namespace {
@@ -64,7 +64,7 @@ class Verify : public testing::Test {
   }
 
   const DatasetInfo info_ = sample_info();
-  TemporaryFolder temporary_;
+  test::TemporaryFolder temporary_;
 };
 
 TEST_F(Verify, AFlippedByteInAnyFile) {

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "scene/wedges.h"
 #include "tests/rf/search_scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::rf {
 namespace {
@@ -24,9 +25,6 @@ using rf::testing::SearchScene;
 class SearchCacheTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-cache-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
     scene_.hand.ground(30.0);
     scene_.box({0, 0, 0}, {6, 5, 4});
     scene_.source = {-4.1, -3.3, 2.2};
@@ -37,7 +35,6 @@ class SearchCacheTest : public ::testing::Test {
     ASSERT_FALSE(result_.list.windows.empty());
     ASSERT_FALSE(result_.list.wedges.empty());
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string key() const { return key(scene_.options()); }
   std::string key(const BeamSearchOptions& options) const {
@@ -46,7 +43,8 @@ class SearchCacheTest : public ::testing::Test {
   fs::path file() const { return folder_ / "deeper" / (key() + ".beams"); }
   SearchCache cache() const { return SearchCache(folder_ / "deeper"); }
 
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   SearchScene scene_;
   std::vector<scene::Wedge> wedges_;
   BeamSearchResult result_;

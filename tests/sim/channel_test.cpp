@@ -18,6 +18,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "tests/sim/radio_run.h"
+#include "tests/support/temporary_folder.h"
 
 namespace greatx::sim {
 namespace {
@@ -220,20 +221,15 @@ TEST(ChannelOverTime, OnceAndAtEveryTickAreTheSameWhereNothingMoves) {
 class SearchKept : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string folder = (fs::temp_directory_path() / "greatx-kept-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
     if (const char* value = std::getenv("GREATX_CACHE")) before_ = value;
   }
-  void TearDown() override {
-    setenv("GREATX_CACHE", before_.c_str(), 1);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { setenv("GREATX_CACHE", before_.c_str(), 1); }
   RadioRun with(const std::string& cache, const std::string& yaml) {
     setenv("GREATX_CACHE", cache.c_str(), 1);
     return run(yaml, street());
   }
-  fs::path folder_;
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   std::string before_;
 };
 

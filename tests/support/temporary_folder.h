@@ -4,18 +4,17 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
-#include "core/error.h"
-
-namespace greatx::io {
+namespace greatx::test {
 
 /// A folder of its own, gone with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "greatx_io_XXXXXX").string();
-    GREATX_CHECK(mkdtemp(name.data()) != nullptr, "no temporary folder");
+    std::string name = (std::filesystem::temp_directory_path() / "greatx_test_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -30,4 +29,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace greatx::io
+}  // namespace greatx::test
