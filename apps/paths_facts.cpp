@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/phase.h"
+#include "rf/channel/phase.h"
 
 namespace greatx::apps {
 

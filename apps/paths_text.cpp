@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "rf/antenna.h"
+#include "rf/antenna/antenna.h"
 
 namespace greatx::apps {
 

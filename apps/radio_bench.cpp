@@ -15,7 +15,7 @@
 #include "apps/recall_scene.h"
 #include "apps/row_process.h"
 #include "core/units.h"
-#include "rf/channel.h"
+#include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
 #include "sim/channel_sensor.h"
 #include "sim/moment.h"

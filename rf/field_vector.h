@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/vec.h"
-#include "rf/antenna.h"
+#include "rf/antenna/antenna.h"
 
 namespace greatx::rf {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/antenna.h"
+#include "rf/antenna/antenna.h"
 
 namespace greatx::rf {
 

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/phase.h"
+#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {

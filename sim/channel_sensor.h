@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "rf/antenna.h"
-#include "rf/channel.h"
-#include "rf/dispersion.h"
+#include "rf/antenna/antenna.h"
+#include "rf/channel/dispersion.h"
+#include "rf/channel/frequency_response.h"
 #include "sim/channel_paths.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"

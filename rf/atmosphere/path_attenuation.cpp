@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "rf/antenna.h"
+#include "rf/antenna/antenna.h"
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 

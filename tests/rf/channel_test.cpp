@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/channel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,9 +9,10 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "rf/channel/frequency_response.h"
+#include "rf/channel/phase.h"
 #include "rf/field.h"
 #include "rf/geometry.h"
-#include "rf/phase.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

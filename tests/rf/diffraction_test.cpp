@@ -8,9 +8,9 @@
 
 #include "core/random.h"
 #include "core/units.h"
+#include "rf/channel/phase.h"
 #include "rf/field.h"
 #include "rf/geometry.h"
-#include "rf/phase.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/dispersion.h"
+#include "rf/channel/dispersion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "rf/channel/phase.h"
 #include "rf/geometry.h"
-#include "rf/phase.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

@@ -8,10 +8,10 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/channel.h"
+#include "rf/channel/frequency_response.h"
+#include "rf/channel/phase.h"
 #include "rf/diffraction.h"
 #include "rf/geometry.h"
-#include "rf/phase.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

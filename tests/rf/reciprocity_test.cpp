@@ -10,7 +10,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/channel.h"
+#include "rf/channel/frequency_response.h"
 #include "rf/diffraction.h"
 #include "rf/field.h"
 #include "rf/geometry.h"

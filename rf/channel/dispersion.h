@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rf/atmosphere/weather.h"
-#include "rf/channel.h"
+#include "rf/channel/frequency_response.h"
 #include "rf/field.h"
 #include "scene/scene.h"
 
@@ -20,7 +20,7 @@ namespace greatx::rf {
 /// resonance every 120 MHz, and a material's row may end within the band). At the carrier's subcarrier it is what
 /// path_field says, to the bit.
 ///
-/// What stays the carrier's: lambda/4 pi and the arrays' phases (rf/channel.h), the Doppler shift, and the random phases
+/// What stays the carrier's: lambda/4 pi and the arrays' phases (rf/channel/frequency_response.h), the Doppler shift, and the random phases
 /// of scattering patches. Delay and phase of the air are those of vacuum at every frequency.
 class Dispersion {
  public:

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/antenna.h"
+#include "rf/antenna/antenna.h"
 #include "rf/path.h"
 
 namespace greatx::rf {
@@ -63,7 +63,7 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const 
 /// The transfer of a path at each subcarrier, [subcarriers][as Path::transfer].
 using TransferSpectrum = std::vector<std::array<Complex, 4>>;
 
-/// The same for walls and air that change over the band (rf/dispersion.h): `spectra[i]` takes the place of the transfer
+/// The same for walls and air that change over the band (rf/channel/dispersion.h): `spectra[i]` takes the place of the transfer
 /// of `paths[i]`. lambda and the arrays' phases stay the carrier's.
 std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
                                                     std::span<const TransferSpectrum> spectra,

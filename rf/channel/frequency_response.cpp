@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/channel.h"
+#include "rf/channel/frequency_response.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/phase.h"
+#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {
