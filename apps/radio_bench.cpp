@@ -17,7 +17,7 @@
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
-#include "sim/channel_sensor.h"
+#include "sim/channel_antennas.h"
 #include "sim/moment.h"
 #include "sim/plan_options.h"
 #include "sim/simulator.h"

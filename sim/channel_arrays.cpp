@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/channel_antennas.h"
 #include "sim/channel_sensor.h"
 #include "sim/sensor_metadata.h"
 
@@ -16,20 +17,6 @@ namespace greatx::sim {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-nlohmann::json describe_array(const rf::AntennaArray& array) {
-  nlohmann::json json;
-  json["pattern"] = array.pattern == rf::Pattern::isotropic ? "isotropic" : "half_wave_dipole";
-  constexpr const char* names[] = {"v", "h", "vh", "slant"};
-  json["polarization"] = names[static_cast<uint32_t>(array.polarization)];
-  json["rows"] = array.rows;
-  json["columns"] = array.columns;
-  json["row_spacing_m"] = array.row_spacing_m;
-  json["column_spacing_m"] = array.column_spacing_m;
-  json["ports"] = array.port_count();
-  json["port_order"] = "(row * columns + column) * polarizations + polarization";
-  return json;
-}
 
 /// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
 nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {

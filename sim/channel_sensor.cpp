@@ -5,43 +5,9 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "sim/channel_antennas.h"
 
 namespace greatx::sim {
-
-namespace {
-
-rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz) {
-  const double wavelength = speed_of_light / carrier_hz;
-  rf::AntennaArray array;
-  array.pattern =
-      config.pattern == AntennaPattern::isotropic ? rf::Pattern::isotropic : rf::Pattern::half_wave_dipole;
-  switch (config.polarization) {
-    case Polarization::v:
-      array.polarization = rf::Polarization::v;
-      break;
-    case Polarization::h:
-      array.polarization = rf::Polarization::h;
-      break;
-    case Polarization::vh:
-      array.polarization = rf::Polarization::vh;
-      break;
-    case Polarization::slant:
-      array.polarization = rf::Polarization::slant;
-      break;
-  }
-  array.rows = config.rows;
-  array.columns = config.columns;
-  array.row_spacing_m = config.row_spacing_wl * wavelength;
-  array.column_spacing_m = config.column_spacing_wl * wavelength;
-  return array;
-}
-
-}  // namespace
-
-rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz) {
-  const auto [node, sensor] = sensor_place(scenario, name);
-  return array_of(std::get<AntennaConfig>(scenario.nodes[node].sensors[sensor].config), carrier_hz);
-}
 
 ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                              const Scenario& scenario, const World& world, uint32_t channel)

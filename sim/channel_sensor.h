@@ -17,9 +17,6 @@
 
 namespace greatx::sim {
 
-/// The antenna called "node/sensor" in a scenario, at this carrier. It must exist.
-rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz);
-
 class ChannelSensor : public Sensor {
  public:
   /// As ChannelPaths. Throws UserError, too, if receivers differ in their number of ports.
