@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.h"
-#include "core/units.h"
+#include "rf/channel/pair_amplitudes.h"
 #include "rf/channel/phase.h"
+#include "rf/channel/summing_order.h"
 
 namespace greatx::rf {
 namespace {
@@ -17,120 +17,9 @@ namespace {
 constexpr size_t term_chunk = 128;  // terms summed at a time: their phasors stay in the cache
 constexpr size_t lanes = 8;         // subcarriers per block of the inner product
 
-void check(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
-           double carrier_hz) {
-  GREATX_CHECK(carrier_hz > 0.0 && std::isfinite(carrier_hz), "carrier {} Hz", carrier_hz);
-  GREATX_CHECK(transmitter.array.port_count() > 0 && receiver.array.port_count() > 0,
-               "arrays of {} and {} ports", transmitter.array.port_count(), receiver.array.port_count());
-  for (const Path& path : paths) {
-    bool finite = std::isfinite(path.delay_s) && std::isfinite(path.doppler_hz);
-    for (const Complex& value : path.transfer)
-      finite = finite && std::isfinite(value.real()) && std::isfinite(value.imag());
-    GREATX_CHECK(finite, "path of {} interactions, {} m long, is not finite", path.interactions.size(),
-                 path.length_m);
-  }
-}
-
 void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
   GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
 }
-
-/// Everything of a path that reaches the sum; paths that agree in all of it may stand in any order.
-std::array<double, 16> sum_key(const Path& path) {
-  std::array<double, 16> key{path.delay_s,     path.doppler_hz, path.departure.x, path.departure.y,
-                             path.departure.z, path.arrival.x,  path.arrival.y,   path.arrival.z};
-  for (size_t i = 0; i < 4; ++i) {
-    key[8 + 2 * i] = path.transfer[i].real();
-    key[9 + 2 * i] = path.transfer[i].imag();
-  }
-  return key;
-}
-
-bool spectrum_less(const TransferSpectrum& a, const TransferSpectrum& b) {
-  const auto parts = [](const std::array<Complex, 4>& t) {
-    return std::array<double, 8>{t[0].real(), t[0].imag(), t[1].real(), t[1].imag(),
-                                 t[2].real(), t[2].imag(), t[3].real(), t[3].imag()};
-  };
-  return std::lexicographical_compare(
-      a.begin(), a.end(), b.begin(), b.end(),
-      [&](const auto& left, const auto& right) { return parts(left) < parts(right); });
-}
-
-/// `spectra`: [paths], or none.
-std::vector<uint32_t> summing_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
-  std::vector<uint32_t> order(paths.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    if (paths[a].delay_s != paths[b].delay_s) return paths[a].delay_s < paths[b].delay_s;
-    const auto key_a = sum_key(paths[a]), key_b = sum_key(paths[b]);
-    if (key_a != key_b || spectra.empty()) return key_a < key_b;
-    return spectrum_less(spectra[a], spectra[b]);
-  });
-  return order;
-}
-
-/// An array's ports, worked out once: where the elements are and which way the polarizations point.
-class Ports {
- public:
-  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver.
-  Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
-      : end_(end), conjugate_(conjugate), count_(end.array.port_count()) {
-    const double per_wavelength = carrier_hz / speed_of_light;
-    for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
-      positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
-    for (uint32_t p = 0; p < end.array.polarization_count(); ++p) slants_.push_back(end.array.slant(p));
-  }
-  uint32_t count() const { return count_; }
-  /// Field pattern times the plane wave's phase at each port, for one direction.
-  void respond(const dvec3& direction, std::vector<Jones>& out) const {
-    out.resize(count_);
-    Jones fields[2];
-    for (size_t p = 0; p < slants_.size(); ++p) {
-      const Jones field = element_field(end_.array.pattern, slants_[p], end_.orientation, direction);
-      fields[p] = conjugate_ ? Jones{std::conj(field.theta), std::conj(field.phi)} : field;
-    }
-    size_t port = 0;
-    for (const dvec3& position : positions_) {
-      const Complex phase = unit_phasor(fraction_of_turn(glm::dot(direction, position)));
-      for (size_t p = 0; p < slants_.size(); ++p, ++port)
-        out[port] = {fields[p].theta * phase, fields[p].phi * phase};
-    }
-  }
-
- private:
-  const ArrayPose& end_;
-  bool conjugate_;
-  uint32_t count_;
-  std::vector<dvec3> positions_;  ///< [elements], carrier wavelengths, local axes
-  std::vector<double> slants_;    ///< [polarizations]
-};
-
-/// (lambda/4 pi) C_R^H T C_T with the array phases, for all pairs of ports of one path: out[rx * tx_count +
-/// tx]. The conjugate of C_R is taken of the pattern, not of the array's phase.
-class PairAmplitudes {
- public:
-  PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz)
-      : tx_(transmitter, false, carrier_hz),
-        rx_(receiver, true, carrier_hz),
-        scale_(speed_of_light / carrier_hz / (4.0 * pi)) {}
-  uint32_t pairs() const { return tx_.count() * rx_.count(); }
-  void operator()(const Path& path, Complex* out) { (*this)(path, path.transfer, out); }
-  /// With t, [4], in place of the path's own transfer.
-  void operator()(const Path& path, const Complex* t, Complex* out) {
-    tx_.respond(path.departure, tx_response_);
-    rx_.respond(path.arrival, rx_response_);
-    for (const Jones& rx : rx_response_) {
-      const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
-      const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
-      for (const Jones& tx : tx_response_) *out++ = to_theta * tx.theta + to_phi * tx.phi;
-    }
-  }
-
- private:
-  Ports tx_, rx_;
-  double scale_;
-  std::vector<Jones> tx_response_, rx_response_;
-};
 
 /// The phasors e^{-j 2 pi f tau} of a chunk of terms, in blocks of `lanes` subcarriers: [block][term][re,
 /// im][lane].
@@ -204,7 +93,7 @@ class Summation {
         amplitudes_of_(transmitter, receiver, grid.carrier_hz),
         chunk_(std::min(term_chunk, paths.size() * (spectra.empty() ? 1 : 4))),
         phasors_(grid, chunk_) {
-    check(paths, transmitter, receiver, grid.carrier_hz);
+    check_link(paths, transmitter, receiver, grid.carrier_hz);
     check_spectra(spectra);
     rows_ = size_t{amplitudes_of_.pairs()} * grid.time_samples;
     sums_.assign(rows_ * phasors_.blocks() * 2 * lanes, 0.0);
@@ -310,7 +199,7 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
 
 ImpulseResponse impulse_response(std::span<const Path> paths, const ArrayPose& transmitter,
                                  const ArrayPose& receiver, double carrier_hz) {
-  check(paths, transmitter, receiver, carrier_hz);
+  check_link(paths, transmitter, receiver, carrier_hz);
   PairAmplitudes amplitudes_of(transmitter, receiver, carrier_hz);
   std::vector<Complex> pair(amplitudes_of.pairs());
   ImpulseResponse response;

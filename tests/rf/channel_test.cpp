@@ -10,44 +10,20 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
 #include "rf/field.h"
 #include "rf/geometry.h"
+#include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::antenna;
 using testing::HandScene;
-using Wide = std::complex<long double>;
-
-constexpr long double wide_pi = 3.14159265358979323846264338327950288L;
-
-/// e^{-j 2 pi f tau} with 64 bits of mantissa and the whole turns taken off exactly enough: f tau < 2^23 turns leaves
-/// 2^-41 turns of it, so the product is split first.
-Wide wide_phasor(double frequency_hz, double delay_s) {
-  const ExactProduct product = exact_product(frequency_hz, delay_s);
-  const long double whole = std::nearbyint(product.value);
-  const long double turns = (static_cast<long double>(product.value) - whole) + product.error;
-  return std::polar(1.0L, -2.0L * wide_pi * turns);
-}
-
-std::vector<Path> random_paths(size_t count, double longest_s, uint32_t stream) {
-  RandomStream random(20, stream);
-  const auto direction = [&] {
-    return glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
-  };
-  std::vector<Path> paths(count);
-  for (Path& path : paths) {
-    path.delay_s = random.uniform(0.0, longest_s);
-    path.length_m = path.delay_s * speed_of_light;
-    path.doppler_hz = random.uniform(-400, 400);
-    path.departure = direction();
-    path.arrival = direction();
-    for (Complex& value : path.transfer) value = {random.uniform(-1, 1), random.uniform(-1, 1)};
-  }
-  return paths;
-}
+using testing::random_paths;
+using testing::Wide;
+using testing::wide_phasor;
+using testing::wide_pi;
 
 std::vector<Path> solve(const HandScene& hand, const dvec3& tx, const dvec3& rx, uint32_t depth,
                         double f_hz) {
@@ -61,13 +37,6 @@ std::vector<Path> solve(const HandScene& hand, const dvec3& tx, const dvec3& rx,
 }
 
 ChannelGrid single(double carrier_hz) { return {carrier_hz, 30e3, 1, 1, 1e-3}; }
-
-ArrayPose antenna(Pattern pattern = Pattern::isotropic, Polarization polarization = Polarization::v) {
-  ArrayPose end;
-  end.array.pattern = pattern;
-  end.array.polarization = polarization;
-  return end;
-}
 
 TEST(Channel, FreeSpaceIsFriis) {
   HandScene hand;

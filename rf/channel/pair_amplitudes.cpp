@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/channel/pair_amplitudes.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "rf/channel/phase.h"
+
+namespace greatx::rf {
+
+void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+                double carrier_hz) {
+  GREATX_CHECK(carrier_hz > 0.0 && std::isfinite(carrier_hz), "carrier {} Hz", carrier_hz);
+  GREATX_CHECK(transmitter.array.port_count() > 0 && receiver.array.port_count() > 0,
+               "arrays of {} and {} ports", transmitter.array.port_count(), receiver.array.port_count());
+  for (const Path& path : paths) {
+    bool finite = std::isfinite(path.delay_s) && std::isfinite(path.doppler_hz);
+    for (const Complex& value : path.transfer)
+      finite = finite && std::isfinite(value.real()) && std::isfinite(value.imag());
+    GREATX_CHECK(finite, "path of {} interactions, {} m long, is not finite", path.interactions.size(),
+                 path.length_m);
+  }
+}
+
+double wavelength_factor(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
+
+Ports::Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
+    : end_(end), conjugate_(conjugate), count_(end.array.port_count()) {
+  const double per_wavelength = carrier_hz / speed_of_light;
+  for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
+    positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
+  for (uint32_t p = 0; p < end.array.polarization_count(); ++p) slants_.push_back(end.array.slant(p));
+}
+
+void Ports::fields(const dvec3& direction, std::vector<Jones>& out) const {
+  out.resize(slants_.size());
+  for (size_t p = 0; p < slants_.size(); ++p) {
+    const Jones field = element_field(end_.array.pattern, slants_[p], end_.orientation, direction);
+    out[p] = conjugate_ ? Jones{std::conj(field.theta), std::conj(field.phi)} : field;
+  }
+}
+
+void Ports::respond(const dvec3& direction, std::vector<Jones>& out) const {
+  fields(direction, out);
+  const size_t polarizations = slants_.size();
+  out.resize(count_);
+  // From the last element to the first, which holds the patterns themselves.
+  for (size_t element = positions_.size(); element-- > 0;) {
+    const Complex phase = unit_phasor(fraction_of_turn(glm::dot(direction, positions_[element])));
+    for (size_t p = 0; p < polarizations; ++p)
+      out[element * polarizations + p] = {out[p].theta * phase, out[p].phi * phase};
+  }
+}
+
+PairAmplitudes::PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz)
+    : tx_(transmitter, false, carrier_hz),
+      rx_(receiver, true, carrier_hz),
+      scale_(wavelength_factor(carrier_hz)) {}
+
+void PairAmplitudes::operator()(const Path& path, const Complex* t, Complex* out) {
+  tx_.respond(path.departure, tx_response_);
+  rx_.respond(path.arrival, rx_response_);
+  for (const Jones& rx : rx_response_) {
+    const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
+    const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
+    for (const Jones& tx : tx_response_) *out++ = to_theta * tx.theta + to_phi * tx.phi;
+  }
+}
+
+double PairAmplitudes::mean_power(const Path& path) {
+  tx_.fields(path.departure, tx_response_);
+  rx_.fields(path.arrival, rx_response_);
+  const Complex* t = path.transfer;
+  double sum = 0.0;
+  for (const Jones& rx : rx_response_) {
+    const Complex to_theta = scale_ * (rx.theta * t[0] + rx.phi * t[2]);
+    const Complex to_phi = scale_ * (rx.theta * t[1] + rx.phi * t[3]);
+    for (const Jones& tx : tx_response_) sum += std::norm(to_theta * tx.theta + to_phi * tx.phi);
+  }
+  return sum / static_cast<double>(rx_response_.size() * tx_response_.size());
+}
+
+}  // namespace greatx::rf

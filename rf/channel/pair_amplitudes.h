@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a path contributes at each pair of ports: the factor that responses, taps, powers and received quantities share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rf/channel/frequency_response.h"
+#include "rf/path.h"
+
+namespace greatx::rf {
+
+/// Contracts of everything that sums paths: a carrier above 0 Hz, arrays with ports, finite paths.
+void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+                double carrier_hz);
+
+/// lambda/4 pi, metres.
+double wavelength_factor(double carrier_hz);
+
+/// An array's ports, worked out once: where the elements are and which way the polarizations point.
+class Ports {
+ public:
+  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver; not of the array's phase. `end`
+  /// must outlive this.
+  Ports(const ArrayPose& end, bool conjugate, double carrier_hz);
+  uint32_t count() const { return count_; }
+  /// Field pattern times the plane wave's phase at each port, for one world direction: out[ports].
+  void respond(const dvec3& direction, std::vector<Jones>& out) const;
+  /// Field pattern of each polarization, without the phases: out[polarizations].
+  void fields(const dvec3& direction, std::vector<Jones>& out) const;
+
+ private:
+  const ArrayPose& end_;
+  bool conjugate_;
+  uint32_t count_;
+  std::vector<dvec3> positions_;  ///< [elements], carrier wavelengths, local axes
+  std::vector<double> slants_;    ///< [polarizations]
+};
+
+/// (lambda/4 pi) C_R^H T C_T with the array phases, for all pairs of ports of one path: out[rx * tx_count + tx].
+class PairAmplitudes {
+ public:
+  PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz);
+  uint32_t pairs() const { return tx_.count() * rx_.count(); }
+  void operator()(const Path& path, Complex* out) { (*this)(path, path.transfer, out); }
+  /// With t, [4], in place of the path's own transfer.
+  void operator()(const Path& path, const Complex* t, Complex* out);
+  /// Mean over all pairs of |out|^2. All elements of an array have the same patterns, so it is that of one element at
+  /// each end: the array phases have modulus 1.
+  double mean_power(const Path& path);
+
+ private:
+  Ports tx_, rx_;
+  double scale_;
+  std::vector<Jones> tx_response_, rx_response_;
+};
+
+}  // namespace greatx::rf
