@@ -1,0 +1,335 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""A generated data set, memory-mapped: `load(DIR)`, by sequence, by sensor, by tick (docs/python.md)."""
+from __future__ import annotations
+
+import os
+import pathlib
+import warnings
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence as SequenceOf, Union
+
+import numpy as np
+
+from .arrays import Frames, Ragged, open_stack
+from .errors import DatasetError
+from .frames import load_npy
+from .layout import ArrayInfo, SensorInfo, parse_sensors, read_info
+
+if TYPE_CHECKING:
+    from .samples import Samples
+
+INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
+
+
+def load(folder: Union[str, "os.PathLike[str]"], incomplete: bool = False) -> "Dataset":
+    """Opens the data set in `folder` without reading its arrays.
+
+    A data set without manifest.json was not finished (`greatx generate --resume` finishes it): that is a DatasetError
+    unless `incomplete` is set; then a warning is given and the sequences that are whole are opened.
+    Raises DatasetError, whose message names the file, for whatever is not as docs/dataset.md has it.
+    """
+    return Dataset(folder, incomplete)
+
+
+class Dataset:
+    """What `load` gives. Picklable: workers of a DataLoader open the files themselves."""
+
+    def __init__(self, folder: Union[str, "os.PathLike[str]"], incomplete: bool = False):
+        self.path = pathlib.Path(os.path.abspath(folder))
+        self._incomplete = incomplete
+        #: dataset.json, as it is
+        self.info: Dict[str, Any] = read_info(self.path)
+        #: every sensor's description by name, in the order of their numbers in the index
+        self.sensors: Dict[str, SensorInfo] = parse_sensors(self.path / "dataset.json", self.info)
+        self.complete = (self.path / "manifest.json").is_file()
+        self.tick_rate_hz = Fraction(self.info["tick_rate_hz"])
+        count = int(self.info["sequences"])
+        whole = [i for i in range(count) if (self.path / f"sequence_{i:04d}" / "index.npy").is_file()]
+        if not self.complete:
+            state = f"{self.path}: is incomplete (no manifest.json): {len(whole)} of {count} sequences are whole"
+            if not incomplete or not whole:
+                raise DatasetError(state + "; finish it with `greatx generate --resume`"
+                                   + (", or load what is whole with incomplete=True" if whole else ""))
+            warnings.warn(state, stacklevel=3)
+        elif len(whole) < count:
+            missing = next(i for i in range(count) if i not in whole)
+            raise DatasetError(f"{self.path / f'sequence_{missing:04d}' / 'index.npy'}: is missing")
+        #: one for every run of the scenario
+        self.sequences: List[Sequence] = [Sequence(self, i) for i in whole]
+
+    def __reduce__(self):
+        return load, (str(self.path), self._incomplete)
+
+    @property
+    def run(self) -> Dict[str, Any]:
+        """What was run: scenario, seed, effects, device, `materials`, `instances`, `semantic_classes`, ..."""
+        return self.info["run"]
+
+    @property
+    def materials(self) -> List[str]:
+        """Names of the materials: the id k of `material` and `object_material` arrays is materials[k - 1]; 0: none."""
+        return self.run["materials"]
+
+    @property
+    def instances(self) -> List[Dict[str, str]]:
+        """Name and class of the instances: the id k of `instance` and `object` arrays is instances[k - 1]; 0: none."""
+        return self.run["instances"]
+
+    @property
+    def semantic_classes(self) -> List[str]:
+        """Names by the values of `semantic` arrays."""
+        return self.run["semantic_classes"]
+
+    def single(self) -> "Sequence":
+        """The sequence of a data set that has one; DatasetError if it has several."""
+        if len(self.sequences) != 1:
+            raise DatasetError(f"{self.path}: has {len(self.sequences)} sequences: say which one, as in ds.sequences[0]")
+        return self.sequences[0]
+
+    def __getitem__(self, sensor: str) -> "Sensor":
+        """The sensor of this name, of the only sequence."""
+        return self.single()[sensor]
+
+    def at(self, tick: int) -> "Tick":
+        """Every sensor's record of a tick, of the only sequence."""
+        return self.single().at(tick)
+
+    def samples(self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None,
+                pad: bool = False) -> "Samples":
+        """One dict of NumPy arrays a tick: see greatx.samples.Samples. Needs no torch."""
+        from .samples import Samples
+        return Samples(self, arrays, sequences, pad)
+
+    def torch(self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None, pad: bool = False,
+              transform: Any = None) -> Any:
+        """A torch.utils.data.Dataset, map-style: one dict of tensors a tick. The arguments are those of
+        greatx.samples.Samples; `transform` maps each dict. ImportError without torch."""
+        try:
+            from .torch_dataset import TorchDataset
+        except ImportError as error:
+            raise ImportError(f"Dataset.torch needs PyTorch (`pip install torch`): {error}. "
+                              "Dataset.samples gives the same as NumPy arrays") from error
+        return TorchDataset(self.samples(arrays, sequences, pad), transform)
+
+    def __repr__(self) -> str:
+        return (f"<greatx.Dataset {str(self.path)!r}: {len(self.sequences)} sequences, tick rate {self.tick_rate_hz} Hz, "
+                f"sensors {', '.join(self.sensors)}>")
+
+
+class Sequence:
+    """One run of the scenario."""
+
+    def __init__(self, dataset: Dataset, number: int):
+        self.dataset = dataset
+        self.number = number
+        self.path = dataset.path / f"sequence_{number:04d}"
+        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), in order of tick, then sensor
+        self.index: np.ndarray = load_npy(self.path / "index.npy")
+        if self.index.ndim != 2 or self.index.shape[1] != len(INDEX_COLUMNS):
+            raise DatasetError(f"{self.path / 'index.npy'}: expected [records, {len(INDEX_COLUMNS)}], "
+                               f"found {list(self.index.shape)}")
+        #: int64 [ticks]: at which something was recorded, ascending
+        self.ticks: np.ndarray = np.unique(self.index[:, 0])
+        self.sensors: Dict[str, Sensor] = {name: Sensor(self, i, info)
+                                           for i, (name, info) in enumerate(dataset.sensors.items())}
+
+    def __getitem__(self, sensor: str) -> "Sensor":
+        try:
+            return self.sensors[sensor]
+        except KeyError:
+            raise KeyError(f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}") from None
+
+    @property
+    def poses(self) -> "Sensor":
+        """The poses of all nodes: arrays `position` [records, nodes, 3] m, `orientation` [records, nodes, 4] (w, x, y, z),
+        `velocity`, ...; metadata `nodes` has the names."""
+        for sensor in self.sensors.values():
+            if sensor.kind == "pose":
+                return sensor
+        raise DatasetError(f"{self.dataset.path}: has no poses")
+
+    def at(self, tick: int) -> "Tick":
+        """Every sensor's record of a tick."""
+        first, last = np.searchsorted(self.index[:, 0], [tick, tick + 1])
+        if first == last:
+            raise KeyError(f"{self.path}: nothing was recorded at tick {tick}; ticks are {self.ticks[0]} to "
+                           f"{self.ticks[-1]}, {len(self.ticks)} of them" if len(self.ticks) else f"{self.path}: is empty")
+        names = list(self.sensors)
+        return Tick(int(tick), int(self.index[first, 1]), self,
+                    {names[s]: Record(self.sensors[names[s]], int(row)) for s, row in self.index[first:last][:, [2, 4]]})
+
+    def __iter__(self) -> Iterator["Tick"]:
+        return (self.at(int(tick)) for tick in self.ticks)
+
+    def __len__(self) -> int:
+        """Number of ticks at which something was recorded."""
+        return len(self.ticks)
+
+    def __repr__(self) -> str:
+        return f"<greatx.Sequence {self.number}: {len(self.ticks)} ticks, sensors {', '.join(self.sensors)}>"
+
+
+class Tick(Mapping[str, "Record"]):
+    """The records of one tick by the sensor's name; only of the sensors that fired."""
+
+    def __init__(self, tick: int, time_ns: int, sequence: Sequence, records: Dict[str, "Record"]):
+        self.tick = tick
+        self.time_ns = time_ns  #: exact time, rounded to nanoseconds
+        self.sequence = sequence
+        self._records = records
+
+    @property
+    def time_s(self) -> float:
+        return float(self.tick / self.sequence.dataset.tick_rate_hz)
+
+    def __getitem__(self, sensor: str) -> "Record":
+        if sensor not in self._records:
+            raise KeyError(f"{self.sequence.path}: sensor {sensor!r} has no record at tick {self.tick}; "
+                           f"{', '.join(self._records)} have")
+        return self._records[sensor]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._records)
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __repr__(self) -> str:
+        return f"<greatx.Tick {self.tick}, {self.time_s:g} s: {', '.join(self._records)}>"
+
+
+class Sensor:
+    """One sensor's records in one sequence, in order of time.
+
+    sensor["NAME"], or sensor.NAME, is by the kind of the output that holds the array:
+      npy_stack   a read-only memory map [records, ...];
+      npy_ragged  a Ragged: [i] is the view [rows of record i, ...];
+      files       Frames: [i] reads and decodes the file of record i.
+    NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). Names that are
+    neither are looked for in `metadata`: csi.carrier_hz.
+    """
+
+    def __init__(self, sequence: Sequence, number: int, info: SensorInfo):
+        self.sequence = sequence
+        self.info = info
+        self.name = info.name
+        self.kind = info.kind
+        self.metadata: Dict[str, Any] = info.metadata
+        #: int64 [records, 5]: this sensor's rows of the index
+        self.index: np.ndarray = sequence.index[sequence.index[:, 2] == number]
+        if not np.array_equal(self.index[:, 4], np.arange(len(self.index))):
+            raise DatasetError(f"{sequence.path / 'index.npy'}: the rows of {info.name} are not 0, 1, 2, ...")
+        self._opened: Dict[str, Any] = {}
+
+    @property
+    def arrays(self) -> Dict[str, ArrayInfo]:
+        """Type, shape of a record, unit and axes of each array."""
+        return self.info.arrays
+
+    @property
+    def ticks(self) -> np.ndarray:
+        """int64 [records]"""
+        return self.index[:, 0]
+
+    @property
+    def times_s(self) -> np.ndarray:
+        """float64 [records], from the ticks"""
+        rate = self.sequence.dataset.tick_rate_hz
+        return self.ticks * rate.denominator / rate.numerator
+
+    def __len__(self) -> int:
+        """Number of records."""
+        return len(self.index)
+
+    def record(self, i: int) -> "Record":
+        """The i-th record; negative i counts from the end."""
+        if not -len(self) <= i < len(self):
+            raise IndexError(f"{self.name} has {len(self)} records, not one of number {i}")
+        return Record(self, i % len(self))
+
+    def at(self, tick: int) -> "Record":
+        """The record of a tick."""
+        return self.sequence.at(tick)[self.name]
+
+    def __iter__(self) -> Iterator["Record"]:
+        return (Record(self, i) for i in range(len(self)))
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and self.info.locate(name) is not None
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._opened:
+            located = self.info.locate(name)
+            if located is None:
+                raise KeyError(f"{self.name} has no array {name!r}; it has {', '.join(self.arrays)}")
+            output, array = located
+            base = self.sequence.path / self.name / output.name
+            if output.format == "npy_stack":
+                self._opened[name] = open_stack(base.with_name(base.name + ".npy"), array, len(self))
+            elif output.format == "npy_ragged":
+                self._opened[name] = Ragged.open(base, array, len(self))
+            else:
+                self._opened[name] = Frames(base, output, array, self.index[:, 3])
+        return self._opened[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_"):
+            if name in self:
+                return self[name]
+            if name in self.metadata:
+                return self.metadata[name]
+        raise AttributeError(f"{self.__dict__.get('name', 'a sensor')} has neither an array nor metadata {name!r}")
+
+    def __dir__(self) -> SequenceOf[str]:
+        return sorted({*super().__dir__(), *self.arrays, *self.metadata})
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_opened": {}}  # memory maps would be pickled by value
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def __repr__(self) -> str:
+        return f"<greatx.Sensor {self.name} ({self.kind}): {len(self)} records of {', '.join(self.arrays)}>"
+
+
+class Record:
+    """What one sensor measured at one tick: record["NAME"], or record.NAME, is its part of sensor["NAME"]."""
+
+    def __init__(self, sensor: Sensor, row: int):
+        self.sensor = sensor
+        self.row = row  #: in the sensor's stacked arrays
+
+    @property
+    def tick(self) -> int:
+        return int(self.sensor.index[self.row, 0])
+
+    @property
+    def time_ns(self) -> int:
+        return int(self.sensor.index[self.row, 1])
+
+    @property
+    def time_s(self) -> float:
+        return float(self.tick / self.sensor.sequence.dataset.tick_rate_hz)
+
+    @property
+    def sample(self) -> int:
+        """The sensor's own count, also the number of the record's files."""
+        return int(self.sensor.index[self.row, 3])
+
+    def __getitem__(self, name: str) -> Any:
+        return self.sensor[name][self.row]
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and name in self.sensor:
+            return self[name]
+        raise AttributeError(f"a record of {self.sensor.name} has no array {name!r}")
+
+    def paths(self, rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
+        """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see greatx.links)."""
+        from .links import paths_of
+        return paths_of(self, rx, tx)
+
+    def __repr__(self) -> str:
+        return f"<greatx.Record {self.row} of {self.sensor.name}, tick {self.tick}>"

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Readers of one file a frame: PNG, OpenEXR and PLY as greatx writes them, with nothing but NumPy and zlib.
+
+They read what a data set holds (docs/dataset.md), not every file of these formats; whatever else is met is an error
+that says so.
+"""
+from __future__ import annotations
+
+import os
+import pathlib
+import struct
+import zlib
+from typing import Dict, Tuple, Union
+
+import numpy as np
+
+from .errors import DatasetError
+from .layout import OutputInfo
+
+Path = Union[str, "os.PathLike[str]"]
+
+_PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_EXR_MAGIC = 20000630
+_EXR_LINES = {0: 1, 2: 1, 3: 16}  # lines in a block: none, ZIPS, ZIP
+_EXR_TYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
+_PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
+              "float": "<f4", "double": "<f8"}
+
+
+def read_bytes(path: Path) -> bytes:
+    try:
+        return pathlib.Path(path).read_bytes()
+    except OSError as error:
+        raise DatasetError(f"{path}: cannot be read: {error.strerror}") from error
+
+
+def read_png(path: Path) -> np.ndarray:
+    """uint8 [h, w, 3] of RGB, uint8 [h, w] of 8-bit grey, uint16 [h, w] of 16-bit grey (ISO/IEC 15948)."""
+    data = read_bytes(path)
+    if data[:8] != _PNG_SIGNATURE:
+        raise DatasetError(f"{path}: is no PNG")
+    try:
+        chunks, at = [], 8
+        while at < len(data):
+            length, kind = struct.unpack_from(">I4s", data, at)
+            chunks.append((kind, data[at + 8:at + 8 + length]))
+            at += length + 12
+        width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", dict(chunks)[b"IHDR"])
+        raw = zlib.decompress(b"".join(body for kind, body in chunks if kind == b"IDAT"))
+    except (struct.error, KeyError, zlib.error) as error:
+        raise DatasetError(f"{path}: is damaged: {error}") from error
+    if (bits, colour) not in ((8, 2), (8, 0), (16, 0)) or interlaced:
+        raise DatasetError(f"{path}: expected 8-bit RGB or grey or 16-bit grey, not interlaced; found {bits} bits, "
+                           f"colour type {colour}, interlacing {interlaced}")
+    channels = 3 if colour == 2 else 1
+    step = channels * bits // 8
+    if len(raw) != height * (1 + width * step):
+        raise DatasetError(f"{path}: is damaged: {len(raw)} bytes of pixels for {width} x {height}")
+    lines = np.frombuffer(raw, np.uint8).reshape(height, 1 + width * step)
+    pixels = _unfilter(path, lines[:, 0], lines[:, 1:].reshape(height, width, step))
+    if bits == 16:
+        return np.ascontiguousarray(pixels).view(">u2").astype(np.uint16).reshape(height, width)
+    return pixels.reshape((height, width, 3) if channels == 3 else (height, width))
+
+
+def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    """Takes the filters None, Sub and Up off lines [h, w, bytes of a pixel]; sums wrap at 256 as they must."""
+    if np.all(filters == 2):  # Up in every line, as greatx writes it
+        return np.cumsum(lines, axis=0, dtype=np.uint8)
+    out = np.empty_like(lines)
+    for y, kind in enumerate(filters):
+        if kind > 2:
+            raise DatasetError(f"{path}: line {y} has the filter {kind}, which greatx does not write")
+        line = np.cumsum(lines[y], axis=0, dtype=np.uint8) if kind == 1 else lines[y]
+        out[y] = line + out[y - 1] if kind == 2 and y > 0 else line
+    return out
+
+
+def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
+    """float32 [h, w] metres from uint8 [h, w, 3]: 1000 m (R + 256 G + 65536 B)/(2^24 - 1), CARLA's coding. 1000 m
+    stands for everything beyond, the sky too."""
+    code = rgb[..., 0].astype(np.uint32) + (rgb[..., 1].astype(np.uint32) << 8) + (rgb[..., 2].astype(np.uint32) << 16)
+    return (1000.0 * code / (2**24 - 1)).astype(np.float32)
+
+
+def read_exr(path: Path) -> np.ndarray:
+    """float32 [h, w] of channel Z, or [h, w, 3] of R, G, B: OpenEXR 2, single part, scan lines, ZIP or uncompressed."""
+    data = read_bytes(path)
+    try:
+        header, at = _exr_header(data)
+        channels, compression, box = header["channels"], header["compression"], header["dataWindow"]
+        if compression not in _EXR_LINES or data[5] & 0x1A:
+            raise DatasetError(f"{path}: expected scan lines, ZIP or uncompressed; found compression {compression}, "
+                               f"flags {data[5]:#x}")
+        height, width = box[3] - box[1] + 1, box[2] - box[0] + 1
+        line = np.dtype([(name, kind, (width,)) for name, kind in channels])
+        pixels = np.empty(height, line)
+        per_block = _EXR_LINES[compression]
+        blocks = -(-height // per_block)
+        for offset in struct.unpack_from(f"<{blocks}Q", data, at):
+            y, size = struct.unpack_from("<ii", data, offset)
+            first = y - box[1]
+            lines = min(per_block, height - first)
+            block = data[offset + 8:offset + 8 + size]
+            if compression and size < lines * line.itemsize:
+                block = _exr_unzip(block)
+            pixels[first:first + lines] = np.frombuffer(block, line, lines)
+    except (struct.error, KeyError, zlib.error, ValueError, IndexError) as error:
+        if isinstance(error, DatasetError):
+            raise
+        raise DatasetError(f"{path}: cannot be read as OpenEXR: {error}") from error
+    names = [name for name, _ in channels]
+    if "Z" in names:
+        return pixels["Z"].astype(np.float32)
+    if not {"R", "G", "B"} <= set(names):
+        raise DatasetError(f"{path}: expected a channel Z, or R, G and B; found {', '.join(names)}")
+    return np.stack([pixels[name].astype(np.float32) for name in "RGB"], axis=-1)
+
+
+def _exr_header(data: bytes) -> Tuple[dict, int]:
+    """The attributes that decoding takes, and where the table of blocks begins."""
+    if struct.unpack_from("<I", data)[0] != _EXR_MAGIC:
+        raise ValueError("it does not begin as OpenEXR does")
+    header, at = {}, 8
+    while data[at] != 0:
+        end = data.index(b"\0", at)
+        name, after = data[at:end].decode(), data.index(b"\0", end + 1)
+        size = struct.unpack_from("<i", data, after + 1)[0]
+        at = after + 5 + size
+        body = data[after + 5:at]
+        if name == "channels":
+            header[name] = _exr_channels(body)
+        elif name == "compression":
+            header[name] = body[0]
+        elif name == "dataWindow":
+            header[name] = struct.unpack("<4i", body)
+    return header, at + 1
+
+
+def _exr_channels(body: bytes) -> list:
+    channels, at = [], 0
+    while body[at] != 0:
+        end = body.index(b"\0", at)
+        kind = struct.unpack_from("<i", body, end + 1)[0]
+        channels.append((body[at:end].decode(), _EXR_TYPES[kind]))
+        at = end + 17
+    return channels
+
+
+def _exr_unzip(block: bytes) -> bytes:
+    """Undoes ZIP: inflate, differences with 128 added, first the even bytes and then the odd ones."""
+    coded = np.frombuffer(zlib.decompress(block), np.uint8).copy()
+    coded[1:] -= 128
+    plain = np.cumsum(coded, dtype=np.uint8)
+    half = (len(plain) + 1) // 2
+    out = np.empty_like(plain)
+    out[0::2], out[1::2] = plain[:half], plain[half:]
+    return out.tobytes()
+
+
+def read_ply(path: Path) -> np.ndarray:
+    """A structured array [n] with a field for each property of the element "vertex": binary, little endian."""
+    data = read_bytes(path)
+    end = data.find(b"end_header\n")
+    lines = data[:max(end, 0)].decode("ascii", "replace").splitlines()
+    if end < 0 or lines[:2] != ["ply", "format binary_little_endian 1.0"]:
+        raise DatasetError(f"{path}: is no PLY in binary, little endian")
+    words = [line.split() for line in lines[2:] if not line.startswith("comment")]
+    try:
+        (count,) = [int(w[2]) for w in words if w[:2] == ["element", "vertex"]]
+        kind = np.dtype([(w[2], _PLY_TYPES[w[1]]) for w in words if w[0] == "property"])
+        return np.frombuffer(data, kind, count, end + len(b"end_header\n"))
+    except (ValueError, KeyError, IndexError) as error:
+        raise DatasetError(f"{path}: cannot be read as PLY: {error}") from error
+
+
+def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
+    """The arrays of one file of an output, by name, as the sensor measured them."""
+    if output.format == "ply":
+        points = read_ply(path)
+        first = output.arrays[0].name
+        try:
+            out = {first: np.stack([points[p] for p in ("x", "y", "z", "intensity")], axis=-1)}
+            out.update({a.name: points[a.name].astype(a.dtype) for a in output.arrays[1:]})
+        except ValueError as error:
+            raise DatasetError(f"{path}: {error}") from error
+        return out
+    if output.format == "npy_frame":
+        value = load_npy(path)
+    elif output.format == "exr":
+        value = read_exr(path)
+    else:
+        value = read_png(path)
+        if output.format == "png_depth24":
+            value = depth_from_png24(value)
+    array = output.arrays[0]
+    if value.ndim != len(array.shape) or any(e not in (-1, f) for e, f in zip(array.shape, value.shape)):
+        raise DatasetError(f"{path}: expected {list(array.shape)} (dataset.json), found {list(value.shape)}")
+    return {array.name: value.astype(array.dtype, copy=False)}
+
+
+def load_npy(path: pathlib.Path, mmap_mode: Union[str, None] = None) -> np.ndarray:
+    """numpy.load of a .npy file whose errors name the file."""
+    try:
+        return np.load(path, mmap_mode=mmap_mode, allow_pickle=False)
+    except OSError as error:
+        raise DatasetError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except ValueError as error:
+        raise DatasetError(f"{path}: is no whole .npy file: {error}") from error

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""The links of a channel: its ends in the world, and which paths are whose."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from .errors import DatasetError
+
+if TYPE_CHECKING:
+    from .dataset import Record, Sensor
+
+SPEED_OF_LIGHT = 299792458.0  #: m/s
+
+# Interactions as the arrays `interaction` have them.
+NONE, REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = range(5)
+
+
+def check_channel(sensor: "Sensor") -> "Sensor":
+    if sensor.kind != "csi":
+        raise DatasetError(f"{sensor.sequence.dataset.path}: {sensor.name} is a {sensor.kind}, not a channel (csi)")
+    return sensor
+
+
+def transmitters(sensor: "Sensor") -> List[Dict[str, Any]]:
+    """The transmitting antennas of a channel as dataset.json describes them, in the order of the axis tx."""
+    meta = check_channel(sensor).metadata
+    return meta["transmitters"] if "transmitters" in meta else [meta["transmitter"]]
+
+
+def receivers(sensor: "Sensor") -> List[Dict[str, Any]]:
+    """The receiving antennas, in the order of the axis rx."""
+    return check_channel(sensor).metadata["receivers"]
+
+
+def rotation(orientation_wxyz: Any) -> np.ndarray:
+    """[..., 3, 3] of unit quaternions [..., 4] (w, x, y, z): takes the body's axes to the world's."""
+    w, x, y, z = np.moveaxis(np.asarray(orientation_wxyz, float), -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    return np.stack([np.stack(row, -1) for row in rows], -2)
+
+
+def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray, np.ndarray]:
+    """World position [3] in metres and world_from_antenna [3, 3] of an antenna (an entry of `transmitters` or
+    `receivers`) at a record."""
+    poses = record.sensor.sequence.at(record.tick)[record.sensor.sequence.poses.name]
+    nodes = poses.sensor.metadata["nodes"]
+    name = next((n for n in sorted(nodes, key=len, reverse=True) if antenna["name"].startswith(n + "/")), None)
+    if name is None:
+        raise DatasetError(f"{record.sensor.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes "
+                           f"are {', '.join(nodes)}")
+    node, mount = nodes.index(name), antenna["body_from_antenna"]
+    turn = rotation(poses["orientation"][node])
+    return poses["position"][node] + turn @ np.array(mount["position_m"]), turn @ rotation(mount["orientation_wxyz"])
+
+
+def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
+    """The arrays below paths/ of a record by name (docs/dataset.md), each [path, ...]: of all links, or of the
+    receiver rx and transmitter tx alone. Views, not copies, where a link's paths lie together, as they do."""
+    sensor = check_channel(record.sensor)
+    for what, number, ends in (("receiver", rx, receivers(sensor)), ("transmitter", tx, transmitters(sensor))):
+        if number is not None and not 0 <= number < len(ends):
+            raise IndexError(f"{sensor.name} has {len(ends)} {what}s, not one of number {number}")
+    arrays = {o.name[len("paths/"):]: record[o.name] for o in sensor.info.outputs.values() if o.name.startswith("paths/")}
+    if not arrays:
+        raise DatasetError(f"{sensor.sequence.path / sensor.name}: the data set keeps no paths")
+    mine = np.ones(len(arrays["delay"]), bool)
+    for name, number in (("rx", rx), ("tx", tx)):
+        if number is not None and name in arrays:
+            mine &= arrays[name] == number
+    which = np.flatnonzero(mine)
+    if len(which) == len(mine):
+        return arrays
+    if len(which) == 0:
+        return {name: a[:0] for name, a in arrays.items()}
+    if which[-1] - which[0] + 1 == len(which):
+        return {name: a[which[0]:which[-1] + 1] for name, a in arrays.items()}
+    return {name: a[which] for name, a in arrays.items()}

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""One item a tick, for learning: what sensors measured at the same time, as one dict."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
+
+import numpy as np
+
+from .arrays import Frames, Ragged
+from .errors import DatasetError
+
+if TYPE_CHECKING:
+    from .dataset import Dataset, Sensor
+
+
+class Samples:
+    """A sequence of dicts of NumPy arrays: one for every tick at which all the sensors asked for have a record.
+
+    arrays: names "SENSOR/ARRAY", as in "csi/cfr", "uav/cam/rgb", "csi/paths/delay", "poses/position"; or "SENSOR" for
+      all its arrays of fixed shape. One name or several.
+    sequences: numbers (places in Dataset.sequences); None: all, one behind the other.
+    pad: arrays whose length differs from tick to tick (paths, point clouds) are filled up with zeros to the longest of
+      all ticks, and "SENSOR/ARRAY_count" says how many rows are valid, so that items can be batched. Not for arrays
+      kept as one file a record, whose lengths are not known beforehand.
+
+    An item has, beside the arrays, "sequence" and "tick" (int) and "time_s" (float). Arrays are read-only views of the
+    files where these are memory-mapped. Picklable.
+    """
+
+    def __init__(self, dataset: "Dataset", arrays: Union[str, Iterable[str]],
+                 sequences: Optional[Iterable[int]] = None, pad: bool = False):
+        self.dataset = dataset
+        self.pad = pad
+        names = [arrays] if isinstance(arrays, str) else list(arrays)
+        #: (key of the item, sensor, array)
+        self.fields: List[Tuple[str, str, str]] = [field for name in names for field in self._resolve(name)]
+        if not self.fields:
+            raise ValueError("no arrays are asked for")
+        self.sequences = list(range(len(dataset.sequences)) if sequences is None else sequences)
+        self._items = np.concatenate([self._rows(i) for i in self.sequences] or [np.empty((0, 2), np.int64)])
+        if len(self._items) == 0:
+            raise DatasetError(f"{dataset.path}: there is no tick at which "
+                               f"{', '.join(sorted({s for _, s, _ in self.fields}))} all have a record")
+        self._longest = {key: self._longest_of(key, s, a) for key, s, a in self.fields} if pad else {}
+
+    def _resolve(self, name: str) -> List[Tuple[str, str, str]]:
+        sensors = self.dataset.sensors
+        if name in sensors:
+            return [(f"{name}/{a.name}", name, a.name) for a in sensors[name].arrays.values() if -1 not in a.shape]
+        for sensor in sorted((s for s in sensors if name.startswith(s + "/")), key=len, reverse=True):
+            array = name[len(sensor) + 1:]
+            located = sensors[sensor].locate(array)
+            if located is not None and located[1] is not None:
+                return [(name, sensor, array)]
+        known = [f"{s.name}/{a}" for s in sensors.values() for a in s.arrays]
+        raise KeyError(f"{self.dataset.path}: has neither a sensor nor an array {name!r}; it has {', '.join(known)}")
+
+    def _rows(self, number: int) -> np.ndarray:
+        """int64 [items, 2]: sequence, tick."""
+        sequence = self.dataset.sequences[number]
+        ticks = sequence.ticks
+        for sensor in {s for _, s, _ in self.fields}:
+            ticks = np.intersect1d(ticks, sequence[sensor].ticks, assume_unique=True)
+        return np.stack([np.full(len(ticks), number, np.int64), ticks], axis=1)
+
+    def _longest_of(self, key: str, sensor: str, array: str) -> Optional[int]:
+        """Most rows of any record, of the sequences in use; None for arrays of fixed shape."""
+        longest = None
+        for number in self.sequences:
+            opened = self.dataset.sequences[number][sensor][array]
+            if isinstance(opened, Ragged):
+                longest = max(longest or 0, int(opened.counts.max(initial=0)))
+            elif isinstance(opened, Frames) and -1 in self.dataset.sensors[sensor].locate(array)[1].shape:
+                raise ValueError(f"{key} is kept as one file a record: its longest record is not known without reading "
+                                 "all of them, so it cannot be padded; pad it in a transform")
+        return longest
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __getitem__(self, i: int) -> Dict[str, Any]:
+        if not -len(self) <= i < len(self):
+            raise IndexError(f"item {i} of {len(self)}")
+        number, tick = (int(v) for v in self._items[i])
+        at = self.dataset.sequences[number].at(tick)
+        item: Dict[str, Any] = {"sequence": self.dataset.sequences[number].number, "tick": tick, "time_s": at.time_s}
+        for key, sensor, array in self.fields:
+            value = at[sensor][array]
+            longest = self._longest.get(key)
+            if longest is not None:
+                item[key + "_count"] = len(value)
+                padded = np.zeros((longest, *value.shape[1:]), value.dtype)
+                padded[:len(value)] = value
+                value = padded
+            item[key] = value
+        return item
+
+    def __iter__(self) -> Iterator[Dict[str, Any]]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<greatx.Samples: {len(self)} ticks of {', '.join(key for key, _, _ in self.fields)}>"
