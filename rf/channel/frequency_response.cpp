@@ -9,13 +9,15 @@
 #include "core/error.h"
 #include "rf/channel/pair_amplitudes.h"
 #include "rf/channel/phase.h"
+#include "rf/channel/row_sums.h"
 #include "rf/channel/summing_order.h"
 
 namespace greatx::rf {
 namespace {
 
 constexpr size_t term_chunk = 128;  // terms summed at a time: their phasors stay in the cache
-constexpr size_t lanes = 8;         // subcarriers per block of the inner product
+constexpr size_t row_tile = 64;     // rows summed at a time: as their amplitudes and sums do
+constexpr size_t lanes = sum_lanes;
 
 void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
   GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
@@ -65,67 +67,45 @@ class SubcarrierPhasors {
   std::vector<double> values_;
 };
 
-/// sum[lane] += sum over terms of amplitude * phasor, in the order of the terms.
-inline void add_block(const Complex* amplitudes, const double* phasors, size_t terms, double* sum_re,
-                      double* sum_im) {
-  double re[lanes], im[lanes];
-  for (size_t lane = 0; lane < lanes; ++lane) re[lane] = sum_re[lane], im[lane] = sum_im[lane];
-  for (size_t term = 0; term < terms; ++term) {
-    const double a = amplitudes[term].real(), b = amplitudes[term].imag();
-    const double* p = phasors + term * 2 * lanes;
-    for (size_t lane = 0; lane < lanes; ++lane) {
-      re[lane] += a * p[lane] - b * p[lanes + lane];
-      im[lane] += a * p[lanes + lane] + b * p[lane];
-    }
-  }
-  for (size_t lane = 0; lane < lanes; ++lane) sum_re[lane] = re[lane], sum_im[lane] = im[lane];
-}
-
 /// The matrix product [rows, terms] x [terms, subcarriers], rows = (pair, time). A path is one term; with a spectrum it
-/// is four, one for each entry of its transfer. `sums` holds real and imaginary parts in blocks: [row][block][re,
-/// im][lane].
+/// is four, one for each entry of its transfer.
 class Summation {
  public:
   /// `spectra`: [paths], or none.
   Summation(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
             const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid)
-      : grid_(grid),
+      : paths_(paths),
+        spectra_(spectra),
+        grid_(grid),
         amplitudes_of_(transmitter, receiver, grid.carrier_hz),
-        chunk_(std::min(term_chunk, paths.size() * (spectra.empty() ? 1 : 4))),
-        phasors_(grid, chunk_) {
+        terms_(paths.size() * terms_per_path()),
+        chunk_(std::min(term_chunk, terms_)),
+        phasors_(grid, chunk_),
+        rows_(size_t{amplitudes_of_.pairs()} * grid.time_samples) {
     check_link(paths, transmitter, receiver, grid.carrier_hz);
     check_spectra(spectra);
-    rows_ = size_t{amplitudes_of_.pairs()} * grid.time_samples;
-    sums_.assign(rows_ * phasors_.blocks() * 2 * lanes, 0.0);
     amplitudes_.resize(rows_ * chunk_);
     pair_.resize(amplitudes_of_.pairs());
-    for (const uint32_t index : summing_order(paths, spectra)) {
-      if (spectra.empty()) load(paths[index], paths[index].transfer);
-      for (size_t entry = 0; entry < (spectra.empty() ? 0 : 4); ++entry) {
-        Complex unit[4]{};
-        unit[entry] = 1.0;
-        load(paths[index], unit);
-        phasors_.scale(loaded_ - 1, spectra[index], entry);
-      }
-      if (loaded_ == chunk_) add();
-    }
-    add();
   }
 
-  template <typename Value>
-  std::vector<Value> values() const {
-    std::vector<Value> out;
-    out.reserve(rows_ * grid_.subcarriers);
-    using Part = typename Value::value_type;
-    for (size_t row = 0; row < rows_; ++row)
-      for (size_t k = 0; k < grid_.subcarriers; ++k) {
-        const double* sum = sums_.data() + (row * phasors_.blocks() + k / lanes) * 2 * lanes + k % lanes;
-        out.emplace_back(static_cast<Part>(sum[0]), static_cast<Part>(sum[lanes]));
-      }
-    return out;
+  /// out[rows, subcarriers].
+  template <typename Part>
+  void write(std::complex<Part>* out) {
+    if (terms_ == 0) std::fill_n(out, rows_ * grid_.subcarriers, std::complex<Part>{});
+    // Sums live from chunk to chunk only where there are several.
+    if (terms_ > chunk_) sums_.assign(phasors_.blocks() * rows_ * 2 * lanes, 0.0);
+    size_t summed = 0;
+    for (const uint32_t index : summing_order(paths_, spectra_)) {
+      load(index);
+      if (loaded_ < chunk_ && summed + loaded_ < terms_) continue;
+      summed += loaded_;
+      add(summed == terms_ ? out : nullptr);
+    }
   }
 
  private:
+  size_t terms_per_path() const { return spectra_.empty() ? 1 : 4; }
+
   void check_spectra(std::span<const TransferSpectrum> spectra) const {
     for (const TransferSpectrum& spectrum : spectra) {
       GREATX_CHECK(spectrum.size() == grid_.subcarriers, "a spectrum of {} subcarriers, {} in the grid",
@@ -137,7 +117,16 @@ class Summation {
     }
   }
 
-  /// Puts a term into the chunk's next place.
+  /// Puts a path's terms into the chunk's next places.
+  void load(uint32_t index) {
+    if (spectra_.empty()) return load(paths_[index], paths_[index].transfer);
+    for (size_t entry = 0; entry < 4; ++entry) {
+      Complex unit[4]{};
+      unit[entry] = 1.0;
+      load(paths_[index], unit);
+      phasors_.scale(loaded_ - 1, spectra_[index], entry);
+    }
+  }
   void load(const Path& path, const Complex* transfer) {
     const size_t place = loaded_++;
     phasors_.set(place, path.delay_s);
@@ -151,34 +140,76 @@ class Summation {
     }
   }
 
-  void add() {
-    for (size_t block = 0; block < phasors_.blocks(); ++block)
-      for (size_t row = 0; row < rows_; ++row) {
-        double* sum = sums_.data() + (row * phasors_.blocks() + block) * 2 * lanes;
-        add_block(amplitudes_.data() + row * chunk_, phasors_.block(block), loaded_, sum, sum + lanes);
+  /// Adds the chunk; `out`, unless null, takes the sums.
+  template <typename Part>
+  void add(std::complex<Part>* out) {
+    double tile[row_tile * 2 * lanes];
+    for (size_t first = 0; first < rows_; first += row_tile)
+      for (size_t block = 0; block < phasors_.blocks(); ++block) {
+        const size_t count = std::min(row_tile, rows_ - first);
+        double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * lanes;
+        if (sums_.empty()) std::fill_n(tile, count * 2 * lanes, 0.0);
+        add_rows_(amplitudes_.data() + first * chunk_, chunk_, count, phasors_.block(block), loaded_, sums);
+        for (size_t row = 0; out != nullptr && row < count; ++row)
+          store(sums + row * 2 * lanes, block * lanes, out + (first + row) * grid_.subcarriers);
       }
     loaded_ = 0;
   }
 
+  /// A block's sums, rounded, to the row's subcarriers from `first` on.
+  template <typename Part>
+  void store(const double* sums, size_t first, std::complex<Part>* row) const {
+    const size_t count = std::min(lanes, grid_.subcarriers - first);
+    for (size_t lane = 0; lane < count; ++lane)
+      row[first + lane] = {static_cast<Part>(sums[lane]), static_cast<Part>(sums[lanes + lane])};
+  }
+
+  std::span<const Path> paths_;
+  std::span<const TransferSpectrum> spectra_;
   ChannelGrid grid_;
   PairAmplitudes amplitudes_of_;
-  size_t chunk_;  ///< terms at a time
+  size_t terms_, chunk_;  ///< in all; at a time, a multiple of terms_per_path()
   SubcarrierPhasors phasors_;
-  size_t rows_ = 0, loaded_ = 0;
-  std::vector<double> sums_;
+  size_t rows_, loaded_ = 0;
+  AddRows add_rows_ = add_rows();
   std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
+  std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty: one chunk holds all terms
 };
+
+template <typename Part>
+std::vector<std::complex<Part>> response(std::span<const Path> paths,
+                                         std::span<const TransferSpectrum> spectra,
+                                         const ArrayPose& transmitter, const ArrayPose& receiver,
+                                         const ChannelGrid& grid) {
+  Summation summation(paths, spectra, transmitter, receiver, grid);
+  std::vector<std::complex<Part>> values(response_size(transmitter, receiver, grid));
+  summation.write(values.data());
+  return values;
+}
 
 }  // namespace
 
+size_t response_size(const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid) {
+  return size_t{receiver.array.port_count()} * transmitter.array.port_count() * grid.size_per_pair();
+}
+
+void frequency_response_into(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+                             const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid,
+                             std::span<std::complex<float>> out) {
+  if (!spectra.empty()) check_count(paths, spectra);
+  GREATX_CHECK(out.size() == response_size(transmitter, receiver, grid), "room for {} values, {} needed",
+               out.size(), response_size(transmitter, receiver, grid));
+  Summation(paths, spectra, transmitter, receiver, grid).write(out.data());
+}
+
 std::vector<std::complex<float>> frequency_response(std::span<const Path> paths, const ArrayPose& transmitter,
                                                     const ArrayPose& receiver, const ChannelGrid& grid) {
-  return Summation(paths, {}, transmitter, receiver, grid).values<std::complex<float>>();
+  return response<float>(paths, {}, transmitter, receiver, grid);
 }
 
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
                                              const ArrayPose& receiver, const ChannelGrid& grid) {
-  return Summation(paths, {}, transmitter, receiver, grid).values<Complex>();
+  return response<double>(paths, {}, transmitter, receiver, grid);
 }
 
 std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
@@ -186,7 +217,7 @@ std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
                                                     const ArrayPose& transmitter, const ArrayPose& receiver,
                                                     const ChannelGrid& grid) {
   check_count(paths, spectra);
-  return Summation(paths, spectra, transmitter, receiver, grid).values<std::complex<float>>();
+  return response<float>(paths, spectra, transmitter, receiver, grid);
 }
 
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
@@ -194,7 +225,7 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
                                              const ArrayPose& transmitter, const ArrayPose& receiver,
                                              const ChannelGrid& grid) {
   check_count(paths, spectra);
-  return Summation(paths, spectra, transmitter, receiver, grid).values<Complex>();
+  return response<double>(paths, spectra, transmitter, receiver, grid);
 }
 
 ImpulseResponse impulse_response(std::span<const Path> paths, const ArrayPose& transmitter,

@@ -74,6 +74,15 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
                                              const ArrayPose& transmitter, const ArrayPose& receiver,
                                              const ChannelGrid& grid);
 
+/// Number of values of a response: rx_ant * tx_ant * time * subcarrier.
+size_t response_size(const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid);
+
+/// frequency_response() into memory of the caller's, [response_size()]: a batch of links is written where it shall lie.
+/// The same bits. `spectra`: [paths], or none for the carrier's transfers. Thread-safe, as all of this file.
+void frequency_response_into(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+                             const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid,
+                             std::span<std::complex<float>> out);
+
 /// h(tau) = sum_i a_i delta(tau - tau_i) about the carrier, at t = 0: H(f) = sum_i a_i e^{-j 2 pi f tau_i}.
 struct ImpulseResponse {
   std::vector<std::complex<float>> amplitude;  ///< [paths, rx_ant, tx_ant], with e^{-j 2 pi f_c tau}

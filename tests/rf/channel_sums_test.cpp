@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "rf/channel/row_sums.h"
+#include "tests/rf/channel_paths.h"
+
+namespace greatx::rf {
+namespace {
+
+using testing::antenna;
+using testing::random_paths;
+
+template <typename Value>
+bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0;
+}
+
+struct Sums {
+  std::vector<Complex> amplitudes;
+  std::vector<double> phasors, sums;
+};
+
+Sums random_sums(size_t rows, size_t stride, size_t terms, uint32_t stream) {
+  RandomStream random(5, stream);
+  Sums sums{std::vector<Complex>(rows * stride), std::vector<double>(terms * 2 * sum_lanes),
+            std::vector<double>(rows * 2 * sum_lanes)};
+  for (Complex& value : sums.amplitudes) value = {random.uniform(-1, 1), random.uniform(-1, 1)};
+  for (double& value : sums.phasors) value = random.uniform(-1, 1);
+  for (double& value : sums.sums) value = random.uniform(-1, 1);
+  return sums;
+}
+
+TEST(RowSums, EveryProcessorGivesTheSameBits) {
+  for (const auto& [rows, terms] : {std::pair<size_t, size_t>{1, 1}, {2, 20}, {7, 3}, {64, 128}, {3, 0}}) {
+    const size_t stride = terms + 2;
+    Sums plain = random_sums(rows, stride, terms, static_cast<uint32_t>(rows));
+    Sums generic = plain, wide = plain;
+    for (size_t row = 0; row < rows; ++row)
+      for (size_t term = 0; term < terms; ++term)
+        for (size_t lane = 0; lane < sum_lanes; ++lane) {
+          const Complex a = plain.amplitudes[row * stride + term];
+          const double *p = plain.phasors.data() + term * 2 * sum_lanes, *q = p + sum_lanes;
+          double* sum = plain.sums.data() + row * 2 * sum_lanes;
+          sum[lane] += a.real() * p[lane] - a.imag() * q[lane];
+          sum[sum_lanes + lane] += a.real() * q[lane] + a.imag() * p[lane];
+        }
+    add_rows_generic(generic.amplitudes.data(), stride, rows, generic.phasors.data(), terms,
+                     generic.sums.data());
+    EXPECT_TRUE(same_bits(generic.sums, plain.sums)) << rows << " " << terms;
+    if (const AddRows avx2 = add_rows_avx2()) {
+      avx2(wide.amplitudes.data(), stride, rows, wide.phasors.data(), terms, wide.sums.data());
+      EXPECT_TRUE(same_bits(wide.sums, plain.sums)) << rows << " " << terms;
+    }
+  }
+}
+
+TEST(ResponseInto, WritesABatchOfLinksInPlace) {
+  ArrayPose tx = antenna(Pattern::isotropic, Polarization::slant);
+  tx.array.columns = 3;
+  tx.array.column_spacing_m = 0.04;
+  const ArrayPose rx = antenna();
+  const ChannelGrid grid{3.5e9, 30e3, 21, 2, 1e-3};
+  const size_t size = response_size(tx, rx, grid);
+  ASSERT_EQ(size, 6u * 2 * 21);
+  const size_t counts[] = {0, 1, 5, 128, 129, 300};
+  std::vector<std::complex<float>> expected;
+  std::vector<std::vector<Path>> links;
+  for (const size_t count : counts) {
+    links.push_back(random_paths(count, 2e-6, static_cast<uint32_t>(count)));
+    const auto response = frequency_response(links.back(), tx, rx, grid);
+    expected.insert(expected.end(), response.begin(), response.end());
+  }
+  for (const uint32_t threads : {1u, 2u}) {
+    std::vector<std::complex<float>> batch(links.size() * size, 7.0f);
+    parallel_for(links.size(), threads, [&](size_t i) {
+      frequency_response_into(links[i], {}, tx, rx, grid, std::span(batch).subspan(i * size, size));
+    });
+    EXPECT_TRUE(same_bits(batch, expected));
+  }
+}
+
+TEST(ResponseInto, ASpectrumThatDoesNotChangeIsTheTransfer) {
+  const auto paths = random_paths(50, 2e-6, 3);  // 200 terms: two chunks
+  const ChannelGrid grid{3.5e9, 30e3, 13, 1, 1e-3};
+  std::vector<TransferSpectrum> spectra;
+  for (const Path& path : paths) spectra.emplace_back(grid.subcarriers, std::to_array(path.transfer));
+  const auto expected = frequency_response_fp64(paths, antenna(), antenna(), grid);
+  const auto found = frequency_response_fp64(paths, spectra, antenna(), antenna(), grid);
+  for (size_t k = 0; k < found.size(); ++k) EXPECT_LT(std::abs(found[k] - expected[k]), 1e-14);
+  std::vector<std::complex<float>> into(found.size());
+  frequency_response_into(paths, spectra, antenna(), antenna(), grid, into);
+  EXPECT_TRUE(same_bits(into, frequency_response(paths, spectra, antenna(), antenna(), grid)));
+}
+
+TEST(ResponseInto, RefusesOtherRoom) {
+  const auto paths = random_paths(2, 1e-6, 4);
+  const ChannelGrid grid{3.5e9, 30e3, 8, 1, 1e-3};
+  std::vector<std::complex<float>> room(7);
+  EXPECT_THROW(frequency_response_into(paths, {}, antenna(), antenna(), grid, room), ContractError);
+  room.resize(8);
+  const std::vector<TransferSpectrum> one(1, TransferSpectrum(8));
+  EXPECT_THROW(frequency_response_into(paths, one, antenna(), antenna(), grid, room), ContractError);
+}
+
+}  // namespace
+}  // namespace greatx::rf
