@@ -44,7 +44,7 @@ rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name
 
 nlohmann::json describe_array(const rf::AntennaArray& array) {
   nlohmann::json json;
-  json["pattern"] = array.pattern == rf::Pattern::isotropic ? "isotropic" : "half_wave_dipole";
+  json["pattern"] = array.pattern.shape == rf::Pattern::isotropic ? "isotropic" : "half_wave_dipole";
   constexpr const char* names[] = {"v", "h", "vh", "slant"};
   json["polarization"] = names[static_cast<uint32_t>(array.polarization)];
   json["rows"] = array.rows;

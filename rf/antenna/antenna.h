@@ -1,58 +1,49 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Antennas and planar arrays. Field patterns are in the spherical basis (theta, phi) of the antenna's own frame:
-// zenith theta from +z, azimuth phi = atan2(y, x) (3GPP TR 38.901, section 7.1).
+// Antennas: arrays of equal elements.
 #pragma once
 
-#include <complex>
 #include <cstdint>
 #include <vector>
 
 #include "core/vec.h"
+#include "rf/antenna/element.h"
 
 namespace greatx::rf {
 
-using Complex = std::complex<double>;
+/// v: slant 0; h: slant 90 degrees; vh: both; slant: +45 and -45 degrees; single: the array's own.
+enum class Polarization : uint32_t { v, h, vh, slant, single };
+/// Where rows and columns lie: yz: rows along +z, columns along +y (looks along boresight, +x); xz: rows along +z, columns
+/// along +x; xy: rows along +y, columns along +x. The elements look along +x whatever the plane.
+enum class ArrayPlane : uint32_t { yz, xz, xy };
 
-/// (F_theta, F_phi): amplitude gains, |F|^2 = power gain.
-struct Jones {
-  Complex theta{0.0}, phi{0.0};
-};
-
-enum class Pattern : uint32_t { isotropic, half_wave_dipole };
-/// v: slant 0; h: slant 90 degrees; vh: both; slant: +45 and -45 degrees (TR 38.901, 7.3.2, polarization model 2).
-enum class Polarization : uint32_t { v, h, vh, slant };
-
-/// Port p = (row * columns + column) * polarizations + polarization. Elements lie in the array's y-z plane, rows along
-/// +z, columns along +y, centred on the array's origin; boresight is +x.
+/// Equal elements in a plane's rows and columns, centred on the array's origin, or wherever `positions_m` says. All look the
+/// same way. Port p = element * polarizations + polarization; in rows and columns, element = row * columns + column.
 struct AntennaArray {
-  Pattern pattern = Pattern::isotropic;
+  ElementPattern pattern;
   Polarization polarization = Polarization::v;
+  double single_slant = 0.0;  ///< rad, of Polarization::single
+  ArrayPlane plane = ArrayPlane::yz;
   uint32_t rows = 1, columns = 1;
   double row_spacing_m = 0.0, column_spacing_m = 0.0;
+  /// Elements in the array's frame, metres, not centred; if there are any, they take the place of rows and columns.
+  std::vector<dvec3> positions_m;
 
+  uint32_t element_count() const {
+    return positions_m.empty() ? rows * columns : static_cast<uint32_t>(positions_m.size());
+  }
   uint32_t polarization_count() const;
-  uint32_t port_count() const { return rows * columns * polarization_count(); }
+  uint32_t port_count() const { return element_count() * polarization_count(); }
   /// Position of the element of `port` in the array's frame, metres.
   dvec3 element_position(uint32_t port) const;
   /// Slant angle of `port`, rad.
   double slant(uint32_t port) const;
+  /// One element with all its polarizations, the array turned by `orientation` (world_from_array).
+  TurnedElement turned_element(const dquat& orientation) const;
+  /// The largest distance between two elements, metres: D of the far-field distance 2 D^2/lambda (IEEE Std 145). 0 for one
+  /// element, whose own size is not known.
+  double aperture() const;
 };
-
-/// theta = atan2(hypot(x, y), z), phi = atan2(y, x); phi = 0 on the z axis. `direction` need not be a unit vector.
-dvec2 theta_phi(const dvec3& direction);
-/// The unit vectors theta-hat and phi-hat at a direction; at the poles the limit along phi = 0.
-dvec3 theta_hat(const dvec3& direction);
-dvec3 phi_hat(const dvec3& direction);
-
-/// Field pattern of one element with polarization slant `slant` towards `direction` in the antenna's frame, resolved on
-/// that frame's (theta, phi). Isotropic: (cos slant, sin slant) exactly; half-wave dipole along z: amplitude
-/// sqrt(1.6409223770) cos(pi/2 cos theta) / sin theta, zero at the poles.
-Jones element_field(Pattern pattern, double slant, const dvec3& direction);
-
-/// The same in the world: the antenna is turned by `orientation` (world_from_antenna), the field resolved on the world's
-/// (theta, phi) at the world direction (TR 38.901, eq. 7.1-11).
-Jones element_field(Pattern pattern, double slant, const dquat& orientation, const dvec3& world_direction);
 
 }  // namespace greatx::rf

@@ -27,24 +27,24 @@ void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const
 double wavelength_factor(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
 
 Ports::Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
-    : end_(end), conjugate_(conjugate), count_(end.array.port_count()) {
+    : element_(end.array.turned_element(end.orientation)),
+      conjugate_(conjugate),
+      count_(end.array.port_count()) {
   const double per_wavelength = carrier_hz / speed_of_light;
   for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
     positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
-  for (uint32_t p = 0; p < end.array.polarization_count(); ++p) slants_.push_back(end.array.slant(p));
 }
 
 void Ports::fields(const dvec3& direction, std::vector<Jones>& out) const {
-  out.resize(slants_.size());
-  for (size_t p = 0; p < slants_.size(); ++p) {
-    const Jones field = element_field(end_.array.pattern, slants_[p], end_.orientation, direction);
-    out[p] = conjugate_ ? Jones{std::conj(field.theta), std::conj(field.phi)} : field;
-  }
+  out.resize(element_.polarization_count());
+  element_.respond(direction, out);
+  if (conjugate_)
+    for (Jones& field : out) field = {std::conj(field.theta), std::conj(field.phi)};
 }
 
 void Ports::respond(const dvec3& direction, std::vector<Jones>& out) const {
   fields(direction, out);
-  const size_t polarizations = slants_.size();
+  const size_t polarizations = element_.polarization_count();
   out.resize(count_);
   // From the last element to the first, which holds the patterns themselves.
   for (size_t element = positions_.size(); element-- > 0;) {

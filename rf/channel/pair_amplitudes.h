@@ -23,8 +23,7 @@ double wavelength_factor(double carrier_hz);
 /// An array's ports, worked out once: where the elements are and which way the polarizations point.
 class Ports {
  public:
-  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver; not of the array's phase. `end`
-  /// must outlive this.
+  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver; not of the array's phase.
   Ports(const ArrayPose& end, bool conjugate, double carrier_hz);
   uint32_t count() const { return count_; }
   /// Field pattern times the plane wave's phase at each port, for one world direction: out[ports].
@@ -33,11 +32,10 @@ class Ports {
   void fields(const dvec3& direction, std::vector<Jones>& out) const;
 
  private:
-  const ArrayPose& end_;
+  TurnedElement element_;
   bool conjugate_;
   uint32_t count_;
   std::vector<dvec3> positions_;  ///< [elements], carrier wavelengths, local axes
-  std::vector<double> slants_;    ///< [polarizations]
 };
 
 /// (lambda/4 pi) C_R^H T C_T with the array phases, for all pairs of ports of one path: out[rx * tx_count + tx].

@@ -2,24 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/antenna/antenna.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/random.h"
-#include "core/units.h"
+#include "tests/rf/antenna_support.h"
 
 namespace greatx::rf {
 namespace {
-
-double power(const Jones& field) { return std::norm(field.theta) + std::norm(field.phi); }
-
-dvec3 random_direction(RandomStream& random) {
-  const double z = random.uniform(-1.0, 1.0), azimuth = random.uniform(-pi, pi);
-  const double rho = std::sqrt(1.0 - z * z);
-  return {rho * std::cos(azimuth), rho * std::sin(azimuth), z};
-}
 
 TEST(AntennaHardCase, N48_Poles) {
   for (const double z : {1.0, -1.0})
