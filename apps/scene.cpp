@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
+#include "apps/scene_import.h"
 #include "core/error.h"
 #include "scene/build.h"
 #include "scene/generator/generate.h"
+#include "scene/import/mitsuba.h"
 
 namespace greatx::apps {
 
@@ -29,6 +31,40 @@ void generate(const GenerateCommand& command) {
   if (!out) throw_user_error("{}: cannot be written", command.output);
   std::cout << fmt::format("wrote {} ({:.1f} KiB)\n", command.output,
                            static_cast<double>(glb.size()) / 1024.0);
+}
+
+struct ImportCommand {
+  std::string file, output, radio_materials;
+  scene::MitsubaOptions options;
+};
+
+void import(const ImportCommand& command) {
+  const scene::ImportedScene imported = scene::import_mitsuba(command.file, command.options);
+  const std::filesystem::path file(command.file);
+  io::write_file_atomically(command.output, imported_glb(imported, file.stem().string()));
+  std::cout << fmt::format("wrote {}: {} objects, {} triangles, {} materials\n", command.output,
+                           imported.objects.size(), imported.triangle_count(), imported.materials.size());
+  for (const scene::ImportedMaterial& material : imported.materials)
+    std::cout << fmt::format("  material {:<28} {}\n", material.name, material.radio_json);
+  for (const std::string& note : imported.notes) std::cout << "  note: " << note << '\n';
+  if (command.radio_materials.empty()) return;
+  io::write_file_atomically(command.radio_materials, imported_sidecar(imported, file.filename().string()));
+  std::cout << fmt::format("wrote {}\n", command.radio_materials);
+}
+
+void add_import(CLI::App& scene_command) {
+  CLI::App* command =
+      scene_command.add_subcommand("import", "a scene of Mitsuba 3 and Sionna RT (XML and PLY) to glTF");
+  auto options = std::make_shared<ImportCommand>();
+  command->add_option("FILE", options->file, ".xml, its meshes beside it")->required();
+  command->add_option("-o,--output", options->output, ".glb to write")->required();
+  command->add_option("--radio-materials", options->radio_materials,
+                      "also write the radio properties as YAML, to be edited (docs/materials.md)");
+  command
+      ->add_option("--thickness", options->options.default_thickness_m,
+                   "of materials whose file gives none, m (Sionna RT's default)")
+      ->capture_default_str();
+  command->callback([options] { import(*options); });
 }
 
 struct InfoCommand {
@@ -85,6 +121,7 @@ void add_scene(CLI::App& app) {
     maker->add_option("-o,--output", options->output, "file to write")->capture_default_str();
     maker->callback([options] { generate(*options); });
   }
+  add_import(*command);
   CLI::App* describe = command->add_subcommand("info", "describe a glTF file as greatx sees it");
   auto options = std::make_shared<InfoCommand>();
   describe->add_option("FILE", options->file, ".gltf or .glb")->required();

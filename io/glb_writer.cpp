@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -54,7 +55,7 @@ void check(const std::string& mesh, const GlbPrimitive& primitive) {
 struct GlbWriter::Document {
   Json materials = Json::array(), meshes = Json::array(), nodes = Json::array(), roots = Json::array(),
        accessors = Json::array(), views = Json::array();
-  bool unlit_used = false;
+  std::set<std::string> extensions;  ///< used
   Bytes binary;
 };
 
@@ -83,10 +84,10 @@ int GlbWriter::add_material(const GlbMaterial& material) {
            {"roughnessFactor", material.roughness}};
   Json json{{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
   if (material.double_sided) json["doubleSided"] = true;
-  if (material.unlit) {
-    json["extensions"][unlit] = Json::object();
-    document_->unlit_used = true;
-  }
+  if (!material.extensions_json.empty()) json["extensions"] = Json::parse(material.extensions_json);
+  if (material.unlit) json["extensions"][unlit] = Json::object();
+  if (json.contains("extensions"))
+    for (const auto& [name, fields] : json["extensions"].items()) document_->extensions.insert(name);
   document_->materials.push_back(std::move(json));
   return static_cast<int>(document_->materials.size()) - 1;
 }
@@ -143,7 +144,7 @@ Bytes GlbWriter::finish(const std::string& scene_name, const std::string& scene_
   Json root{{"asset", {{"version", "2.0"}, {"generator", "greatx " GREATX_VERSION}}},
             {"scene", 0},
             {"scenes", Json::array({std::move(scene)})}};
-  if (document_->unlit_used) root["extensionsUsed"] = Json::array({unlit});
+  if (!document_->extensions.empty()) root["extensionsUsed"] = document_->extensions;
   const auto put = [&](const char* key, Json& list) {
     if (!list.empty()) root[key] = std::move(list);
   };

@@ -22,6 +22,7 @@ struct GlbMaterial {
   float metallic = 0.0f, roughness = 1.0f;
   bool unlit = false;  ///< KHR_materials_unlit: shown as it is, whatever the light
   bool double_sided = false;
+  std::string extensions_json;  ///< one JSON object, extension by name, or empty; the file lists them as used
 };
 
 struct GlbPrimitive {

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a scene of another program holds, before it is written as glTF (apps/scene_import.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace greatx::scene {
+
+struct ImportedMaterial {
+  std::string name;
+  vec3 base_color{0.5f};  ///< linear Rec. 709
+  float metallic = 0.0f;
+  std::string radio_json;  ///< one JSON object: the fields of GREATX_radio_material (docs/materials.md)
+};
+
+/// Triangles of one material, in world coordinates (z up, metres).
+struct ImportedObject {
+  std::string name;
+  int material = 0;             ///< index into ImportedScene::materials
+  std::vector<vec3> positions;  ///< exactly the file's where it has no transform
+  std::vector<vec3> normals;    ///< unit, [positions]; empty: flat faces
+  std::vector<uint32_t> indices;
+};
+
+struct ImportedScene {
+  std::vector<ImportedMaterial> materials;
+  std::vector<ImportedObject> objects;
+  std::vector<std::string> notes;  ///< what was ignored or chosen
+
+  size_t triangle_count() const {
+    size_t corners = 0;
+    for (const ImportedObject& object : objects) corners += object.indices.size();
+    return corners / 3;
+  }
+};
+
+}  // namespace greatx::scene

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/import/imported.h"
+#include "scene/import/mitsuba.h"
+#include "scene/import/mitsuba_xml.h"
+
+namespace greatx::scene {
+
+/// "mat-itu_wood" -> "itu_wood": the name without the prefix that exporters and Sionna RT give it.
+std::string without_prefix(std::string name, const std::string& prefix);
+
+/// The material of an outermost <bsdf> (others may be nested in it). Throws UserError if it says nothing of radio.
+ImportedMaterial read_mitsuba_material(const MitsubaXml& xml, const pugi::xml_node& bsdf,
+                                       const MitsubaOptions& options);
+
+}  // namespace greatx::scene
