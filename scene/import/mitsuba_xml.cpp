@@ -14,28 +14,23 @@
 
 namespace greatx::scene {
 
-namespace {
-
-int line_at(const std::string& source, std::ptrdiff_t offset) {
-  if (offset < 0) return 0;
-  const auto end = source.begin() + std::min(offset, static_cast<std::ptrdiff_t>(source.size()));
-  return 1 + static_cast<int>(std::count(source.begin(), end, '\n'));
-}
-
-}  // namespace
-
 MitsubaXml::MitsubaXml(const std::filesystem::path& file) : file_(file) {
   const std::vector<unsigned char> bytes = read_regular_file(file, file.string());
   source_.assign(bytes.begin(), bytes.end());
+  for (size_t at = 0; at < source_.size(); ++at)
+    if (source_[at] == '\n') line_ends_.push_back(static_cast<std::ptrdiff_t>(at));
   const pugi::xml_parse_result result = document_.load_buffer(source_.data(), source_.size());
-  if (!result)
-    throw_user_error_at({file_.string(), line_at(source_, result.offset)}, "XML: {}", result.description());
+  if (!result) throw_user_error_at(location(result.offset), "XML: {}", result.description());
   if (!scene())
     throw_user_error("{}: expected the root element <scene>: not a Mitsuba scene", file_.string());
 }
 
-SourceLocation MitsubaXml::where(const pugi::xml_node& node) const {
-  return {file_.string(), line_at(source_, node.offset_debug())};
+SourceLocation MitsubaXml::where(const pugi::xml_node& node) const { return location(node.offset_debug()); }
+
+SourceLocation MitsubaXml::location(std::ptrdiff_t offset) const {
+  if (offset < 0) return {file_.string(), 0};
+  const auto line = std::lower_bound(line_ends_.begin(), line_ends_.end(), offset) - line_ends_.begin();
+  return {file_.string(), 1 + static_cast<int>(line)};
 }
 
 std::string MitsubaXml::text(const pugi::xml_node& node, const char* attribute) const {

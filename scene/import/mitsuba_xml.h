@@ -47,11 +47,13 @@ class MitsubaXml {
   dmat4 transform(const pugi::xml_node& node) const;
 
  private:
+  SourceLocation location(std::ptrdiff_t offset) const;
   dvec3 xyz(const pugi::xml_node& node, double missing) const;
   dmat4 matrix(const pugi::xml_node& node) const;
 
   std::filesystem::path file_;
   std::string source_;
+  std::vector<std::ptrdiff_t> line_ends_;
   pugi::xml_document document_;
 };
 
