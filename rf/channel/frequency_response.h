@@ -77,11 +77,19 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
 /// Number of values of a response: rx_ant * tx_ant * time * subcarrier.
 size_t response_size(const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid);
 
+/// Which paths are summed. Line of sight: the path without interactions (one through walls alone is not it).
+enum class PathSelection : uint8_t { all, line_of_sight, others };
+bool is_selected(const Path& path, PathSelection selection);
+
 /// frequency_response() into memory of the caller's, [response_size()]: a batch of links is written where it shall lie.
 /// The same bits. `spectra`: [paths], or none for the carrier's transfers. Thread-safe, as all of this file.
+///
+/// With line_of_sight and others the two responses add up to the whole one: to the rounding of complex64, 2^-23 of the
+/// sum of the paths' amplitudes, not to the bit.
 void frequency_response_into(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
                              const ArrayPose& transmitter, const ArrayPose& receiver, const ChannelGrid& grid,
-                             std::span<std::complex<float>> out);
+                             std::span<std::complex<float>> out,
+                             PathSelection selection = PathSelection::all);
 
 /// h(tau) = sum_i a_i delta(tau - tau_i) about the carrier, at t = 0: H(f) = sum_i a_i e^{-j 2 pi f tau_i}.
 struct ImpulseResponse {

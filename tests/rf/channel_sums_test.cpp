@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rf/channel/row_sums.h"
+#include "rf/channel/statistics.h"
 #include "tests/rf/channel_paths.h"
 
 namespace greatx::rf {
@@ -95,6 +97,32 @@ TEST(ResponseInto, ASpectrumThatDoesNotChangeIsTheTransfer) {
   std::vector<std::complex<float>> into(found.size());
   frequency_response_into(paths, spectra, antenna(), antenna(), grid, into);
   EXPECT_TRUE(same_bits(into, frequency_response(paths, spectra, antenna(), antenna(), grid)));
+}
+
+TEST(ResponseInto, LineOfSightAndTheRestAreTheWhole) {
+  auto paths = random_paths(40, 2e-6, 6);
+  for (Path& path : paths) path.interactions.push_back({});
+  paths[17].interactions.clear();
+  const ArrayPose tx = antenna(Pattern::isotropic, Polarization::vh), rx = antenna(Pattern::half_wave_dipole);
+  const ChannelGrid grid{28e9, 120e3, 33, 2, 1e-3};
+  std::vector<std::complex<float>> parts[3];
+  const PathSelection selections[] = {PathSelection::all, PathSelection::line_of_sight,
+                                      PathSelection::others};
+  for (size_t i = 0; i < 3; ++i) {
+    parts[i].resize(response_size(tx, rx, grid));
+    frequency_response_into(paths, {}, tx, rx, grid, parts[i], selections[i]);
+  }
+  EXPECT_TRUE(same_bits(parts[0], frequency_response(paths, tx, rx, grid)));
+  EXPECT_TRUE(same_bits(parts[1], frequency_response(std::span(paths).subspan(17, 1), tx, rx, grid)));
+  double amplitudes = 0.0;
+  for (const double power : path_powers(paths, tx, rx, grid.carrier_hz)) amplitudes += std::sqrt(2.0 * power);
+  for (size_t k = 0; k < parts[0].size(); ++k)
+    EXPECT_LE(std::abs(Complex(parts[1][k]) + Complex(parts[2][k]) - Complex(parts[0][k])),
+              0x1p-23 * amplitudes);
+  // Nothing to select: zeros.
+  paths.erase(paths.begin() + 17);
+  frequency_response_into(paths, {}, tx, rx, grid, parts[1], PathSelection::line_of_sight);
+  for (const auto& value : parts[1]) EXPECT_EQ(value, std::complex<float>(0.0f));
 }
 
 TEST(ResponseInto, RefusesOtherRoom) {

@@ -130,8 +130,13 @@ TEST(Dispersion, WhatDoesNotDependOnFrequencyStays) {
   const Model model(hand, grid);
   const std::vector<Path> paths = room_paths(hand, model.field);
   ArrayPose tx, rx;
-  tx.array = {Pattern::half_wave_dipole, Polarization::slant, 2, 2, 0.04, 0.05};
-  rx.array = {Pattern::isotropic, Polarization::vh, 1, 3, 0.0, 0.043};
+  tx.array = {.pattern = Pattern::half_wave_dipole,
+              .polarization = Polarization::slant,
+              .rows = 2,
+              .columns = 2,
+              .row_spacing_m = 0.04,
+              .column_spacing_m = 0.05};
+  rx.array = {.polarization = Polarization::vh, .columns = 3, .column_spacing_m = 0.043};
   tx.orientation = orientation_from_yaw_pitch_roll(0.7, 0.2, -0.4);
   const auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths);
   const auto flat = frequency_response_fp64(paths, tx, rx, grid);

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/channel/link_sum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "rf/channel/phase.h"
+#include "rf/channel/summing_order.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr size_t term_chunk = 128;  // terms summed at a time: their factors stay in the cache
+constexpr size_t row_tile = 64;     // rows summed at a time: as their amplitudes and sums do
+constexpr size_t lanes = sum_lanes;
+
+std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+                                     PathSelection selection) {
+  std::vector<uint32_t> order = summing_order(paths, spectra);
+  std::erase_if(order, [&](uint32_t index) { return !is_selected(paths[index], selection); });
+  return order;
+}
+
+/// A block's sums, rounded, to the row's columns from `first` on.
+template <typename Part>
+void store(const double* sums, size_t first, size_t columns, std::complex<Part>* row) {
+  const size_t count = std::min(lanes, columns - first);
+  for (size_t lane = 0; lane < count; ++lane)
+    row[first + lane] = {static_cast<Part>(sums[lane]), static_cast<Part>(sums[lanes + lane])};
+}
+
+}  // namespace
+
+LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+                 const ArrayPose& transmitter, const ArrayPose& receiver, const RowTimes& times,
+                 size_t columns, PathSelection selection, SetFactors set_factors)
+    : paths_(paths),
+      spectra_(spectra),
+      times_(times),
+      columns_(columns),
+      set_factors_(std::move(set_factors)),
+      amplitudes_of_(transmitter, receiver, times.carrier_hz),
+      order_(selected_order(paths, spectra, selection)),
+      terms_(order_.size() * terms_per_path()),
+      chunk_(std::min(term_chunk, terms_)),
+      factors_(columns, chunk_),
+      rows_(size_t{amplitudes_of_.pairs()} * times.samples) {
+  check_link(paths, transmitter, receiver, times.carrier_hz);
+  check_spectra();
+  amplitudes_.resize(rows_ * chunk_);
+  pair_.resize(amplitudes_of_.pairs());
+}
+
+void LinkSum::check_spectra() const {
+  for (const TransferSpectrum& spectrum : spectra_) {
+    GREATX_CHECK(spectrum.size() == columns_, "a spectrum of {} subcarriers, {} in the grid", spectrum.size(),
+                 columns_);
+    for (const std::array<Complex, 4>& transfer : spectrum)
+      for (const Complex& value : transfer)
+        GREATX_CHECK(std::isfinite(value.real()) && std::isfinite(value.imag()), "a spectrum is not finite");
+  }
+}
+
+template <typename Part>
+void LinkSum::write(std::complex<Part>* out) {
+  if (terms_ == 0) std::fill_n(out, size(), std::complex<Part>{});
+  // Sums live from chunk to chunk only where there are several.
+  if (terms_ > chunk_) sums_.assign(factors_.blocks() * rows_ * 2 * lanes, 0.0);
+  size_t summed = 0;
+  for (const uint32_t index : order_) {
+    load(index);
+    if (loaded_ < chunk_ && summed + loaded_ < terms_) continue;
+    summed += loaded_;
+    add(summed == terms_ ? out : nullptr);
+  }
+}
+template void LinkSum::write(std::complex<float>*);
+template void LinkSum::write(std::complex<double>*);
+
+/// Puts a path's terms into the chunk's next places: with a spectrum one for each entry of the transfer.
+void LinkSum::load(uint32_t index) {
+  const Path& path = paths_[index];
+  if (spectra_.empty()) return load(path, path.transfer);
+  for (size_t entry = 0; entry < 4; ++entry) {
+    Complex unit[4]{};
+    unit[entry] = 1.0;
+    load(path, unit);
+    for (size_t column = 0; column < columns_; ++column) {
+      double* factor = factors_.at(column / lanes, loaded_ - 1) + column % lanes;
+      const Complex value = Complex(factor[0], factor[lanes]) * spectra_[index][column][entry];
+      factor[0] = value.real();
+      factor[lanes] = value.imag();
+    }
+  }
+}
+
+void LinkSum::load(const Path& path, const Complex* transfer) {
+  const size_t place = loaded_++;
+  set_factors_(path, place, factors_);
+  amplitudes_of_(path, transfer, pair_.data());
+  const Complex carrier = unit_phasor(-turns_of(times_.carrier_hz, path.delay_s));
+  for (uint32_t m = 0; m < times_.samples; ++m) {
+    const Complex turned =
+        carrier * unit_phasor(turns_of(static_cast<double>(m), times_.spacing_s, path.doppler_hz));
+    for (size_t pair = 0; pair < pair_.size(); ++pair)
+      amplitudes_[(pair * times_.samples + m) * chunk_ + place] = pair_[pair] * turned;
+  }
+}
+
+/// Adds the chunk; `out`, unless null, takes the sums.
+template <typename Part>
+void LinkSum::add(std::complex<Part>* out) {
+  const AddRows add_chunk = add_rows();
+  double tile[row_tile * 2 * lanes];
+  for (size_t first = 0; first < rows_; first += row_tile)
+    for (size_t block = 0; block < factors_.blocks(); ++block) {
+      const size_t count = std::min(row_tile, rows_ - first);
+      double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * lanes;
+      if (sums_.empty()) std::fill_n(tile, count * 2 * lanes, 0.0);
+      add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors_.block(block), loaded_, sums);
+      for (size_t row = 0; out != nullptr && row < count; ++row)
+        store(sums + row * 2 * lanes, block * lanes, columns_, out + (first + row) * columns_);
+    }
+  loaded_ = 0;
+}
+
+}  // namespace greatx::rf

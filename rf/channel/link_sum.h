@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sum over a link's paths that the frequency response and the taps are: a matrix product of what the paths
+// contribute at pairs of ports and times (rows) and of what each of them is at a subcarrier or tap (columns).
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "rf/channel/frequency_response.h"
+#include "rf/channel/pair_amplitudes.h"
+#include "rf/channel/row_sums.h"
+
+namespace greatx::rf {
+
+/// The factors of a chunk of terms at each column, in blocks of sum_lanes columns: [block][term][re, im][lane].
+class ColumnFactors {
+ public:
+  ColumnFactors(size_t columns, size_t terms)
+      : terms_(terms),
+        blocks_((columns + sum_lanes - 1) / sum_lanes),
+        values_(blocks_ * terms * 2 * sum_lanes) {}
+  size_t blocks() const { return blocks_; }
+  const double* block(size_t index) const { return values_.data() + index * terms_ * 2 * sum_lanes; }
+  /// A term's real parts in a block; its imaginary parts follow. Lanes beyond the last column may hold anything finite.
+  double* at(size_t block, size_t term) { return values_.data() + (block * terms_ + term) * 2 * sum_lanes; }
+
+ private:
+  size_t terms_, blocks_;
+  std::vector<double> values_;
+};
+
+/// What rows are, beside pairs of ports.
+struct RowTimes {
+  double carrier_hz = 0.0;
+  uint32_t samples = 1;
+  double spacing_s = 0.0;
+};
+
+/// sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the column); in fp64, in
+/// summing_order(). Each link has its own, so that threads share nothing.
+class LinkSum {
+ public:
+  /// Writes a path's factors at all columns into the term's place.
+  using SetFactors = std::function<void(const Path& path, size_t term, ColumnFactors& factors)>;
+
+  /// `spectra`: [paths] of one transfer per column, or none for the paths' own transfers. What is passed must outlive
+  /// this.
+  LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
+          const ArrayPose& transmitter, const ArrayPose& receiver, const RowTimes& times, size_t columns,
+          PathSelection selection, SetFactors set_factors);
+
+  size_t size() const { return rows_ * columns_; }
+  /// out[rx_ant, tx_ant, time, column], of size(); float or double.
+  template <typename Part>
+  void write(std::complex<Part>* out);
+
+ private:
+  size_t terms_per_path() const { return spectra_.empty() ? 1 : 4; }
+  void check_spectra() const;
+  void load(uint32_t index);
+  void load(const Path& path, const Complex* transfer);
+  template <typename Part>
+  void add(std::complex<Part>* out);
+
+  std::span<const Path> paths_;
+  std::span<const TransferSpectrum> spectra_;
+  RowTimes times_;
+  size_t columns_;
+  SetFactors set_factors_;
+  PairAmplitudes amplitudes_of_;
+  std::vector<uint32_t> order_;  ///< of the paths that are summed
+  size_t terms_, chunk_;         ///< in all; at a time, a multiple of terms_per_path()
+  ColumnFactors factors_;
+  size_t rows_, loaded_ = 0;
+  std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
+  std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty: one chunk holds all terms
+};
+
+}  // namespace greatx::rf
