@@ -10,7 +10,6 @@
 
 #include "apps/commands.h"
 #include "apps/paths_draw.h"
-#include "apps/paths_engine.h"
 #include "apps/paths_glb.h"
 #include "apps/paths_output.h"
 #include "apps/paths_render.h"
@@ -29,8 +28,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   ScenarioOptions scenario;
   RunOptions run;
-  PathsEngine::Instant instant;
-  std::string channel, receiver, receivers;
+  sim::ChannelSnapshot::Instant instant;
+  std::string channel, transmitter, receiver, receivers;
   bool json = false, json_lines = false, brief = false, quiet = false;
   std::string csv, png, glb;
   std::string view = "auto";
@@ -46,6 +45,7 @@ constexpr uint32_t picture_bars = picture_head + picture_foot;
 /// What is asked of which channel.
 struct Request {
   uint32_t channel = 0;
+  sim::ChannelSnapshot::Instant instant;
   std::vector<dvec3> points;         ///< of --receivers; empty: the channel's own
   std::optional<uint32_t> only;      ///< of --receiver
   std::optional<CameraName> camera;  ///< of --view; none: automatic
@@ -63,26 +63,32 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
   throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
 }
 
-/// A receiver by its number or, if the channel's own are asked for, by its name.
-uint32_t find_receiver(const std::string& text, const Request& request, const sim::ChannelConfig& channel) {
-  const size_t count = request.points.empty() ? channel.receivers.size() : request.points.size();
+/// An end by its number or, if it has one, by its name.
+uint32_t find_end(const char* option, const std::string& text, size_t count,
+                  std::span<const std::string> names) {
   uint32_t index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error == std::errc{} && end == text.data() + text.size() && index < count) return index;
-  if (request.points.empty())
-    for (uint32_t i = 0; i < channel.receivers.size(); ++i)
-      if (channel.receivers[i] == text) return i;
-  throw_user_error(
-      "--receiver: expected 0 to {}{}, found '{}'", count - 1,
-      request.points.empty() ? fmt::format(", or one of {}", fmt::join(channel.receivers, ", ")) : "", text);
+  for (uint32_t i = 0; i < names.size(); ++i)
+    if (names[i] == text) return i;
+  throw_user_error("{}: expected 0 to {}{}, found '{}'", option, count - 1,
+                   names.empty() ? "" : fmt::format(", or one of {}", fmt::join(names, ", ")), text);
 }
 
 Request request_of(const Options& options, const sim::Scenario& scenario) {
   Request request;
   request.channel = find_channel(options.channel, scenario);
   if (!options.receivers.empty()) request.points = sim::load_receiver_list(options.receivers);
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
   if (!options.receiver.empty())
-    request.only = find_receiver(options.receiver, request, scenario.channels[request.channel]);
+    request.only = request.points.empty()
+                       ? find_end("--receiver", options.receiver, channel.receivers.size(), channel.receivers)
+                       : find_end("--receiver", options.receiver, request.points.size(), {});
+  request.instant = options.instant;
+  request.instant.transmitter =
+      options.transmitter.empty()
+          ? 0
+          : find_end("--transmitter", options.transmitter, channel.transmitters.size(), channel.transmitters);
   if (options.instant.tick >= scenario.ticks)
     throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
                      scenario.name, options.instant.tick);
@@ -118,7 +124,7 @@ Json head_of(const Options& options, const Request& request, const sim::Scenario
             {"tick", moment.context.tick},
             {"time_s", moment.context.time_s},
             {"channel", channel.name},
-            {"transmitter", channel.transmitter},
+            {"transmitter", channel.transmitters[*request.instant.transmitter]},
             {"carrier_hz", channel.carrier_hz},
             {"max_depth", channel.max_depth},
             {"gain", gain_note},
@@ -130,12 +136,12 @@ Json head_of(const Options& options, const Request& request, const sim::Scenario
   return head;
 }
 
-Json tail_of(const PathTotals& totals, const sim::ChannelPaths& channel) {
+Json tail_of(const PathTotals& totals, const sim::ChannelSnapshot& snapshot) {
   Json tail{{"totals", totals.json()}, {"counters", Json::object()}};
   std::map<std::string, uint64_t> counters;
-  channel.count(counters);
+  snapshot.count(counters);
   for (const auto& [name, count] : counters) tail["counters"][name] = count;
-  for (const auto& [name, text] : channel.notes()) tail[name] = text;
+  for (const auto& [name, text] : snapshot.notes()) tail[name] = text;
   return tail;
 }
 
@@ -157,13 +163,14 @@ std::string closing_text(const PathTotals& totals, const Json& head, const Json&
 
 void write_picture(const Options& options, const Request& request, const sim::Scenario& scenario,
                    const sim::World& world, const sim::EffectPlan& plan, const Json& head,
-                   std::span<const PathLink> links, PathsEngine& engine) {
-  PictureRenderer renderer(engine.gpu_scene(), engine.ring(), plan, scenario.environment, engine.moment());
+                   std::span<const PathLink> links, const PathScene& scene, sim::ChannelSnapshot& snapshot) {
+  PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, scenario.environment,
+                           snapshot.moment());
   ScenarioView chosen;
   if (request.camera)
-    chosen = scenario_view(*request.camera, scenario, world, engine.moment(), options.width);
+    chosen = scenario_view(*request.camera, scenario, world, snapshot.moment(), options.width);
   else
-    chosen.view = choose_view(links, engine.scene(), options.width, options.height - picture_bars,
+    chosen.view = choose_view(links, scene, options.width, options.height - picture_bars,
                               [&](const PictureView& view) { return renderer.depth(view); });
   const render::CameraImages images = renderer.picture(chosen.view, chosen.excluded_body);
   std::string title =
@@ -173,37 +180,39 @@ void write_picture(const Options& options, const Request& request, const sim::Sc
                          fmt::format("tick {}, {:.3f} s, {:.4g} GHz", head["tick"].get<int64_t>(),
                                      head["time_s"].get<double>(), 1e-9 * head["carrier_hz"].get<double>()),
                          head["transmitter"].get<std::string>()};
-  const io::Bytes png = io::encode_png(
-      draw_paths(chosen.view, images.rgb, images.depth, links, engine.scene(), options.colors, text));
+  const io::Bytes png =
+      io::encode_png(draw_paths(chosen.view, images.rgb, images.depth, links, scene, options.colors, text));
   const std::filesystem::path file = options.png;
   if (file.has_parent_path()) io::create_folders(file.parent_path());
   io::write_file_atomically(file, png);
 }
 
 void write_glb(const Options& options, const Json& head, std::span<const PathLink> links,
-               const PathsEngine& engine) {
+               const PathScene& scene, const sim::ChannelSnapshot& snapshot) {
   PathGlbOptions glb;
   glb.colors = options.colors;
   glb.name = fmt::format("{} {}", head["scenario"].get<std::string>(), head["channel"].get<std::string>());
-  glb.tick = engine.moment().context.tick;
-  glb.time_s = engine.moment().context.time_s;
-  if (options.with_scene) glb.bodies = engine.moment().bodies;
+  glb.tick = snapshot.moment().context.tick;
+  glb.time_s = snapshot.moment().context.time_s;
+  if (options.with_scene) glb.bodies = snapshot.moment().bodies;
   const std::filesystem::path file = options.glb;
   if (file.has_parent_path()) io::create_folders(file.parent_path());
-  io::write_file_atomically(file, paths_glb(links, engine.scene(), glb));
+  io::write_file_atomically(file, paths_glb(links, scene, glb));
 }
 
 /// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
-std::vector<PathLink> solve(const Options& options, const Request& request, PathsEngine& engine,
+std::vector<PathLink> solve(const Options& options, const Request& request, const PathScene& scene,
+                            sim::ChannelSnapshot& snapshot,
                             std::span<const std::unique_ptr<PathsOutput>> outputs, PathTotals& totals) {
   const bool keep = !options.png.empty() || !options.glb.empty();
-  const double carrier_hz = engine.scene().carrier_hz;
+  const double carrier_hz = scene.carrier_hz;
   std::vector<PathLink> kept;
   Progress progress("paths", static_cast<int64_t>(request.points.size()),
                     options.quiet || request.points.size() < 2, "receivers");
   if (!request.points.empty() && !request.only) progress.update(0);
-  const auto take = [&](PathLink link) {
-    if (request.only && link.index != *request.only) return true;
+  const auto take = [&](sim::ChannelSnapshot::Link solved) {
+    if (request.only && solved.receiver != *request.only) return true;
+    PathLink link = path_link(std::move(solved), scene.scene->origin);
     totals.add(figures_of(link, carrier_hz));
     for (const auto& output : outputs) output->add(link);
     if (keep) kept.push_back(std::move(link));
@@ -211,11 +220,11 @@ std::vector<PathLink> solve(const Options& options, const Request& request, Path
     return !interrupted();
   };
   if (request.points.empty())
-    engine.solve(take);
+    snapshot.solve(take);
   else if (request.only)
-    engine.solve(std::span(request.points).subspan(*request.only, 1), *request.only, take);
+    snapshot.solve(std::span(request.points).subspan(*request.only, 1), *request.only, take);
   else
-    engine.solve(request.points, 0, take);
+    snapshot.solve(request.points, 0, take);
   if (interrupted()) throw_user_error("interrupted after {} receivers", totals.receivers);
   return kept;
 }
@@ -229,29 +238,31 @@ void run(const Options& options) {
   // Only a picture needs what cameras need.
   const sim::EffectPlan view_plan = options.png.empty() ? plan : picture_plan(scenario, world.scene);
   gpu::Device device(options.run.device_options());
-  PathsEngine engine(device, scenario, world, plan, sim::gpu_scene_options(view_plan), request.channel,
-                     options.instant);
+  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
+                                request.channel, request.instant);
+  const PathScene scene{&world.scene, snapshot.model().wedges, scenario.channels[request.channel].carrier_hz};
 
   std::vector<std::unique_ptr<PathsOutput>> outputs;
   if (options.json)
-    outputs.push_back(json_output(std::cout, engine.scene()));
+    outputs.push_back(json_output(std::cout, scene));
   else if (options.json_lines)
-    outputs.push_back(json_lines_output(std::cout, engine.scene()));
+    outputs.push_back(json_lines_output(std::cout, scene));
   else if (!options.quiet)
-    outputs.push_back(table_output(std::cout, engine.scene(), options.brief));
-  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, engine.scene().carrier_hz));
+    outputs.push_back(table_output(std::cout, scene, options.brief));
+  if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene.carrier_hz));
 
   install_interrupt_handler();
-  const Json head = head_of(options, request, scenario, world, plan, engine.moment());
+  const Json head = head_of(options, request, scenario, world, plan, snapshot.moment());
   for (const auto& output : outputs) output->begin(head);
   PathTotals totals;
-  std::vector<PathLink> links = solve(options, request, engine, outputs, totals);
-  const Json tail = tail_of(totals, engine.channel());
+  std::vector<PathLink> links = solve(options, request, scene, snapshot, outputs, totals);
+  const Json tail = tail_of(totals, snapshot);
   for (const auto& output : outputs) output->end(tail);
 
-  if (options.within_db) links = strong_paths(links, engine.scene().carrier_hz, *options.within_db);
-  if (!options.png.empty()) write_picture(options, request, scenario, world, view_plan, head, links, engine);
-  if (!options.glb.empty()) write_glb(options, head, links, engine);
+  if (options.within_db) links = strong_paths(links, scene.carrier_hz, *options.within_db);
+  if (!options.png.empty())
+    write_picture(options, request, scenario, world, view_plan, head, links, scene, snapshot);
+  if (!options.glb.empty()) write_glb(options, head, links, scene, snapshot);
   device.wait_idle();
   check_validation(device);
   if (options.json || options.json_lines || options.quiet) return;
@@ -269,6 +280,8 @@ void add_selection(CLI::App& command, Options& options) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--channel", options.channel, "name of the channel [the first]");
+  command.add_option("--transmitter", options.transmitter,
+                     "which of the channel's: its number, from 0, or its name node/sensor [0]");
   command.add_option(
       "--receivers", options.receivers,
       "CSV of positions x, y, z (world, m) in place of the channel's receivers: at rest, isotropic");

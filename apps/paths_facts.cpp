@@ -20,6 +20,18 @@ double reference(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 
 
 }  // namespace
 
+PathLink path_link(sim::ChannelSnapshot::Link solved, const dvec3& origin) {
+  PathLink link;
+  link.index = static_cast<uint32_t>(solved.receiver);
+  link.name = std::move(solved.receiver_name);
+  link.transmitter_m = solved.transmitter_state.position + origin;
+  link.receiver_m = solved.receiver_state.position + origin;
+  link.distance_m = solved.distance_m;
+  link.paths = std::move(solved.paths);
+  sort_by_delay(link.paths);
+  return link;
+}
+
 void sort_by_delay(std::vector<rf::Path>& paths) {
   std::sort(paths.begin(), paths.end(), [](const rf::Path& a, const rf::Path& b) {
     if (a.delay_s != b.delay_s) return a.delay_s < b.delay_s;

@@ -15,6 +15,7 @@
 #include "rf/path.h"
 #include "scene/scene.h"
 #include "scene/wedges.h"
+#include "sim/channel_snapshot.h"
 
 namespace greatx::apps {
 
@@ -26,6 +27,9 @@ struct PathLink {
   double distance_m = 0.0;
   std::vector<rf::Path> paths;  ///< by delay; what arrives together in canonical order
 };
+
+/// What a snapshot has solved, with its paths sorted by delay. `origin`: of the scene.
+PathLink path_link(sim::ChannelSnapshot::Link solved, const dvec3& origin);
 
 /// What names and world coordinates need.
 struct PathScene {

@@ -11,13 +11,13 @@
 #include <fmt/format.h>
 
 #include "apps/measure.h"
-#include "apps/paths_engine.h"
 #include "apps/recall_scene.h"
 #include "apps/row_process.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
 #include "sim/channel_antennas.h"
+#include "sim/channel_snapshot.h"
 #include "sim/moment.h"
 #include "sim/plan_options.h"
 #include "sim/simulator.h"
@@ -156,7 +156,8 @@ nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const 
   gpu::TickRing ring(device, sim::slots_in_flight, 4u << 20, 4u << 20);
   rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(world.scene, sim::radio_effects(plan, scenario)));
   sim::ChannelPaths channel(gpu_scene, crossings, plan, scenario, world, 0);
-  const rf::AntennaArray transmitter = sim::antenna_array(scenario, config.transmitter, config.carrier_hz);
+  const rf::AntennaArray transmitter =
+      sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz);
   std::vector<rf::AntennaArray> receivers;
   for (const std::string& name : config.receivers)
     receivers.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
@@ -213,16 +214,16 @@ nlohmann::json many_row(const ScenarioOptions& scenario_options, const RunOption
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   gpu::Device device(run.device_options());
   const std::vector<dvec3> points = draw_receivers(world.scene, scenario.seed, receivers);
-  PathsEngine engine(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {});
+  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {});
   uint64_t paths = 0;
-  const auto take = [&](PathLink link) {
+  const auto take = [&](sim::ChannelSnapshot::Link link) {
     paths += link.paths.size();
     return true;
   };
-  engine.solve(std::span(points).first(1), 0, take);  // the search, or its file
+  snapshot.solve(std::span(points).first(1), 0, take);  // the search, or its file
   paths = 0;
   const Clock::time_point begin = Clock::now();
-  engine.solve(points, 0, take);
+  snapshot.solve(points, 0, take);
   nlohmann::json row{{"ms", milliseconds_since(begin)}, {"receivers", receivers}, {"paths", paths}};
   check_validation(device);
   set_target(row, many_target_ms, row["ms"]);

@@ -75,7 +75,7 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
     if (std::holds_alternative<sim::StaticTrajectory>(node.trajectory)) continue;
     const Pose pose = paths[i]->at(0.0).pose;
     node.trajectory = sim::StaticTrajectory{pose.position, angles_of(pose.orientation)};
-    if (channel.transmitter.starts_with(node.name + "/")) node.model.reset();
+    if (channel.transmitters[0].starts_with(node.name + "/")) node.model.reset();
   }
   scenario.effects.clear();
   for (const char* off : {"diffraction", "scattering", "moving_reflectors"})
@@ -86,7 +86,7 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
 
 dvec3 transmitter_position(const sim::Scenario& scenario, const sim::World& world,
                            const sim::Moment& moment) {
-  const auto [node, sensor] = sim::sensor_place(scenario, scenario.channels[0].transmitter);
+  const auto [node, sensor] = sim::sensor_place(scenario, scenario.channels[0].transmitters[0]);
   const Pose mount = sim::mount_pose(scenario.nodes[node].sensors[sensor].mount);
   return world.scene.to_local((moment.motions[node].pose * mount).position);
 }

@@ -12,13 +12,11 @@ namespace greatx::sim {
 std::vector<std::pair<std::string, std::string>> channel_notes(const Scenario& scenario, const World& world,
                                                                const EffectPlan& plan, uint32_t channel) {
   const ChannelConfig& config = scenario.channels[channel];
-  const auto rests = [&](const std::string& antenna) {
-    return std::holds_alternative<StaticTrajectory>(
-        scenario.nodes[sensor_place(scenario, antenna).node].trajectory);
-  };
-  const ChannelSearch::Ends ends{rests(config.transmitter),
-                                 std::all_of(config.receivers.begin(), config.receivers.end(), rests),
-                                 world.body_of_node[sensor_place(scenario, config.transmitter).node]};
+  const ChannelEnds of = channel_ends(scenario, world, channel, 0);
+  const ChannelSearch::Ends ends{
+      of.transmitter.rests,
+      std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
+      of.transmitter.body};
   // No note speaks of edges, and finding them takes a while.
   rf::RadioEffects effects = radio_effects(plan, scenario);
   effects.diffraction = false;

@@ -12,19 +12,6 @@
 
 namespace greatx::sim {
 
-namespace {
-
-bool is_static(const Scenario& scenario, uint32_t node) {
-  return std::holds_alternative<StaticTrajectory>(scenario.nodes[node].trajectory);
-}
-
-/// Straight from the nodes' poses: what the paths' own lengths are checked against.
-dvec3 world_position(const ChannelEnd& end, const TickContext& context) {
-  return end.node ? (context.nodes[*end.node].pose * end.mount).position : end.mount.position;
-}
-
-}  // namespace
-
 rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario) {
   rf::RadioEffects effects;
   effects.line_of_sight = plan.line_of_sight.on;
@@ -48,58 +35,41 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
   return effects;
 }
 
+RadioWorld::RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel)
+    : model(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
+      surroundings(world.scene, model.kinds) {}
+
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                           const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
+                           uint32_t channel, ChannelEnds ends)
+    : world_(world),
+      config_(scenario.channels[channel]),
+      ends_(std::move(ends)),
+      radio_(std::move(radio)),
+      crossings_(crossings) {
+  const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
+                                          [](const ChannelEnd& end) { return end.rests; });
+  search_.emplace(&gpu_scene, radio_->model, plan, config_,
+                  ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
+}
+
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                            const Scenario& scenario, const World& world, uint32_t channel)
-    : scenario_(scenario),
-      world_(world),
-      config_(scenario.channels[channel]),
-      move_facets_(plan.moving_reflectors.on),
-      transmitter_(end_of(config_.transmitter)),
-      model_(world.scene, config_.carrier_hz, radio_effects(plan, scenario)),
-      surroundings_(world.scene, model_.kinds),
-      crossings_(crossings) {
-  for (const std::string& name : config_.receivers) receivers_.push_back(end_of(name));
-  const bool receivers_rest =
-      std::none_of(receivers_.begin(), receivers_.end(), [&](const ChannelEnd& end) { return moves(end); });
-  search_.emplace(&gpu_scene, model_, plan, config_,
-                  ChannelSearch::Ends{!moves(transmitter_), receivers_rest, transmitter_.body});
-}
-
-ChannelEnd ChannelPaths::end_of(const std::string& name) const {
-  const auto [node, sensor] = sensor_place(scenario_, name);
-  return {name, node, mount_pose(scenario_.nodes[node].sensors[sensor].mount), world_.body_of_node[node]};
-}
+    : ChannelPaths(gpu_scene, crossings, plan, scenario, world,
+                   std::make_shared<RadioWorld>(plan, scenario, world, channel), channel,
+                   channel_ends(scenario, world, channel, 0)) {}
 
 void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
-  receivers_.clear();
-  for (size_t i = 0; i < points.size(); ++i)
-    receivers_.push_back(
-        {fmt::format("point {}", first + i), std::nullopt, Pose{points[i], dquat(1.0, 0.0, 0.0, 0.0)}, 0});
+  ends_.receivers.clear();
+  for (size_t i = 0; i < points.size(); ++i) ends_.receivers.push_back(point_end(points[i], first + i));
   search_->set_points();
   ids_known_ = false;
   if (!placed_.empty()) placed_.resize(1);  // the transmitter's
 }
 
-rf::EndState ChannelPaths::state_of(const ChannelEnd& end, const TickContext& context) const {
-  rf::EndState state;
-  if (!end.node) {
-    const Pose pose = world_.scene.to_local(end.mount);
-    state.position = pose.position;
-    state.orientation = pose.orientation;
-    return state;
-  }
-  const Motion& node = context.nodes[*end.node];
-  const Pose pose = world_.scene.to_local(node.pose) * end.mount;
-  state.position = pose.position;
-  state.velocity = node.velocity + glm::cross(node.angular_velocity, node.pose.rotate(end.mount.position));
-  state.orientation = pose.orientation;
-  state.body = end.body;
-  return state;
-}
-
 std::vector<dvec3> ChannelPaths::receiver_positions(const TickContext& context) const {
   std::vector<dvec3> positions;
-  for (const ChannelEnd& end : receivers_) positions.push_back(state_of(end, context).position);
+  for (const ChannelEnd& end : ends_.receivers) positions.push_back(state(end, context).position);
   return positions;
 }
 
@@ -108,11 +78,11 @@ void ChannelPaths::start(const TickContext& context) {
   placed_.clear();
   placements_told_ = 0;
   move_bodies(bodies_at(context));
-  search_->start(state_of(transmitter_, context).position, receiver_positions(context), context.body_poses);
+  search_->start(state(ends_.transmitter, context).position, receiver_positions(context), context.body_poses);
 }
 
 void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
-  search_->record_ahead(slot, state_of(transmitter_, next).position);
+  search_->record_ahead(slot, state(ends_.transmitter, next).position);
 }
 
 ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
@@ -127,35 +97,35 @@ ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
 }
 
 void ChannelPaths::move_bodies(const Bodies& bodies) {
-  for (const auto& [body, motion] : bodies) model_.facets.move(body, motion);
+  for (const auto& [body, motion] : bodies) radio_->model.facets.move(body, motion);
 }
 
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
-  flight.transmitter = state_of(transmitter_, context);
+  flight.transmitter = state(ends_.transmitter, context);
   flight.bodies = bodies_at(context);
   move_bodies(flight.bodies);
   check_placements(context);
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
-  flight.links.assign(receivers_.size(), {});
-  std::vector<uint64_t> overflow(receivers_.size());
-  parallel_for(receivers_.size(), 0, [&](size_t r) {
+  flight.links.assign(ends_.receivers.size(), {});
+  std::vector<uint64_t> overflow(ends_.receivers.size());
+  parallel_for(ends_.receivers.size(), 0, [&](size_t r) {
     LinkInFlight& link = flight.links[r];
-    link.receiver = state_of(receivers_[r], context);
-    link.distance_m =
-        glm::distance(world_position(transmitter_, context), world_position(receivers_[r], context));
+    link.receiver = state(ends_.receivers[r], context);
+    link.distance_m = glm::distance(world_position(ends_.transmitter, context),
+                                    world_position(ends_.receivers[r], context));
     rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver);
     link.paths = std::move(geometry.paths);
     overflow[r] = geometry.overflow;
   });
   flight.segments.clear();
-  for (size_t r = 0; r < receivers_.size(); ++r) {
+  for (size_t r = 0; r < ends_.receivers.size(); ++r) {
     LinkInFlight& link = flight.links[r];
     if (overflow[r] > 0 && path_overflow_ == 0)
       spdlog::warn(
           "channel '{}', {}: {} geometric paths beyond max_paths ({}) were left out; more in the counters",
-          config_.name, receivers_[r].name, overflow[r], config_.max_paths);
+          config_.name, ends_.receivers[r].name, overflow[r], config_.max_paths);
     path_overflow_ += overflow[r];
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
@@ -204,19 +174,18 @@ void ChannelPaths::note_births(size_t link, const std::vector<rf::Path>& paths) 
   ids_[link] = std::move(now);
 }
 
-bool ChannelPaths::moves(const ChannelEnd& end) const { return end.node && !is_static(scenario_, *end.node); }
-
 /// Says once per end and sequence where it should not be, and counts. Ends at rest are judged once.
 void ChannelPaths::check_placements(const TickContext& context) {
   constexpr size_t most_told = 5;
-  placed_.resize(1 + receivers_.size());
+  placed_.resize(1 + ends_.receivers.size());
   const bool said = placements_told_ > most_told;
   for (size_t i = 0; i < placed_.size(); ++i) {
-    const ChannelEnd& end = i == 0 ? transmitter_ : receivers_[i - 1];
+    const ChannelEnd& end = i == 0 ? ends_.transmitter : ends_.receivers[i - 1];
     Placed& placed = placed_[i];
-    if (!placed.checked || moves(end)) {
-      const rf::EndState state = state_of(end, context);
-      const rf::Placement placement = surroundings_.of(state.position, context.body_poses, state.body);
+    if (i == 0 ? !ends_.check_transmitter : !ends_.check_receivers) continue;
+    if (!placed.checked || !end.rests) {
+      const rf::EndState at = state(end, context);
+      const rf::Placement placement = radio_->surroundings.of(at.position, context.body_poses, at.body);
       placed.checked = true;
       placed.inside = placement.solid != rf::Placement::none;
       if (!placement.free() && !placed.told) {
@@ -225,7 +194,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
         if (++placements_told_ <= most_told)
           spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
                       config_.name, context.tick, end.name,
-                      rf::describe(placement, world_.scene, model_.kinds));
+                      rf::describe(placement, world_.scene, radio_->model.kinds));
       }
     }
     ends_inside_ += placed.inside;

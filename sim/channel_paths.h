@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of one channel at a tick: from the poses of its ends to fields, without antennas and files. The channel
+// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas and files. The channel
 // sensor and `greatx paths` are built on it. Per tick: exact geometry of all candidates on the host, while the GPU is busy
 // with the tick before; what stands in the segments' way in the tick's command buffer; fields of what is lit when the
 // tick is collected.
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 
 #include "rf/path_solver.h"
 #include "rf/placement.h"
+#include "sim/channel_ends.h"
 #include "sim/channel_search.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
@@ -27,12 +29,11 @@ namespace greatx::sim {
 /// The radio effects of a plan, for rf/.
 rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario);
 
-/// One end of a channel: an antenna on a node, or a bare point.
-struct ChannelEnd {
-  std::string name;              ///< "node/sensor", or "point 17"
-  std::optional<uint32_t> node;  ///< none: a point at rest
-  Pose mount;                    ///< on its node; without a node: in the world
-  uint32_t body = 0;             ///< that carries the node and does not hide it; 0: none
+/// The scene as the waves of one channel meet it, bodies where they were moved to; all links of the channel share it.
+struct RadioWorld {
+  RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel);
+  rf::RadioModel model;
+  rf::Surroundings surroundings;
 };
 
 class ChannelPaths {
@@ -51,9 +52,14 @@ class ChannelPaths {
   /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the channel
   /// stands still, or diffraction is on and candidates come from rays.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+               const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
+               uint32_t channel, ChannelEnds ends);
+
+  /// The channel's first transmitter and its receivers, alone.
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                const Scenario& scenario, const World& world, uint32_t channel);
 
-  /// Points at rest, in the world, in place of the channel's receivers; before start(). May be called again between
+  /// Points at rest, in the world, in place of the receivers; before start(). May be called again between
   /// ticks with other points: what was found for the transmitter stays.
   /// `first`: the number of the first of them, for names. May also be called again at the same tick.
   void set_points(std::span<const dvec3> points, size_t first = 0);
@@ -64,9 +70,9 @@ class ChannelPaths {
   void record(gpu::TickSlot& slot, const TickContext& context);
   Result collect(const gpu::TickSlot& slot);
 
-  const ChannelEnd& transmitter() const { return transmitter_; }
-  const std::vector<ChannelEnd>& receivers() const { return receivers_; }
-  const rf::RadioModel& model() const { return model_; }
+  const ChannelEnd& transmitter() const { return ends_.transmitter; }
+  const std::vector<ChannelEnd>& receivers() const { return ends_.receivers; }
+  const rf::RadioModel& model() const { return radio_->model; }
   /// Candidates, overflows, paths; names without the channel's.
   void count(std::map<std::string, uint64_t>& counters) const;
   /// How candidates are found and what that guarantees: (name, text).
@@ -88,23 +94,20 @@ class ChannelPaths {
     rf::CrossingPass::Pending crossings;
   };
 
-  ChannelEnd end_of(const std::string& name) const;
-  rf::EndState state_of(const ChannelEnd& end, const TickContext& context) const;
   std::vector<dvec3> receiver_positions(const TickContext& context) const;
   Bodies bodies_at(const TickContext& context) const;
   void move_bodies(const Bodies& bodies);
   void note_births(size_t link, const std::vector<rf::Path>& paths);
   void check_placements(const TickContext& context);
-  bool moves(const ChannelEnd& end) const;
 
-  const Scenario& scenario_;
+  rf::EndState state(const ChannelEnd& end, const TickContext& context) const {
+    return state_of(end, world_, context);
+  }
+
   const World& world_;
   const ChannelConfig& config_;
-  bool move_facets_;
-  ChannelEnd transmitter_;
-  std::vector<ChannelEnd> receivers_;
-  rf::RadioModel model_;
-  rf::Surroundings surroundings_;
+  ChannelEnds ends_;
+  std::shared_ptr<RadioWorld> radio_;
   rf::CrossingPass& crossings_;
   std::optional<ChannelSearch> search_;
   std::array<InFlight, slots_in_flight> in_flight_;

@@ -9,46 +9,79 @@
 
 namespace greatx::sim {
 
+namespace {
+
+std::vector<rf::AntennaArray> arrays_called(const std::vector<std::string>& names, const char* end,
+                                            const Scenario& scenario, const ChannelConfig& config) {
+  std::vector<rf::AntennaArray> arrays;
+  for (const std::string& name : names) arrays.push_back(antenna_array(scenario, name, config.carrier_hz));
+  for (const rf::AntennaArray& array : arrays)
+    if (array.port_count() != arrays[0].port_count())
+      throw_user_error_at(config.where,
+                          "channel '{}': {}: expected antennas with one number of ports, found {} and {}; "
+                          "give each its own channel",
+                          config.name, end, arrays[0].port_count(), array.port_count());
+  return arrays;
+}
+
+}  // namespace
+
 ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                              const Scenario& scenario, const World& world, uint32_t channel)
     : world_(world),
       config_(scenario.channels[channel]),
       doppler_(plan.doppler.on),
-      paths_(gpu_scene, crossings, plan, scenario, world, channel),
-      transmitter_array_(antenna_array(scenario, config_.transmitter, config_.carrier_hz)) {
-  for (const std::string& name : config_.receivers)
-    receiver_arrays_.push_back(antenna_array(scenario, name, config_.carrier_hz));
-  for (const rf::AntennaArray& receiver : receiver_arrays_)
-    if (receiver.port_count() != receiver_arrays_[0].port_count())
-      throw_user_error_at(config_.where,
-                          "channel '{}': rx: expected receivers with one number of ports, found {} and {}; "
-                          "give each its own channel",
-                          config_.name, receiver_arrays_[0].port_count(), receiver.port_count());
+      radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)),
+      transmitter_arrays_(arrays_called(config_.transmitters, "tx", scenario, config_)),
+      receiver_arrays_(arrays_called(config_.receivers, "rx", scenario, config_)) {
+  for (uint32_t t = 0; t < config_.transmitters.size(); ++t)
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, plan, scenario, world, radio_,
+                                                    channel, channel_ends(scenario, world, channel, t)));
   grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
            doppler_ ? config_.time_spacing_s : 0.0};
   if (plan.dispersion.on)
-    dispersion_.emplace(world.scene, paths_.model().field_model(), paths_.model().effects.weather, grid_);
+    dispersion_.emplace(world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid_);
   describe();
 }
 
+void ChannelSensor::start(const TickContext& context) {
+  for (const auto& paths : paths_) paths->start(context);
+}
+
+void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  for (const auto& paths : paths_) paths->record(slot, context);
+}
+
+void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
+  for (const auto& paths : paths_) paths->record_ahead(slot, next);
+}
+
 std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
-  const ChannelPaths::Result result = paths_.collect(slot);
-  for (const ChannelPaths::Link& link : result.links)
-    for (const rf::Path& path : link.paths)
-      if (path.interactions.empty())
-        line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) /
-                                  link.distance_m);
-  return arrays_of(result);
+  Results results;
+  for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+  check_sights(results);
+  return arrays_of(results);
+}
+
+void ChannelSensor::check_sights(const Results& results) {
+  for (const ChannelPaths::Result& result : results)
+    for (const ChannelPaths::Link& link : result.links)
+      for (const rf::Path& path : link.paths)
+        if (path.interactions.empty())
+          line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) /
+                                    link.distance_m);
 }
 
 void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
-  std::map<std::string, uint64_t> own;
-  paths_.count(own);
-  for (const auto& [name, value] : own) counters[config_.name + "." + name] = value;
+  for (const auto& paths : paths_) {
+    std::map<std::string, uint64_t> own;
+    paths->count(own);
+    for (const auto& [name, value] : own) counters[config_.name + "." + name] += value;
+  }
 }
 
 void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
-  for (const auto& [name, text] : paths_.notes()) notes.emplace_back(config_.name + "." + name, text);
+  for (const auto& [name, text] : paths_[0]->notes()) notes.emplace_back(config_.name + "." + name, text);
 }
 
 }  // namespace greatx::sim

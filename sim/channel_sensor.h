@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channel state information of one transmitter and its receivers: the paths of ChannelPaths, seen through the antennas.
+// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths, seen through
+// the antennas.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "rf/antenna/antenna.h"
 #include "rf/channel/dispersion.h"
 #include "rf/channel/frequency_response.h"
+#include "sim/channel_columns.h"
 #include "sim/channel_paths.h"
 #include "sim/effect_plan.h"
 #include "sim/sensor.h"
@@ -19,17 +21,15 @@ namespace greatx::sim {
 
 class ChannelSensor : public Sensor {
  public:
-  /// As ChannelPaths. Throws UserError, too, if receivers differ in their number of ports.
+  /// As ChannelPaths. Throws UserError, too, if the transmitters or the receivers differ in their number of ports.
   ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                 const Scenario& scenario, const World& world, uint32_t channel);
 
   const SensorSpec& spec() const override { return spec_; }
-  void start(const TickContext& context) override { paths_.start(context); }
-  void record(gpu::TickSlot& slot, const TickContext& context) override { paths_.record(slot, context); }
-  bool looks_ahead() const override { return paths_.looks_ahead(); }
-  void record_ahead(gpu::TickSlot& slot, const TickContext& next) override {
-    paths_.record_ahead(slot, next);
-  }
+  void start(const TickContext& context) override;
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  bool looks_ahead() const override { return paths_[0]->looks_ahead(); }
+  void record_ahead(gpu::TickSlot& slot, const TickContext& next) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   void report(Consistency& consistency) const override {
     consistency.line_of_sight.add(line_of_sight_errors_);
@@ -38,23 +38,24 @@ class ChannelSensor : public Sensor {
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
  private:
-  /// What an interaction touches, as ids on disk.
-  struct Where {
-    uint8_t type = 0;
-    uint32_t facet = 0, element = 0, object = 0, material = 0;
-  };
+  using Results = std::vector<ChannelPaths::Result>;  ///< [tx]
   void describe();
-  Where where_of(const rf::Interaction& interaction) const;
-  std::vector<Array> arrays_of(const ChannelPaths::Result& result) const;
+  std::string metadata() const;
+  void check_sights(const Results& results);
+  std::vector<Array> arrays_of(const Results& results) const;
+  void write_responses(const Results& results, Array& cfr) const;
 
   const World& world_;
   const ChannelConfig& config_;
   bool doppler_;
-  ChannelPaths paths_;
-  rf::AntennaArray transmitter_array_;
-  std::vector<rf::AntennaArray> receiver_arrays_;
+  std::shared_ptr<RadioWorld> radio_;
+  std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
+  std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
   rf::ChannelGrid grid_;
   std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
+  ColumnContext columns_;
+  std::vector<LinkColumn> link_columns_;
+  std::vector<PathColumn> path_columns_;
   SensorSpec spec_;
   ErrorStatistics line_of_sight_errors_;
 };

@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "core/vec.h"
+#include "rf/antenna/antenna.h"
 #include "sim/rational.h"
 
 namespace greatx::sim {
@@ -144,14 +145,15 @@ struct LidarConfig {
   bool see_own_body = false;
 };
 
-enum class AntennaPattern { isotropic, half_wave_dipole };
-enum class Polarization { v, h, vh, slant };  ///< vh: two ports, slant: +-45 degrees, two ports
-
+/// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.
 struct AntennaConfig {
-  AntennaPattern pattern = AntennaPattern::isotropic;
-  Polarization polarization = Polarization::v;
-  uint32_t rows = 1, columns = 1;  ///< of the planar array in its y-z plane: rows along z, columns along y
-  double row_spacing_wl = 0.5, column_spacing_wl = 0.5;  ///< wavelengths at the carrier
+  rf::ElementPattern pattern;
+  rf::Polarization polarization = rf::Polarization::v;
+  double single_slant = 0.0;  ///< rad, of Polarization::single
+  rf::ArrayPlane plane = rf::ArrayPlane::yz;
+  uint32_t rows = 1, columns = 1;
+  double row_spacing_wl = 0.5, column_spacing_wl = 0.5;
+  std::vector<dvec3> elements_wl;  ///< if there are any, they take the place of rows and columns
 };
 
 struct SensorConfig {
@@ -173,11 +175,11 @@ struct NodeConfig {
   SourceLocation where;
 };
 
-/// Channel state information from one transmit antenna to receive antennas.
+/// Channel state information from transmit antennas to receive antennas.
 struct ChannelConfig {
   std::string name;
-  std::string transmitter;             ///< "node/sensor"
-  std::vector<std::string> receivers;  ///< "node/sensor"
+  std::vector<std::string> transmitters;  ///< "node/sensor"
+  std::vector<std::string> receivers;     ///< "node/sensor"
   Rational rate_hz;
   double carrier_hz = 3.5e9;
   double subcarrier_spacing_hz = 30e3;

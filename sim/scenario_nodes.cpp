@@ -11,7 +11,7 @@ namespace greatx::sim {
 namespace {
 
 NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rate_hz,
-                      std::vector<NodeReference>& references) {
+                      std::vector<NodeReference>& references, PatternFiles& patterns) {
   const FieldMap map(field, {"name", "trajectory", "model", "class", "sensors"});
   NodeConfig node;
   node.where = field.where();
@@ -33,7 +33,7 @@ NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rat
   if (const auto sensors = map.find("sensors")) {
     std::set<std::string> names;
     for (const Field& item : sensors->list("sensors")) {
-      node.sensors.push_back(parse_sensor(item, tick_rate_hz));
+      node.sensors.push_back(parse_sensor(item, tick_rate_hz, patterns));
       const std::string& sensor = node.sensors.back().name;
       if (!names.insert(sensor).second)
         item.fail("every sensor's name once", fmt::format("a second '{}'", sensor));
@@ -92,6 +92,18 @@ std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>
   return name;
 }
 
+/// One antenna, or a list of them, each once.
+std::vector<std::string> parse_antenna_names(const Field& field, const std::vector<NodeConfig>& nodes) {
+  if (field.is_scalar()) return {parse_antenna_name(field, nodes)};
+  std::vector<std::string> names;
+  for (const Field& item : field.list("antennas", 1)) {
+    names.push_back(parse_antenna_name(item, nodes));
+    if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+      item.fail("every antenna once", fmt::format("a second '{}'", names.back()));
+  }
+  return names;
+}
+
 void parse_band(const FieldMap& map, ChannelConfig& channel) {
   if (const auto f = map.find("carrier_hz")) channel.carrier_hz = f->positive();
   if (const auto f = map.find("subcarriers")) channel.subcarriers = f->integer32(1, 1u << 20);
@@ -114,13 +126,9 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = map.require("name", "a name").name();
-  channel.transmitter = parse_antenna_name(map.require("tx", "an antenna as node/sensor"), nodes);
-  for (const Field& item : map.require("rx", "a list of antennas").list("antennas", 1)) {
-    const std::string receiver = parse_antenna_name(item, nodes);
-    if (std::find(channel.receivers.begin(), channel.receivers.end(), receiver) != channel.receivers.end())
-      item.fail("every receiver once", fmt::format("a second '{}'", receiver));
-    channel.receivers.push_back(receiver);
-  }
+  channel.transmitters =
+      parse_antenna_names(map.require("tx", "an antenna as node/sensor, or a list"), nodes);
+  channel.receivers = parse_antenna_names(map.require("rx", "a list of antennas"), nodes);
   channel.rate_hz =
       rate_of(map.require("rate_hz", "a rate greater than 0 such as 10, 29.97 or 30000/1001"), tick_rate_hz);
   parse_band(map, channel);
@@ -164,8 +172,9 @@ Rational rate_of(const Field& field, const Rational& tick_rate_hz) {
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz) {
   std::vector<NodeConfig> nodes;
   std::vector<NodeReference> references;
+  PatternFiles patterns;
   for (const Field& item : field.list("nodes")) {
-    nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, references));
+    nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, references, patterns));
     const std::string name = nodes.back().name;
     for (size_t i = 0; i + 1 < nodes.size(); ++i)
       if (nodes[i].name == name) item.fail("every node's name once", fmt::format("a second '{}'", name));

@@ -146,7 +146,7 @@ TEST(Scenario, EverythingSenses) {
   EXPECT_EQ(sensor<AntennaConfig>(s, 1, 2).pattern, AntennaPattern::half_wave_dipole);
   ASSERT_EQ(s.channels.size(), 2u);
   const ChannelConfig& csi = s.channels[0];
-  EXPECT_EQ(csi.transmitter, "bs/panel");
+  EXPECT_EQ(csi.transmitters.at(0), "bs/panel");
   EXPECT_EQ(csi.receivers, (std::vector<std::string>{"uav/antenna", "bs/panel"}));
   EXPECT_EQ(csi.carrier_hz, 28e9);
   EXPECT_EQ(csi.subcarrier_spacing_hz, 100e6 / 64);
