@@ -4,7 +4,10 @@
 // The parts of the scenario's parser; what is shared between its files and nothing else's business.
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
+#include <map>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +22,9 @@ struct NodeReference {
   Field field;
 };
 
+/// The antenna patterns that a scenario names, each read once.
+using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
+
 /// The index of `key`'s text in `choices`, before the map's other keys are known.
 size_t kind_of(const Field& field, std::string_view key, std::initializer_list<std::string_view> choices);
 /// A positive rational rate not above the tick rate.
@@ -32,7 +38,8 @@ std::string parse_semantic_class(const Field& field);
 
 SceneConfig parse_scene(const Field& field);
 Trajectory parse_trajectory(const Field& field, size_t node, std::vector<NodeReference>& references);
-SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz);
+SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns);
+AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
                                           const std::vector<NodeConfig>& nodes);

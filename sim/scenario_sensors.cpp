@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: cameras, LiDARs, antennas.
+// nodes[].sensors[]: what all have, cameras, LiDARs.
 #include <cmath>
 #include <set>
 
@@ -113,25 +113,9 @@ LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz) {
   return lidar;
 }
 
-AntennaConfig parse_antenna(const FieldMap& map) {
-  AntennaConfig antenna;
-  constexpr AntennaPattern patterns[] = {AntennaPattern::isotropic, AntennaPattern::half_wave_dipole};
-  constexpr Polarization polarizations[] = {Polarization::v, Polarization::h, Polarization::vh,
-                                            Polarization::slant};
-  if (const auto f = map.find("pattern"))
-    antenna.pattern = patterns[f->choice({"isotropic", "half_wave_dipole"})];
-  if (const auto f = map.find("polarization"))
-    antenna.polarization = polarizations[f->choice({"v", "h", "vh", "slant"})];
-  if (const auto f = map.find("rows")) antenna.rows = f->integer32(1, 1024);
-  if (const auto f = map.find("columns")) antenna.columns = f->integer32(1, 1024);
-  if (const auto f = map.find("row_spacing_wl")) antenna.row_spacing_wl = f->positive();
-  if (const auto f = map.find("column_spacing_wl")) antenna.column_spacing_wl = f->positive();
-  return antenna;
-}
-
 }  // namespace
 
-SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz) {
+SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns) {
   enum { camera, lidar, antenna };
   const size_t kind = kind_of(field, "type", {"camera", "lidar", "antenna"});
   const FieldMap map =
@@ -142,8 +126,9 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz) {
                                          "elevation_max_deg", "elevations_deg", "azimuth_steps",
                                          "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m",
                                          "max_range_m", "wavelength_nm", "see_own_body"})
-                      : FieldMap(field, {"name", "type", "mount", "pattern", "polarization", "rows",
-                                         "columns", "row_spacing_wl", "column_spacing_wl"});
+                      : FieldMap(field, {"name", "type", "mount", "pattern", "pattern_file", "polarization",
+                                         "slant_deg", "polarization_model", "plane", "rows", "columns",
+                                         "row_spacing_wl", "column_spacing_wl", "elements_wl"});
   SensorConfig sensor;
   sensor.where = field.where();
   const Field name = map.require("name", "a name");
@@ -155,7 +140,7 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz) {
                              tick_rate_hz);
   if (kind == camera) sensor.config = parse_camera(map);
   if (kind == lidar) sensor.config = parse_lidar(map, sensor.rate_hz);
-  if (kind == antenna) sensor.config = parse_antenna(map);
+  if (kind == antenna) sensor.config = parse_antenna(map, patterns);
   return sensor;
 }
 

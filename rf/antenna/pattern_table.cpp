@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/units.h"
 
 namespace greatx::rf {
@@ -26,6 +28,8 @@ PatternTable::PatternTable(const Grid& grid, std::vector<Jones> samples, std::st
     GREATX_CHECK(std::isfinite(std::norm(sample.theta)) && std::isfinite(std::norm(sample.phi)),
                  "sample ({}, {}), ({}, {})", sample.theta.real(), sample.theta.imag(), sample.phi.real(),
                  sample.phi.imag());
+  if (sha256_.empty())
+    sha256_ = Sha256().update_value(grid_).update(std::as_bytes(std::span(samples_))).hex();
 }
 
 Jones PatternTable::at(double zenith, double azimuth) const {

@@ -28,7 +28,8 @@ class PatternTable {
     uint32_t zeniths = 0, azimuths = 0;  ///< at least 3, at least 4
     double first_azimuth = 0.0;          ///< rad
   };
-  /// `samples`: [zeniths, azimuths], C order, finite. `name` and `sha256` say which file it came from.
+  /// `samples`: [zeniths, azimuths], C order, finite. `name` and `sha256` are those of the file it came
+  /// from; without a hash it is that of the samples.
   PatternTable(const Grid& grid, std::vector<Jones> samples, std::string name = {}, std::string sha256 = {});
 
   /// The pattern at zenith in [0, pi] and any azimuth, rad.

@@ -115,7 +115,10 @@ TEST(Scenario, EverythingMoves) {
 TEST(Scenario, EverythingSenses) {
   const Scenario s = load_scenario(folder / "everything.yaml");
   const auto& panel = sensor<AntennaConfig>(s, 0, 0);
-  EXPECT_EQ(panel.polarization, Polarization::slant);
+  EXPECT_EQ(panel.pattern.shape, rf::Pattern::isotropic);
+  EXPECT_EQ(panel.pattern.model, rf::PolarizationModel::model_2);
+  EXPECT_EQ(panel.polarization, rf::Polarization::slant);
+  EXPECT_EQ(panel.plane, rf::ArrayPlane::yz);
   EXPECT_EQ(panel.rows, 4u);
   EXPECT_EQ(panel.columns, 8u);
   EXPECT_EQ(panel.row_spacing_wl, 0.7);
@@ -143,7 +146,18 @@ TEST(Scenario, EverythingSenses) {
   EXPECT_EQ(s.nodes[4].sensors[0].rate_hz, (Rational{25, 2}));
   ASSERT_EQ(scan.elevations.size(), 4u);
   EXPECT_DOUBLE_EQ(scan.elevations[3], radians(-20.0));
-  EXPECT_EQ(sensor<AntennaConfig>(s, 1, 2).pattern, AntennaPattern::half_wave_dipole);
+  EXPECT_EQ(sensor<AntennaConfig>(s, 1, 2).pattern.shape, rf::Pattern::half_wave_dipole);
+  const auto& line = sensor<AntennaConfig>(s, 5, 0);
+  EXPECT_EQ(line.pattern.shape, rf::Pattern::tr38901);
+  EXPECT_EQ(line.pattern.model, rf::PolarizationModel::model_1);
+  EXPECT_EQ(line.polarization, rf::Polarization::single);
+  EXPECT_DOUBLE_EQ(line.single_slant, radians(-30.0));
+  EXPECT_EQ(line.plane, rf::ArrayPlane::xz);
+  const auto& free = sensor<AntennaConfig>(s, 5, 1);
+  EXPECT_EQ(free.elements_wl, (std::vector<dvec3>{{0, 0, 0}, {0.5, 0, 0.25}}));
+  ASSERT_TRUE(free.pattern.table);
+  EXPECT_EQ(free.pattern.table->name(), "dipole.csv");
+  EXPECT_NEAR(free.pattern.table->at(pi / 2, 0.0).theta.real(), std::sqrt(1.5), 1e-6);
   ASSERT_EQ(s.channels.size(), 2u);
   const ChannelConfig& csi = s.channels[0];
   EXPECT_EQ(csi.transmitters.at(0), "bs/panel");
