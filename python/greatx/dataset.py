@@ -220,7 +220,7 @@ class Sensor:
         self.index: np.ndarray = sequence.index[sequence.index[:, 2] == number]
         if not np.array_equal(self.index[:, 4], np.arange(len(self.index))):
             raise DatasetError(f"{sequence.path / 'index.npy'}: the rows of {info.name} are not 0, 1, 2, ...")
-        self._opened: Dict[str, Any] = {}
+        self._opened: Dict[Any, Any] = {}
 
     @property
     def arrays(self) -> Dict[str, ArrayInfo]:
@@ -259,19 +259,21 @@ class Sensor:
         return isinstance(name, str) and self.info.locate(name) is not None
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._opened:
-            located = self.info.locate(name)
-            if located is None:
-                raise KeyError(f"{self.name} has no array {name!r}; it has {', '.join(self.arrays)}")
-            output, array = located
+        located = self.info.locate(name)
+        if located is None:
+            raise KeyError(f"{self.name} has no array {name!r}; it has {', '.join(self.arrays)}")
+        output, array = located
+        key = (output.name, array.name if array else None)
+        if key not in self._opened:
             base = self.sequence.path / self.name / output.name
             if output.format == "npy_stack":
-                self._opened[name] = open_stack(base.with_name(base.name + ".npy"), array, len(self))
+                opened: Any = open_stack(base.with_name(base.name + ".npy"), array, len(self))
             elif output.format == "npy_ragged":
-                self._opened[name] = Ragged.open(base, array, len(self))
+                opened = Ragged.open(base, array, len(self))
             else:
-                self._opened[name] = Frames(base, output, array, self.index[:, 3])
-        return self._opened[name]
+                opened = Frames(base, output, array, self.index[:, 3])
+            self._opened[key] = opened
+        return self._opened[key]
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_"):

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a data set holds: the CSI tensor, line of sight or not, paths, pictures of the same tick, the delay profile.
+
+    greatx generate canyon -o out/canyon
+    python3 python/examples/load_dataset.py out/canyon
+
+Writes delay_profile.png if matplotlib is there.
+"""
+import sys
+
+import numpy as np
+
+import greatx
+
+# %% Open: nothing but names and the index is read
+ds = greatx.load(sys.argv[1])
+sequence = ds.sequences[0]
+print(ds)
+csi = next(s for s in sequence.sensors.values() if s.kind == "csi")
+
+# %% The channel over time: complex64 [record, rx, rx_ant, tx, tx_ant, time, subcarrier], memory-mapped
+h = csi.cfr
+print(f"{csi.name}: H {h.shape} {h.dtype} at {csi.carrier_hz / 1e9:g} GHz, spacing {csi.subcarrier_spacing_hz / 1e3:g} kHz")
+
+# %% Line of sight or not, and the gain of each: receiver 0, transmitter 0
+los = np.reshape(csi.line_of_sight, (len(csi), -1))[:, 0] == 1
+gain_db = 10 * np.log10(np.maximum(np.mean(np.abs(h[:, 0, :, 0]) ** 2, axis=(1, 2, 3, 4)), 1e-30))
+for name, which in (("line of sight", los), ("none", ~los)):
+    if which.any():
+        print(f"{name:>13}: {which.sum():4} of {len(csi)} ticks, mean gain {gain_db[which].mean():.1f} dB")
+
+# %% The paths of a tick: every array is a view of the file
+record = csi.record(len(csi) // 2)
+paths = record.paths(rx=0, tx=0)
+for i in np.argsort(-np.abs(paths["transfer"][:, 0, 0]))[:5]:
+    kinds = "".join("-RTDS"[k] for k in paths["interaction"][i] if k) or "line of sight"
+    print(f"  {paths['delay'][i] * 1e9:8.2f} ns  {paths['doppler'][i]:8.2f} Hz  {kinds:15} id {paths['id'][i]:016x}")
+
+# %% What the other sensors saw at the same tick
+tick = sequence.at(record.tick)
+for name, other in tick.items():
+    shapes = {a: np.shape(other[a]) for a in list(other.sensor.arrays)[:4]}
+    print(f"  tick {tick.tick}, {tick.time_s:g} s, {name}: {shapes}")
+
+# %% Power over delay and time: |h(tau)| of the first ports, delays wrap at 1 / subcarrier spacing
+window = np.hanning(h.shape[-1])
+profile_db = 20 * np.log10(np.abs(np.fft.ifft(h[:, 0, 0, 0, 0, 0] * window, axis=-1)) + 1e-12)
+print(f"delay profile {profile_db.shape}, strongest bin at record 0: {profile_db[0].argmax()}")
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+except ImportError:
+    print("no matplotlib: no picture")
+else:
+    step_ns = 1e9 / (csi.subcarrier_spacing_hz * h.shape[-1])
+    plt.imshow(profile_db.T, origin="lower", aspect="auto", vmin=profile_db.max() - 50,
+               extent=(csi.times_s[0], csi.times_s[-1] + 1e-9, 0, step_ns * h.shape[-1]))
+    plt.xlabel("time, s")
+    plt.ylabel("delay, ns")
+    plt.colorbar(label="dB")
+    plt.savefig("delay_profile.png", dpi=120)
+    print("delay_profile.png")

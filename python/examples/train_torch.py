@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Learns to clean noisy channel estimates: a torch Dataset, a DataLoader, a model of one weight a delay.
+
+    greatx generate room -o out/room
+    python3 python/examples/train_torch.py out/room
+
+The model goes to the delay domain, weighs every delay, and comes back; it has to find out which delays hold the channel
+and which noise alone. Toy-sized: it shows how complex tensors get from a data set into a training loop.
+"""
+import sys
+
+import greatx
+
+try:
+    import torch
+except ImportError:
+    print("this example needs PyTorch: pip install torch")
+    sys.exit(0)
+
+SNR_DB = 5.0
+
+
+def links(item):
+    """complex64 [links, subcarrier] of unit mean power: all port pairs of a tick's first receiver and transmitter."""
+    h = item[name][0, :, 0].flatten(0, -2)
+    return h / h.abs().square().mean().sqrt().clamp_min(1e-20)
+
+
+# %% One item a tick at which the channel has a record, complex64 as on disk
+ds = greatx.load(sys.argv[1])
+name = next(name for name, sensor in ds.sensors.items() if sensor.kind == "csi") + "/cfr"
+data = ds.torch(name, transform=links)
+print(data.samples)
+
+# %% Training ticks, and every fifth held out
+torch.manual_seed(1)
+held_out = torch.stack([data[i] for i in range(4, len(data), 5)] or [data[len(data) - 1]])
+training = torch.utils.data.Subset(data, [i for i in range(len(data)) if i % 5 != 4])
+loader = torch.utils.data.DataLoader(training, batch_size=8, shuffle=True)  # num_workers: as many as you like
+
+
+class DelayFilter(torch.nn.Module):
+    """A real weight for every delay, 0 to 1."""
+
+    def __init__(self, subcarriers):
+        super().__init__()
+        self.logits = torch.nn.Parameter(torch.zeros(subcarriers))
+
+    def forward(self, h):
+        return torch.fft.fft(torch.fft.ifft(h) * torch.sigmoid(self.logits))
+
+
+def noisy(h):
+    return h + 10 ** (-SNR_DB / 20) * torch.randn_like(h)
+
+
+def nmse(guess, h):
+    return (guess - h).abs().square().mean() / h.abs().square().mean()
+
+
+# %% Training: fresh noise at every step
+model = DelayFilter(held_out.shape[-1])
+optimizer = torch.optim.Adam(model.parameters(), lr=0.1)
+test = noisy(held_out)
+print(f"as estimated: {10 * torch.log10(nmse(test, held_out)):6.2f} dB")
+for epoch in range(40):
+    for h in loader:
+        loss = nmse(model(noisy(h)), h)
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    if epoch % 10 == 9:
+        with torch.no_grad():
+            print(f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB on ticks it never saw")
