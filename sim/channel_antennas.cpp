@@ -51,6 +51,23 @@ void describe_part(const rf::PatternTable& table, const char* name, double (*par
     json[name] = values;
 }
 
+nlohmann::json describe_table(const rf::PatternTable& table) {
+  nlohmann::json json;
+  json["file"] = table.name();
+  json["zeniths"] = table.grid().zeniths;
+  json["azimuths"] = table.grid().azimuths;
+  json["first_azimuth_deg"] = degrees(table.grid().first_azimuth);
+  describe_part(
+      table, "f_theta_re", [](const rf::Jones& f) { return f.theta.real(); }, json);
+  describe_part(
+      table, "f_theta_im", [](const rf::Jones& f) { return f.theta.imag(); }, json);
+  describe_part(
+      table, "f_phi_re", [](const rf::Jones& f) { return f.phi.real(); }, json);
+  describe_part(
+      table, "f_phi_im", [](const rf::Jones& f) { return f.phi.imag(); }, json);
+  return json;
+}
+
 }  // namespace
 
 rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz) {
@@ -77,25 +94,12 @@ nlohmann::json describe_array(const rf::AntennaArray& array) {
   return json;
 }
 
-nlohmann::json describe_pattern_tables(std::span<const rf::AntennaArray> arrays) {
+nlohmann::json describe_pattern_tables(std::initializer_list<std::span<const rf::AntennaArray>> ends) {
   nlohmann::json tables = nlohmann::json::object();
-  for (const rf::AntennaArray& array : arrays) {
-    const rf::PatternTable* const table = array.pattern.table.get();
-    if (table == nullptr || tables.contains(table->sha256())) continue;
-    nlohmann::json& json = tables[table->sha256()];
-    json["file"] = table->name();
-    json["zeniths"] = table->grid().zeniths;
-    json["azimuths"] = table->grid().azimuths;
-    json["first_azimuth_deg"] = degrees(table->grid().first_azimuth);
-    describe_part(
-        *table, "f_theta_re", [](const rf::Jones& f) { return f.theta.real(); }, json);
-    describe_part(
-        *table, "f_theta_im", [](const rf::Jones& f) { return f.theta.imag(); }, json);
-    describe_part(
-        *table, "f_phi_re", [](const rf::Jones& f) { return f.phi.real(); }, json);
-    describe_part(
-        *table, "f_phi_im", [](const rf::Jones& f) { return f.phi.imag(); }, json);
-  }
+  for (const std::span<const rf::AntennaArray> arrays : ends)
+    for (const rf::AntennaArray& array : arrays)
+      if (array.pattern.table && !tables.contains(array.pattern.table->sha256()))
+        tables[array.pattern.table->sha256()] = describe_table(*array.pattern.table);
   return tables;
 }
 

@@ -4,6 +4,7 @@
 // From a scenario's antennas to arrays at a carrier, and what a data set says of them.
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -21,7 +22,7 @@ rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name
 /// is named by its hash.
 nlohmann::json describe_array(const rf::AntennaArray& array);
 
-/// The tables of those arrays that have imported patterns, by their hashes; an empty map if there are none.
-nlohmann::json describe_pattern_tables(std::span<const rf::AntennaArray> arrays);
+/// The tables of those arrays at some ends that have imported patterns, by their hashes; an empty map if there are none.
+nlohmann::json describe_pattern_tables(std::initializer_list<std::span<const rf::AntennaArray>> ends);
 
 }  // namespace greatx::sim

@@ -105,8 +105,11 @@ std::string ChannelSensor::metadata() const {
   metadata["time_convention"] = "e^{+j omega t}";
   std::vector<ChannelEnd> transmitters;
   for (const auto& paths : paths_) transmitters.push_back(paths->transmitter());
+  metadata["every_element"] =
+      !near_links_.empty();  // of links nearer than 2 (D_tx + D_rx)^2 / lambda, or all
   metadata["transmitters"] = describe_ends(transmitter_arrays_, transmitters);
   metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
+  metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
   metadata["dispersion"] =
       dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
@@ -115,28 +118,35 @@ std::string ChannelSensor::metadata() const {
   return metadata.dump();
 }
 
-/// Frequency responses of all links, [rx, rx_ant, tx, tx_ant, time, subcarrier].
-void ChannelSensor::write_responses(const Results& results, Array& cfr) const {
+/// [rx_ant, tx_ant, time, subcarrier] of one link.
+std::vector<std::complex<float>> ChannelSensor::response(const Results& results, size_t receiver,
+                                                         size_t transmitter, uint32_t slot) const {
+  if (const ElementPaths* elements = elements_of(receiver, transmitter, slot))
+    return elements->response(grid_, dispersion_ ? &*dispersion_ : nullptr);
+  const ChannelPaths::Link& link = results[transmitter].links[receiver];
+  const rf::ArrayPose from{transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation};
+  const rf::ArrayPose to{receiver_arrays_[receiver], link.receiver.orientation};
+  return dispersion_ ? rf::frequency_response(link.paths, dispersion_->spectra(link.paths), from, to, grid_)
+                     : rf::frequency_response(link.paths, from, to, grid_);
+}
+
+/// Of all links, [rx, rx_ant, tx, tx_ant, time, subcarrier].
+void ChannelSensor::write_responses(const Results& results, uint32_t slot, Array& cfr) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
   const size_t rx_ports = static_cast<size_t>(columns_.rx_ports),
                row = static_cast<size_t>(columns_.tx_ports) * grid_.size_per_pair();
   const std::span<std::complex<float>> out = cfr.as<std::complex<float>>();
   parallel_for(receivers * transmitters, 0, [&](size_t index) {
     const size_t r = index / transmitters, t = index % transmitters;
-    const ChannelPaths::Link& link = results[t].links[r];
-    const rf::ArrayPose transmitter{transmitter_arrays_[t], results[t].transmitter.orientation};
-    const rf::ArrayPose receiver{receiver_arrays_[r], link.receiver.orientation};
-    const auto response = dispersion_ ? rf::frequency_response(link.paths, dispersion_->spectra(link.paths),
-                                                               transmitter, receiver, grid_)
-                                      : rf::frequency_response(link.paths, transmitter, receiver, grid_);
+    const std::vector<std::complex<float>> h = response(results, r, t, slot);
     for (size_t port = 0; port < rx_ports; ++port)
       std::copy_n(
-          response.begin() + static_cast<std::ptrdiff_t>(port * row), row,
+          h.begin() + static_cast<std::ptrdiff_t>(port * row), row,
           out.begin() + static_cast<std::ptrdiff_t>(((r * rx_ports + port) * transmitters + t) * row));
   });
 }
 
-std::vector<Array> ChannelSensor::arrays_of(const Results& results) const {
+std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slot) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
   std::vector<LinkFacts> facts(receivers * transmitters);
   parallel_for(facts.size(), 0, [&](size_t index) {
@@ -148,7 +158,8 @@ std::vector<Array> ChannelSensor::arrays_of(const Results& results) const {
     of.statistics = rf::link_statistics(
         link.paths, rf::path_powers(link.paths, transmitter, receiver, config_.carrier_hz));
     of.impulse = rf::impulse_response(link.paths, transmitter, receiver, config_.carrier_hz);
-    of.view = {static_cast<int32_t>(r), static_cast<int32_t>(t), &of.statistics, false};
+    of.view = {static_cast<int32_t>(r), static_cast<int32_t>(t), &of.statistics,
+               elements_of(r, t, slot) != nullptr};
   });
 
   std::vector<LinkView> links;
@@ -163,7 +174,7 @@ std::vector<Array> ChannelSensor::arrays_of(const Results& results) const {
   }
   std::vector<Array> arrays;
   arrays.emplace_back(DType::complex64, spec_.arrays[0].shape);
-  write_responses(results, arrays[0]);
+  write_responses(results, slot, arrays[0]);
   const int64_t rx = static_cast<int64_t>(receivers), tx = static_cast<int64_t>(transmitters);
   for (const LinkColumn& column : link_columns_) arrays.push_back(filled<LinkView>(column, {rx, tx}, links));
   for (const PathColumn& column : path_columns_)

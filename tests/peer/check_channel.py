@@ -59,9 +59,9 @@ def known_normals(channel):
     normals = {}
     for record in range(len(channel)):
         p = channel.paths(record)
-        tx, _ = channel.end(record, channel.meta["transmitter"])
         for i in range(len(p["rx"])):
             types = types_of(p, i)
+            tx, _ = channel.end(record, channel.meta["transmitters"][p["tx"][i]])
             points = points_of(p, i, tx, channel.end(record, channel.meta["receivers"][p["rx"][i]])[0])
             if not (types == model.REFLECTION).any() or np.linalg.norm(np.diff(points, axis=0), axis=1).min() < 1e-2:
                 continue
@@ -136,32 +136,41 @@ def check_record(channel, record, worst, normals, known):
     meta, p = channel.meta, channel.paths(record)
     tick, row, _ = channel.records[record]
     stored = channel.response(record)
-    tx, tx_turn = channel.end(record, meta["transmitter"])
     check_identity(p, worst, known, f"tick {tick}")
     worst.add("path_count", abs(channel.path_count[row].sum() - len(p["rx"])), 0, f"tick {tick}")
-    for r, description in enumerate(meta["receivers"]):
-        rx, rx_turn = channel.end(record, description)
-        mine = np.flatnonzero(p["rx"] == r)
-        q = {name: array[mine] for name, array in p.items()}
-        where = f"tick {tick}, {description['name']}"
-        for i in range(len(mine)):
-            check_path(channel, q, i, tx, rx, normals, worst, f"{where}, path {i}")
-        a = model.amplitudes(meta, tx_turn, description, rx_turn, q["transfer"].astype(complex), q["departure"],
-                             q["arrival"], q["delay"])
-        h = model.response(meta, a, q["delay"], q["doppler"])
-        energy = np.sum(np.abs(h)**2)
-        if len(mine) == 0:
-            worst.add("no path: |H|", np.abs(stored[r]), 0, where)
-            continue
-        if not meta["dispersion"]:
-            worst.add("NMSE of H", np.sum(np.abs(h[:, :, :, :] - stored[r][:, 0])**2) / energy, 1e-12, where)
-        scale = np.abs(a).max()
-        worst.add("amplitude, over the largest", np.abs(a - q["amplitude"]).max() / scale, 1e-6, where)
-        gain = np.sum(np.abs(a)**2) / (a.shape[1] * a.shape[2])
-        worst.add("path_gain, relative", abs(gain - channel.path_gain[row, r]) / gain, 1e-6, where)
-        direct = (q["interaction"].sum(1) == 0).any()  # no interaction at all
-        worst.add("line_of_sight flag", abs(int(direct) - int(channel.line_of_sight[row, r])), 0, where)
-        worst.add("paths with the same id", len(mine) - len(set(q["id"])), 0, where)
+    for r, rx in enumerate(meta["receivers"]):
+        for t, tx in enumerate(meta["transmitters"]):
+            mine = np.flatnonzero((p["rx"] == r) & (p["tx"] == t))
+            q = {name: array[mine] for name, array in p.items()}
+            where = f"tick {tick}, {tx['name']} to {rx['name']}"
+            worst.add("path_count", abs(channel.path_count[row, r, t] - len(mine)), 0, where)
+            link = channel.path_gain[row, r, t], channel.line_of_sight[row, r, t]
+            check_link(channel, record, tx, rx, q, stored[r][:, t], link, normals, worst, where)
+
+
+def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
+    """Of one transmitter and receiver: their paths q, H [rx_ant, tx_ant, time, subcarrier], (path_gain, line_of_sight)."""
+    meta = channel.meta
+    tx_place, tx_turn = channel.end(record, tx)
+    rx_place, rx_turn = channel.end(record, rx)
+    for i in range(len(q["rx"])):
+        check_path(channel, q, i, tx_place, rx_place, normals, worst, f"{where}, path {i}")
+    a = model.amplitudes(meta, tx, tx_turn, rx, rx_turn, q["transfer"].astype(complex), q["departure"], q["arrival"],
+                         q["delay"])
+    h = model.response(meta, a, q["delay"], q["doppler"])
+    energy = np.sum(np.abs(h)**2)
+    if len(q["rx"]) == 0:
+        worst.add("no path: |H|", np.abs(stored), 0, where)
+        return
+    if not meta["dispersion"]:
+        worst.add("NMSE of H", np.sum(np.abs(h - stored)**2) / energy, 1e-12, where)
+    scale = np.abs(a).max()
+    worst.add("amplitude, over the largest", np.abs(a - q["amplitude"]).max() / scale, 1e-6, where)
+    gain = np.sum(np.abs(a)**2) / (a.shape[1] * a.shape[2])
+    worst.add("path_gain, relative", abs(gain - link[0]) / gain, 1e-6, where)
+    direct = (q["interaction"].sum(1) == 0).any()  # no interaction at all
+    worst.add("line_of_sight flag", abs(int(direct) - int(link[1])), 0, where)
+    worst.add("paths with the same id", len(q["rx"]) - len(set(q["id"])), 0, where)
 
 
 def check_doppler(channel, worst):
@@ -171,7 +180,8 @@ def check_doppler(channel, worst):
     tables = []
     for record in range(len(channel)):
         p = channel.paths(record)
-        tables.append({(int(r), int(i)): (tau, nu) for r, i, tau, nu in zip(p["rx"], p["id"], p["delay"], p["doppler"])})
+        ids = zip(p["rx"], p["tx"], p["id"])
+        tables.append({tuple(map(int, key)): values for key, values in zip(ids, zip(p["delay"], p["doppler"]))})
     carrier = channel.meta["carrier_hz"]
     for record in range(2, len(channel) - 2):
         ticks = [channel.records[record + o][0] for o in (-2, -1, 0, 1, 2)]
@@ -184,7 +194,7 @@ def check_doppler(channel, worst):
                 slope = (8 * (p1 - m1) - (p2 - m2)) / (12 * step)
                 kink = (-3 * tau + 4 * p1 - p2) - (3 * tau - 4 * m1 + m2)
                 uncertain = (4 * abs(slope - (p1 - m1) / (2 * step)) + abs(kink) / (2 * step)) * carrier
-                where = f"tick {ticks[2]}, {nu:.3f} Hz, path {key[1]:016x}"
+                where = f"tick {ticks[2]}, {nu:.3f} Hz, path {key[2]:016x}"
                 worst.add("Doppler over differences of the delay, Hz", abs(nu + carrier * slope), 1e-3 + uncertain, where)
 
 

@@ -116,40 +116,77 @@ def transfer(points, types, walls, normals, wavelength):
     return np.array(basis(-k[-1])) @ dyad @ np.array(basis(k[0])).T / length
 
 
-SLANTS = {"v": (0,), "h": (90,), "vh": (0, 90), "slant": (45, -45)}
+def table_field(table, zenith, azimuth):
+    """(F_theta, F_phi) of an imported pattern, bilinear in zenith and azimuth."""
+    rows, columns = table["zeniths"], table["azimuths"]
+    part = lambda name: np.reshape(table.get(name, np.zeros(rows * columns)), (rows, columns))
+    row = np.degrees(zenith) / 180 * (rows - 1)
+    column = (np.degrees(azimuth) - table["first_azimuth_deg"]) / 360 * columns % columns
+    i, j = min(int(row), rows - 2), int(column) % columns
+    weights = np.outer([1 - (row - i), row - i], [1 - (column - j), column - j])
+    at = np.ix_([i, i + 1], [j, (j + 1) % columns])
+    return [np.sum(weights * (part(f"{name}_re")[at] + 1j * part(f"{name}_im")[at])) for name in ("f_theta", "f_phi")]
 
 
-def array_response(antenna, turn, d, wavelength):
-    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase."""
+def element_field(antenna, tables, zenith, azimuth):
+    """(F_theta, F_phi) without slant, antenna frame (docs/scenario.md)."""
+    shape = antenna["pattern"]
+    if shape == "isotropic":
+        return 1.0, 0.0
+    if shape == "short_dipole":
+        return np.sqrt(1.5) * np.sin(zenith), 0.0
+    if shape == "half_wave_dipole":
+        return np.sqrt(1.6409223770) * np.cos(np.pi / 2 * np.cos(zenith)) / np.sin(zenith), 0.0
+    if shape == "tr38901":  # Table 7.3-1
+        vertical = -min(12 * ((np.degrees(zenith) - 90) / 65)**2, 30)
+        horizontal = -min(12 * (np.degrees(azimuth) / 65)**2, 30)
+        return 10**((8 - min(-(vertical + horizontal), 30)) / 20), 0.0
+    assert shape == "imported"
+    return table_field(tables[antenna["pattern_table"]], zenith, azimuth)
+
+
+def element_positions(antenna):
+    """[elements, 3], array frame."""
+    if "elements_m" in antenna:
+        return np.array(antenna["elements_m"], float)
+    along = [np.eye(3)["xyz".index(axis)] for axis in antenna["plane"]]  # of columns, of rows
+    offset = lambda n, spacing: (np.arange(n) - (n - 1) / 2) * spacing
+    across, up = offset(antenna["columns"], antenna["column_spacing_m"]), offset(antenna["rows"], antenna["row_spacing_m"])
+    return np.array([c * along[0] + r * along[1] for r in up for c in across])
+
+
+def array_response(antenna, tables, turn, d, wavelength, conjugate=False):
+    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase; conjugate:
+    of the pattern alone."""
     own = turn.T @ d
     own_theta, own_phi = basis(own)
-    zenith = np.arctan2(np.hypot(own[0], own[1]), own[2])
-    gain = 1.0
-    if antenna["pattern"] == "half_wave_dipole":
-        gain = np.sqrt(1.6409223770) * np.cos(np.pi / 2 * np.cos(zenith)) / np.sin(zenith)
+    zenith, azimuth = np.arctan2(np.hypot(own[0], own[1]), own[2]), np.arctan2(own[1], own[0])
+    f_theta, f_phi = element_field(antenna, tables, zenith, azimuth)
     to_world = np.array(basis(d)) @ turn
-    out = []
-    for row in range(antenna["rows"]):
-        for column in range(antenna["columns"]):
-            y = (column - (antenna["columns"] - 1) / 2) * antenna["column_spacing_m"]
-            z = (row - (antenna["rows"] - 1) / 2) * antenna["row_spacing_m"]
-            phase = np.exp(2j * np.pi * (own[1] * y + own[2] * z) / wavelength)
-            for slant in np.radians(SLANTS[antenna["polarization"]]):
-                out.append(to_world @ (gain * (np.cos(slant) * own_theta + np.sin(slant) * own_phi)) * phase)
-    return np.array(out)
+    fields = []
+    for slant in np.radians(antenna["slants_deg"]):
+        if antenna["polarization_model"] == 2:
+            lead = np.cos(slant) * own_theta + np.sin(slant) * own_phi
+        else:  # eq. 7.3-3: theta-hat of an axis rolled by the slant
+            axis = np.array([0, -np.sin(slant), np.cos(slant)])
+            lead = (axis @ own) * own - axis
+            lead = unit(lead) if np.linalg.norm(lead) > 1e-12 else own_theta
+        field = to_world @ (f_theta * lead + f_phi * np.cross(own, lead))
+        fields.append(np.conj(field) if conjugate else field)
+    phases = np.exp(2j * np.pi / wavelength * element_positions(antenna) @ own)
+    return (phases[:, None, None] * np.array(fields)).reshape(-1, 2)
 
 
-def amplitudes(meta, tx_turn, rx, rx_turn, transfers, departures, arrivals, delays):
-    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}."""
+def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, delays):
+    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}; `tx`, `rx`: descriptions of the ends."""
     wavelength = C / meta["carrier_hz"]
+    tables = meta["pattern_tables"]
     out = []
     for t, d, a, tau in zip(transfers, departures, arrivals, delays):
-        from_tx = array_response(meta["transmitter"], tx_turn, direction(d), wavelength)
-        at_rx = array_response(rx, rx_turn, direction(a), wavelength)
-        # The patterns are real: their conjugate, which leaves the phases of the elements alone, is themselves.
+        from_tx = array_response(tx, tables, tx_turn, direction(d), wavelength)
+        at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength, conjugate=True)
         out.append(wavelength / (4 * np.pi) * (at_rx @ t @ from_tx.T) * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1)))
-    shape = (0, rx["ports"], meta["transmitter"]["ports"])
-    return np.array(out) if out else np.zeros(shape, complex)
+    return np.array(out) if out else np.zeros((0, rx["ports"], tx["ports"]), complex)
 
 
 def response(meta, amplitude, delays, dopplers):
