@@ -14,7 +14,7 @@ import numpy as np
 
 C = 299792458.0
 
-# A street with everything: a panel and a second receiver, time samples with Doppler, a camera and a LiDAR at half the rate.
+# A street with everything: two panels, two receivers, time samples with Doppler, a camera and a LiDAR at half the rate.
 STREET = """
 greatx: 1
 name: street
@@ -24,6 +24,9 @@ scene: {generate: {kind: canyon, seed: 9, size_m: 120}}
 nodes:
   - name: bs
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}
+    sensors: [{name: panel, type: antenna, polarization: slant, rows: 1, columns: 2}]
+  - name: corner
+    trajectory: {type: static, position_m: [-6.3, 21.7, 7], rotation_deg: [-90, 0, 0]}
     sensors: [{name: panel, type: antenna, polarization: slant, rows: 1, columns: 2}]
   - name: car
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, {t_s: 1, position_m: [2.4, -20, 0]}]}
@@ -39,8 +42,8 @@ nodes:
     trajectory: {type: static, position_m: [-5, 20, 1.5]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: bs/panel, rx: [car/antenna, walker/antenna], rate_hz: 20, carrier_hz: 3.5e9, bandwidth_hz: 100e6,
-     subcarriers: 64, time_samples: 3, time_spacing_s: 1e-3, max_depth: 2}
+  - {name: csi, tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna], rate_hz: 20, carrier_hz: 3.5e9,
+     bandwidth_hz: 100e6, subcarriers: 64, time_samples: 3, time_spacing_s: 1e-3, max_depth: 2}
 """
 
 # Two antennas in free space, the second moving away: closed forms. Two runs of it.

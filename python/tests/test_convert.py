@@ -137,7 +137,7 @@ class Sionna(Converted):
         csi = greatx.load(support.street())["csi"]
         for record in csi:
             p = sionna_paths(record)
-            self.assertEqual(p.a.shape[:4], (2, 1, 1, 4))
+            self.assertEqual(p.a.shape[:4], (2, 1, 2, 4))
             self.assertEqual(p.cir.shape, (*p.a.shape, 3))
             baseband = p.a.astype(complex) * np.exp(-2j * np.pi * p.frequency * p.tau)[:, None, :, None]
             np.testing.assert_allclose(p.cir[..., 0], baseband, atol=1e-6 * np.abs(baseband).max())

@@ -32,7 +32,7 @@ class Items(unittest.TestCase):
 
     def test_a_sensor_stands_for_its_arrays_of_fixed_shape(self):
         item = self.ds.samples("poses")[1]
-        self.assertEqual(item["poses/orientation"].shape, (3, 4))
+        self.assertEqual(item["poses/orientation"].shape, (4, 4))
         item = self.ds.samples("csi")[1]
         self.assertIn("csi/path_count", item)
         self.assertNotIn("csi/delay", item)
