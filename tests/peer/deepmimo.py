@@ -38,7 +38,7 @@ nodes:
     sensors: [{name: antenna, type: antenna}]
 channels:
   - {name: csi, tx: bs/antenna, rx: [near/antenna, far/antenna], rate_hz: 20, carrier_hz: 28e9, bandwidth_hz: 400e6,
-     subcarriers: 512, max_depth: 3}
+     subcarriers: 512, time_samples: 2, time_spacing_s: 1e-4, max_depth: 3}
 """
 
 
@@ -98,31 +98,36 @@ def check_link(theirs, user, record, rx, worst):
     expected = ["".join(letters[row]) for row in ours["interaction"]]
     worst.add("interactions, as deepmimo names them", sum(a != b for a, b in zip(theirs.inter_str[user, :n], expected)), 0)
     depth = theirs.inter_pos.shape[2]
-    worst.add("places of interactions, m", np.nan_to_num(np.abs(theirs.inter_pos[user, :n] - ours["vertex"][:, :depth])), 1e-5)
+    places, wanted = theirs.inter_pos[user, :n], ours["vertex"][:, :depth]
+    worst.add("places of interactions, NaN where there is none", np.sum(np.isnan(places) != np.isnan(wanted)), 0)
+    worst.add("places of interactions, m", np.nan_to_num(np.abs(places - wanted)), 1e-5)
     worst.add("line of sight", abs(int(theirs.los[user]) - int(np.ravel(record["line_of_sight"])[rx])), 0)
     worst.add("ends, m", np.abs(theirs.rx_pos[user] - antenna_pose(record, receivers(record.sensor)[rx])[0]), 1e-5)
     worst.add("ends, m", np.abs(np.ravel(theirs.tx_pos) - antenna_pose(record, transmitters(record.sensor)[0])[0]), 1e-5)
 
     # Their grid begins at the carrier: their subcarrier k is our k + N/2.
     half = meta["subcarriers"] // 2
-    h = theirs.channel[user, 0, 0] * np.sqrt(meta["subcarriers"])
-    want = record["cfr"][rx, 0, 0, 0, 0, half:]
-    worst.add("H(f) of single antennas, relative to its mean power",
+    h = theirs.channel[user, 0, 0].T * np.sqrt(meta["subcarriers"])
+    want = record["cfr"][rx, 0, 0, 0, :, half:]
+    worst.add("H(f, t) of single antennas, relative to its mean power",
               np.abs(h - want) / np.sqrt(np.mean(np.abs(want) ** 2)), 1e-4)
     conjugate = np.abs(np.conj(h) - want) / np.sqrt(np.mean(np.abs(want) ** 2))
     worst.add("(the other time convention would not do: 0 if so)", float(conjugate.max() < 0.1), 0)
-    return ours["doppler"]
+    worst.add("(nor would H at rest: 0 if so)", float(np.abs(want[1] - want[0]).max() < 1e-3 * np.abs(want).max()), 0)
 
 
-def compute(theirs, meta):
-    half = meta["subcarriers"] // 2
+def compute(theirs, folder, meta):
+    """Their channel of single antennas: [user, 1, 1, subcarrier, time]."""
     import deepmimo as dm
     import numpy as np
-    params = dm.ChannelParameters(num_paths=1000, ofdm={"subcarriers": meta["subcarriers"],
-                                                        "bandwidth": meta["subcarriers"] * meta["subcarrier_spacing_hz"],
-                                                        "selected_subcarriers": np.arange(half)},
-                                  bs_antenna={"shape": np.array([1, 1])}, ue_antenna={"shape": np.array([1, 1])})
-    theirs.compute_channels(params)
+    one = {"shape": np.array([1, 1])}
+    doppler = np.load(pathlib.Path("deepmimo_scenarios", folder, "doppler_t000_tx000_r001.npz"))["doppler"]
+    theirs.set_doppler(np.nan_to_num(doppler[:, :theirs.max_paths]))
+    theirs.compute_channels(dm.ChannelParameters(
+        num_paths=1000, doppler=True, bs_antenna=one, ue_antenna=one,
+        ofdm={"subcarriers": meta["subcarriers"], "bandwidth": meta["subcarriers"] * meta["subcarrier_spacing_hz"],
+              "selected_subcarriers": np.arange(meta["subcarriers"] // 2)}),
+        times=np.arange(meta["time_samples"]) * meta["time_spacing_s"])
 
 
 def check(program):
@@ -141,19 +146,15 @@ def check(program):
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             dynamic = dm.load("peer_snapshots", max_paths=1000)
             users = dm.load("peer_users", max_paths=1000)
-            for each in [*dynamic.datasets, users]:
-                compute(each, channel.metadata)
+            for i, each in enumerate(dynamic.datasets):
+                compute(each, f"peer_snapshots/snapshot_{i:06d}", channel.metadata)
+            compute(users, "peer_users", channel.metadata)
         worst.add("snapshots", abs(dynamic.n_scenes - len(channel)), 0)
         worst.add("carrier, Hz", abs(users.rt_params.frequency - channel.carrier_hz), 0)
         for i, record in enumerate(channel):
             for rx in range(2):
                 check_link(dynamic.datasets[i], rx, record, rx, worst)
-                doppler = check_link(users, 2 * i + rx, record, rx, worst)
-                stored = np.load("deepmimo_scenarios/peer_users/doppler_t000_tx000_r001.npz")["doppler"]
-                worst.add("Doppler beside it, Hz", np.abs(stored[2 * i + rx, :len(doppler)] - doppler), 1e-3)
-        with contextlib.redirect_stdout(io.StringIO()):
-            users.set_doppler(np.nan_to_num(stored[:, :users.max_paths]))
-            users.compute_pathloss()
+                check_link(users, 2 * i + rx, record, rx, worst)
         print(f"DeepMIMO {dm.__version__}: {users.n_ue} users, {int(users.num_paths.sum())} paths")
     return 1 if worst.failed() else 0
 
