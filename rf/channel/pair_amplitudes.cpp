@@ -26,10 +26,8 @@ void check_link(std::span<const Path> paths, const ArrayPose& transmitter, const
 
 double wavelength_factor(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
 
-Ports::Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
-    : element_(end.array.turned_element(end.orientation)),
-      conjugate_(conjugate),
-      count_(end.array.port_count()) {
+Ports::Ports(const ArrayPose& end, double carrier_hz)
+    : element_(end.array.turned_element(end.orientation)), count_(end.array.port_count()) {
   const double per_wavelength = carrier_hz / speed_of_light;
   for (uint32_t port = 0; port < count_; port += end.array.polarization_count())
     positions_.push_back(end.orientation * end.array.element_position(port) * per_wavelength);
@@ -38,8 +36,6 @@ Ports::Ports(const ArrayPose& end, bool conjugate, double carrier_hz)
 void Ports::fields(const dvec3& direction, std::vector<Jones>& out) const {
   out.resize(element_.polarization_count());
   element_.respond(direction, out);
-  if (conjugate_)
-    for (Jones& field : out) field = {std::conj(field.theta), std::conj(field.phi)};
 }
 
 void Ports::respond(const dvec3& direction, std::vector<Jones>& out) const {
@@ -48,16 +44,18 @@ void Ports::respond(const dvec3& direction, std::vector<Jones>& out) const {
   out.resize(count_);
   // From the last element to the first, which holds the patterns themselves.
   for (size_t element = positions_.size(); element-- > 0;) {
-    const Complex phase = unit_phasor(fraction_of_turn(glm::dot(direction, positions_[element])));
+    const Complex turn = phase(direction, static_cast<uint32_t>(element * polarizations));
     for (size_t p = 0; p < polarizations; ++p)
-      out[element * polarizations + p] = {out[p].theta * phase, out[p].phi * phase};
+      out[element * polarizations + p] = {out[p].theta * turn, out[p].phi * turn};
   }
 }
 
+Complex Ports::phase(const dvec3& direction, uint32_t port) const {
+  return unit_phasor(fraction_of_turn(glm::dot(direction, positions_[port / element_.polarization_count()])));
+}
+
 PairAmplitudes::PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz)
-    : tx_(transmitter, false, carrier_hz),
-      rx_(receiver, true, carrier_hz),
-      scale_(wavelength_factor(carrier_hz)) {}
+    : tx_(transmitter, carrier_hz), rx_(receiver, carrier_hz), scale_(wavelength_factor(carrier_hz)) {}
 
 void PairAmplitudes::operator()(const Path& path, const Complex* t, Complex* out) {
   tx_.respond(path.departure, tx_response_);

@@ -23,17 +23,19 @@ double wavelength_factor(double carrier_hz);
 /// An array's ports, worked out once: where the elements are and which way the polarizations point.
 class Ports {
  public:
-  /// `conjugate`: the complex conjugate of the pattern, as C_R^H asks at the receiver; not of the array's phase.
-  Ports(const ArrayPose& end, bool conjugate, double carrier_hz);
+  Ports(const ArrayPose& end, double carrier_hz);
   uint32_t count() const { return count_; }
-  /// Field pattern times the plane wave's phase at each port, for one world direction: out[ports].
+  /// The field that each port radiates in a world direction, times the plane wave's phase there: out[ports]. It is also what
+  /// the port takes up from there, out^T E, with E the field on theta-hat and phi-hat of the direction that the wave comes
+  /// from (reciprocity): C_R^H E with C_R the conjugate of the radiated pattern.
   void respond(const dvec3& direction, std::vector<Jones>& out) const;
-  /// Field pattern of each polarization, without the phases: out[polarizations].
+  /// The same of each polarization, without the phases: out[polarizations].
   void fields(const dvec3& direction, std::vector<Jones>& out) const;
+  /// e^{j 2 pi direction . d/lambda} of a port at d.
+  Complex phase(const dvec3& direction, uint32_t port) const;
 
  private:
   TurnedElement element_;
-  bool conjugate_;
   uint32_t count_;
   std::vector<dvec3> positions_;  ///< [elements], carrier wavelengths, local axes
 };

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/channel/received.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "rf/channel/pair_amplitudes.h"
+#include "rf/channel/phase.h"
+#include "rf/channel/summing_order.h"
+
+namespace greatx::rf {
+namespace {
+
+void check_link(const ArrayPose& transmitter, const ArrayPose& receiver, const RadioLink& link) {
+  GREATX_CHECK(link.transmit_power_w >= 0.0 && std::isfinite(link.transmit_power_w) &&
+                   link.resistance_ohm > 0.0 && std::isfinite(link.resistance_ohm),
+               "{} W into {} ohm", link.transmit_power_w, link.resistance_ohm);
+  GREATX_CHECK(
+      link.transmit_port < transmitter.array.port_count() && link.receive_port < receiver.array.port_count(),
+      "ports {} and {} of {} and {}", link.transmit_port, link.receive_port, transmitter.array.port_count(),
+      receiver.array.port_count());
+}
+
+/// One port of each end.
+class PortPair {
+ public:
+  PortPair(const ArrayPose& transmitter, const ArrayPose& receiver, const RadioLink& link)
+      : tx_(transmitter, link.carrier_hz),
+        rx_(receiver, link.carrier_hz),
+        link_(link),
+        field_scale_(std::sqrt(vacuum_impedance_ohm * link.transmit_power_w / (4.0 * pi))),
+        voltage_scale_(std::sqrt(4.0 * link.resistance_ohm * link.transmit_power_w)) {}
+
+  ReceivedPath operator()(const Path& path) {
+    tx_.respond(path.departure, tx_response_);
+    rx_.respond(path.arrival, rx_response_);
+    const Jones& sent = tx_response_[link_.transmit_port];
+    const Jones& taken = rx_response_[link_.receive_port];
+    const Complex carrier = unit_phasor(-turns_of(link_.carrier_hz, path.delay_s));
+    const Complex* t = path.transfer;
+    const Jones arriving{(t[0] * sent.theta + t[1] * sent.phi) * carrier,
+                         (t[2] * sent.theta + t[3] * sent.phi) * carrier};
+    ReceivedPath result;
+    result.amplitude =
+        wavelength_factor(link_.carrier_hz) * (taken.theta * arriving.theta + taken.phi * arriving.phi);
+    // At the port's element: the plane wave's phase there.
+    const Complex place = rx_.phase(path.arrival, link_.receive_port);
+    result.field_v_per_m = {field_scale_ * arriving.theta * place, field_scale_ * arriving.phi * place};
+    result.power_w = link_.transmit_power_w * std::norm(result.amplitude);
+    result.open_circuit_v = voltage_scale_ * result.amplitude;
+    return result;
+  }
+
+ private:
+  Ports tx_, rx_;
+  RadioLink link_;
+  double field_scale_, voltage_scale_;
+  std::vector<Jones> tx_response_, rx_response_;
+};
+
+}  // namespace
+
+Received received(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+                  const RadioLink& link) {
+  check_link(paths, transmitter, receiver, link.carrier_hz);
+  check_link(transmitter, receiver, link);
+  PortPair receive(transmitter, receiver, link);
+  Received result;
+  result.paths.reserve(paths.size());
+  for (const Path& path : paths) result.paths.push_back(receive(path));
+  for (const uint32_t index : summing_order(paths)) {
+    const ReceivedPath& path = result.paths[index];
+    result.amplitude += path.amplitude;
+    result.open_circuit_v += path.open_circuit_v;
+    result.mean_power_w += path.power_w;
+    result.field_v_per_m.add(path.field_v_per_m.theta, theta_hat(paths[index].arrival));
+    result.field_v_per_m.add(path.field_v_per_m.phi, phi_hat(paths[index].arrival));
+  }
+  result.power_w = link.transmit_power_w * std::norm(result.amplitude);
+  return result;
+}
+
+double path_loss_db(double power_gain) { return -decibels(power_gain); }
+double dbm(double power_w) { return decibels(power_w / 1e-3); }
+double watts(double dbm) { return 1e-3 * from_decibels(dbm); }
+
+}  // namespace greatx::rf

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From amplitudes to what instruments show: volts, volts per metre, watts. Fields and voltages are rms phasors about
+// e^{+j omega t}; their peak is sqrt(2) times that.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/units.h"
+#include "rf/channel/frequency_response.h"
+#include "rf/field_vector.h"
+#include "rf/path.h"
+
+namespace greatx::rf {
+
+/// Wave impedance of vacuum 1/(epsilon_0 c) = 376.730 ohm.
+inline constexpr double vacuum_impedance_ohm = 1.0 / (vacuum_permittivity * speed_of_light);
+
+/// One port sends, one receives.
+struct RadioLink {
+  double carrier_hz = 3.5e9;
+  double transmit_power_w =
+      1.0;  ///< into the port, all of it radiated but for what its pattern loses; not negative
+  double resistance_ohm = 50.0;  ///< R, real part of the receiving port's impedance; above 0
+  uint32_t transmit_port = 0, receive_port = 0;
+};
+
+/// What a path brings.
+struct ReceivedPath {
+  /// a, as in ImpulseResponse, in fp64: a = (lambda/4 pi) C_R^H T C_T e^{-j 2 pi f_c tau}.
+  Complex amplitude{0.0};
+  /// E = sqrt(eta_0 P_t/4 pi) T C_T e^{-j 2 pi f_c tau}, V/m rms along theta-hat and phi-hat (world axes) of the direction of
+  /// arrival, which points back along the path. A line of sight: |E| = sqrt(eta_0 P_t G_t/4 pi)/d, which Rec. ITU-R P.525-4,
+  /// eq. 1 rounds to sqrt(30 P_t G_t)/d (0.003 dB more). In the air: before the receiving antenna, whose port
+  /// counts by its position alone.
+  Jones field_v_per_m;
+  /// At a matched load: P_r = P_t |a|^2 (Friis; Balanis, "Antenna Theory", 4th ed., eq. 2-118).
+  double power_w = 0.0;
+  /// V_oc = sqrt(4 R P_t) a, V rms: the Thevenin voltage whose available power |V_oc|^2/4R is P_r (in peak values sqrt(8 R
+  /// P_r), Balanis, 2.13). It is h^H E with the vector effective length h = lambda sqrt(R/(pi eta_0)) C_R (Balanis, 2.15; a
+  /// half-wave dipole, R = 73.08 ohm: lambda/pi), up to a constant phase of the antenna.
+  Complex open_circuit_v{0.0};
+};
+
+/// A link's paths and their sums.
+struct Received {
+  std::vector<ReceivedPath> paths;  ///< in the order of the paths
+  /// Sums of the phasors, at the carrier: what is there at this very place. power_w is P_t |sum a|^2.
+  Complex amplitude{0.0};
+  FieldVector field_v_per_m;  ///< world axes, for the paths arrive from everywhere
+  double power_w = 0.0;
+  Complex open_circuit_v{0.0};
+  /// Sum of the paths' powers: the mean over a neighbourhood of some wavelengths.
+  double mean_power_w = 0.0;
+};
+
+/// Sums are in summing_order(): any order of the paths gives the same bits. Thread-safe.
+Received received(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+                  const RadioLink& link);
+
+/// -10 log10 of a power gain; +inf of 0. With isotropic antennas: basic transmission loss; with patterns: transmission loss,
+/// antennas included (Rec. ITU-R P.341), which is what path_powers() and LinkStatistics::path_gain give.
+double path_loss_db(double power_gain);
+/// 10 log10(P / 1 mW); -inf of 0.
+double dbm(double power_w);
+double watts(double dbm);
+
+}  // namespace greatx::rf
