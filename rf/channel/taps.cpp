@@ -26,6 +26,7 @@ class Sinc {
   Sinc(double bandwidth_hz, double delay_s) {
     const ExactProduct samples = exact_product(bandwidth_hz, delay_s);
     nearest_ = std::nearbyint(samples.value);
+    GREATX_CHECK(std::abs(nearest_) < 0x1p52, "a delay of {} s at {} Hz", delay_s, bandwidth_hz);
     fraction_ = (samples.value - nearest_) + samples.error;
     sine_ = std::sin(pi * fraction_) / pi;
   }
@@ -33,7 +34,7 @@ class Sinc {
     const double away = tap - nearest_;
     if (away == 0.0) return fraction_ == 0.0 ? 1.0 : sine_ / fraction_;
     const double value = sine_ / (away - fraction_);
-    return std::fmod(away, 2.0) == 0.0 ? -value : value;
+    return static_cast<int64_t>(away) % 2 == 0 ? -value : value;
   }
   /// B tau is in [first, end).
   bool in(double first, double end) const {
