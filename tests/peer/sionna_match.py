@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pairs the paths of two answers one to one, and measures how far the pairs are apart."""
+import numpy as np
+
+from sionna_paths import C
+
+POINT_M = 0.02   #: the same point, by fp32 at some hundred metres
+LENGTH_M = 2e-3
+
+
+def same_polyline(a, b):
+    return (a.receiver == b.receiver and a.kinds == b.kinds and abs(a.length - b.length) < LENGTH_M
+            and np.abs(a.points - b.points).max() < POINT_M)
+
+
+def pair(greatx, sionna):
+    """(pairs, missing in Sionna RT, left over in Sionna RT, doubled in Sionna RT [(path, its first)])."""
+    by_receiver = {}
+    for path in greatx:
+        by_receiver.setdefault((path.receiver, path.kinds), []).append(path)
+    pairs, extra, doubled, taken = [], [], [], {}
+    for path in sionna:
+        fits = [p for p in by_receiver.get((path.receiver, path.kinds), []) if same_polyline(p, path)]
+        fits.sort(key=lambda p: np.abs(p.points - path.points).max())
+        free = [p for p in fits if id(p) not in taken]
+        if free:
+            taken[id(free[0])] = path
+            pairs.append((free[0], path))
+        elif fits:
+            doubled.append((path, taken[id(fits[0])]))
+        else:
+            twin = next((e for e in extra if same_polyline(e, path)), None)
+            if twin is None:
+                extra.append(path)
+            else:
+                doubled.append((path, twin))
+    missing = [p for p in greatx if id(p) not in taken]
+    return pairs, missing, extra, doubled
+
+
+def doubled_within(paths):
+    """Paths of one answer that say the same as another of it."""
+    groups = {}
+    for p in paths:
+        groups.setdefault((p.receiver, p.kinds), []).append(p)
+    return sum(any(same_polyline(p, q) for q in group[:i]) for group in groups.values() for i, p in enumerate(group))
+
+
+def angle_between(a, b):
+    """rad, between two directions given by zenith and azimuth."""
+    u, v = (np.array([np.sin(z) * np.cos(p), np.sin(z) * np.sin(p), np.cos(z)]) for z, p in (a, b))
+    return np.arctan2(np.linalg.norm(np.cross(u, v)), u @ v)
+
+
+def relative(found, expected):
+    size = np.linalg.norm(expected)
+    return np.linalg.norm(found - expected) / size if size > 0 else np.inf
+
+
+def differences(pairs):
+    """Per pair: delay (s), angles of both ends (rad), transfer (relative), the same with the better common phase."""
+    out = []
+    for ours, theirs in pairs:
+        inner = np.vdot(ours.transfer, theirs.transfer)
+        turned = theirs.transfer * (np.exp(-1j * np.angle(inner)) if abs(inner) > 0 else 1)
+        out.append((abs(ours.delay - theirs.delay), angle_between(ours.departure, theirs.departure),
+                    angle_between(ours.arrival, theirs.arrival), relative(theirs.transfer, ours.transfer),
+                    relative(turned, ours.transfer), np.angle(inner)))
+    return np.array(out).reshape(-1, 6)
+
+
+def response(paths, case, frequencies):
+    """H [rx, 2, 2, k] of path lists with fp64 phases; frequencies about the carrier."""
+    count = 1 + max((p.receiver for p in paths), default=-1)
+    out = np.zeros((count, 2, 2, len(frequencies)), complex)
+    for p in paths:
+        phase = np.exp(-2j * np.pi * (((case.carrier_hz + frequencies) * p.delay) % 1.0))
+        out[p.receiver] += p.transfer[:, :, None] * phase
+    return out
+
+
+def nmse_db(found, expected):
+    """Over everything of a receiver; the median and the worst of the receivers with any power, dB."""
+    values = []
+    for a, b in zip(found, expected):
+        power = np.sum(np.abs(b) ** 2)
+        if power > 0:
+            values.append(10 * np.log10(max(np.sum(np.abs(a - b) ** 2) / power, 1e-32)))
+    return (float(np.median(values)), float(np.max(values))) if values else (np.nan, np.nan)
+
+
+def length_of(seconds):
+    return seconds * C
