@@ -3,8 +3,10 @@
 #include "sim/channel_sensor.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/units.h"
+#include "sim/array_plan.h"
 #include "sim/channel_antennas.h"
 
 namespace greatx::sim {
@@ -41,15 +43,43 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
            doppler_ ? config_.time_spacing_s : 0.0};
   if (plan.dispersion.on)
     dispersion_.emplace(world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid_);
+  if (plan.every_element.on) find_near_links(gpu_scene, crossings, plan, scenario, channel);
   describe();
+}
+
+void ChannelSensor::find_near_links(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                                    const EffectPlan& plan, const Scenario& scenario, uint32_t channel) {
+  const auto wish = scenario.effects.find("every_element");
+  const bool all = wish != scenario.effects.end() && wish->second == Switch::on;
+  for (size_t r = 0; r < receiver_arrays_.size(); ++r)
+    for (size_t t = 0; t < transmitter_arrays_.size(); ++t) {
+      const double far_m = far_field_distance_m(scenario, config_, t, r);
+      if (far_m == 0.0) continue;
+      near_links_.push_back(
+          {r,
+           t,
+           all ? std::numeric_limits<double>::infinity() : far_m,
+           std::make_unique<ElementPaths>(gpu_scene, crossings, plan, scenario, world_, radio_, channel,
+                                          ArrayEnd{paths_[t]->transmitter(), transmitter_arrays_[t]},
+                                          ArrayEnd{paths_[t]->receivers()[r], receiver_arrays_[r]}),
+           {}});
+    }
 }
 
 void ChannelSensor::start(const TickContext& context) {
   for (const auto& paths : paths_) paths->start(context);
+  for (const NearLink& link : near_links_) link.elements->start();
 }
 
 void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   for (const auto& paths : paths_) paths->record(slot, context);
+  for (NearLink& link : near_links_) {
+    const ChannelPaths& paths = *paths_[link.transmitter];
+    const double distance_m = glm::distance(world_position(paths.transmitter(), context),
+                                            world_position(paths.receivers()[link.receiver], context));
+    link.recorded[slot.index] = distance_m < link.within_m;
+    if (link.recorded[slot.index]) link.elements->record(slot, context);
+  }
 }
 
 void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
@@ -59,8 +89,20 @@ void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
 std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
   Results results;
   for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+  for (NearLink& link : near_links_)
+    if (link.recorded[slot.index]) {
+      link.elements->collect(slot);
+      ++near_ticks_;
+    }
   check_sights(results);
-  return arrays_of(results);
+  return arrays_of(results, slot.index);
+}
+
+const ElementPaths* ChannelSensor::elements_of(size_t receiver, size_t transmitter, uint32_t slot) const {
+  for (const NearLink& link : near_links_)
+    if (link.receiver == receiver && link.transmitter == transmitter)
+      return link.recorded[slot] ? link.elements.get() : nullptr;
+  return nullptr;
 }
 
 void ChannelSensor::check_sights(const Results& results) {
@@ -78,6 +120,12 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
     paths->count(own);
     for (const auto& [name, value] : own) counters[config_.name + "." + name] += value;
   }
+  if (near_links_.empty()) return;
+  std::map<std::string, uint64_t> of_elements;
+  for (const NearLink& link : near_links_) link.elements->count(of_elements);
+  counters[config_.name + ".every_element_links"] = near_ticks_;
+  for (const char* name : {"paths", "candidate_overflow", "path_overflow"})
+    counters[fmt::format("{}.every_element_{}", config_.name, name)] = of_elements[name];
 }
 
 void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {

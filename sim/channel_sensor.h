@@ -5,6 +5,7 @@
 // the antennas.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "sim/channel_columns.h"
 #include "sim/channel_paths.h"
 #include "sim/effect_plan.h"
+#include "sim/element_paths.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
 
@@ -39,11 +41,24 @@ class ChannelSensor : public Sensor {
 
  private:
   using Results = std::vector<ChannelPaths::Result>;  ///< [tx]
+  /// A link of arrays that may come into their near field.
+  struct NearLink {
+    size_t receiver = 0, transmitter = 0;
+    double within_m = 0.0;  ///< nearer than this, every element is solved
+    std::unique_ptr<ElementPaths> elements;
+    std::array<bool, slots_in_flight> recorded{};
+  };
+  void find_near_links(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                       const Scenario& scenario, uint32_t channel);
+  /// The link of these ends, if it was solved by elements at the tick of `slot`; else null.
+  const ElementPaths* elements_of(size_t receiver, size_t transmitter, uint32_t slot) const;
   void describe();
   std::string metadata() const;
   void check_sights(const Results& results);
-  std::vector<Array> arrays_of(const Results& results) const;
-  void write_responses(const Results& results, Array& cfr) const;
+  std::vector<Array> arrays_of(const Results& results, uint32_t slot) const;
+  std::vector<std::complex<float>> response(const Results& results, size_t receiver, size_t transmitter,
+                                            uint32_t slot) const;
+  void write_responses(const Results& results, uint32_t slot, Array& cfr) const;
 
   const World& world_;
   const ChannelConfig& config_;
@@ -51,6 +66,8 @@ class ChannelSensor : public Sensor {
   std::shared_ptr<RadioWorld> radio_;
   std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
   std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
+  std::vector<NearLink> near_links_;
+  uint64_t near_ticks_ = 0;  ///< links and ticks that were solved by elements
   rf::ChannelGrid grid_;
   std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
   ColumnContext columns_;

@@ -217,6 +217,7 @@ std::vector<Effect*> EffectPlan::all() {
           &foliage,
           &dispersion,
           &doppler,
+          &every_element,
           &consistency};
 }
 

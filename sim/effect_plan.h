@@ -33,7 +33,7 @@ struct EffectPlan {
   Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion;
   // Radio.
   Effect channel, line_of_sight, reflection, moving_reflectors, transmission, diffraction,
-      diffraction_lit_region, free_edges, scattering, roughness, gas, rain, fog, foliage, dispersion, doppler;
+      diffraction_lit_region, free_edges, scattering, roughness, gas, rain, fog, foliage, dispersion, doppler, every_element;
   // The check that the modalities see one world.
   Effect consistency;
 

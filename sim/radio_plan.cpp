@@ -16,6 +16,8 @@
 #include "rf/radio_model.h"
 #include "rf/roughness.h"
 #include "sim/effect_planner.h"
+#include "sim/array_plan.h"
+#include "sim/trajectory_bounds.h"
 
 namespace greatx::sim {
 
@@ -82,23 +84,6 @@ Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
     }
   }
   return surfaces;
-}
-
-void add_trajectory(const Trajectory& trajectory, scene::Bounds& bounds) {
-  if (const auto* still = std::get_if<StaticTrajectory>(&trajectory)) bounds.add(still->position_m);
-  if (const auto* points = std::get_if<WayPointTrajectory>(&trajectory))
-    for (const WayPoint& point : points->points) bounds.add(point.position_m);
-  if (const auto* bezier = std::get_if<BezierTrajectory>(&trajectory)) {
-    if (bezier->control_points)
-      for (const dvec3& point : *bezier->control_points) bounds.add(point);
-    else
-      for (const double side : {-1.0, 1.0})
-        bounds.add((side < 0 ? bezier->min_m : bezier->max_m) + side * glm::abs(bezier->offset_m));
-  }
-  if (const auto* corridor = std::get_if<CorridorTrajectory>(&trajectory)) {
-    const dvec3 room(corridor->width_m, corridor->width_m, corridor->height_m);
-    for (const dvec3& point : corridor->center_line_m) bounds.add(point - room), bounds.add(point + room);
-  }
 }
 
 /// No path is longer: each of its segments stays in the box around the scene and its trajectories.
@@ -309,6 +294,7 @@ void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   plan_on_request(plan, radio);
   plan_attenuation(plan, radio, scenario, longest_path_m(scenario, scene, asks.max_depth));
   plan_doppler(plan, radio);
+  plan_arrays(plan, planner, scenario);
 }
 
 }  // namespace greatx::sim

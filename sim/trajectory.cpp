@@ -11,6 +11,25 @@
 #include "sim/trajectory_curve.h"
 
 namespace greatx::sim {
+std::vector<dvec3> way_point_velocities(const std::vector<WayPoint>& points) {
+  const size_t last = points.size() - 1;
+  std::vector<dvec3> slopes(last), velocities(points.size());
+  std::vector<double> steps(last);
+  for (size_t i = 0; i < last; ++i) {
+    steps[i] = points[i + 1].time_s - points[i].time_s;
+    slopes[i] = (points[i + 1].position_m - points[i].position_m) / steps[i];
+  }
+  velocities.front() = slopes.front();
+  velocities.back() = slopes.back();
+  if (last == 1) return velocities;
+  for (size_t i = 1; i < last; ++i)
+    velocities[i] = (slopes[i - 1] * steps[i] + slopes[i] * steps[i - 1]) / (steps[i - 1] + steps[i]);
+  velocities.front() += (slopes[0] - slopes[1]) * (steps[0] / (steps[0] + steps[1]));
+  velocities.back() +=
+      (slopes[last - 1] - slopes[last - 2]) * (steps[last - 1] / (steps[last - 2] + steps[last - 1]));
+  return velocities;
+}
+
 namespace {
 
 constexpr int most_tries = 100'000;
@@ -38,34 +57,13 @@ std::unique_ptr<Path> make_path(const StaticTrajectory& trajectory) {
       Pose{trajectory.position_m, orientation_from_yaw_pitch_roll(turn.x, turn.y, turn.z)});
 }
 
-/// The parabola's derivative through a point and its neighbours: Catmull-Rom for uneven times; at an end, the
-/// parabola through the three points there. Exact for constant acceleration.
-std::vector<dvec3> catmull_rom_velocities(const std::vector<WayPoint>& points) {
-  const size_t last = points.size() - 1;
-  std::vector<dvec3> slopes(last), velocities(points.size());
-  std::vector<double> steps(last);
-  for (size_t i = 0; i < last; ++i) {
-    steps[i] = points[i + 1].time_s - points[i].time_s;
-    slopes[i] = (points[i + 1].position_m - points[i].position_m) / steps[i];
-  }
-  velocities.front() = slopes.front();
-  velocities.back() = slopes.back();
-  if (last == 1) return velocities;
-  for (size_t i = 1; i < last; ++i)
-    velocities[i] = (slopes[i - 1] * steps[i] + slopes[i] * steps[i - 1]) / (steps[i - 1] + steps[i]);
-  velocities.front() += (slopes[0] - slopes[1]) * (steps[0] / (steps[0] + steps[1]));
-  velocities.back() +=
-      (slopes[last - 1] - slopes[last - 2]) * (steps[last - 1] / (steps[last - 2] + steps[last - 1]));
-  return velocities;
-}
-
 std::unique_ptr<Path> make_path(const WayPointTrajectory& trajectory) {
   const std::vector<WayPoint>& points = trajectory.points;
   GREATX_CHECK(!points.empty(), "a trajectory of no way-points");
   if (points.size() == 1)
     return std::make_unique<StaticPath>(
         Pose{points[0].position_m, points[0].orientation.value_or(dquat(1.0, 0.0, 0.0, 0.0))});
-  const std::vector<dvec3> velocities = catmull_rom_velocities(points);
+  const std::vector<dvec3> velocities = way_point_velocities(points);
   std::vector<CurveSegment> segments;
   std::vector<dquat> attitudes;
   for (size_t i = 0; i + 1 < points.size(); ++i) {

@@ -19,6 +19,11 @@ class Path {
   virtual bool is_static() const { return false; }
 };
 
+/// Velocities of a smooth way at its points, m/s; two points at least. The parabola's derivative through a point and its
+/// neighbours: Catmull-Rom for uneven times; at an end, the parabola through the three points there. Exact for constant
+/// acceleration.
+std::vector<dvec3> way_point_velocities(const std::vector<WayPoint>& points);
+
 /// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node's name,
 /// sequence): other nodes change nothing. Bezier curves and corridors last from tick 0 to the last tick, T =
 /// (ticks - 1) / tick_rate: u = t / T; beyond that they go straight on. Way-points have their own times and
