@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
@@ -42,13 +43,14 @@ void describe_layout(const rf::AntennaArray& array, nlohmann::json& json) {
   json["port_order"] = "(row * columns + column) * polarizations + polarization";
 }
 
-/// [zeniths * azimuths] of one part of one component, or nothing if it is zero throughout.
+/// [zeniths * azimuths] of one part of one component, or nothing if it is zero throughout. As one text: dataset.json is written
+/// with a line for every item of a list, and a table has some 100,000.
 void describe_part(const rf::PatternTable& table, const char* name, double (*part)(const rf::Jones&),
                    nlohmann::json& json) {
   std::vector<double> values;
   for (const rf::Jones& sample : table.samples()) values.push_back(part(sample));
   if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
-    json[name] = values;
+    json[name] = fmt::format("{}", fmt::join(values, " "));
 }
 
 nlohmann::json describe_table(const rf::PatternTable& table) {

@@ -119,7 +119,7 @@ def transfer(points, types, walls, normals, wavelength):
 def table_field(table, zenith, azimuth):
     """(F_theta, F_phi) of an imported pattern, bilinear in zenith and azimuth."""
     rows, columns = table["zeniths"], table["azimuths"]
-    part = lambda name: np.reshape(table.get(name, np.zeros(rows * columns)), (rows, columns))
+    part = lambda name: np.array(table[name].split(), float).reshape(rows, columns) if name in table else np.zeros((rows, columns))
     row = np.degrees(zenith) / 180 * (rows - 1)
     column = (np.degrees(azimuth) - table["first_azimuth_deg"]) / 360 * columns % columns
     i, j = min(int(row), rows - 2), int(column) % columns
@@ -155,9 +155,8 @@ def element_positions(antenna):
     return np.array([c * along[0] + r * along[1] for r in up for c in across])
 
 
-def array_response(antenna, tables, turn, d, wavelength, conjugate=False):
-    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase; conjugate:
-    of the pattern alone."""
+def array_response(antenna, tables, turn, d, wavelength):
+    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase."""
     own = turn.T @ d
     own_theta, own_phi = basis(own)
     zenith, azimuth = np.arctan2(np.hypot(own[0], own[1]), own[2]), np.arctan2(own[1], own[0])
@@ -171,8 +170,7 @@ def array_response(antenna, tables, turn, d, wavelength, conjugate=False):
             axis = np.array([0, -np.sin(slant), np.cos(slant)])
             lead = (axis @ own) * own - axis
             lead = unit(lead) if np.linalg.norm(lead) > 1e-12 else own_theta
-        field = to_world @ (f_theta * lead + f_phi * np.cross(own, lead))
-        fields.append(np.conj(field) if conjugate else field)
+        fields.append(to_world @ (f_theta * lead + f_phi * np.cross(own, lead)))
     phases = np.exp(2j * np.pi / wavelength * element_positions(antenna) @ own)
     return (phases[:, None, None] * np.array(fields)).reshape(-1, 2)
 
@@ -184,7 +182,8 @@ def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, 
     out = []
     for t, d, a, tau in zip(transfers, departures, arrivals, delays):
         from_tx = array_response(tx, tables, tx_turn, direction(d), wavelength)
-        at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength, conjugate=True)
+        # C_R^H: by reciprocity a port receives with the pattern that it radiates with, transposed, not conjugated.
+        at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength)
         out.append(wavelength / (4 * np.pi) * (at_rx @ t @ from_tx.T) * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1)))
     return np.array(out) if out else np.zeros((0, rx["ports"], tx["ports"]), complex)
 
