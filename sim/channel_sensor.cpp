@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <spdlog/spdlog.h>
+
 #include "core/units.h"
 #include "sim/array_plan.h"
 #include "sim/channel_antennas.h"
@@ -78,7 +80,14 @@ void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     const double distance_m = glm::distance(world_position(paths.transmitter(), context),
                                             world_position(paths.receivers()[link.receiver], context));
     link.recorded[slot.index] = distance_m < link.within_m;
-    if (link.recorded[slot.index]) link.elements->record(slot, context);
+    if (!link.recorded[slot.index]) continue;
+    if (!told_near_)
+      spdlog::info(
+          "channel '{}', tick {}: {} and {} are in the near field: every element is searched from, once "
+          "(effects: {{every_element: off}} to do without)",
+          config_.name, context.tick, paths.transmitter().name, paths.receivers()[link.receiver].name);
+    told_near_ = true;
+    link.elements->record(slot, context);
   }
 }
 

@@ -67,6 +67,7 @@ class ChannelSensor : public Sensor {
   std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
   std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
   std::vector<NearLink> near_links_;
+  bool told_near_ = false;
   uint64_t near_ticks_ = 0;  ///< links and ticks that were solved by elements
   rf::ChannelGrid grid_;
   std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier

@@ -3,7 +3,6 @@
 #include "sim/element_paths.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "core/parallel.h"
 
@@ -45,13 +44,8 @@ ElementPaths::ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
 }
 
 void ElementPaths::record(gpu::TickSlot& slot, const TickContext& context) {
-  if (!started_) {
-    spdlog::info(
-        "tick {}: {} and {} are in the near field: candidates of each element are searched "
-        "(effects: {{every_element: off}} to do without)",
-        context.tick, transmitter_.end.name, receiver_.end.name);
+  if (!started_)
     for (const auto& paths : paths_) paths->start(context);
-  }
   started_ = true;
   for (const auto& paths : paths_) paths->record(slot, context);
 }
