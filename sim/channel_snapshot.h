@@ -51,6 +51,8 @@ class ChannelSnapshot {
 
   const Moment& moment() const { return moment_; }
   const rf::RadioModel& model() const { return radio_->model; }
+  /// The same for those whose results outlive the snapshot.
+  std::shared_ptr<const RadioWorld> radio() const { return radio_; }
   size_t transmitters() const { return paths_.size(); }
   /// Summed over the transmitters.
   void count(std::map<std::string, uint64_t>& counters) const;
