@@ -6,7 +6,9 @@ import json
 
 import numpy as np
 
+import sionna_cfr
 import sionna_setup
+import sionna_wedge
 from sionna_greatx import Greatx
 from sionna_match import differences, pair
 from sionna_paths import CASES, case_called
@@ -95,7 +97,8 @@ def fields(case, referee, pairs, result):
         return
     d = differences(pairs)
     strong = np.array([p.gain_db > -250 for p, _ in pairs])
-    lines = [("delay, mm of path", 1e3 * 299792458.0 * d[:, 0]), ("departure, rad", d[:, 1]), ("arrival, rad", d[:, 2])]
+    lines = [("delay, mm of path", 1e3 * 299792458.0 * d[:, 0]), ("departure, rad", d[:, 1]), ("arrival, rad", d[:, 2]),
+             ("points, mm", 1e3 * d[:, 4])]
     report("  pairs differ by                       median      worst")
     for name, values in lines:
         report(f"    {name:32s} {np.median(values):10.2e} {values.max():10.2e}")
@@ -134,25 +137,26 @@ def recall(case, greatx, receivers, result):
         return
     answer = greatx.recall(case, receivers)
     result["recall"] = answer
-    report(f"  greatx bench --recall: {json.dumps(answer)[:400]}")
+    report("  greatx bench --recall, exhaustive reference: " + ", ".join(f"{k} {v}" for k, v in answer[0]["beams"]["all"].items()))
 
 
 def compare(case, options, program):
     report(f"\n{case.name}: {case.scene}, transmitter {case.transmitter}, {case.count} receivers, depth {case.depth}, "
            f"{case.walls} walls at most{', diffraction' if case.diffraction else ''}, {case.carrier_hz / 1e9:g} GHz, "
            f"{options.samples:.0e} rays, one receiver a call")
-    xml = scene_file(case.scene)
+    xml = scene_file(case, options.work)
     referee = Referee(xml)
     receivers = referee.draw_receivers(case)
     greatx = Greatx(program, options.work / "greatx", xml)
-    sionna = Sionna(case)
+    sionna = Sionna(case, options.work)
     ours = greatx.paths(case, receivers)
     theirs = sionna.each_alone(receivers, samples=options.samples)
     result = {"case": case.name}
     pairs = sets(case, referee, sionna, options, ours, theirs, receivers, result)
     fields(case, referee, pairs, result)
-    import sionna_cfr
-    sionna_cfr.compare(case, greatx, sionna, ours, theirs, receivers, result, report)
+    if case.scene == "simple_wedge" and case.material == "metal":
+        sionna_wedge.compare(case, pairs, result, report)
+    sionna_cfr.compare(case, greatx, sionna, referee, ours, theirs, receivers, result, report)
     recall(case, greatx, receivers, result)
     return result
 

@@ -46,6 +46,7 @@ class Case:
     reflection: bool = True
     diffraction: bool = False
     seed: int = 1
+    material: str = ""        #: of P.2040: instead of all materials of the scene
 
     @property
     def wavelength(self):
@@ -59,7 +60,9 @@ CASES = [
     Case("canyon_28ghz", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), carrier_hz=28e9),
     Case("canyon_edges", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), depth=1, walls=0,
          diffraction=True),
-    Case("wedge", "simple_wedge", (10, 5, 1), 40, (-5, -25, -5), (25, 15, 5), depth=1, walls=0, diffraction=True),
+    Case("wedge", "simple_wedge", (10, 5, 1), 60, (-25, -25, -5), (25, 20, 5), depth=1, walls=0, diffraction=True),
+    Case("wedge_metal", "simple_wedge", (10, 5, 1), 60, (-25, -25, -5), (25, 20, 5), depth=1, walls=0, diffraction=True,
+         material="metal"),
     Case("etoile", "etoile", (60, -80, 25), 100, (-220, -220, 1.5), (220, 220, 30), walls=0),
     Case("etoile_walls", "etoile", (60, -80, 25), 30, (-220, -220, 1.5), (220, 220, 30)),
     Case("munich", "munich", (8.5, 21, 27), 30, (-150, -150, 1.5), (150, 150, 30)),

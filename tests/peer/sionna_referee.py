@@ -244,6 +244,6 @@ class Referee:
                 break
             # Whole millimetres that a float holds exactly, so that both tools have the same ones.
             p = np.float32(np.round(random.uniform(case.low, case.high), 3)).astype(float)
-            if case.scene == "box" or case.scene == "simple_wedge" or not self.crossings(p, p + [0, 0, 500.0]):
+            if case.scene in ("box", "simple_wedge") or not self.crossings(p, p + [0, 0, 500.0]):
                 out.append(p)
         return np.array(out)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sionna RT's answer."""
 import pathlib
+import re
+import shutil
 
 import mitsuba as mi
 import numpy as np
@@ -12,16 +14,26 @@ from sionna_paths import Path
 LETTERS = {0: "", 1: "R", 2: "S", 4: "T", 8: "D"}
 
 
-def scene_file(name):
-    return pathlib.Path(getattr(rt.scene, name))
+def scene_file(case, work):
+    """The scene's XML file; with another material, that of a copy."""
+    file = pathlib.Path(getattr(rt.scene, case.scene))
+    if not case.material:
+        return file
+    folder = work / "scenes" / f"{case.scene}_{case.material}"
+    shutil.copytree(file.parent, folder, dirs_exist_ok=True)
+    copy = folder / f"{folder.name}.xml"
+    text, changes = re.subn(r'(<string name="type" value=)"[a-z_]+"', rf'\1"{case.material}"', file.read_text())
+    assert changes > 0
+    copy.write_text(text)
+    return copy
 
 
 class Sionna:
     """A scene with one transmitter and as many receivers as asked for."""
 
-    def __init__(self, case, merge_shapes=True):
+    def __init__(self, case, work):
         self.case = case
-        self.scene = rt.load_scene(str(scene_file(case.scene)), merge_shapes=merge_shapes)
+        self.scene = rt.load_scene(str(scene_file(case, work)))
         self.scene.frequency = case.carrier_hz
         self.antennas("iso", "VH", 1, 1)
         self.scene.add(rt.Transmitter("tx", mi.Point3f(*case.transmitter)))
