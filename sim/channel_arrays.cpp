@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
+#include "rf/channel/coherence.h"
+#include "rf/channel/received.h"
 #include "sim/channel_antennas.h"
 #include "sim/channel_sensor.h"
 #include "sim/sensor_metadata.h"
@@ -38,13 +40,6 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
-/// Everything of a link that its arrays need.
-struct LinkFacts {
-  LinkView view;
-  rf::LinkStatistics statistics;
-  rf::ImpulseResponse impulse;
-};
-
 /// An array with a row for each of `rows`, one below the other; `leading`: the shape before the row's.
 template <typename View>
 Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span<const View> rows) {
@@ -55,7 +50,33 @@ Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span
   return array;
 }
 
+/// At every transmit port, [paths, tx_ant, 2]: the field that its power makes before the receiver.
+std::vector<std::complex<float>> fields_of(std::span<const rf::Path> paths, const rf::ArrayPose& transmitter,
+                                           const rf::ArrayPose& receiver, const ChannelConfig& config) {
+  const uint32_t ports = transmitter.array.port_count();
+  std::vector<std::complex<float>> fields(paths.size() * ports * 2);
+  for (uint32_t port = 0; port < ports; ++port) {
+    const rf::Received received =
+        rf::received(paths, transmitter, receiver,
+                     {config.carrier_hz, rf::watts(*config.power_dbm), config.resistance_ohm, port, 0});
+    for (size_t i = 0; i < paths.size(); ++i) {
+      const rf::Jones& field = received.paths[i].field_v_per_m;
+      fields[(i * ports + port) * 2] = std::complex<float>(field.theta);
+      fields[(i * ports + port) * 2 + 1] = std::complex<float>(field.phi);
+    }
+  }
+  return fields;
+}
+
 }  // namespace
+
+/// Everything of a link that its arrays need.
+struct ChannelSensor::LinkFacts {
+  LinkView view;  ///< without its pointer: facts move
+  rf::LinkStatistics statistics;
+  std::vector<std::complex<float>> amplitudes;  ///< [paths, rx_ant, tx_ant]
+  std::vector<std::complex<float>> fields;      ///< [paths, tx_ant, 2], if a power is given
+};
 
 void ChannelSensor::describe() {
   const int64_t receivers = static_cast<int64_t>(receiver_arrays_.size()),
@@ -63,18 +84,20 @@ void ChannelSensor::describe() {
   columns_ = {&world_.scene, &radio_->model, &config_, receiver_arrays_[0].port_count(),
               transmitter_arrays_[0].port_count()};
   link_columns_ = link_columns(columns_);
-  path_columns_ = path_columns(columns_);
+  if (config_.outputs.paths) path_columns_ = path_columns(columns_);
+  blocks_ = port_blocks(config_, grid_, dispersion_ ? &*dispersion_ : nullptr);
   spec_.name = config_.name;
   spec_.kind = "csi";
   spec_.rate = config_.rate_hz.str();
-  spec_.arrays.push_back(
-      {"cfr",
-       DType::complex64,
-       {receivers, columns_.rx_ports, transmitters, columns_.tx_ports, config_.time_samples,
-        config_.subcarriers},
-       "1",
-       "[rx, rx_ant, tx, tx_ant, time, subcarrier] H(f) at carrier + (k - floor(N/2)) * spacing"});
-  spec_.outputs.push_back({"cfr", FileFormat::npy_stack, {"cfr"}});
+  for (const PortBlock& block : blocks_) {
+    spec_.arrays.push_back(
+        {block.name,
+         DType::complex64,
+         {receivers, columns_.rx_ports, transmitters, columns_.tx_ports, block.time, block.last},
+         "1",
+         block.description});
+    spec_.outputs.push_back({block.name, FileFormat::npy_stack, {block.name}});
+  }
   for (const LinkColumn& column : link_columns_) {
     spec_.arrays.push_back(
         {column.name, column.dtype, {receivers, transmitters}, column.unit, column.description});
@@ -102,6 +125,12 @@ std::string ChannelSensor::metadata() const {
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
   metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
+  if (config_.taps)
+    metadata["taps"] = {{"bandwidth_hz", config_.taps->bandwidth_hz}, {"first", config_.taps->first}};
+  if (config_.power_dbm) {
+    metadata["power_dbm"] = *config_.power_dbm;
+    metadata["resistance_ohm"] = config_.resistance_ohm;
+  }
   metadata["time_convention"] = "e^{+j omega t}";
   std::vector<ChannelEnd> transmitters;
   for (const auto& paths : paths_) transmitters.push_back(paths->transmitter());
@@ -118,64 +147,85 @@ std::string ChannelSensor::metadata() const {
   return metadata.dump();
 }
 
-/// [rx_ant, tx_ant, time, subcarrier] of one link.
-std::vector<std::complex<float>> ChannelSensor::response(const Results& results, size_t receiver,
-                                                         size_t transmitter, uint32_t slot) const {
-  if (const ElementPaths* elements = elements_of(receiver, transmitter, slot))
-    return elements->response(grid_, dispersion_ ? &*dispersion_ : nullptr);
-  const ChannelPaths::Link& link = results[transmitter].links[receiver];
-  const rf::ArrayPose from{transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation};
-  const rf::ArrayPose to{receiver_arrays_[receiver], link.receiver.orientation};
-  return dispersion_ ? rf::frequency_response(link.paths, dispersion_->spectra(link.paths), from, to, grid_)
-                     : rf::frequency_response(link.paths, from, to, grid_);
+rf::ArrayPose ChannelSensor::transmitter_pose(const Results& results, size_t transmitter) const {
+  return {transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation};
 }
 
-/// Of all links, [rx, rx_ant, tx, tx_ant, time, subcarrier].
-void ChannelSensor::write_responses(const Results& results, uint32_t slot, Array& cfr) const {
+rf::ArrayPose ChannelSensor::receiver_pose(const Results& results, size_t receiver) const {
+  return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation};
+}
+
+/// Of all links, [rx, rx_ant, tx, tx_ant, time, last].
+Array ChannelSensor::block_of(const PortBlock& block, const Results& results, uint32_t slot) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
   const size_t rx_ports = static_cast<size_t>(columns_.rx_ports),
-               row = static_cast<size_t>(columns_.tx_ports) * grid_.size_per_pair();
-  const std::span<std::complex<float>> out = cfr.as<std::complex<float>>();
+               row = static_cast<size_t>(columns_.tx_ports) * block.per_pair();
+  Array array(DType::complex64,
+              {static_cast<int64_t>(receivers), columns_.rx_ports, static_cast<int64_t>(transmitters),
+               columns_.tx_ports, block.time, block.last});
+  const std::span<std::complex<float>> out = array.as<std::complex<float>>();
   parallel_for(receivers * transmitters, 0, [&](size_t index) {
     const size_t r = index / transmitters, t = index % transmitters;
-    const std::vector<std::complex<float>> h = response(results, r, t, slot);
-    for (size_t port = 0; port < rx_ports; ++port)
+    // With one transmitter a link's values lie together: no copy.
+    std::vector<std::complex<float>> apart(transmitters == 1 ? 0 : rx_ports * row);
+    const std::span<std::complex<float>> h =
+        transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);
+    if (const ElementPaths* elements = elements_of(r, t, slot))
+      elements->assemble(block.per_pair(), block.sum, h);
+    else
+      block.sum(results[t].links[r].paths, transmitter_pose(results, t), receiver_pose(results, r), h);
+    for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(
           h.begin() + static_cast<std::ptrdiff_t>(port * row), row,
           out.begin() + static_cast<std::ptrdiff_t>(((r * rx_ports + port) * transmitters + t) * row));
   });
+  return array;
+}
+
+ChannelSensor::LinkFacts ChannelSensor::facts_of(const Results& results, size_t receiver, size_t transmitter,
+                                                 uint32_t slot) const {
+  const std::vector<rf::Path>& paths = results[transmitter].links[receiver].paths;
+  const rf::ArrayPose from = transmitter_pose(results, transmitter), to = receiver_pose(results, receiver);
+  const std::vector<double> powers = rf::path_powers(paths, from, to, config_.carrier_hz);
+  LinkFacts facts;
+  facts.statistics = rf::link_statistics(paths, powers);
+  facts.view.receiver = static_cast<int32_t>(receiver);
+  facts.view.transmitter = static_cast<int32_t>(transmitter);
+  facts.view.every_element = elements_of(receiver, transmitter, slot) != nullptr;
+  if (config_.outputs.coherence) {
+    facts.view.coherence_bandwidth_hz = rf::coherence_bandwidth_hz(paths, powers, 0.5);
+    facts.view.coherence_time_s = rf::coherence_time_s(paths, powers, 0.5);
+  }
+  if (config_.taps)
+    facts.view.taps_power_outside = rf::tap_coverage(paths, powers, tap_grid(config_, grid_)).power_outside;
+  if (!config_.outputs.paths) return facts;
+  facts.amplitudes = rf::impulse_response(paths, from, to, config_.carrier_hz).amplitude;
+  if (config_.power_dbm) facts.fields = fields_of(paths, from, to, config_);
+  return facts;
 }
 
 std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slot) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
   std::vector<LinkFacts> facts(receivers * transmitters);
   parallel_for(facts.size(), 0, [&](size_t index) {
-    const size_t r = index / transmitters, t = index % transmitters;
-    const ChannelPaths::Link& link = results[t].links[r];
-    const rf::ArrayPose transmitter{transmitter_arrays_[t], results[t].transmitter.orientation};
-    const rf::ArrayPose receiver{receiver_arrays_[r], link.receiver.orientation};
-    LinkFacts& of = facts[index];
-    of.statistics = rf::link_statistics(
-        link.paths, rf::path_powers(link.paths, transmitter, receiver, config_.carrier_hz));
-    of.impulse = rf::impulse_response(link.paths, transmitter, receiver, config_.carrier_hz);
-    of.view = {static_cast<int32_t>(r), static_cast<int32_t>(t), &of.statistics,
-               elements_of(r, t, slot) != nullptr};
+    facts[index] = facts_of(results, index / transmitters, index % transmitters, slot);
+    facts[index].view.statistics = &facts[index].statistics;
   });
 
   std::vector<LinkView> links;
+  for (const LinkFacts& of : facts) links.push_back(of.view);
   std::vector<PathView> paths;
-  const size_t pairs = static_cast<size_t>(columns_.rx_ports * columns_.tx_ports);
-  for (const LinkFacts& of : facts) {
-    links.push_back(of.view);
-    const std::vector<rf::Path>& own =
-        results[static_cast<size_t>(of.view.transmitter)].links[static_cast<size_t>(of.view.receiver)].paths;
+  const size_t pairs = static_cast<size_t>(columns_.rx_ports * columns_.tx_ports),
+               fields = config_.power_dbm ? static_cast<size_t>(columns_.tx_ports * 2) : 0;
+  for (size_t index = 0; !path_columns_.empty() && index < facts.size(); ++index) {
+    const std::vector<rf::Path>& own = results[index % transmitters].links[index / transmitters].paths;
     for (size_t i = 0; i < own.size(); ++i)
-      paths.push_back({&of.view, &own[i], std::span(of.impulse.amplitude).subspan(i * pairs, pairs)});
+      paths.push_back({&links[index], &own[i], std::span(facts[index].amplitudes).subspan(i * pairs, pairs),
+                       std::span(facts[index].fields).subspan(i * fields, fields)});
   }
   std::vector<Array> arrays;
-  arrays.emplace_back(DType::complex64, spec_.arrays[0].shape);
-  write_responses(results, slot, arrays[0]);
   const int64_t rx = static_cast<int64_t>(receivers), tx = static_cast<int64_t>(transmitters);
+  for (const PortBlock& block : blocks_) arrays.push_back(block_of(block, results, slot));
   for (const LinkColumn& column : link_columns_) arrays.push_back(filled<LinkView>(column, {rx, tx}, links));
   for (const PathColumn& column : path_columns_)
     arrays.push_back(filled<PathView>(column, {static_cast<int64_t>(paths.size())}, paths));

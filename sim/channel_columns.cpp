@@ -3,10 +3,12 @@
 #include "sim/channel_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "rf/antenna/antenna.h"
+#include "rf/channel/received.h"
 
 namespace greatx::sim {
 
@@ -85,6 +87,26 @@ void fill_vertices(const PathView& view, const dvec3& origin, size_t depth, doub
   }
 }
 
+/// Volts per metre before the receiver and volts at its ports, rms.
+std::vector<PathColumn> received_columns(const ColumnContext& context) {
+  const double volts =
+      2.0 * std::sqrt(context.config->resistance_ohm * rf::watts(context.config->power_dbm.value()));
+  return {
+      of_path<std::complex<float>>(
+          "field", {context.tx_ports, 2}, "V/m",
+          "[path, tx_ant, (theta, phi) at the arrival] rms, with e^{-j 2 pi f_c tau}, power_dbm into tx_ant",
+          [](const PathView& view, std::complex<float>* out) {
+            std::copy(view.field.begin(), view.field.end(), out);
+          }),
+      of_path<std::complex<float>>("voltage", {context.rx_ports, context.tx_ports}, "V",
+                                   "[path, rx_ant, tx_ant] open circuit, rms: sqrt(4 R P_t) * amplitude",
+                                   [volts](const PathView& view, std::complex<float>* out) {
+                                     for (const std::complex<float>& a : view.amplitude)
+                                       *out++ = std::complex<float>(volts * std::complex<double>(a));
+                                   }),
+  };
+}
+
 std::vector<PathColumn> field_columns(const ColumnContext& context) {
   return {
       of_path<std::complex<float>>("amplitude", {context.rx_ports, context.tx_ports}, "1",
@@ -128,6 +150,8 @@ std::vector<PathColumn> path_columns(const ColumnContext& context) {
                        [](const PathView& view, int32_t* out) { *out = view.link->transmitter; }),
   };
   for (PathColumn& of_field : field_columns(context)) columns.push_back(std::move(of_field));
+  if (context.config->power_dbm)
+    for (PathColumn& of_received : received_columns(context)) columns.push_back(std::move(of_received));
   columns.push_back(of_path<uint64_t>(
       "id", {}, "1", "[path] its identity across ticks: a function of its interactions alone",
       [](const PathView& view, uint64_t* out) { *out = view.path->id(); }));
@@ -154,14 +178,14 @@ std::vector<PathColumn> path_columns(const ColumnContext& context) {
   return columns;
 }
 
-std::vector<LinkColumn> link_columns(const ColumnContext&) {
+std::vector<LinkColumn> link_columns(const ColumnContext& context) {
   using Statistics = rf::LinkStatistics;
   const auto statistic = [](const char* name, const char* unit, const char* text,
                             double Statistics::*member) {
     return of_link<double>(name, unit, text,
                            [member](const LinkView& link) { return link.statistics->*member; });
   };
-  return {
+  std::vector<LinkColumn> columns{
       of_link<int32_t>("path_count", "1", "[rx, tx] visible paths",
                        [](const LinkView& link) { return link.statistics->paths; }),
       of_link<uint8_t>("line_of_sight", "1", "[rx, tx] 1: the direct path is free",
@@ -189,6 +213,26 @@ std::vector<LinkColumn> link_columns(const ColumnContext&) {
       statistic("doppler_spread", "Hz", "[rx, tx] rms, weighted by power; NaN: no path",
                 &Statistics::doppler_spread_hz),
   };
+  const ChannelConfig& config = *context.config;
+  if (config.outputs.coherence) {
+    columns.push_back(of_link<double>("coherence_bandwidth", "Hz",
+                                      "[rx, tx] correlation over frequency falls to 0.5; inf: it does not",
+                                      [](const LinkView& link) { return link.coherence_bandwidth_hz; }));
+    columns.push_back(of_link<double>("coherence_time", "s",
+                                      "[rx, tx] correlation over time falls to 0.5; inf: it does not",
+                                      [](const LinkView& link) { return link.coherence_time_s; }));
+  }
+  if (config.taps)
+    columns.push_back(of_link<double>("taps_power_outside", "1",
+                                      "[rx, tx] share of the power that the window of taps leaves out",
+                                      [](const LinkView& link) { return link.taps_power_outside; }));
+  if (config.power_dbm)
+    columns.push_back(of_link<double>("received_power", "dBm",
+                                      "[rx, tx] transmit power * path_gain, at a matched load; -inf: none",
+                                      [power_w = rf::watts(*config.power_dbm)](const LinkView& link) {
+                                        return rf::dbm(power_w * link.statistics->path_gain);
+                                      }));
+  return columns;
 }
 
 }  // namespace greatx::sim

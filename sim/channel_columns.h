@@ -26,6 +26,8 @@ struct LinkView {
   const rf::LinkStatistics* statistics = nullptr;
   bool every_element =
       false;  ///< its frequency response is of every element, not of a plane wave over the arrays
+  double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< if they are asked for
+  double taps_power_outside = 0.0;                              ///< rf::TapCoverage, if there are taps
 };
 
 /// A path of a link.
@@ -33,6 +35,7 @@ struct PathView {
   const LinkView* link = nullptr;
   const rf::Path* path = nullptr;
   std::span<const std::complex<float>> amplitude;  ///< [rx_ant, tx_ant]
+  std::span<const std::complex<float>> field;      ///< [tx_ant, 2] V/m, if a power is given
 };
 
 /// An array with one row of `row` elements a path or a link.

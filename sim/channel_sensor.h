@@ -12,6 +12,7 @@
 
 #include "rf/channel/dispersion.h"
 #include "rf/channel/frequency_response.h"
+#include "sim/channel_blocks.h"
 #include "sim/channel_columns.h"
 #include "sim/channel_paths.h"
 #include "sim/effect_plan.h"
@@ -56,9 +57,11 @@ class ChannelSensor : public Sensor {
   std::string metadata() const;
   void check_sights(const Results& results);
   std::vector<Array> arrays_of(const Results& results, uint32_t slot) const;
-  std::vector<std::complex<float>> response(const Results& results, size_t receiver, size_t transmitter,
-                                            uint32_t slot) const;
-  void write_responses(const Results& results, uint32_t slot, Array& cfr) const;
+  struct LinkFacts;
+  LinkFacts facts_of(const Results& results, size_t receiver, size_t transmitter, uint32_t slot) const;
+  rf::ArrayPose transmitter_pose(const Results& results, size_t transmitter) const;
+  rf::ArrayPose receiver_pose(const Results& results, size_t receiver) const;
+  Array block_of(const PortBlock& block, const Results& results, uint32_t slot) const;
 
   const World& world_;
   const ChannelConfig& config_;
@@ -72,6 +75,7 @@ class ChannelSensor : public Sensor {
   rf::ChannelGrid grid_;
   std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
   ColumnContext columns_;
+  std::vector<PortBlock> blocks_;
   std::vector<LinkColumn> link_columns_;
   std::vector<PathColumn> path_columns_;
   SensorSpec spec_;

@@ -55,30 +55,23 @@ void ElementPaths::collect(const gpu::TickSlot& slot) {
   for (const auto& paths : paths_) results_.push_back(paths->collect(slot));
 }
 
-std::vector<std::complex<float>> ElementPaths::response(const rf::ChannelGrid& grid,
-                                                        const rf::Dispersion* dispersion) const {
+void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::complex<float>> out) const {
   const rf::AntennaArray from = element_alone(transmitter_.array), to = element_alone(receiver_.array);
   const size_t tx_elements = transmitter_.array.element_count(),
                rx_elements = receiver_.array.element_count();
   const size_t tx_ports = transmitter_.array.port_count(), from_ports = from.port_count(),
-               to_ports = to.port_count(), per_pair = grid.size_per_pair();
-  std::vector<std::complex<float>> h(receiver_.array.port_count() * tx_ports * per_pair);
+               to_ports = to.port_count();
   parallel_for(tx_elements * rx_elements, 0, [&](size_t index) {
     const size_t s = index / rx_elements, u = index % rx_elements;
     const ChannelPaths::Link& link = results_[s].links[u];
-    const rf::ArrayPose transmitter{from, results_[s].transmitter.orientation},
-        receiver{to, link.receiver.orientation};
-    const std::vector<std::complex<float>> block =
-        dispersion
-            ? rf::frequency_response(link.paths, dispersion->spectra(link.paths), transmitter, receiver, grid)
-            : rf::frequency_response(link.paths, transmitter, receiver, grid);
+    std::vector<std::complex<float>> block(to_ports * from_ports * per_pair);
+    sum(link.paths, {from, results_[s].transmitter.orientation}, {to, link.receiver.orientation}, block);
     for (size_t q = 0; q < to_ports; ++q)
       std::copy_n(
           block.begin() + static_cast<std::ptrdiff_t>(q * from_ports * per_pair), from_ports * per_pair,
-          h.begin() +
+          out.begin() +
               static_cast<std::ptrdiff_t>(((u * to_ports + q) * tx_ports + s * from_ports) * per_pair));
   });
-  return h;
 }
 
 void ElementPaths::count(std::map<std::string, uint64_t>& counters) const {

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "rf/antenna/antenna.h"
-#include "rf/channel/dispersion.h"
-#include "rf/channel/frequency_response.h"
+#include "sim/channel_blocks.h"
 #include "sim/channel_paths.h"
 
 namespace greatx::sim {
@@ -34,9 +33,9 @@ class ElementPaths {
   /// The first one of a sequence searches from each element of the transmitter (or receiver, if that one rests).
   void record(gpu::TickSlot& slot, const TickContext& context);
   void collect(const gpu::TickSlot& slot);
-  /// H of what was collected last, [rx_ant, tx_ant, time, subcarrier], rx_ant and tx_ant the ports of the arrays.
-  std::vector<std::complex<float>> response(const rf::ChannelGrid& grid,
-                                            const rf::Dispersion* dispersion) const;
+  /// `sum` over the paths between every two elements of what was collected last, [rx_ant, tx_ant, per_pair], rx_ant and
+  /// tx_ant the ports of the arrays.
+  void assemble(size_t per_pair, const LinkSum& sum, std::span<std::complex<float>> out) const;
   /// Summed over the elements of the transmitter.
   void count(std::map<std::string, uint64_t>& counters) const;
 

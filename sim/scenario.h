@@ -197,6 +197,20 @@ struct ChannelConfig {
   std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
   uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
   std::string search = "auto";       ///< auto, once (from a static end), every_tick
+  /// Which arrays are written besides those of every link.
+  struct Outputs {
+    bool cfr = true, paths = true;
+    bool cfr_parts = false;  ///< the line of sight and all else apart
+    bool coherence = false;  ///< bandwidth and time
+  } outputs;
+  struct Taps {
+    double bandwidth_hz = 20e6;
+    int32_t first = 0;
+    uint32_t count = 64;
+  };
+  std::optional<Taps> taps;
+  std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
+  double resistance_ohm = 50.0;     ///< of each receive port
   uint32_t walls() const { return std::min(max_transmissions.value_or(max_depth), max_depth); }
   SourceLocation where;
 };

@@ -3,8 +3,10 @@
 //
 // nodes[] and channels[], and the references between them.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "rf/channel/subcarriers.h"
 #include "sim/scenario_parse.h"
 
 namespace greatx::sim {
@@ -104,25 +106,90 @@ std::vector<std::string> parse_antenna_names(const Field& field, const std::vect
   return names;
 }
 
+/// Of carrier, subcarriers, spacing and bandwidth: spacing x subcarriers = bandwidth, any two of the three.
 void parse_band(const FieldMap& map, ChannelConfig& channel) {
   if (const auto f = map.find("carrier_hz")) channel.carrier_hz = f->positive();
-  if (const auto f = map.find("subcarriers")) channel.subcarriers = f->integer32(1, 1u << 20);
-  map.exclude("subcarrier_spacing_hz", "bandwidth_hz");
-  if (const auto f = map.find("subcarrier_spacing_hz")) channel.subcarrier_spacing_hz = f->positive();
-  if (const auto f = map.find("bandwidth_hz"))
-    channel.subcarrier_spacing_hz = f->positive() / channel.subcarriers;
+  const auto count = map.find("subcarriers"), spacing = map.find("subcarrier_spacing_hz"),
+             bandwidth = map.find("bandwidth_hz");
+  constexpr uint32_t most = 1u << 20;
+  if (count) channel.subcarriers = count->integer32(1, most);
+  if (spacing) channel.subcarrier_spacing_hz = spacing->positive();
+  if (bandwidth) {
+    const double band_hz = bandwidth->positive();
+    if (spacing && count)
+      bandwidth->fail("two of bandwidth_hz, subcarrier_spacing_hz and subcarriers", "all three");
+    if (spacing) {
+      if (band_hz < channel.subcarrier_spacing_hz)
+        bandwidth->fail(fmt::format("at least one subcarrier, {} Hz", channel.subcarrier_spacing_hz));
+      if (band_hz / channel.subcarrier_spacing_hz >= most + 1.0)
+        bandwidth->fail(fmt::format("at most {} subcarriers", most));
+      channel.subcarriers = rf::subcarrier_count(band_hz, channel.subcarrier_spacing_hz);
+    } else {
+      channel.subcarrier_spacing_hz = band_hz / channel.subcarriers;
+    }
+  }
   const double lowest_hz = channel.carrier_hz - (channel.subcarriers / 2) * channel.subcarrier_spacing_hz;
   if (!(lowest_hz > 0.0))
     map.field().fail("every subcarrier above 0 Hz", fmt::format("the lowest at {} Hz", lowest_hz));
 }
 
+/// What is written of the channel; its band is known.
+void parse_outputs(const FieldMap& map, ChannelConfig& channel) {
+  if (const auto f = map.find("outputs")) {
+    channel.outputs = {false, false, false, false};
+    bool* const outputs[] = {&channel.outputs.cfr, &channel.outputs.paths, &channel.outputs.cfr_parts,
+                             &channel.outputs.coherence};
+    for (const Field& item : f->list("outputs")) {
+      bool& output = *outputs[item.choice({"cfr", "paths", "cfr_parts", "coherence"})];
+      if (output) item.fail("every output once", fmt::format("a second '{}'", item.text()));
+      output = true;
+    }
+  }
+  if (const auto f = map.find("taps")) {
+    const FieldMap of(*f, {"count", "first", "bandwidth_hz"});
+    ChannelConfig::Taps taps;
+    taps.bandwidth_hz = channel.subcarriers * channel.subcarrier_spacing_hz;
+    if (const auto g = of.find("count")) taps.count = g->integer32(1, 1u << 20);
+    if (const auto g = of.find("first")) {
+      const double first = g->between(-1e6, 1e6);
+      if (first != std::floor(first)) g->fail("an integer from -1000000 to 1000000");
+      taps.first = static_cast<int32_t>(first);
+    }
+    if (const auto g = of.find("bandwidth_hz")) taps.bandwidth_hz = g->positive();
+    channel.taps = taps;
+  }
+  if (const auto f = map.find("power_dbm")) channel.power_dbm = f->between(-200.0, 200.0);
+  if (const auto f = map.find("resistance_ohm")) {
+    channel.resistance_ohm = f->positive();
+    if (!channel.power_dbm) f->fail("a 'power_dbm' beside it", "none");
+  }
+}
+
 ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                             const std::vector<NodeConfig>& nodes) {
-  const FieldMap map(
-      field, {"name", "tx", "rx", "rate_hz", "carrier_hz", "subcarrier_spacing_hz", "bandwidth_hz",
-              "subcarriers", "time_samples", "time_spacing_s", "max_depth", "max_transmissions",
-              "max_reflections_after", "max_reflections_before_scattering", "scattering_patch_m", "max_paths",
-              "candidates", "rays", "search"});
+  const FieldMap map(field, {"name",
+                             "tx",
+                             "rx",
+                             "rate_hz",
+                             "carrier_hz",
+                             "subcarrier_spacing_hz",
+                             "bandwidth_hz",
+                             "subcarriers",
+                             "time_samples",
+                             "time_spacing_s",
+                             "max_depth",
+                             "max_transmissions",
+                             "max_reflections_after",
+                             "max_reflections_before_scattering",
+                             "scattering_patch_m",
+                             "max_paths",
+                             "candidates",
+                             "rays",
+                             "search",
+                             "outputs",
+                             "taps",
+                             "power_dbm",
+                             "resistance_ohm"});
   ChannelConfig channel;
   channel.where = field.where();
   channel.name = map.require("name", "a name").name();
@@ -132,6 +199,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   channel.rate_hz =
       rate_of(map.require("rate_hz", "a rate greater than 0 such as 10, 29.97 or 30000/1001"), tick_rate_hz);
   parse_band(map, channel);
+  parse_outputs(map, channel);
   if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
   if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive();
   if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);

@@ -90,14 +90,4 @@ double coherence_time_rule_s(std::span<const Path> paths, std::span<const double
   return shifts.empty() ? not_a_number : 9.0 / (16.0 * pi * shifts.back().value);
 }
 
-uint32_t subcarrier_count(double bandwidth_hz, double spacing_hz) {
-  GREATX_CHECK(std::isfinite(bandwidth_hz) && spacing_hz > 0.0 && std::isfinite(spacing_hz),
-               "subcarriers of {} Hz in {} Hz", spacing_hz, bandwidth_hz);
-  const double quotient = bandwidth_hz / spacing_hz, nearest = std::nearbyint(quotient);
-  const double count = std::abs(quotient - nearest) <= 1e-9 ? nearest : std::floor(quotient);
-  GREATX_CHECK(count >= 1.0 && count <= std::numeric_limits<uint32_t>::max(),
-               "{} subcarriers of {} Hz in {} Hz", count, spacing_hz, bandwidth_hz);
-  return static_cast<uint32_t>(count);
-}
-
 }  // namespace greatx::rf

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Over which bandwidth and for how long a channel stays what it is; and the subcarriers of a bandwidth.
+// Over which bandwidth and for how long a channel stays what it is.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,5 @@ double coherence_bandwidth_rule_hz(const LinkStatistics& link);
 /// 9/(16 pi f_m), the rule of thumb for a correlation of 0.5 (Rappaport, 5.4.3), f_m the greatest |Doppler shift| of a path
 /// that has power. +inf: nothing moves.
 double coherence_time_rule_s(std::span<const Path> paths, std::span<const double> powers);
-
-/// Subcarriers of `spacing_hz` that lie wholly within `bandwidth_hz`: floor(bandwidth/spacing), where a quotient within
-/// 1e-9 of a whole number is that number (20 MHz / 15 kHz: 1333; 0.3 / 0.1: 3). No guard bands: give the bandwidth that is
-/// occupied. Both finite and above 0, the spacing at most the bandwidth, the result below 2^32.
-uint32_t subcarrier_count(double bandwidth_hz, double spacing_hz);
 
 }  // namespace greatx::rf
