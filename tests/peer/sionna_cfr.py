@@ -58,3 +58,44 @@ def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, repo
     largest = max((p.delay for p in theirs), default=0.0)
     report(f"    (fp32 phase: 2 pi f tau of up to {2 * np.pi * case.carrier_hz * largest:.0f} rad has a last bit of "
            f"{2 * np.pi * case.carrier_hz * largest * 2**-24:.1e} rad; {C * largest:.0f} m)")
+
+
+# Sionna RT's pattern, polarization; greatx's fields; rows, columns, their spacing in wavelengths; synthetic_array
+ANTENNAS = [
+    ("isotropic, V", "iso", "V", "pattern: isotropic, polarization: v", (1, 1, 0.5, 0.5), True),
+    ("short dipole, V and H", "dipole", "VH", "pattern: short_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
+    ("half-wave dipole, V and H", "hw_dipole", "VH", "pattern: half_wave_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
+    ("TR 38.901, +-45 deg", "tr38901", "cross", "pattern: tr38901, polarization: slant", (1, 1, 0.5, 0.5), True),
+    ("panel 4 x 8, TR 38.901, +-45 deg, as a plane wave", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2, 0.5), True),
+    ("the same, every element traced", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2, 0.5), False),
+]
+
+
+def port_order(array, rows, columns, vertical, horizontal, polarizations):
+    """For each of greatx's ports ((row * columns + column) * polarizations + polarization, rows upwards, columns to +y, +45
+    deg before -45) the number of Sionna RT's (patterns outermost, rows downwards, -45 deg first)."""
+    y, z = np.array(array.normalized_positions.y), np.array(array.normalized_positions.z)
+    column = np.round(y / horizontal + (columns - 1) / 2).astype(int)
+    row = np.round(z / vertical + (rows - 1) / 2).astype(int)
+    element = np.empty(rows * columns, int)
+    element[row * columns + column] = np.arange(rows * columns)
+    order = {"cross": (1, 0), "VH": (0, 1), "V": (0,)}[polarizations]
+    return np.array([p * rows * columns + e for e in element for p in order])
+
+
+def arrays(case, greatx, sionna, receivers, result, report):
+    """Antennas at the transmitter, V and H isotropic at the receivers, no walls passed: H port by port."""
+    case = dataclasses.replace(case, name=case.name + "_arrays", walls=0)
+    sionna.case = case
+    few = receivers[:6]
+    report("  antennas at the transmitter (walls opaque, 6 receivers): NMSE of H, dB    median     worst")
+    result["arrays_db"] = {}
+    for name, pattern, polarization, fields, (rows, columns, vertical, horizontal), synthetic in ANTENNAS:
+        sionna.antennas(pattern, polarization, rows, columns, vertical, horizontal)
+        theirs = sionna_response(sionna, few, 1e6, synthetic_array=synthetic)
+        order = port_order(sionna.scene.tx_array, rows, columns, vertical, horizontal, polarization)
+        text = f", {fields}, rows: {rows}, columns: {columns}, row_spacing_wl: {vertical}, column_spacing_wl: {horizontal}"
+        ours = greatx.response(case, few, text, ", polarization: vh", f", every_element: {'off' if synthetic else 'on'}")
+        median, worst = nmse_db(theirs[:, :, order], ours)
+        report(f"    {name:62s} {median:10.1f} {worst:9.1f}")
+        result["arrays_db"][name] = [median, worst]

@@ -133,7 +133,7 @@ def fields(case, referee, pairs, result):
 
 def recall(case, greatx, receivers, result):
     """greatx's own exhaustive reference on the imported scene."""
-    if case.diffraction:
+    if case.diffraction or not case.recall:
         return
     answer = greatx.recall(case, receivers)
     result["recall"] = answer
@@ -158,6 +158,8 @@ def compare(case, options, program):
         sionna_wedge.compare(case, pairs, result, report)
     sionna_cfr.compare(case, greatx, sionna, referee, ours, theirs, receivers, result, report)
     recall(case, greatx, receivers, result)
+    if case.arrays:
+        sionna_cfr.arrays(case, greatx, sionna, receivers, result, report)
     return result
 
 

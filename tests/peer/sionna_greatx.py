@@ -78,11 +78,11 @@ class Greatx:
                                 [i["materials"][0] for i in p["interactions"]], p["id"]))
         return out
 
-    def response(self, case, receivers, tx_antenna="", rx_antenna=""):
+    def response(self, case, receivers, tx_antenna="", rx_antenna="", more=""):
         """H [rx, rx_ant, tx_ant, subcarrier] of a generated data set."""
         folder = self.work / f"dataset_{case.name}"
         shutil.rmtree(folder, ignore_errors=True)
-        self.run("generate", self.scenario(case, receivers, tx_antenna, rx_antenna), "--assets", self.scenes, "-o", folder)
+        self.run("generate", self.scenario(case, receivers, tx_antenna, rx_antenna, more), "--assets", self.scenes, "-o", folder)
         return np.load(folder / "sequence_0000" / "csi" / "cfr.npy")[0, :, :, 0, :, 0, :]
 
     def recall(self, case, receivers):

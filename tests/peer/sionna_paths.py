@@ -46,6 +46,8 @@ class Case:
     reflection: bool = True
     diffraction: bool = False
     seed: int = 1
+    arrays: bool = False      #: compare antennas as well
+    recall: bool = True       #: run greatx's exhaustive reference, which large scenes with walls passed take hours for
     material: str = ""        #: of P.2040: instead of all materials of the scene
 
     @property
@@ -55,7 +57,7 @@ class Case:
 
 CASES = [
     Case("box", "box", (1.1, -0.7, 2.3), 20, (-4.5, -4.5, 0.3), (4.5, 4.5, 4.5)),
-    Case("canyon", "simple_street_canyon", (-30, 5, 10), 40, (-60, -12, 1.5), (60, 12, 20)),
+    Case("canyon", "simple_street_canyon", (-30, 5, 10), 40, (-60, -12, 1.5), (60, 12, 20), arrays=True),
     Case("canyon_cars", "simple_street_canyon_with_cars", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20)),
     Case("canyon_28ghz", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), carrier_hz=28e9),
     Case("canyon_edges", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), depth=1, walls=0,
@@ -64,9 +66,9 @@ CASES = [
     Case("wedge_metal", "simple_wedge", (10, 5, 1), 60, (-25, -25, -5), (25, 20, 5), depth=1, walls=0, diffraction=True,
          material="metal"),
     Case("etoile", "etoile", (60, -80, 25), 100, (-220, -220, 1.5), (220, 220, 30), walls=0),
-    Case("etoile_walls", "etoile", (60, -80, 25), 30, (-220, -220, 1.5), (220, 220, 30)),
-    Case("munich", "munich", (8.5, 21, 27), 30, (-150, -150, 1.5), (150, 150, 30)),
-    Case("florence", "florence", (0, 0, 60), 20, (-150, -150, 1.5), (150, 150, 40), walls=0),
+    Case("etoile_walls", "etoile", (60, -80, 25), 30, (-220, -220, 1.5), (220, 220, 30), recall=False),
+    Case("munich", "munich", (8.5, 21, 27), 30, (-150, -150, 1.5), (150, 150, 30), recall=False),
+    Case("florence", "florence", (0, 0, 60), 20, (-150, -150, 1.5), (150, 150, 40), walls=0, recall=False),
 ]
 
 
