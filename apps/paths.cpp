@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
+#include "apps/paths_cfr.h"
 #include "apps/paths_draw.h"
 #include "apps/paths_glb.h"
 #include "apps/paths_output.h"
@@ -31,7 +32,7 @@ struct Options {
   sim::ChannelSnapshot::Instant instant;
   std::string channel, transmitter, receiver, receivers;
   bool json = false, json_lines = false, brief = false, quiet = false;
-  std::string csv, png, glb;
+  std::string csv, png, glb, cfr;
   std::string view = "auto";
   uint32_t width = 1600, height = 1000;
   PathColors colors = PathColors::gain;
@@ -101,6 +102,8 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
     throw_user_error("--height: expected {} or more, found {}", picture_bars + 100, options.height);
   if (options.with_scene && options.glb.empty())
     throw_user_error("--with-scene: expected --glb FILE with it, found none");
+  if (!options.cfr.empty() && request.only)
+    throw_user_error("--cfr: expected all receivers, found --receiver {}", options.receiver);
   if (options.within_db && options.glb.empty() && options.png.empty())
     throw_user_error("--within: expected --png or --glb with it, found none");
   return request;
@@ -203,7 +206,8 @@ void write_glb(const Options& options, const Json& head, std::span<const PathLin
 /// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
 std::vector<PathLink> solve(const Options& options, const Request& request, const PathScene& scene,
                             sim::ChannelSnapshot& snapshot,
-                            std::span<const std::unique_ptr<PathsOutput>> outputs, PathTotals& totals) {
+                            std::span<const std::unique_ptr<PathsOutput>> outputs, CfrFile* cfr,
+                            PathTotals& totals) {
   const bool keep = !options.png.empty() || !options.glb.empty();
   const double carrier_hz = scene.carrier_hz;
   std::vector<PathLink> kept;
@@ -212,6 +216,7 @@ std::vector<PathLink> solve(const Options& options, const Request& request, cons
   if (!request.points.empty() && !request.only) progress.update(0);
   const auto take = [&](sim::ChannelSnapshot::Link solved) {
     if (request.only && solved.receiver != *request.only) return true;
+    if (cfr) cfr->add(solved);
     PathLink link = path_link(std::move(solved), scene.scene->origin);
     totals.add(figures_of(link, carrier_hz));
     for (const auto& output : outputs) output->add(link);
@@ -254,8 +259,15 @@ void run(const Options& options) {
   install_interrupt_handler();
   const Json head = head_of(options, request, scenario, world, plan, snapshot.moment());
   for (const auto& output : outputs) output->begin(head);
+  std::optional<CfrFile> cfr;
+  if (!options.cfr.empty())
+    cfr.emplace(options.cfr, scenario, world, plan, request.channel, *request.instant.transmitter,
+                request.points.empty() ? std::nullopt : std::optional(request.points.size()),
+                snapshot.model());
   PathTotals totals;
-  std::vector<PathLink> links = solve(options, request, scene, snapshot, outputs, totals);
+  std::vector<PathLink> links =
+      solve(options, request, scene, snapshot, outputs, cfr ? &*cfr : nullptr, totals);
+  if (cfr) cfr->finish();
   const Json tail = tail_of(totals, snapshot);
   for (const auto& output : outputs) output->end(tail);
 
@@ -268,7 +280,7 @@ void run(const Options& options) {
   if (options.json || options.json_lines || options.quiet) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << closing_text(totals, head, tail, seconds);
-  for (const std::string* file : {&options.csv, &options.png, &options.glb})
+  for (const std::string* file : {&options.csv, &options.cfr, &options.png, &options.glb})
     if (!file->empty()) std::cout << "wrote " << *file << '\n';
 }
 
@@ -332,6 +344,9 @@ void add_paths(CLI::App& app) {
   command->add_option(
       "--csv-out", options->csv,
       "write a CSV with one line a receiver: number of paths, line of sight, gain, delay spread");
+  command->add_option(
+      "--cfr", options->cfr,
+      "write frequency responses as .npy, complex64 [receivers, rx_ant, 1, tx_ant, time, subcarrier]");
   add_pictures(*command, *options);
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
   command->callback([options] { run(*options); });
