@@ -63,6 +63,8 @@ class ChannelPaths {
   /// ticks with other points: what was found for the transmitter stays.
   /// `first`: the number of the first of them, for names. May also be called again at the same tick.
   void set_points(std::span<const dvec3> points, size_t first = 0);
+  /// Whether it is said and counted if receivers stand inside something.
+  void check_receivers(bool check) { ends_.check_receivers = check; }
   /// Before the first tick of a sequence: candidates from a static end (from the cache if it has them).
   void start(const TickContext& context);
   bool looks_ahead() const { return search_->looks_ahead(); }

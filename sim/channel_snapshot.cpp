@@ -34,7 +34,8 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, 
 
 void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take); }
 
-void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const Take& take) {
+void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const Take& take, bool check) {
+  paths_[0]->check_receivers(check);  // once is enough for points that have several transmitters
   for (size_t begin = 0; begin < points.size(); begin += points_at_once) {
     for (const auto& paths : paths_)
       paths->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)),

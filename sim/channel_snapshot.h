@@ -45,8 +45,8 @@ class ChannelSnapshot {
   /// The channel's own receivers.
   void solve(const Take& take);
   /// Points at rest in the world instead, `points_at_once` in the memory at a time; nothing depends on the number.
-  /// `first`: the number of the first of them in its list.
-  void solve(std::span<const dvec3> points, size_t first, const Take& take);
+  /// `first`: the number of the first of them in its list. `check`: points that stand inside something are counted and said.
+  void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 
   const Moment& moment() const { return moment_; }

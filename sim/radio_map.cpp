@@ -165,11 +165,12 @@ void RadioMapSolver::solve(const MapCells& cells, size_t first, const Take& take
     }
     go_on = links.empty() || take(links);
   };
-  snapshot_.solve(points, 0, [&](ChannelSnapshot::Link link) {
+  const auto collect = [&](ChannelSnapshot::Link link) {
     waiting.push_back(std::move(link));
     if (waiting.size() == transmitters * ChannelSnapshot::points_at_once) hand_over(false);
     return go_on;
-  });
+  };
+  snapshot_.solve(points, 0, collect, false);  // place_cells() has looked
   if (go_on) hand_over(true);
 }
 

@@ -16,7 +16,7 @@ namespace greatx::sim {
 
 /// What turns gains into received power and noise.
 struct MapPower {
-  std::vector<double> transmit_dbm;  ///< [tx], into the antenna's ports together
+  std::vector<double> transmit_dbm;  ///< [tx], into one port, or spread evenly over all
   double bandwidth_hz = 0.0;
   double noise_figure_db = 0.0;
   /// Standard noise temperature T_0 (IEEE Std 100, "noise figure").

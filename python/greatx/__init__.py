@@ -3,34 +3,41 @@
 """greatx from Python.
 
 `greatx.load(DIR)` opens a generated data set with nothing but NumPy (docs/python.md); `greatx.convert` writes it in the
-conventions of other tools. What computes (scenes, paths, channels) is the compiled module greatx._native, which is
-imported when one of its names is first used.
+conventions of other tools. What computes (`greatx.Simulation`: scenes, paths, channels) stands on the compiled module
+greatx._native, which is imported when one of its names is first used.
 """
 from __future__ import annotations
 
 from typing import Any
 
+from .antenna import Array
 from .arrays import Frames, Ragged
 from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
-from .errors import DatasetError
+from .errors import DatasetError, Error
+from .paths import Paths
+from .radio_map import RadioMap
 from .samples import Samples
+from .stream import Run
+from .tables import Arrays
 
 __version__ = "0.1.0"
-__all__ = ["Dataset", "DatasetError", "Frames", "Ragged", "Record", "Samples", "Sensor", "Sequence", "Tick", "load"]
+__all__ = ["Array", "Arrays", "Dataset", "DatasetError", "Error", "Frames", "Paths", "RadioMap", "Ragged", "Record", "Run",
+           "Samples", "Sensor", "Sequence", "Tick", "load"]
 
-#: What greatx._native offers under the package's name.
-NATIVE: tuple = ()
+#: What needs greatx._native.
+NATIVE = ("Simulation",)
 
 
 def __getattr__(name: str) -> Any:
     if name not in NATIVE:
         raise AttributeError(f"module 'greatx' has no attribute {name!r}")
     try:
-        from . import _native
+        from . import simulation
     except ImportError as error:
         raise ImportError(f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
-                          "with `pip install ./python` in the project's folder (docs/python.md)") from error
-    return getattr(_native, name)
+                          "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the project's "
+                          "folder (docs/python.md)") from error
+    return getattr(simulation, name)
 
 
 def __dir__() -> list:

@@ -71,10 +71,16 @@ def _folder() -> pathlib.Path:
     return pathlib.Path(folder)
 
 
+def scenario_file(name: str, text: str) -> pathlib.Path:
+    """The file of a scenario."""
+    path = _folder() / f"{name}.yaml"
+    path.write_text(text)
+    return path
+
+
 @functools.lru_cache(maxsize=None)
 def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
-    scenario, out = _folder() / f"{name}.yaml", _folder() / name
-    scenario.write_text(text)
+    scenario, out = scenario_file(name, text), _folder() / name
     subprocess.run([os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", out, "-q", *arguments], check=True)
     return out
 

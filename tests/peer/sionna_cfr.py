@@ -66,8 +66,8 @@ ANTENNAS = [
     ("short dipole, V and H", "dipole", "VH", "pattern: short_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
     ("half-wave dipole, V and H", "hw_dipole", "VH", "pattern: half_wave_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
     ("TR 38.901, +-45 deg", "tr38901", "cross", "pattern: tr38901, polarization: slant", (1, 1, 0.5, 0.5), True),
-    ("panel 4 x 8, TR 38.901, +-45 deg, as a plane wave", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2, 0.5), True),
-    ("the same, every element traced", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2, 0.5), False),
+    ("panel 4 x 8, TR 38.901, +-45 deg, as a plane wave", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2.0, 0.5), True),
+    ("the same, every element traced", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2.0, 0.5), False),
 ]
 
 
