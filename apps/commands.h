@@ -16,6 +16,7 @@ void add_verify(CLI::App& app);
 void add_scene(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_paths(CLI::App& app);
+void add_map(CLI::App& app);
 void add_bench(CLI::App& app);
 
 /// Exit codes: 0 all well; 1 the input or the data is at fault; 2 the program or the device is.

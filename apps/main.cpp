@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   apps::add_scene(app);
   apps::add_explain(app);
   apps::add_paths(app);
+  apps::add_map(app);
   apps::add_bench(app);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/commands.h"
+#include "apps/map_background.h"
+#include "apps/map_journal.h"
+#include "apps/map_output.h"
+#include "apps/paths_render.h"
+#include "apps/progress.h"
+#include "apps/session.h"
+#include "core/hash.h"
+#include "sim/channel_antennas.h"
+#include "sim/plan_options.h"
+#include "sim/radio_map_values.h"
+
+namespace greatx::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  ScenarioOptions scenario;
+  RunOptions run;
+  sim::ChannelSnapshot::Instant instant;
+  std::string output, channel, receiver;
+  std::optional<double> plane, height, cell, bandwidth;
+  sim::MapOver over = sim::MapOver::ground;
+  std::vector<double> min, max, power;
+  double noise_figure = 0.0;
+  uint32_t side = 960;
+  MapFiles files;
+  bool inside = false, beyond_scene = false, no_pictures = false, resume = false, json = false, quiet = false;
+};
+
+constexpr double default_power_dbm = 30.0, default_height_m = 1.5;
+/// Of the longer side, if no cell is given.
+constexpr double default_cells = 150.0;
+
+/// What is asked of which channel.
+struct Request {
+  uint32_t channel = 0;
+  sim::MapGrid grid;
+  sim::MapHeight height;
+  sim::MapPower power;
+  sim::MapReceiver receiver;
+  std::vector<MapMarker> transmitters;
+  std::vector<dvec3> ends;  ///< [tx] world positions
+};
+
+uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
+  if (scenario.channels.empty())
+    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
+    if (name.empty() || scenario.channels[i].name == name) return i;
+    names.push_back(scenario.channels[i].name);
+  }
+  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+}
+
+/// All that needs no scene.
+Request request_of(const Options& options, const sim::Scenario& scenario) {
+  Request request;
+  request.channel = find_channel(options.channel, scenario);
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+  if (options.instant.tick >= scenario.ticks)
+    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
+                     scenario.name, options.instant.tick);
+  if (options.instant.sequence >= scenario.sequences)
+    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1,
+                     options.instant.sequence);
+  for (const std::string& name : options.files.quantities) sim::map_quantity(name);
+  request.height = {options.plane, options.height.value_or(default_height_m), options.over};
+  const size_t transmitters = channel.transmitters.size();
+  request.power.transmit_dbm = options.power;
+  if (request.power.transmit_dbm.empty())
+    request.power.transmit_dbm = {channel.power_dbm.value_or(default_power_dbm)};
+  if (request.power.transmit_dbm.size() == 1)
+    request.power.transmit_dbm.assign(transmitters, request.power.transmit_dbm[0]);
+  if (request.power.transmit_dbm.size() != transmitters)
+    throw_user_error("--power: expected 1 number, or {}, one a transmitter of channel '{}', found {}",
+                     transmitters, channel.name, request.power.transmit_dbm.size());
+  request.power.bandwidth_hz =
+      options.bandwidth.value_or(channel.subcarriers * channel.subcarrier_spacing_hz);
+  request.power.noise_figure_db = options.noise_figure;
+  sim::check_power(request.power);
+  return request;
+}
+
+double round_cell(double extent_m) {
+  const double least = extent_m / default_cells, decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * decade >= least) return step * decade;
+  return 10.0 * decade;
+}
+
+sim::MapGrid grid_of(const Options& options, const scene::Scene& scene, size_t transmitters) {
+  if (scene.bounds.empty() && (options.min.empty() || options.max.empty()))
+    throw_user_error("--min, --max: expected where the map is, as the scene is empty, found none");
+  const dvec2 min = options.min.empty() ? dvec2(scene.bounds.min + scene.origin)
+                                        : dvec2(options.min[0], options.min[1]),
+              max = options.max.empty() ? dvec2(scene.bounds.max + scene.origin)
+                                        : dvec2(options.max[0], options.max[1]);
+  const double extent = std::max(max.x - min.x, max.y - min.y);
+  const double cell = options.cell.value_or(extent > 0.0 ? round_cell(extent) : 1.0);
+  return sim::make_map_grid(min, max, cell, transmitters);
+}
+
+/// What needs the moment: where transmitters are, how the receiver is turned.
+void add_ends(Request& request, const Options& options, const sim::Scenario& scenario,
+              const sim::World& world, const sim::Moment& moment) {
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+  for (const std::string& name : channel.transmitters) {
+    const dvec3 at = sim::world_position(sim::antenna_end(scenario, world, name), moment.context);
+    request.transmitters.push_back({name, dvec2(at)});
+    request.ends.push_back(at);
+  }
+  if (options.receiver.empty()) return;
+  const auto place = sim::find_sensor(scenario.nodes, options.receiver);
+  if (!place || !std::holds_alternative<sim::AntennaConfig>(
+                    scenario.nodes[place->node].sensors[place->sensor].config)) {
+    std::vector<std::string> names;
+    for (const sim::NodeConfig& node : scenario.nodes)
+      for (const sim::SensorConfig& sensor : node.sensors)
+        if (std::holds_alternative<sim::AntennaConfig>(sensor.config))
+          names.push_back(node.name + "/" + sensor.name);
+    throw_user_error("--rx: expected an antenna of the scenario ({}), found '{}'", fmt::join(names, ", "),
+                     options.receiver);
+  }
+  request.receiver.array = sim::antenna_array(scenario, options.receiver, channel.carrier_hz);
+  request.receiver.orientation =
+      sim::state_of(sim::antenna_end(scenario, world, options.receiver), world, moment.context).orientation;
+}
+
+/// Everything that decides the map's bytes.
+Json json_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+             const sim::World& world, const sim::EffectPlan& plan, const sim::MapCells& cells,
+             const gpu::Device& device, const sim::Moment& moment) {
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+  const sim::MapGrid& grid = request.grid;
+  const dvec2 max = grid.max_m();
+  const dquat& q = request.receiver.orientation;
+  Json json{{"greatx", GREATX_VERSION},
+            {"scenario", scenario.name},
+            {"scenario_sha256", Sha256().update(scenario.text).hex()},
+            {"scene_sha256", world.scene.hash},
+            {"device", device.info().name},
+            {"driver", device.info().driver},
+            {"seed", scenario.seed},
+            {"sequence", options.instant.sequence},
+            {"tick", moment.context.tick},
+            {"time_s", moment.context.time_s},
+            {"channel", channel.name},
+            {"carrier_hz", channel.carrier_hz},
+            {"max_depth", channel.max_depth}};
+  json["grid"] = {{"min_m", {grid.min_m.x, grid.min_m.y}},
+                  {"max_m", {max.x, max.y}},
+                  {"cell_m", grid.cell_m},
+                  {"rows", grid.rows},
+                  {"columns", grid.columns},
+                  {"row_0", "south"},
+                  {"column_0", "west"},
+                  {"center", "min_m + (index + 0.5) * cell_m"},
+                  {"height", cells.height_rule},
+                  {"inside_solids", cells.solve_inside}};
+  json["transmitters"] = Json::array();
+  for (size_t t = 0; t < request.ends.size(); ++t)
+    json["transmitters"].push_back(
+        {{"name", request.transmitters[t].name},
+         {"position_m", {request.ends[t].x, request.ends[t].y, request.ends[t].z}},
+         {"power_dbm", request.power.transmit_dbm[t]},
+         {"antenna",
+          sim::describe_array(sim::antenna_array(scenario, channel.transmitters[t], channel.carrier_hz))}});
+  json["receiver"] = {{"antenna", options.receiver.empty() ? "isotropic, vertical" : options.receiver},
+                      {"orientation_wxyz", {q.w, q.x, q.y, q.z}},
+                      {"array", sim::describe_array(request.receiver.array)}};
+  json["noise"] = {{"bandwidth_hz", request.power.bandwidth_hz},
+                   {"noise_figure_db", request.power.noise_figure_db},
+                   {"temperature_k", sim::MapPower::temperature_k},
+                   {"power_dbm", decibels(request.power.noise_w()) + 30.0}};
+  json["effects"] = Json::object();
+  for (const sim::Effect* effect : plan.all()) json["effects"][effect->name] = effect->on;
+  json["quantities"] = options.files.quantities;
+  json["pictures"] = {{"on", options.files.pictures},
+                      {"each_transmitter", options.files.each_transmitter},
+                      {"side", options.side}};
+  return json;
+}
+
+/// Until every cell has its links, or somebody stops it.
+void solve(const Options& options, const Request& request, const sim::Scenario& scenario,
+           const sim::MapCells& cells, sim::ChannelSnapshot& snapshot, MapJournal& journal) {
+  const size_t transmitters = request.ends.size(), total = cells.grid.cells();
+  const auto done = [&] { return journal.links().size() / transmitters; };
+  Progress progress("map", static_cast<int64_t>(total), options.quiet, "cells");
+  progress.update(static_cast<int64_t>(done()));
+  sim::RadioMapSolver solver(snapshot, scenario, request.channel, request.receiver);
+  solver.solve(cells, done(), [&](std::span<const rf::LinkStatistics> links) {
+    journal.append(links);
+    progress.update(static_cast<int64_t>(done()));
+    return !interrupted();
+  });
+  if (done() < total)
+    throw_user_error("{}: interrupted after {} of {} cells, which are kept; --resume goes on", options.output,
+                     done(), total);
+}
+
+MapStage stage_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+                  const sim::MapCells& cells, const sim::Moment& moment) {
+  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+  MapStage stage;
+  stage.cells = &cells;
+  stage.transmitters = request.transmitters;
+  stage.title = fmt::format("{}, {}", scenario.name, channel.name);
+  const std::string where =
+      options.plane ? fmt::format("z = {:g} m", *options.plane)
+                    : fmt::format("{:g} m above {}", request.height.above_m,
+                                  options.over == sim::MapOver::ground ? "ground" : "ground and roofs");
+  stage.subtitle = fmt::format("{}, cells of {:g} m, {:.4g} GHz, tick {}", where, cells.grid.cell_m,
+                               1e-9 * channel.carrier_hz, moment.context.tick);
+  return stage;
+}
+
+void run(const Options& given) {
+  Options options = given;
+  options.files.pictures = !options.no_pictures;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds_since = [](auto start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const sim::Scenario scenario = load_scenario(options.scenario);
+  Request request = request_of(options, scenario);
+  const sim::World world = sim::load_world(scenario);
+  request.grid = grid_of(options, world.scene, scenario.channels[request.channel].transmitters.size());
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(scenario, world.scene) : plan;
+  gpu::Device device(options.run.device_options());
+  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
+                                request.channel, options.instant);
+  add_ends(request, options, scenario, world, snapshot.moment());
+  sim::MapCells cells = sim::place_cells(request.grid, request.height, world.scene, snapshot.model().kinds,
+                                         snapshot.moment().bodies, request.ends, options.beyond_scene);
+  cells.solve_inside = options.inside;
+  const Json asked = json_of(options, request, scenario, world, plan, cells, device, snapshot.moment());
+
+  MapJournal journal(options.output, asked, options.resume);
+  if (journal.finished()) {
+    if (!options.quiet) std::cout << options.output << " is already finished\n";
+    return;
+  }
+  install_interrupt_handler();
+  const size_t before = journal.links().size();
+  const auto solving = std::chrono::steady_clock::now();
+  solve(options, request, scenario, cells, snapshot, journal);
+  const double solve_s = seconds_since(solving);
+  const size_t solved = (journal.links().size() - before) / request.ends.size();
+
+  const sim::RadioMap map{&cells, journal.links(), request.power};
+  MapStage stage = stage_of(options, request, scenario, cells, snapshot.moment());
+  if (options.files.pictures)
+    stage.background =
+        map_background(cells, world.scene, scenario.environment, view_plan, snapshot, options.side);
+  const MapTotals totals = map_totals(map);
+  Json description{{"request", asked}, {"totals", totals.json()}};
+  for (const auto& [name, text] : snapshot.notes()) description["candidates"][name] = text;
+  description.update(write_map_files(options.output, map, stage, options.files));
+  device.wait_idle();
+  check_validation(device);
+  io::write_file_atomically(std::filesystem::path(options.output) / map_description,
+                            description.dump(2) + "\n");
+  journal.finish();
+
+  std::map<std::string, uint64_t> counters;
+  snapshot.count(counters);
+  if (options.json) {
+    Json result{{"output", options.output}, {"totals", totals.json()}, {"transmitters", request.ends.size()},
+                {"cells_solved", solved},   {"solve_s", solve_s},      {"seconds", seconds_since(begin)},
+                {"counters", counters}};
+    std::cout << result.dump(2) << '\n';
+  } else if (!options.quiet) {
+    std::cout << totals.text(request.transmitters);
+    std::vector<std::string> counts;
+    for (const auto& [name, count] : counters) counts.push_back(fmt::format("{} {}", name, count));
+    std::cout << fmt::format("counted: {}\n", fmt::join(counts, ", "));
+    std::cout << fmt::format("{} cells x {} transmitters in {:.1f} s ({:.0f} cells/s), all in {:.1f} s\n",
+                             solved, request.ends.size(), solve_s,
+                             solve_s > 0.0 ? static_cast<double>(solved) / solve_s : 0.0,
+                             seconds_since(begin));
+    std::cout << "wrote " << options.output << '\n';
+  }
+}
+
+void add_place(CLI::App& command, Options& options) {
+  CLI::Option* plane =
+      command.add_option("--plane", options.plane, "one height of the world for all cells, m");
+  command
+      .add_option("--height", options.height,
+                  fmt::format("above what lies beneath each cell, m [{}]", default_height_m))
+      ->excludes(plane);
+  command
+      .add_option("--over", options.over,
+                  "what lies beneath: ground (roads, pavements, terrain), or roofs as well")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, sim::MapOver>{
+          {"ground", sim::MapOver::ground}, {"roofs", sim::MapOver::roofs}}))
+      ->default_str("ground")
+      ->excludes(plane);
+  command.add_option("--min", options.min, "south-western corner, x y, m [the scene's]")->expected(2);
+  command.add_option("--max", options.max, "north-eastern corner, x y, m [the scene's]")->expected(2);
+  command.add_option("--cell", options.cell,
+                     "side of a cell, m [1, 2, 5, 10, ...: at most 150 along the longer side]");
+  command.add_flag("--inside", options.inside, "values for cells inside solids, too");
+  command.add_flag("--beyond-scene", options.beyond_scene, "the map may lie outside of the scene's bounds");
+}
+
+void add_radio(CLI::App& command, Options& options) {
+  command.add_option("--tick", options.instant.tick, "at which tick")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--sequence", options.instant.sequence, "in which sequence")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--channel", options.channel, "name of the channel [the first]");
+  command.add_option("--rx", options.receiver,
+                     "antenna node/sensor of the scenario to put into every cell, turned as at the tick "
+                     "[one isotropic element, vertical]");
+  command
+      .add_option("--power", options.power,
+                  fmt::format("dBm of all transmitters, or P,P,...: one each [the channel's, else {}]",
+                              default_power_dbm))
+      ->delimiter(',');
+  command.add_option("--bandwidth", options.bandwidth, "of the noise, Hz [the channel's]");
+  command.add_option("--noise-figure", options.noise_figure, "of the receiver, dB")->capture_default_str();
+}
+
+}  // namespace
+
+void add_map(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "map", "radio map: gain, SINR, best server, spreads over a plane or the terrain (docs/map.md)");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("-o,--output", options->output, "folder of the map")->required();
+  add_place(*command, *options);
+  add_radio(*command, *options);
+  command
+      ->add_option("--quantities", options->files.quantities,
+                   "names, with commas between them: arrays and pictures to write [all]")
+      ->delimiter(',');
+  command->add_flag("--each-transmitter", options->files.each_transmitter,
+                    "pictures of each transmitter, beside those of the best server");
+  command->add_flag("--no-pictures", options->no_pictures, "arrays alone");
+  command->add_option("--side", options->side, "of the map in a picture at most, pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(100, 8192));
+  command->add_flag("--resume", options->resume, "go on with a map that was stopped");
+  command->add_flag("--json", options->json, "print figures as one JSON object");
+  command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace greatx::apps

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `greatx map` from the command line: two masts above flat ground.
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <sched.h>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using greatx::apps::test::greatx;
+using greatx::apps::test::Outcome;
+using greatx::apps::test::read_file;
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A triangle (0, 0, 0), (1, 0, 0), (0, 0, -1) of glTF: (0, 0), (1, 0), (0, 1) on the ground with z up.
+constexpr const char* ground_gltf =
+    R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "ground"}],
+    "materials": [{"name": "itu_medium_dry_ground", "pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.5, 0.3, 1]}}],
+    "meshes": [{"name": "ground", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+    "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})";
+
+constexpr const char* scenario = R"(greatx: 1
+name: flat
+ticks: 11
+tick_rate_hz: 10
+scene: {objects: [{name: ground, file: ground.gltf, scale: 2000, position_m: [-500, -500, 0]}]}
+nodes:
+  - name: west
+    trajectory: {type: static, position_m: [-60, 0, 20]}
+    sensors: [{name: panel, type: antenna}]
+  - name: east
+    trajectory: {type: static, position_m: [60, 0, 20]}
+    sensors: [{name: panel, type: antenna}]
+  - name: ue
+    trajectory: {type: static, position_m: [0, 0, 1.5]}
+    sensors: [{name: antenna, type: antenna}]
+channels:
+  - {name: csi, tx: [west/panel, east/panel], rx: [ue/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 1}
+effects: {gas: off}
+)";
+
+/// 1408 cells, more than are solved at once.
+constexpr const char* area = "--min -110 -80 --max 110 80 --cell 5 --side 220";
+
+class MapCli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_ / "ground.gltf") << ground_gltf;
+    std::ofstream(folder_ / "flat.yaml") << scenario;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  Outcome map(const std::string& output, const std::string& arguments, const std::string& before = "") const {
+    return greatx(fmt::format("map {} -o {} {}", path("flat.yaml"), path(output), arguments),
+                  "GREATX_CACHE=off " + before);
+  }
+  /// Every file of a folder.
+  std::map<std::string, std::string> files(const std::string& name) const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder_ / name))
+      all[entry.path().filename().string()] = read_file(entry.path());
+    return all;
+  }
+  /// The numbers of an npy file, whose header takes 256 bytes.
+  template <typename T = double>
+  std::vector<T> numbers(const std::string& file) const {
+    const std::string bytes = read_file(folder_ / file);
+    EXPECT_GE(bytes.size(), 256u) << file;
+    std::vector<T> values(bytes.size() < 256 ? 0 : (bytes.size() - 256) / sizeof(T));
+    std::memcpy(values.data(), bytes.data() + 256, values.size() * sizeof(T));
+    return values;
+  }
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+};
+
+TEST_F(MapCli, WritesArraysPicturesAndWhatTheyAre) {
+  const Outcome outcome =
+      map("out", fmt::format("{} --power 30,33 --noise-figure 5 --each-transmitter", area));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1408 cells: 0 inside solids"));
+  const json description = json::parse(read_file(path("out/map.json")));
+  const json& request = description["request"];
+  EXPECT_EQ(request["grid"]["rows"], 32);
+  EXPECT_EQ(request["grid"]["columns"], 44);
+  EXPECT_EQ(request["grid"]["row_0"], "south");
+  EXPECT_EQ(request["transmitters"][1]["power_dbm"], 33.0);
+  EXPECT_NEAR(request["noise"]["power_dbm"].get<double>(),
+              10.0 * std::log10(1.380649e-23 * 290.0 * 20e6) + 30.0 + 5.0, 1e-9);
+  ASSERT_GE(description["arrays"].size(), 15u);
+  for (const json& array : description["arrays"]) {
+    size_t count = 1;
+    for (const json& side : array["shape"]) count *= side.get<size_t>();
+    const size_t size = array["dtype"].get<std::string>().back() - '0';
+    EXPECT_EQ(fs::file_size(folder_ / "out" / array["file"].get<std::string>()), 256 + count * size) << array;
+  }
+  for (const json& picture : description["pictures"])
+    EXPECT_THAT(read_file(folder_ / "out" / picture["file"].get<std::string>()), HasSubstr("IHDR"));
+  EXPECT_FALSE(fs::exists(path("out/links.part")));
+  EXPECT_TRUE(fs::exists(path("out/sinr_tx1.png")));
+
+  // The middle of the map is the same from both; one is 3 dB stronger.
+  const auto gain = numbers("out/path_gain.npy"), rss = numbers("out/rss.npy");
+  const auto best = numbers<int32_t>("out/best_server.npy");
+  ASSERT_EQ(gain.size(), 2u * 1408u);
+  for (size_t row = 0; row < 32; ++row)
+    for (size_t column = 0; column < 44; ++column) {
+      const size_t cell = row * 44 + column, mirrored = row * 44 + 43 - column;
+      EXPECT_NEAR(gain[cell] / gain[1408 + mirrored], 1.0, 1e-9);
+      EXPECT_NEAR(rss[1408 + cell], 10.0 * std::log10(gain[1408 + cell]) + 33.0, 1e-9);
+      EXPECT_EQ(best[cell], rss[cell] > rss[1408 + cell] ? 0 : 1);
+    }
+  EXPECT_THAT(numbers<uint8_t>("out/line_of_sight.npy"), testing::Each(1));
+  EXPECT_THAT(numbers("out/z.npy"), testing::Each(1.5));
+}
+
+TEST_F(MapCli, ACellIsAReceiverOfGreatxPaths) {
+  ASSERT_EQ(map("out", fmt::format("{} --plane 3 --quantities path_gain,paths --no-pictures", area)).code, 0);
+  const size_t cell = 7 * 44 + 12;
+  std::ofstream(folder_ / "point.csv") << fmt::format("{},{},3\n", -110 + 12.5 * 5, -80 + 7.5 * 5);
+  const Outcome outcome =
+      greatx(fmt::format("paths {} --receivers {} --json", path("flat.yaml"), path("point.csv")));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  double gain = 0.0;
+  const double factor = 299792458.0 / 3.5e9 / (4.0 * std::numbers::pi);
+  for (const json& one : json::parse(outcome.out)["receivers"][0]["paths"]) {
+    const json& t = one["transfer_per_m"][0];  // both ends are vertical
+    gain += factor * factor * (std::pow(t[0].get<double>(), 2) + std::pow(t[1].get<double>(), 2));
+  }
+  EXPECT_NEAR(numbers("out/path_gain.npy")[cell] / gain, 1.0, 1e-12);
+  EXPECT_EQ(numbers<int32_t>("out/paths.npy")[cell], 2);
+}
+
+TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
+  ASSERT_EQ(map("whole", area).code, 0);
+  // The file-size limit ends it in the middle of its journal: 1408 cells, 2 links of 96 bytes each.
+  const Outcome stopped = map("parts", area, "ulimit -f 300;");
+  EXPECT_EQ(stopped.code, 1);
+  EXPECT_TRUE(fs::exists(path("parts/links.part"))) << stopped.err;
+  EXPECT_FALSE(fs::exists(path("parts/map.json")));
+  EXPECT_THAT(map("parts", area).err, HasSubstr("--resume finishes it"));
+  EXPECT_THAT(map("parts", fmt::format("{} --power 20 --resume", area)).err,
+              HasSubstr("power_dbm: asked for 20.0, the folder's has 30.0"));
+  // What was torn is dropped.
+  { std::ofstream(folder_ / "parts/links.part", std::ios::app | std::ios::binary) << "torn"; }
+  const Outcome resumed = map("parts", fmt::format("{} --resume --json", area));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const size_t solved = json::parse(resumed.out)["cells_solved"];
+  EXPECT_GT(solved, 0u);
+  EXPECT_LT(solved, 1408u);
+  const auto whole = files("whole"), parts = files("parts");
+  ASSERT_EQ(whole.size(), parts.size());
+  for (const auto& [name, bytes] : whole) EXPECT_TRUE(parts.at(name) == bytes) << name;
+
+  EXPECT_THAT(map("parts", area).err, HasSubstr("holds a finished radio map"));
+  const Outcome again = map("parts", fmt::format("{} --resume", area));
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.out, HasSubstr("already finished"));
+}
+
+TEST_F(MapCli, AnyNumberOfThreadsGivesTheSameBytes) {
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // inherited by the program
+  const Outcome alone = map("one", area, "LP_NUM_THREADS=1");
+  ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  ASSERT_EQ(map("two", area, "LP_NUM_THREADS=2").code, 0);
+  const auto first = files("one"), second = files("two");
+  ASSERT_EQ(first.size(), second.size());
+  for (const auto& [name, bytes] : first) EXPECT_TRUE(second.at(name) == bytes) << name;
+}
+
+TEST_F(MapCli, SaysWhatIsWrong) {
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"--cell 0", "--cell: expected a length above 0 m, found 0"},
+      {"--cell -1", "--cell: expected a length above 0 m, found -1"},
+      {"--cell 0.01 --min 0 0 --max 100 100", "10000 x 10000 cells"},
+      {"--min 0 0 --max 0 10", "--max: expected more than --min"},
+      {"--plane 800",
+       "--plane: expected a height within the scene and its transmitters, z 0 to 20 m, found 800"},
+      {"--min 5000 5000 --max 5100 5100 --plane 1", "x -500 to 1500 m and y -500 to 1500 m"},
+      {"--height 0", "--height: expected more than 0 m, found 0"},
+      {"--power nan", "--power: expected a finite number"},
+      {"--power 30,30,30", "--power: expected 1 number, or 2"},
+      {"--bandwidth 0", "--bandwidth: expected more than 0 Hz"},
+      {"--noise-figure -3", "--noise-figure: expected 0 dB or more"},
+      {"--quantities rss,gain", "--quantities: expected some of path_gain"},
+      {"--channel none", "--channel: expected one of csi, found 'none'"},
+      {"--rx ue/camera", "--rx: expected an antenna of the scenario"},
+      {"--tick 99", "--tick: expected 0 to 10"},
+      {"--plane 1 --height 2", "excludes"}};
+  for (const auto& [arguments, message] : faults) {
+    const Outcome outcome = map("wrong", arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
+    EXPECT_FALSE(fs::exists(path("wrong"))) << arguments;
+  }
+  fs::create_directory(folder_ / "full");
+  std::ofstream(folder_ / "full/mine.txt") << "mine";
+  EXPECT_THAT(map("full", area).err, HasSubstr("mine.txt"));
+}
+
+}  // namespace
