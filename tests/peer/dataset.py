@@ -34,6 +34,7 @@ class Channel:
         self.path_count = np.load(self.root / "path_count.npy")
         self.path_gain = np.load(self.root / "path_gain.npy")
         self.line_of_sight = np.load(self.root / "line_of_sight.npy")
+        self.every_element = np.load(self.root / "every_element.npy")
         self.arrays = {f.stem: np.load(f, mmap_mode="r") for f in sorted((self.root / "paths").glob("*.npy"))}
         index = np.load(root / "index.npy")
         sensors = self.info["sensors"]

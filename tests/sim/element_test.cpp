@@ -173,6 +173,30 @@ TEST(EveryElement, HardCaseN63ThreadsChangeNoByte) {
   expect_same_bytes(all, alone, "one core");
 }
 
+TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
+  // Comes into the near field at tick 2, where its elements are searched from for the first time.
+  std::string yaml = scenario({0.25}, "effects: {line_of_sight: on, reflection: on}\n");
+  const std::string still = "trajectory: {type: static, position_m: [0.25, 0, 0]}";
+  yaml.replace(
+      yaml.find(still), still.size(),
+      "trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0.5, 0, 0]}, {t_s: 0.5, position_m: "
+      "[0.1, 0, 0]}]}");
+  yaml.replace(yaml.find("ticks: 1\n"), 9, "ticks: 6\n");
+  TinyScene tiny;
+  tiny.object("wall", 0, tiny.material_as(radio_material("concrete"))).box({-1, 0.4, -1}, {1, 0.6, 1});
+  const scene::Scene scene = tiny.build();
+  const RadioRun whole = run(yaml, scene);
+  std::vector<int> near;
+  for (size_t packet = 0; packet < whole.packets.size(); ++packet)
+    near.push_back(whole.values<uint8_t>(packet, "every_element")[0]);
+  EXPECT_THAT(near, ::testing::ElementsAre(0, 0, 0, 1, 1, 1));
+  for (const int64_t first : {2, 4}) {
+    RadioRun rest = run(yaml, scene, first), same = whole;
+    same.packets.erase(same.packets.begin(), same.packets.begin() + first);
+    expect_same_bytes(same, rest, fmt::format("from tick {}", first));
+  }
+}
+
 TEST(SeveralTransmitters, EachLinkIsThatOfAChannelOfItsOwn) {
   TinyScene tiny;
   tiny.object("ground", 0, tiny.material_as(radio_material("medium_dry_ground")))

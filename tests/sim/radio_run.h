@@ -42,8 +42,8 @@ struct RadioRun {
   uint64_t counter(const std::string& name) const { return statistics.counters.at("csi." + name); }
 };
 
-/// The scenario's nodes move nothing of the scene.
-inline RadioRun run(const std::string& yaml, const scene::Scene& scene) {
+/// The scenario's nodes move nothing of the scene. Ticks before `first` are left out, as by a resume.
+inline RadioRun run(const std::string& yaml, const scene::Scene& scene, int64_t first = 0) {
   const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
   World world{scene, std::vector<uint32_t>(scenario.nodes.size(), 0)};
   world.scene.hash = scene::hash_of(scene);
@@ -55,7 +55,7 @@ inline RadioRun run(const std::string& yaml, const scene::Scene& scene) {
   result.plan = make_effect_plan(scenario, world.scene);
   Simulator simulator(test::device(), scenario, world, result.plan);
   result.sensors = simulator.sensors();
-  simulator.start(0);
+  simulator.start(0, first);
   while (simulator.step(keep)) {
   }
   result.statistics = simulator.statistics();
