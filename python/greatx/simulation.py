@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, paths and channels, computed here and now: needs the compiled module (docs/python.md)."""
+from __future__ import annotations
+
+import json
+import logging
+import os
+import re
+from fractions import Fraction
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _native
+from .antenna import Array, look_from_to
+from .errors import Error
+from .paths import Paths
+from .radio_map import RadioMap
+from .stream import Run
+
+#: What the engine says on its way.
+logger = logging.getLogger("greatx")
+
+PathLike = Union[str, "os.PathLike[str]"]
+Position = Union[Sequence[float], np.ndarray]
+
+#: From places in the texts that are handed to the scenario's parser to the arguments that they were made of.
+_PLACES = [(r"^(\w+):1: ", r"\1: "), (r"nodes\[0\]\.sensors\[0\]\.mount\.rotation_deg", "orientation_deg"),
+           (r"nodes\[0\]\.sensors\[0\]\.", "array."), (r"nodes\[0\]\.(trajectory\.)?", ""), (r"channels\[0\]\.tx", "transmitters"),
+           (r"channels\[0\]\.rx", "receivers"), (r"channels\[0\]\.", ""),
+           # The options of `greatx map`.
+           (r"--cell", "cell_m"), (r"--min", "min_m"), (r"--max", "max_m"), (r"--plane Z", "z_m"), (r"--plane", "z_m"),
+           (r"--height", "height_m"), (r"--power", "power_dbm"), (r"--bandwidth", "bandwidth_hz"),
+           (r"--noise-figure", "noise_figure_db"), (r"--beyond-scene", "beyond_scene=True")]
+
+
+def _call(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Of the engine, whose log goes to logging's "greatx" and whose faults are told in the words of the arguments."""
+    try:
+        return function(*arguments)
+    except Error as error:
+        message = str(error)
+        for place, argument in _PLACES:
+            message = re.sub(place, argument, message)
+        raise Error(message) from None
+    finally:
+        for level, text in _native.take_log():
+            logger.log(level, text)
+
+
+def _text(value: Any) -> str:
+    """JSON, which is YAML; of NumPy's numbers, too."""
+    return json.dumps(value, default=lambda other: other.tolist() if hasattr(other, "tolist") else os.fspath(other))
+
+
+class Effect(NamedTuple):
+    """What was decided of one effect, and why."""
+    on: bool
+    reason: str
+    bound: str  #: what leaving it off can change at most, or what keeping it on costs; may be empty
+    switchable: bool
+
+
+class Simulation:
+    """A scenario that can be asked for paths, channels, maps and records, and added to.
+
+    scenario    the name of an embedded scenario ("city"), a YAML file, or a dict of what such a file has (docs/scenario.md)
+    assets      folder in which relative paths are looked for, beside the scenario's own (a dict: the current one)
+    seed, ticks, sequences, tolerance_db, effects, environment
+                in place of the scenario's; of effects and environment only what is named, e.g. effects={"diffraction": "on"}
+    device      index or part of the name of a Vulkan device; empty: $GREATX_DEVICE, else the best
+    validation  run under the Vulkan validation layer; a message is a RuntimeError
+
+    The scene is loaded, and the device opened, when they are first needed. What is wrong with the input is a greatx.Error
+    (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between batches. Positions are metres in
+    the world: x east, y north, z up; orientations yaw, pitch, roll in degrees, positive yaw left, positive pitch down.
+    """
+
+    def __init__(self, scenario: Union[PathLike, Mapping[str, Any]] = "city", *, assets: Optional[PathLike] = None,
+                 seed: Optional[int] = None, ticks: Optional[int] = None, sequences: Optional[int] = None,
+                 tolerance_db: Optional[float] = None, effects: Optional[Mapping[str, str]] = None,
+                 environment: Optional[Mapping[str, Any]] = None, device: str = "", validation: bool = False):
+        options = ("" if assets is None else os.fspath(assets), device, validation)
+        embedded = _native.embedded_scenarios()
+        if isinstance(scenario, Mapping):
+            self._native = _call(_native.Session.parse, _text(scenario), "scenario", *options)
+        elif scenario in embedded:
+            self._native = _call(_native.Session.parse, embedded[scenario], f"{scenario}.yaml", *options)
+        elif os.path.isfile(scenario):
+            self._native = _call(_native.Session.load, os.fspath(scenario), *options)
+        else:
+            raise Error(f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}")
+        self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
+        self._change(seed=seed, ticks=ticks, sequences=sequences, tolerance_db=tolerance_db, effects=effects,
+                     environment=environment)
+
+    @classmethod
+    def from_scene(cls, file: PathLike, *, radio_materials: Optional[PathLike] = None, **options: Any) -> "Simulation":
+        """A glTF scene and nothing else in it, to be placed into. `radio_materials`: YAML with the radio properties of its
+        materials. `options` are those of Simulation."""
+        scene = {"file": os.path.abspath(file)}
+        if radio_materials is not None:
+            scene["radio_materials"] = os.path.abspath(radio_materials)
+        return cls({"greatx": 1, "name": "scene", "ticks": 1, "scene": scene}, **options)
+
+    # ------------------------------------------------------------------------------------------------ what there is
+
+    @property
+    def _facts(self) -> Dict[str, Any]:
+        return json.loads(self._native.facts())
+
+    name = property(lambda self: self._facts["name"], doc="The scenario's.")
+    seed = property(lambda self: self._facts["seed"])
+    ticks = property(lambda self: self._facts["ticks"], doc="Of a sequence.")
+    sequences = property(lambda self: self._facts["sequences"])
+    tick_rate_hz = property(lambda self: Fraction(self._facts["tick_rate_hz"]))
+    nodes = property(lambda self: self._facts["nodes"], doc="{node: {sensor: kind}}")
+    antennas = property(lambda self: self._facts["antennas"], doc="[node/sensor]")
+    channels = property(lambda self: self._facts["channels"],
+                        doc="{channel: its transmitters, receivers, carrier_hz, subcarriers, max_depth, ...}")
+
+    @property
+    def scene(self) -> Dict[str, Any]:
+        """Of the loaded scene: triangles, facets, bounds_m [[x, y, z], [x, y, z]], origin_m, materials, instances, sha256."""
+        return json.loads(_call(self._native.scene_facts))
+
+    @property
+    def device(self) -> Dict[str, str]:
+        """Name, type, driver, Vulkan version of the device."""
+        return json.loads(_call(self._native.device_facts))
+
+    @property
+    def effects(self) -> Dict[str, Effect]:
+        """What was decided of every effect."""
+        decided = json.loads(_call(self._native.explain))["effects"]
+        return {e["name"]: Effect(e["on"], e["reason"], e["bound"], e["switchable"]) for e in decided}
+
+    def explain(self) -> str:
+        """Which effects act and why, and how each channel's paths will be found: as `greatx explain`."""
+        facts = json.loads(_call(self._native.explain))
+        lines = [f"{'on' if e['on'] else 'off':<4} {e['name']:<24} {e['reason']}{' — ' if e['bound'] else ''}{e['bound']}"
+                 for e in facts["effects"]]
+        for channel, notes in facts["channels"].items():
+            lines += [f"channel {channel!r}, candidates:", *(f"  {name:<18} {text}" for name, text in notes.items())]
+        return "\n".join(lines)
+
+    # ----------------------------------------------------------------------------------------------- what is added
+
+    def _parsed(self, function: Callable[..., Any], where: str, text: Mapping[str, Any], *more: Any) -> None:
+        """Hands a part of a scenario to the parser."""
+        whole = {"greatx": 1, "name": "change", "ticks": 1, "tick_rate_hz": str(self.tick_rate_hz), **text}
+        _call(function, _text(whole), where, *more)
+
+    def _change(self, **fields: Any) -> None:
+        given = {name: value for name, value in fields.items() if value is not None}
+        keys: List[str] = []
+        for name, value in given.items():
+            if name != "environment":
+                keys.append(name)
+                continue
+            for key, inner in value.items():
+                keys += [f"environment.sun.{k}" for k in inner] if key == "sun" else [f"environment.{key}"]
+        if given:
+            self._parsed(self._native.change, "Simulation", given, keys)
+
+    def add_node(self, node: Mapping[str, Any]) -> None:
+        """Any node, as an item of a scenario's `nodes`: with a trajectory, a mesh, cameras, LiDARs, antennas."""
+        self._parsed(self._native.add_nodes, "add_node", {"nodes": [node]})
+
+    def _place(self, role: str, name: str, position_m: Position, array: Optional[Array], orientation_deg: Any,
+               look_at: Optional[Position]) -> str:
+        if look_at is not None:
+            if orientation_deg is not None:
+                raise Error(f"{name}: expected one of orientation_deg and look_at, found both")
+            orientation_deg = look_from_to(position_m, look_at)
+        node = {"name": name, "trajectory": {"type": "static", "position_m": list(np.asarray(position_m).tolist())},
+                "sensors": [(array or Array()).as_sensor("array", orientation_deg)]}
+        self._parsed(self._native.add_nodes, "place_" + role, {"nodes": [node]})
+        self._placed[role + "s"].append(f"{name}/array")
+        return f"{name}/array"
+
+    def place_transmitter(self, name: str, position_m: Position, *, array: Optional[Array] = None,
+                          orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
+        """Puts an antenna at rest (by default one isotropic, vertical element) and gives its name, "NAME/array".
+
+        position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a position.
+        """
+        return self._place("transmitter", name, position_m, array, orientation_deg, look_at)
+
+    def place_receiver(self, name: str, position_m: Position, *, array: Optional[Array] = None,
+                       orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
+        """As place_transmitter."""
+        return self._place("receiver", name, position_m, array, orientation_deg, look_at)
+
+    def place_receivers(self, positions_m: np.ndarray, *, array: Optional[Array] = None, names: str = "rx{}",
+                        orientation_deg: Optional[Sequence[float]] = None) -> List[str]:
+        """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is quicker."""
+        return [self.place_receiver(names.format(i), position, array=array, orientation_deg=orientation_deg)
+                for i, position in enumerate(np.asarray(positions_m))]
+
+    def add_channel(self, name: str, *, transmitters: Optional[Sequence[str]] = None, receivers: Optional[Sequence[str]] = None,
+                    carrier_hz: float = 3.5e9, **fields: Any) -> str:
+        """A channel between antennas ("node/sensor"), by default all that were placed as transmitters and as receivers; with
+        no receivers at all it is for paths(receivers=points). `fields` are those of a scenario's channel: bandwidth_hz or
+        subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, max_depth, max_transmissions, candidates, ..."""
+        tx = list(self._placed["transmitters"] if transmitters is None else transmitters)
+        rx = list(self._placed["receivers"] if receivers is None else receivers)
+        if not tx:
+            raise Error(f"channel {name!r}: expected a transmitter, found none: place_transmitter() first")
+        known = self.antennas
+        for antenna in tx + rx:
+            if antenna not in known:
+                raise Error(f"channel {name!r}: expected antennas of the scenario ({', '.join(known)}), found {antenna!r}")
+        # The parser wants to see the antennas that a channel names; whatever they are.
+        sensors: Dict[str, List[str]] = {}
+        for antenna in dict.fromkeys(tx + rx):
+            node, sensor = antenna.rsplit("/", 1)
+            sensors.setdefault(node, []).append(sensor)
+        nodes = [{"name": node, "trajectory": {"type": "static", "position_m": [0, 0, 0]},
+                  "sensors": [{"name": sensor, "type": "antenna"} for sensor in names]} for node, names in sensors.items()]
+        channel = {"name": name, "tx": tx, "rx": rx or tx, "rate_hz": str(self.tick_rate_hz), "carrier_hz": carrier_hz, **fields}
+        self._parsed(self._native.add_channels, "add_channel", {"nodes": nodes, "channels": [channel]}, not rx)
+        return name
+
+    # -------------------------------------------------------------------------------------------- what is computed
+
+    def _channel(self, name: Optional[str]) -> str:
+        channels = self.channels
+        if name in channels:
+            return name
+        if name is None and len(channels) == 1:
+            return next(iter(channels))
+        what = f"no channel {name!r}" if name is not None else "several channels: say which" if channels else "no channel"
+        raise Error(f"{self.name}: has {what}; channels: {', '.join(channels) or 'none: add_channel() makes one'}")
+
+    @staticmethod
+    def _antenna(array: Optional[Array], orientation_deg: Any) -> str:
+        """What stands at bare points, as a scenario."""
+        return _text({"greatx": 1, "name": "points", "ticks": 1, "nodes": [
+            {"name": "points", "trajectory": {"type": "static", "position_m": [0, 0, 0]},
+             "sensors": [(array or Array()).as_sensor("array", orientation_deg)]}]})
+
+    def paths(self, channel: Optional[str] = None, *, tick: int = 0, sequence: int = 0,
+              receivers: Optional[np.ndarray] = None, array: Optional[Array] = None,
+              orientation_deg: Optional[Sequence[float]] = None, progress: Optional[Callable[[int], None]] = None) -> Paths:
+        """Every path of a channel (None: the only one) at a tick, from all transmitters to all receivers.
+
+        receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers, each with `array`
+                          (by default one isotropic, vertical element) turned by orientation_deg. A point has the paths that
+                          an antenna there would have, to the bit, whichever others there are; the search from the
+                          transmitters is done once and kept for further calls at the same tick.
+        progress          called now and then with the number of receivers that are done
+        """
+        name = self._channel(channel)
+        points, antenna = None, ""
+        if receivers is not None:
+            points = np.ascontiguousarray(receivers, np.float64)
+            if points.ndim != 2 or points.shape[1] != 3:
+                raise Error(f"receivers: expected [N, 3] positions in metres, found {list(points.shape)}")
+            antenna = self._antenna(array, orientation_deg)
+        elif array is not None or orientation_deg is not None:
+            raise Error("array, orientation_deg: expected receivers=points with them; the channel's receivers have their own")
+        native = _call(self._native.solve, name, sequence, tick, points, antenna, progress)
+        return Paths(native, None if points is not None else self.channels[name]["receivers"])
+
+    def radio_map(self, cell_m: float, channel: Optional[str] = None, *, min_m: Optional[Position] = None,
+                  max_m: Optional[Position] = None, z_m: Optional[float] = None, height_m: float = 1.5, over: str = "ground",
+                  power_dbm: Union[float, Sequence[float]] = 30.0, bandwidth_hz: Optional[float] = None,
+                  noise_figure_db: float = 0.0, array: Optional[Array] = None, orientation_deg: Optional[Sequence[float]] = None,
+                  inside_solids: bool = False, beyond_scene: bool = False, tick: int = 0, sequence: int = 0,
+                  progress: Optional[Callable[[int], None]] = None) -> RadioMap:
+        """A map of a channel's transmitters, as `greatx map`: each cell has the paths of a receiver put in its middle.
+
+        cell_m            side of the cells
+        min_m, max_m      [x, y] corners; by default the scene's bounds
+        z_m               height of the plane; None: draped, height_m above what `over` says: "ground", or "roofs"
+        power_dbm         of each transmitter, or one for all
+        bandwidth_hz, noise_figure_db   of the noise, k 290 K B F; the bandwidth is the channel's by default
+        array, orientation_deg          of the receiver, by default one isotropic, vertical element
+        inside_solids     cells inside solids have values, too
+        beyond_scene      maps that miss the scene are wanted
+        progress          called now and then with the number of cells that are done
+        """
+        if over not in ("ground", "roofs"):
+            raise Error(f"over: expected one of ground, roofs, found {over!r}")
+        corner = [None if xy is None else [float(v) for v in xy] for xy in (min_m, max_m)]
+        for name, xy in zip(("min_m", "max_m"), corner):
+            if xy is not None and len(xy) != 2:
+                raise Error(f"{name}: expected [x, y] in metres, found {xy}")
+        return RadioMap(*_call(self._native.radio_map, self._channel(channel), sequence, tick, *corner, cell_m, z_m, height_m,
+                               over == "roofs", [float(p) for p in np.atleast_1d(power_dbm)], bandwidth_hz, noise_figure_db,
+                               inside_solids, beyond_scene, self._antenna(array, orientation_deg), progress))
+
+    def run(self, sequence: int = 0, first_tick: int = 0) -> Run:
+        """Steps the whole scenario in memory: an iterator over ticks, each a mapping of the sensors that fired to their
+        records, with the arrays (and the bytes) that `greatx generate` would write:
+
+            for tick in sim.run():
+                tick["csi"].cfr, tick["uav/front"].rgb, tick["poses"].position
+        """
+        return Run(_call(self._native.stream, sequence, first_tick), _call, self.tick_rate_hz)
+
+    def __repr__(self) -> str:
+        facts = self._facts
+        return (f"<greatx.Simulation {facts['name']}: {len(facts['nodes'])} nodes, channels "
+                f"{', '.join(facts['channels']) or 'none'}>")

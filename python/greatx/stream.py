@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""A run in memory: every sensor's records as arrays, tick by tick, without files."""
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from typing import Any, Callable, Dict, Iterator, List, Mapping
+
+import numpy as np
+
+from .tables import Arrays
+
+
+class Run:
+    """What Simulation.run() gives: an iterator over ticks. Leaving it early is fine."""
+
+    def __init__(self, native: Any, call: Callable[..., Any], tick_rate_hz: Fraction):
+        self._native = native
+        self._call = call
+        self.tick_rate_hz = tick_rate_hz
+        #: every sensor's description: name, kind, rate_hz, metadata (as in dataset.json), arrays (name, unit, description)
+        self.sensors: Dict[str, Dict[str, Any]] = {s["name"]: s for s in json.loads(native.sensors())}
+        self._names = list(self.sensors)
+
+    def __iter__(self) -> Iterator["RunTick"]:
+        return self
+
+    def __next__(self) -> "RunTick":
+        packet = self._call(self._native.next)
+        if packet is None:
+            raise StopIteration
+        tick, time_ns, records = packet
+        return RunTick(self, tick, time_ns, {self._names[sensor]: RunRecord(self.sensors[self._names[sensor]], tick, sample, arrays)
+                                             for sensor, sample, arrays in records})
+
+    def summary(self) -> Dict[str, Any]:
+        """ticks, counters and notes of the run so far."""
+        return json.loads(self._native.summary())
+
+
+class RunTick(Mapping[str, "RunRecord"]):
+    """The records of one tick by the sensor's name; only of the sensors that fired."""
+
+    def __init__(self, run: Run, tick: int, time_ns: int, records: Dict[str, "RunRecord"]):
+        self.tick = tick
+        self.time_ns = time_ns  #: exact time, rounded to nanoseconds
+        self.time_s = float(tick / run.tick_rate_hz)
+        self._records = records
+
+    def __getitem__(self, sensor: str) -> "RunRecord":
+        if sensor not in self._records:
+            raise KeyError(f"sensor {sensor!r} has no record at tick {self.tick}; {', '.join(self._records)} have")
+        return self._records[sensor]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._records)
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __repr__(self) -> str:
+        return f"<greatx.RunTick {self.tick}, {self.time_s:g} s: {', '.join(self._records)}>"
+
+
+class RunRecord(Arrays):
+    """What one sensor measured at one tick: record["NAME"], or record.NAME, the arrays that a data set would have."""
+
+    def __init__(self, sensor: Dict[str, Any], tick: int, sample: int, arrays: List[np.ndarray]):
+        super().__init__((a["name"], a["unit"], a["description"], array) for a, array in zip(sensor["arrays"], arrays))
+        self.sensor = sensor
+        self.tick = tick
+        self.sample = sample  #: the sensor's own count

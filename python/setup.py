@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Puts the compiled module into the wheel: CMake's target greatx_python, in the project's build folder.
+
+GREATX_NATIVE=1: it must be there; 0: it is left out (data sets alone, nothing is compiled); not set: it is built where the
+project has been built before, or can be (CMake, Ninja and the shaders' compiler are there).
+Nothing is written into python/.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import sysconfig
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parent
+SUFFIX = sysconfig.get_config_var("EXT_SUFFIX")
+
+
+RELEASE = PROJECT / "build" / "release"
+#: For a Python that the release build's module is not for.
+OWN = PROJECT / "build" / ("release" + SUFFIX.rsplit(".", 1)[0])
+
+
+def wanted() -> bool:
+    wish = os.environ.get("GREATX_NATIVE", "")
+    if wish not in ("", "0", "1"):
+        sys.exit(f"GREATX_NATIVE: expected 0, 1 or nothing, found {wish!r}")
+    if wish == "0" or not (PROJECT / "CMakePresets.json").is_file():
+        if wish == "1":
+            sys.exit(f"GREATX_NATIVE=1: expected greatx's sources around {HERE}, found none")
+        return False
+    tools = all(shutil.which(tool) for tool in ("cmake", "ninja", "glslangValidator"))
+    return wish == "1" or tools or (RELEASE / "build.ninja").is_file()
+
+
+class CMakeBuild(build_ext):
+    def build_extension(self, extension):
+        target = pathlib.Path(self.get_ext_fullpath(extension.name))
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(self.built(), target)
+
+    def built(self) -> pathlib.Path:
+        for folder in (RELEASE, OWN):
+            module = folder / "python" / "greatx" / ("_native" + SUFFIX)
+            others = [path for path in module.parent.glob("_native.*.so") if path != module]
+            configured = (folder / "build.ninja").is_file()
+            if folder == RELEASE and (others or not configured):
+                continue
+            if not configured:
+                self.run_cmake("cmake", "--preset", "release", "-B", folder, "-DGREATX_TESTS=OFF",
+                               f"-DGREATX_PYTHON={sys.executable}")
+            self.run_cmake("cmake", "--build", folder, "--target", "greatx_python")
+            if module.is_file():
+                return module
+        sys.exit(f"{OWN}: built no _native{SUFFIX}: expected pybind11 and the headers of this Python (scripts/setup.sh), or "
+                 "GREATX_NATIVE=0 to install what reads data sets alone")
+
+    def run_cmake(self, *command):
+        try:
+            subprocess.run([str(part) for part in command], cwd=PROJECT, check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            sys.exit(f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, GREATX_NATIVE=0 "
+                     "installs what reads data sets alone")
+
+
+# setuptools' own litter goes where all that is built goes.
+scratch = PROJECT / "build" / "pip" if (PROJECT / "CMakePresets.json").is_file() else HERE / "build"
+scratch.mkdir(parents=True, exist_ok=True)
+setup(ext_modules=[Extension("greatx._native", sources=[])] if wanted() else [], cmdclass={"build_ext": CMakeBuild},
+      options={"build": {"build_base": str(scratch)}, "egg_info": {"egg_base": str(scratch)}})

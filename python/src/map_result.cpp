@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/src/map_result.h"
+
+#include <nlohmann/json.hpp>
+
+namespace greatx::python {
+
+sim::MapPower map_power(const MapRequest& request, const sim::ChannelConfig& config) {
+  const size_t transmitters = config.transmitters.size();
+  sim::MapPower power{request.power_dbm,
+                      request.bandwidth_hz.value_or(config.subcarriers * config.subcarrier_spacing_hz),
+                      request.noise_figure_db};
+  if (power.transmit_dbm.size() == 1) power.transmit_dbm.assign(transmitters, power.transmit_dbm[0]);
+  if (power.transmit_dbm.size() != transmitters)
+    throw_user_error("--power: expected 1 number, or {}, one a transmitter of channel '{}', found {}",
+                     transmitters, config.name, power.transmit_dbm.size());
+  sim::check_power(power);
+  return power;
+}
+
+sim::MapGrid map_grid(const MapRequest& request, const scene::Scene& scene, size_t transmitters) {
+  if (scene.bounds.empty() && !(request.min_m && request.max_m))
+    throw_user_error("--min, --max: expected where the map is, as the scene is empty, found none");
+  const dvec2 min = request.min_m ? *request.min_m : dvec2(scene.bounds.min + scene.origin),
+              max = request.max_m ? *request.max_m : dvec2(scene.bounds.max + scene.origin);
+  return sim::make_map_grid(min, max, request.cell_m, transmitters);
+}
+
+MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitters,
+                     const sim::ChannelConfig& config) {
+  const sim::MapCells& cells = *map.cells;
+  const int64_t rows = cells.grid.rows, columns = cells.grid.columns;
+  MapResult result;
+  for (const sim::MapQuantity& quantity : sim::map_quantities())
+    result.arrays.push_back(
+        {quantity.name, quantity.unit,
+         (quantity.per_transmitter ? "[tx, row, column] " : "[row, column] ") + quantity.description,
+         sim::map_array(map, quantity)});
+  std::vector<double> x, y, ends;
+  for (int64_t column = 0; column < columns; ++column)
+    x.push_back(cells.grid.center(static_cast<size_t>(column)).x);
+  for (int64_t row = 0; row < rows; ++row)
+    y.push_back(cells.grid.center(static_cast<size_t>(row * columns)).y);
+  for (const dvec3& end : transmitters) ends.insert(ends.end(), {end.x, end.y, end.z});
+  std::vector<uint8_t> placement;
+  for (const sim::CellPlacement of : cells.placement) placement.push_back(static_cast<uint8_t>(of));
+  result.arrays.push_back(
+      {"x", "m", "[column] of the cells' middles, world", Array::of<double>({columns}, x)});
+  result.arrays.push_back({"y", "m", "[row] of the cells' middles, world; row 0 is the southernmost",
+                           Array::of<double>({rows}, y)});
+  result.arrays.push_back({"z", "m", "[row, column] of the cells' middles, world; NaN: nothing beneath",
+                           Array::of<double>({rows, columns}, cells.z_m)});
+  result.arrays.push_back(
+      {"placement", "1",
+       "[row, column] 0: free, 1: inside a solid, 2: nothing beneath, 3: in foliage, 4: on a surface",
+       Array::of<uint8_t>({rows, columns}, placement)});
+  result.arrays.push_back({"transmitter_position", "m", "[tx, xyz] world",
+                           Array::of<double>({static_cast<int64_t>(transmitters.size()), 3}, ends)});
+  result.facts = nlohmann::ordered_json{{"channel", config.name},
+                                        {"carrier_hz", config.carrier_hz},
+                                        {"transmitters", config.transmitters},
+                                        {"power_dbm", map.power.transmit_dbm},
+                                        {"bandwidth_hz", map.power.bandwidth_hz},
+                                        {"noise_w", map.power.noise_w()},
+                                        {"cell_m", cells.grid.cell_m},
+                                        {"height", cells.height_rule}}
+                     .dump();
+  return result;
+}
+
+}  // namespace greatx::python

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "python/src/session.h"
+#include "sim/radio_map_values.h"
+
+namespace greatx::python {
+
+/// Checked; throws UserError in the words of `greatx map`.
+sim::MapPower map_power(const MapRequest& request, const sim::ChannelConfig& config);
+sim::MapGrid map_grid(const MapRequest& request, const scene::Scene& scene, size_t transmitters);
+
+/// All quantities, and of the cells: z [rows, columns], placement [rows, columns], x [columns], y [rows];
+/// transmitter_position [tx, 3].
+MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitters,
+                     const sim::ChannelConfig& config);
+
+}  // namespace greatx::python

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer protocol, so that any
+// version of NumPy takes them and nothing is copied; descriptions go as JSON.
+#include <chrono>
+#include <cstring>
+#include <pybind11/functional.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "assets/assets.h"
+#include "python/src/log.h"
+#include "python/src/path_set.h"
+#include "python/src/session.h"
+#include "python/src/stream.h"
+
+namespace greatx::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Released = py::call_guard<py::gil_scoped_release>;
+
+/// Owns an array's bytes for as long as a NumPy array looks at them.
+struct Buffer {
+  Array array;
+};
+
+const char* buffer_format(DType dtype) {
+  switch (dtype) {
+    case DType::u8:
+      return "B";
+    case DType::u16:
+      return "H";
+    case DType::u32:
+      return "I";
+    case DType::u64:
+      return "Q";
+    case DType::i32:
+      return "i";
+    case DType::i64:
+      return "q";
+    case DType::f32:
+      return "f";
+    case DType::f64:
+      return "d";
+    case DType::complex64:
+      return "Zf";
+  }
+  GREATX_CHECK(false, "type {}", static_cast<int>(dtype));
+}
+
+py::buffer_info describe(Buffer& buffer) {
+  Array& array = buffer.array;
+  const auto size = static_cast<py::ssize_t>(size_of(array.dtype));
+  std::vector<py::ssize_t> shape(array.shape.begin(), array.shape.end()), strides(shape.size());
+  py::ssize_t step = size;
+  for (size_t axis = shape.size(); axis-- > 0; step *= shape[axis]) strides[axis] = step;
+  return {array.bytes.data(),
+          size,
+          buffer_format(array.dtype),
+          static_cast<py::ssize_t>(shape.size()),
+          shape,
+          strides};
+}
+
+py::object numpy(Array array) {
+  return py::module_::import("numpy").attr("asarray")(py::cast(Buffer{std::move(array)}));
+}
+
+/// [(name, unit, description, array)]
+py::list numpy(NamedArrays arrays) {
+  py::list list;
+  for (NamedArray& named : arrays)
+    list.append(py::make_tuple(named.name, named.unit, named.description, numpy(std::move(named.array))));
+  return list;
+}
+
+std::vector<dvec3> points_of(const py::buffer& buffer) {
+  const py::buffer_info info = buffer.request();
+  if (info.format != "d" || info.ndim != 2 || info.shape[1] != 3 || info.strides[1] != 8 ||
+      info.strides[0] != 24)
+    throw_user_error("receivers: expected contiguous float64 [N, 3], found another array");
+  std::vector<dvec3> points(static_cast<size_t>(info.shape[0]));
+  static_assert(sizeof(dvec3) == 24);
+  if (!points.empty()) std::memcpy(points.data(), info.ptr, points.size() * sizeof(dvec3));
+  return points;
+}
+
+/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter.
+class Watch {
+ public:
+  explicit Watch(py::object progress = py::none()) : progress_(std::move(progress)) {}
+  GoOn go_on() {
+    return [this](size_t done) { return look(done); };
+  }
+  /// With the interpreter again: throws what stopped it.
+  void check() const {
+    if (stopped_) throw py::error_already_set();
+  }
+
+ private:
+  bool look(size_t done) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(100)) return true;
+    last_ = now;
+    const py::gil_scoped_acquire interpreter;
+    stopped_ = PyErr_CheckSignals() != 0;
+    if (!stopped_ && !progress_.is_none()) try {
+        progress_(done);
+      } catch (py::error_already_set& error) {
+        error.restore();
+        stopped_ = true;
+      }
+    return !stopped_;
+  }
+
+  py::object progress_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  bool stopped_ = false;
+};
+
+/// work(GoOn) without the interpreter.
+template <typename Work>
+auto watched(const Work& work, py::object progress = py::none()) {
+  Watch watch(std::move(progress));
+  auto result = [&] {
+    const py::gil_scoped_release released;
+    return work(watch.go_on());
+  }();
+  watch.check();
+  return result;
+}
+
+std::shared_ptr<PathSet> solve(Session& session, const std::string& channel, uint32_t sequence, int64_t tick,
+                               const std::optional<py::buffer>& points, const std::string& antenna,
+                               const py::object& progress) {
+  std::optional<PointReceivers> receivers;
+  if (points) receivers = PointReceivers{points_of(*points), antenna};
+  return watched([&](const GoOn& go_on) { return session.solve(channel, sequence, tick, receivers, go_on); },
+                 progress);
+}
+
+/// (facts, arrays)
+py::object radio_map(Session& session, const std::string& channel, uint32_t sequence, int64_t tick,
+                     const std::optional<std::array<double, 2>>& min_m,
+                     const std::optional<std::array<double, 2>>& max_m, double cell_m,
+                     std::optional<double> z_m, double height_m, bool over_roofs,
+                     const std::vector<double>& power_dbm, std::optional<double> bandwidth_hz,
+                     double noise_figure_db, bool inside_solids, bool beyond_scene,
+                     const std::string& antenna, const py::object& progress) {
+  MapRequest request{std::nullopt, std::nullopt,    cell_m,        {},           power_dbm,
+                     bandwidth_hz, noise_figure_db, inside_solids, beyond_scene, antenna};
+  if (min_m) request.min_m = dvec2((*min_m)[0], (*min_m)[1]);
+  if (max_m) request.max_m = dvec2((*max_m)[0], (*max_m)[1]);
+  request.height = {z_m, height_m, over_roofs ? sim::MapOver::roofs : sim::MapOver::ground};
+  std::optional<MapResult> result =
+      watched([&](const GoOn& go_on) { return session.radio_map(channel, sequence, tick, request, go_on); },
+              progress);
+  return py::make_tuple(result->facts, numpy(std::move(result->arrays)));
+}
+
+rf::PathSelection selection_of(const std::string& name) {
+  if (name == "all") return rf::PathSelection::all;
+  if (name == "line_of_sight") return rf::PathSelection::line_of_sight;
+  if (name == "others") return rf::PathSelection::others;
+  throw_user_error("select: expected one of all, line_of_sight, others, found '{}'", name);
+}
+
+/// None, or (tick, time_ns, [(sensor, sample, [arrays])]).
+py::object next(Stream& stream) {
+  std::optional<Packet> packet = [&] {
+    const py::gil_scoped_release released;
+    return stream.next();
+  }();
+  if (!packet) return py::none();
+  py::list records;
+  for (Record& record : packet->records) {
+    py::list arrays;
+    for (Array& array : record.arrays) arrays.append(numpy(std::move(array)));
+    records.append(py::make_tuple(record.sensor, record.sample, arrays));
+  }
+  return py::make_tuple(packet->tick, packet->time_ns, records);
+}
+
+/// Waits for the device, which another thread may be working with, without the interpreter.
+struct ReleasedDelete {
+  void operator()(Stream* stream) const {
+    const py::gil_scoped_release released;
+    delete stream;
+  }
+};
+
+void bind_session(py::module_& module) {
+  py::class_<Session>(module, "Session")
+      .def_static(
+          "load",
+          [](const std::string& file, const std::string& assets, const std::string& device, bool validation) {
+            return std::make_unique<Session>(sim::load_scenario(file, assets), assets,
+                                             gpu::DeviceOptions{device, validation});
+          },
+          Released())
+      .def_static(
+          "parse",
+          [](const std::string& text, const std::string& name, const std::string& assets,
+             const std::string& device, bool validation) {
+            return std::make_unique<Session>(sim::parse_scenario(text, name, ".", assets), assets,
+                                             gpu::DeviceOptions{device, validation});
+          },
+          Released())
+      .def("add_nodes", &Session::add_nodes, Released())
+      .def("add_channels", &Session::add_channels, Released())
+      .def("change", &Session::change, Released())
+      .def("facts", &Session::facts, Released())
+      .def("scene_facts", &Session::scene_facts, Released())
+      .def("explain", &Session::explain, Released())
+      .def("device_facts", &Session::device_facts, Released())
+      .def("solve", &solve)
+      .def("radio_map", &radio_map)
+      .def("stream", [](Session& session, uint32_t sequence, int64_t first_tick) {
+        std::unique_ptr<Stream> stream = [&] {
+          const py::gil_scoped_release released;
+          return session.stream(sequence, first_tick);
+        }();
+        return std::shared_ptr<Stream>(stream.release(), ReleasedDelete{});
+      });
+}
+
+void bind_path_set(py::module_& module) {
+  py::class_<PathSet, std::shared_ptr<PathSet>>(module, "PathSet")
+      .def("facts", &PathSet::facts)
+      .def("take_arrays", [](PathSet& set) { return numpy(set.take_arrays()); })
+      .def("cfr",
+           [](const PathSet& set, std::optional<double> spacing_hz, std::optional<uint32_t> subcarriers,
+              std::optional<uint32_t> time_samples, std::optional<double> time_spacing_s,
+              const std::string& select) {
+             const ResponseRequest request{spacing_hz, subcarriers, time_samples, time_spacing_s,
+                                           selection_of(select)};
+             return numpy(watched([&](const GoOn& go_on) { return set.response(request, go_on); }));
+           })
+      .def("taps",
+           [](const PathSet& set, double bandwidth_hz, int32_t first, uint32_t taps, uint32_t time_samples,
+              double time_spacing_s) {
+             const TapsRequest request{bandwidth_hz, first, taps, time_samples, time_spacing_s};
+             return numpy(watched([&](const GoOn& go_on) { return set.taps(request, go_on); }));
+           })
+      .def("statistics",
+           [](const PathSet& set) { return numpy(watched([&](const GoOn&) { return set.statistics(); })); })
+      .def("received",
+           [](const PathSet& set, double power_w, double resistance_ohm, uint32_t transmit_port,
+              uint32_t receive_port) {
+             const ReceivedRequest request{power_w, resistance_ohm, transmit_port, receive_port};
+             return numpy(watched([&](const GoOn&) { return set.received(request); }));
+           })
+      .def("coherence", [](const PathSet& set, double level) {
+        return numpy(watched([&](const GoOn&) { return set.coherence(level); }));
+      });
+}
+
+}  // namespace
+
+void bind(py::module_& module) {
+  keep_log();
+  static PyObject* const error =
+      py::object(py::module_::import("greatx.errors").attr("Error")).release().ptr();
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const UserError& fault) {
+      PyErr_SetString(error, fault.what());
+    }
+  });
+  module.attr("version") = GREATX_VERSION;
+  module.def("take_log", &take_log);
+  module.def("embedded_scenarios", [] {
+    py::dict texts;
+    for (const EmbeddedScenario& scenario : embedded_scenarios())
+      texts[py::str(std::string(scenario.name))] = std::string(scenario.text);
+    return texts;
+  });
+  py::class_<Buffer>(module, "Buffer", py::buffer_protocol()).def_buffer(&describe);
+  bind_session(module);
+  bind_path_set(module);
+  py::class_<Stream, std::shared_ptr<Stream>>(module, "Stream")
+      .def("sensors", &Stream::sensors, Released())
+      .def("next", &next)
+      .def("summary", &Stream::summary, Released());
+}
+
+}  // namespace greatx::python
+
+PYBIND11_MODULE(_native, module) {
+  module.doc() = "The compiled half of greatx; use the package's own names (docs/python.md).";
+  greatx::python::bind(module);
+}

@@ -1,0 +1,383 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/src/session.h"
+
+#include <cmath>
+#include <map>
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "python/src/map_result.h"
+#include "python/src/path_set.h"
+#include "python/src/stream.h"
+#include "sim/channel_antennas.h"
+#include "sim/channel_notes.h"
+#include "sim/plan_options.h"
+
+namespace greatx::python {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> antennas_of(const sim::Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const sim::NodeConfig& node : scenario.nodes)
+    for (const sim::SensorConfig& sensor : node.sensors)
+      if (std::holds_alternative<sim::AntennaConfig>(sensor.config))
+        names.push_back(node.name + "/" + sensor.name);
+  return names;
+}
+
+const char* kind_of(const sim::SensorConfig& sensor) {
+  constexpr const char* kinds[] = {"camera", "lidar", "antenna"};
+  return kinds[sensor.config.index()];
+}
+
+void check_name_is_free(const sim::Scenario& scenario, const std::string& name, const SourceLocation& where) {
+  const auto taken = [&](const auto& list, const char* what) {
+    for (const auto& item : list)
+      if (item.name == name)
+        throw_user_error_at(where, "name: expected one that is free, found that of a {}, '{}'", what, name);
+  };
+  taken(scenario.nodes, "node");
+  taken(scenario.channels, "channel");
+  taken(scenario.scene.objects, "scene's object");
+}
+
+/// The fields of `environment` that a change names.
+void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key) {
+  static const std::map<std::string, std::vector<double sim::Environment::*>> members{
+      {"sun.azimuth_deg", {&sim::Environment::sun_azimuth}},
+      {"sun.elevation_deg", {&sim::Environment::sun_elevation}},
+      {"sun.illuminance_lux", {&sim::Environment::sun_illuminance_lux}},
+      {"sky_illuminance_lux", {&sim::Environment::sky_illuminance_lux}},
+      {"temperature_k", {&sim::Environment::temperature_k}},
+      {"pressure_hpa", {&sim::Environment::pressure_hpa}},
+      {"water_vapour_g_m3", {&sim::Environment::water_vapour_g_m3}},
+      {"rain_mm_h", {&sim::Environment::rain_mm_h}},
+      {"fog_g_m3", {&sim::Environment::fog_g_m3}}};
+  for (const auto member : members.at(key)) to.*member = from.*member;
+}
+
+void check_finite(std::span<const dvec3> points) {
+  for (size_t i = 0; i < points.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(points[i][c]))
+        throw_user_error("receivers[{}, {}]: expected a finite position in metres, found {}", i, c,
+                         points[i][c]);
+}
+
+}  // namespace
+
+void Gpu::check_validation() {
+  const std::vector<std::string> messages = device.validation_log()->take();
+  if (messages.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
+
+/// A snapshot and what it was made for.
+struct Session::Kept {
+  std::shared_ptr<const Stage> stage;
+  std::shared_ptr<Gpu> gpu;
+  uint32_t channel = 0, sequence = 0;
+  int64_t tick = 0;
+  bool points = false;
+  std::unique_ptr<sim::ChannelSnapshot> snapshot;  ///< refers to all of the above
+};
+
+Session::Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device)
+    : scenario_(std::move(scenario)), assets_(std::move(assets)), device_options_(std::move(device)) {}
+
+Session::~Session() { drop_snapshot(); }
+
+void Session::drop_snapshot() {
+  if (kept_ == nullptr) return;
+  const std::lock_guard device(gpu_->mutex);
+  kept_.reset();
+}
+
+void Session::changed() {
+  drop_snapshot();
+  stage_.reset();
+}
+
+sim::Scenario Session::parse(const std::string& text, const std::string& where) const {
+  return sim::parse_scenario(text, where, ".", assets_);
+}
+
+sim::MapReceiver Session::antenna_at_points(const std::string& text, double carrier_hz) const {
+  const sim::Scenario scenario = parse(text, "receivers");
+  const std::string name = antennas_of(scenario).at(0);
+  const sim::SensorPlace place = sim::sensor_place(scenario, name);
+  return {sim::antenna_array(scenario, name, carrier_hz),
+          sim::mount_pose(scenario.nodes[place.node].sensors[place.sensor].mount).orientation};
+}
+
+void Session::add_nodes(const std::string& text, const std::string& where) {
+  const std::lock_guard lock(mutex_);
+  const sim::Scenario more = parse(text, where);
+  for (const sim::NodeConfig& node : more.nodes) check_name_is_free(scenario_, node.name, node.where);
+  scenario_.nodes.insert(scenario_.nodes.end(), more.nodes.begin(), more.nodes.end());
+  changed();
+}
+
+void Session::add_channels(const std::string& text, const std::string& where, bool no_receivers) {
+  const std::lock_guard lock(mutex_);
+  const sim::Scenario more = parse(text, where);
+  for (sim::ChannelConfig channel : more.channels) {
+    check_name_is_free(scenario_, channel.name, channel.where);
+    if (no_receivers) channel.receivers.clear();
+    scenario_.channels.push_back(std::move(channel));
+  }
+  changed();
+}
+
+void Session::change(const std::string& text, const std::string& where,
+                     const std::vector<std::string>& keys) {
+  const std::lock_guard lock(mutex_);
+  const sim::Scenario with = parse(text, where);
+  constexpr std::string_view environment = "environment.";
+  for (const std::string& key : keys) {
+    if (key == "seed") scenario_.seed = with.seed;
+    if (key == "ticks") scenario_.ticks = with.ticks;
+    if (key == "sequences") scenario_.sequences = with.sequences;
+    if (key == "tolerance_db") scenario_.tolerance_db = with.tolerance_db;
+    if (key == "effects")
+      for (const auto& [name, wish] : with.effects) scenario_.effects[name] = wish;
+    if (key.starts_with(environment))
+      change_environment(scenario_.environment, with.environment, key.substr(environment.size()));
+  }
+  changed();
+}
+
+std::string Session::facts() const {
+  const std::lock_guard lock(mutex_);
+  Json json{{"name", scenario_.name},
+            {"seed", scenario_.seed},
+            {"sequences", scenario_.sequences},
+            {"ticks", scenario_.ticks},
+            {"tick_rate_hz", scenario_.tick_rate_hz.str()},
+            {"nodes", Json::object()},
+            {"antennas", antennas_of(scenario_)},
+            {"channels", Json::object()}};
+  for (const sim::NodeConfig& node : scenario_.nodes) {
+    json["nodes"][node.name] = Json::object();
+    for (const sim::SensorConfig& sensor : node.sensors)
+      json["nodes"][node.name][sensor.name] = kind_of(sensor);
+  }
+  for (const sim::ChannelConfig& channel : scenario_.channels)
+    json["channels"][channel.name] = {{"transmitters", channel.transmitters},
+                                      {"receivers", channel.receivers},
+                                      {"rate_hz", channel.rate_hz.str()},
+                                      {"carrier_hz", channel.carrier_hz},
+                                      {"subcarrier_spacing_hz", channel.subcarrier_spacing_hz},
+                                      {"subcarriers", channel.subcarriers},
+                                      {"time_samples", channel.time_samples},
+                                      {"time_spacing_s", channel.time_spacing_s},
+                                      {"max_depth", channel.max_depth},
+                                      {"max_transmissions", channel.walls()},
+                                      {"candidates", channel.candidates}};
+  return json.dump();
+}
+
+std::string Session::scene_facts() {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<const Stage> now = stage();
+  const scene::Scene& scene = now->world.scene;
+  Json json{{"sha256", scene.hash},
+            {"triangles", scene.triangle_count()},
+            {"facets", scene.facets.size()},
+            {"bodies", scene.bodies.size()},
+            {"origin_m", {scene.origin.x, scene.origin.y, scene.origin.z}},
+            {"bounds_m", nullptr},
+            {"materials", Json::array()},
+            {"instances", Json::array()}};
+  if (!scene.bounds.empty()) {
+    const dvec3 least = dvec3(scene.bounds.min) + scene.origin, most = dvec3(scene.bounds.max) + scene.origin;
+    json["bounds_m"] = {{least.x, least.y, least.z}, {most.x, most.y, most.z}};
+  }
+  for (const scene::Material& material : scene.materials) json["materials"].push_back(material.name);
+  for (const scene::Instance& instance : scene.instances)
+    json["instances"].push_back(
+        {{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
+  return json.dump();
+}
+
+std::string Session::explain() {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<const Stage> now = stage();
+  Json json{{"effects", Json::array()}, {"channels", Json::object()}};
+  for (const sim::Effect* effect : now->plan.all())
+    json["effects"].push_back({{"name", effect->name},
+                               {"on", effect->on},
+                               {"switchable", effect->switchable},
+                               {"reason", effect->reason},
+                               {"bound", effect->bound}});
+  for (uint32_t channel = 0; channel < now->scenario.channels.size(); ++channel) {
+    Json& notes = json["channels"][now->scenario.channels[channel].name] = Json::object();
+    for (const auto& [name, text] : sim::channel_notes(now->scenario, now->world, now->plan, channel))
+      notes[name] = text;
+  }
+  return json.dump();
+}
+
+std::string Session::device_facts() {
+  const std::lock_guard lock(mutex_);
+  const gpu::DeviceInfo& info = gpu()->device.info();
+  return Json{{"name", info.name}, {"type", info.type}, {"driver", info.driver}, {"vulkan", info.api_version}}
+      .dump();
+}
+
+std::shared_ptr<const Stage> Session::stage() {
+  if (stage_ == nullptr) {
+    const auto made = std::make_shared<Stage>();
+    made->scenario = scenario_;
+    made->world = sim::load_world(made->scenario);
+    made->plan = sim::make_effect_plan(made->scenario, made->world.scene);
+    stage_ = made;
+  }
+  return stage_;
+}
+
+std::shared_ptr<Gpu> Session::gpu() {
+  if (gpu_ == nullptr) gpu_ = std::make_shared<Gpu>(device_options_);
+  return gpu_;
+}
+
+uint32_t Session::find_channel(const std::string& name) const {
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scenario_.channels.size(); ++i) {
+    if (scenario_.channels[i].name == name) return i;
+    names.push_back(scenario_.channels[i].name);
+  }
+  throw_user_error("channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+}
+
+void Session::check_instant(uint32_t sequence, int64_t tick) const {
+  if (tick < 0 || tick >= scenario_.ticks)
+    throw_user_error("tick: expected 0 to {}, the last tick of {}, found {}", scenario_.ticks - 1,
+                     scenario_.name, tick);
+  if (sequence >= scenario_.sequences)
+    throw_user_error("sequence: expected 0 to {}, found {}", scenario_.sequences - 1, sequence);
+}
+
+sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stage,
+                                        const std::shared_ptr<Gpu>& gpu, uint32_t channel,
+                                        const sim::ChannelSnapshot::Instant& instant, bool points) {
+  // Points take the place of the receivers for good, so each has a snapshot of its own.
+  if (kept_ == nullptr || kept_->stage != stage || kept_->channel != channel || kept_->points != points ||
+      kept_->sequence != instant.sequence || kept_->tick != instant.tick) {
+    kept_.reset();
+    auto kept =
+        std::make_unique<Kept>(Kept{stage, gpu, channel, instant.sequence, instant.tick, points, nullptr});
+    kept->snapshot =
+        std::make_unique<sim::ChannelSnapshot>(gpu->device, stage->scenario, stage->world, stage->plan,
+                                               sim::gpu_scene_options(stage->plan), channel, instant);
+    kept_ = std::move(kept);
+  }
+  return *kept_->snapshot;
+}
+
+std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequence, int64_t tick,
+                                        const std::optional<PointReceivers>& points, const GoOn& go_on) {
+  const std::lock_guard lock(mutex_);
+  const uint32_t channel = find_channel(name);
+  check_instant(sequence, tick);
+  const sim::ChannelConfig& config = scenario_.channels[channel];
+  std::vector<rf::AntennaArray> arrays;
+  dquat orientation{1.0, 0.0, 0.0, 0.0};
+  if (points) {
+    check_finite(points->points);
+    sim::MapReceiver receiver = antenna_at_points(points->antenna, config.carrier_hz);
+    arrays.push_back(std::move(receiver.array));
+    orientation = receiver.orientation;
+  } else {
+    if (config.receivers.empty())
+      throw_user_error("channel '{}': has no receivers: expected paths(receivers=points)", name);
+    for (const std::string& end : config.receivers)
+      arrays.push_back(sim::antenna_array(scenario_, end, config.carrier_hz));
+  }
+
+  const std::shared_ptr<const Stage> now = stage();
+  const std::shared_ptr<Gpu> gpu = this->gpu();
+  const std::lock_guard device(gpu->mutex);
+  auto set = std::make_shared<PathSet>(now, channel, std::move(arrays));
+  bool stopped = false;
+  size_t links = 0;
+  const auto take = [&](sim::ChannelSnapshot::Link link) {
+    if (points) link.receiver_state.orientation = orientation;
+    set->add(std::move(link));
+    stopped = !go_on(++links / set->transmitters());
+    return !stopped;
+  };
+  try {
+    sim::ChannelSnapshot& solver =
+        snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, points.has_value());
+    if (points)
+      solver.solve(points->points, 0, take);
+    else
+      solver.solve(take);
+    if (!stopped) set->finish(solver);
+    gpu->check_validation();
+  } catch (...) {
+    kept_.reset();
+    throw;
+  }
+  return stopped ? nullptr : set;
+}
+
+std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t sequence, int64_t tick,
+                                            const MapRequest& request, const GoOn& go_on) {
+  const std::lock_guard lock(mutex_);
+  const uint32_t channel = find_channel(name);
+  check_instant(sequence, tick);
+  const sim::ChannelConfig& config = scenario_.channels[channel];
+  const sim::MapPower power = map_power(request, config);
+  sim::MapReceiver receiver = antenna_at_points(request.antenna, config.carrier_hz);
+
+  const std::shared_ptr<const Stage> now = stage();
+  const sim::MapGrid grid = map_grid(request, now->world.scene, config.transmitters.size());
+  const std::shared_ptr<Gpu> gpu = this->gpu();
+  const std::lock_guard device(gpu->mutex);
+  try {
+    sim::ChannelSnapshot& snapshot = this->snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, true);
+    const sim::Moment& moment = snapshot.moment();
+    std::vector<dvec3> ends;
+    for (const std::string& end : config.transmitters)
+      ends.push_back(sim::world_position(sim::antenna_end(now->scenario, now->world, end), moment.context));
+    sim::MapCells cells = sim::place_cells(grid, request.height, now->world.scene, snapshot.model().kinds,
+                                           moment.bodies, ends, request.beyond_scene);
+    cells.solve_inside = request.inside_solids;
+    std::vector<rf::LinkStatistics> links;
+    bool stopped = false;
+    sim::RadioMapSolver(snapshot, now->scenario, channel, std::move(receiver))
+        .solve(cells, 0, [&](std::span<const rf::LinkStatistics> more) {
+          links.insert(links.end(), more.begin(), more.end());
+          stopped = !go_on(links.size() / ends.size());
+          return !stopped;
+        });
+    gpu->check_validation();
+    if (stopped) return std::nullopt;
+    return map_result({&cells, links, power}, ends, config);
+  } catch (...) {
+    kept_.reset();
+    throw;
+  }
+}
+
+std::unique_ptr<Stream> Session::stream(uint32_t sequence, int64_t first_tick) {
+  const std::lock_guard lock(mutex_);
+  check_instant(sequence, first_tick);
+  for (const sim::ChannelConfig& channel : scenario_.channels)
+    if (channel.receivers.empty())
+      throw_user_error("channel '{}': has no receivers: expected some for a run", channel.name);
+  const std::shared_ptr<const Stage> now = stage();
+  const std::shared_ptr<Gpu> gpu = this->gpu();
+  const std::lock_guard device(gpu->mutex);
+  return std::make_unique<Stream>(now, gpu, sequence, first_tick);
+}
+
+}  // namespace greatx::python

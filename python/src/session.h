@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they are needed.
+// Nothing here knows Python; every call may come from any thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/record.h"
+#include "gpu/device.h"
+#include "sim/channel_snapshot.h"
+#include "sim/effect_plan.h"
+#include "sim/radio_map.h"
+#include "sim/scenario.h"
+#include "sim/world.h"
+
+namespace greatx::python {
+
+class PathSet;
+class Stream;
+
+/// What was asked at one time, and never changes: what is computed of it may outlive the next change of the session.
+struct Stage {
+  sim::Scenario scenario;
+  sim::World world;
+  sim::EffectPlan plan;
+};
+
+/// The device of a session. One call at a time has it.
+struct Gpu {
+  explicit Gpu(const gpu::DeviceOptions& options) : device(options) {}
+  gpu::Device device;
+  std::mutex mutex;
+  /// Throws std::runtime_error if the validation layer had anything to say.
+  void check_validation();
+};
+
+/// Called now and then with how many are done; false: enough.
+using GoOn = std::function<bool(size_t done)>;
+
+struct NamedArray {
+  std::string name, unit, description;
+  Array array;
+};
+using NamedArrays = std::vector<NamedArray>;
+
+/// Bare points in place of a channel's receivers.
+struct PointReceivers {
+  std::vector<dvec3> points;  ///< world, m
+  std::string antenna;        ///< a scenario whose first sensor is the antenna at each of them
+};
+
+/// A radio map (sim/radio_map.h).
+struct MapRequest {
+  std::optional<dvec2> min_m, max_m;  ///< none: the scene's bounds
+  double cell_m = 1.0;
+  sim::MapHeight height;
+  std::vector<double> power_dbm;  ///< one, or one a transmitter
+  std::optional<double> bandwidth_hz;
+  double noise_figure_db = 0.0;
+  bool inside_solids = false, beyond_scene = false;
+  std::string antenna;  ///< as PointReceivers'
+};
+struct MapResult {
+  NamedArrays arrays;
+  std::string facts;  ///< JSON
+};
+
+class Session {
+ public:
+  Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device);
+  ~Session();
+
+  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in messages.
+  void add_nodes(const std::string& text, const std::string& where);
+  /// Its channels; their antennas are by name those of this scenario. `no_receivers`: points only.
+  void add_channels(const std::string& text, const std::string& where, bool no_receivers);
+  /// What `keys` names of it: seed, ticks, sequences, tolerance_db, effects, environment (field by field).
+  void change(const std::string& text, const std::string& where, const std::vector<std::string>& keys);
+
+  /// Descriptions as JSON.
+  std::string facts() const;
+  std::string scene_facts();
+  std::string explain();
+  std::string device_facts();
+
+  /// All paths of a channel. Null: `go_on` said that it is enough.
+  std::shared_ptr<PathSet> solve(const std::string& channel, uint32_t sequence, int64_t tick,
+                                 const std::optional<PointReceivers>& points, const GoOn& go_on);
+  /// Null: stopped.
+  std::optional<MapResult> radio_map(const std::string& channel, uint32_t sequence, int64_t tick,
+                                     const MapRequest& request, const GoOn& go_on);
+  std::unique_ptr<Stream> stream(uint32_t sequence, int64_t first_tick);
+
+ private:
+  struct Kept;
+  std::shared_ptr<const Stage> stage();
+  std::shared_ptr<Gpu> gpu();
+  void drop_snapshot();
+  void changed();
+  uint32_t find_channel(const std::string& name) const;
+  void check_instant(uint32_t sequence, int64_t tick) const;
+  sim::Scenario parse(const std::string& text, const std::string& where) const;
+  sim::MapReceiver antenna_at_points(const std::string& text, double carrier_hz) const;
+  sim::ChannelSnapshot& snapshot(const std::shared_ptr<const Stage>& stage, const std::shared_ptr<Gpu>& gpu,
+                                 uint32_t channel, const sim::ChannelSnapshot::Instant& instant, bool points);
+
+  mutable std::mutex mutex_;
+  sim::Scenario scenario_;
+  std::string assets_;
+  gpu::DeviceOptions device_options_;
+  std::shared_ptr<const Stage> stage_;  ///< null: to be made of scenario_
+  std::shared_ptr<Gpu> gpu_;
+  std::unique_ptr<Kept> kept_;  ///< the last snapshot: other points of it need no search
+};
+
+}  // namespace greatx::python

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/src/stream.h"
+
+#include <nlohmann/json.hpp>
+
+namespace greatx::python {
+
+Stream::Stream(std::shared_ptr<const Stage> stage, std::shared_ptr<Gpu> gpu, uint32_t sequence,
+               int64_t first_tick)
+    : stage_(std::move(stage)),
+      gpu_(std::move(gpu)),
+      simulator_(
+          std::make_unique<sim::Simulator>(gpu_->device, stage_->scenario, stage_->world, stage_->plan)) {
+  simulator_->start(sequence, first_tick);
+}
+
+Stream::~Stream() {
+  const std::lock_guard lock(gpu_->mutex);
+  gpu_->device.wait_idle();
+  simulator_.reset();
+}
+
+std::string Stream::sensors() const {
+  nlohmann::ordered_json sensors = nlohmann::ordered_json::array();
+  for (const SensorSpec& spec : simulator_->sensors()) {
+    nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
+    for (const ArraySpec& array : spec.arrays)
+      arrays.push_back({{"name", array.name}, {"unit", array.unit}, {"description", array.description}});
+    sensors.push_back({{"name", spec.name},
+                       {"kind", spec.kind},
+                       {"rate_hz", spec.rate},
+                       {"arrays", std::move(arrays)},
+                       {"metadata", nlohmann::ordered_json::parse(
+                                        spec.metadata_json.empty() ? "{}" : spec.metadata_json)}});
+  }
+  return sensors.dump();
+}
+
+std::optional<Packet> Stream::next() {
+  const std::lock_guard lock(gpu_->mutex);
+  while (queue_.packets.empty())
+    if (!simulator_->step(queue_)) break;
+  gpu_->check_validation();
+  if (queue_.packets.empty()) return std::nullopt;
+  std::optional<Packet> packet = std::move(queue_.packets.front());
+  queue_.packets.pop_front();
+  return packet;
+}
+
+std::string Stream::summary() {
+  const std::lock_guard lock(gpu_->mutex);
+  const sim::RunStatistics statistics = simulator_->statistics();
+  nlohmann::ordered_json json{{"ticks", statistics.ticks},
+                              {"counters", nlohmann::ordered_json::object()},
+                              {"notes", nlohmann::ordered_json::object()}};
+  for (const auto& [name, count] : statistics.counters) json["counters"][name] = count;
+  for (const auto& [name, text] : statistics.notes) json["notes"][name] = text;
+  return json.dump();
+}
+
+}  // namespace greatx::python

@@ -1,0 +1,343 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes, paths and channels computed from Python."""
+import gc
+import os
+import signal
+import threading
+import unittest
+import weakref
+
+import numpy as np
+import support
+
+import greatx
+
+C = support.C
+EMPTY = {"greatx": 1, "name": "empty", "ticks": 1}
+LAMBDA = C / 3.5e9
+
+
+def in_space(**fields):
+    """A transmitter and a receiver 50 m apart and nothing else."""
+    sim = greatx.Simulation(EMPTY, validation=True)
+    sim.place_transmitter("bs", [0, 0, 10])
+    sim.place_receiver("ue", [30, 40, 10])
+    sim.add_channel("csi", carrier_hz=3.5e9, bandwidth_hz=20e6, subcarriers=8, **fields)
+    return sim
+
+
+def street(**options):
+    return greatx.Simulation(support.scenario_file("street", support.STREET), validation=True, **options)
+
+
+class ClosedForms(unittest.TestCase):
+    def test_friis(self):
+        paths = in_space().paths()
+        self.assertEqual((len(paths), paths.shape, paths.receivers), (1, (1, 1), ["ue/array"]))
+        self.assertAlmostEqual(paths.delay[0], 50 / C, delta=1e-20)
+        self.assertAlmostEqual(abs(paths.amplitude[0, 0, 0]), LAMBDA / (4 * np.pi * 50), delta=1e-9)
+        self.assertAlmostEqual(paths.departure[0, 1], np.arctan2(40, 30), places=14)
+        self.assertEqual(paths.distance[0, 0], 50)
+        k = np.arange(8) - 4
+        turns = np.mod((3.5e9 + k * 20e6 / 8) * (50 / C), 1)
+        expected = LAMBDA / (4 * np.pi * 50) * np.exp(-2j * np.pi * turns)
+        np.testing.assert_allclose(paths.cfr()[0, 0, 0, 0, 0], expected, rtol=3e-7)
+
+    def test_two_ray_ground(self):
+        sim = greatx.Simulation({**EMPTY, "scene": {"generate": {"kind": "room"}}}, validation=True)
+        sim.place_transmitter("a", [-0.5, 0.3, 1.2])
+        sim.place_receiver("b", [0.7, -0.2, 1.6])
+        sim.add_channel("csi", max_depth=1)
+        paths = sim.paths()
+        self.assertEqual(len(paths), 7)  # the line of sight and six walls
+        self.assertEqual(sorted(paths.interaction[:, 0]), [0] + [1] * 6)
+
+    def test_quantities_of_one_path(self):
+        paths = in_space().paths()
+        gain = (LAMBDA / (4 * np.pi * 50)) ** 2
+        stats = paths.statistics()
+        self.assertAlmostEqual(stats.path_gain[0, 0] / gain, 1, places=12)
+        self.assertEqual((stats.k_factor[0, 0], stats.delay_spread[0, 0], stats.line_of_sight[0, 0]), (np.inf, 0, 1))
+        self.assertEqual(stats.unit("delay_spread"), "s")
+        received = paths.received(2.0, resistance_ohm=50)
+        self.assertAlmostEqual(received.power_w[0, 0] / (2 * gain), 1, places=12)
+        self.assertAlmostEqual(abs(received.open_circuit_v[0, 0]) ** 2 / 200 / (2 * gain), 1, places=12)
+        field = np.linalg.norm(received.field_v_per_m[0, 0])
+        self.assertAlmostEqual(field, np.sqrt(376.730 * 2 / (4 * np.pi)) / 50, places=6)
+        self.assertEqual(paths.coherence().bandwidth[0, 0], np.inf)
+        taps = paths.taps(C / 50, 4)  # the delay is one sample
+        h = np.abs(taps.taps[0, 0, 0, 0, 0])
+        self.assertAlmostEqual(h[1] / np.sqrt(gain), 1, places=6)
+        self.assertLess(h[[0, 2, 3]].max(), 1e-15 * h[1])
+        self.assertEqual(taps.paths_outside[0, 0], 0)
+
+    def test_parts_add_up(self):
+        paths = street().paths()
+        h, los, others = (paths.cfr(select=part) for part in ("all", "line_of_sight", "others"))
+        np.testing.assert_allclose(los + others, h, atol=1e-10)
+        self.assertGreater(np.abs(others).max(), 0)
+
+    def test_impulse_response_gives_the_frequency_response(self):
+        paths = street().paths()
+        a, tau = paths.cir()
+        f = (np.arange(16) - 8) * 1e6
+        turn = np.exp(-2j * np.pi * f * tau[..., None])
+        h = np.einsum("uavbp,uvpf->uavbf", a.astype(complex), turn)
+        mine = paths.cfr(subcarriers=16, subcarrier_spacing_hz=1e6)[..., 0, :]
+        np.testing.assert_allclose(mine, h, atol=1e-5 * np.abs(h).max())
+
+    def test_points_are_receivers(self):
+        sim = street()
+        names = sim.channels["csi"]["receivers"]
+        own = sim.paths(tick=2)
+        for rx, name in enumerate(names):
+            points = np.array([[0.1, -3, 1.5], own.receiver_position[rx]])
+            there = sim.paths(tick=2, receivers=points)
+            if name.startswith("car"):
+                continue  # it moves: the body that it is on hides no antenna of its own
+            for tx in range(2):
+                mine, other = own.link(rx, tx), there.link(1, tx)
+                for array in ("delay", "transfer", "amplitude", "id", "vertex", "departure"):
+                    self.assertEqual(mine[array].tobytes(), other[array].tobytes(), (name, tx, array))
+
+    def test_array_at_points(self):
+        sim = in_space()
+        array = greatx.Array(rows=2, columns=2, polarization="vh", pattern="tr38901")
+        at = sim.paths(receivers=[[30, 40, 10.0]], array=array, orientation_deg=[-126.8698976458440, 0, 0])
+        self.assertEqual(at.amplitude.shape, (1, 8, 1))
+        gain = np.abs(at.amplitude[0, :, 0]) / (LAMBDA / (4 * np.pi * 50))
+        np.testing.assert_allclose(gain[0::2], 10 ** (8 / 20), rtol=1e-6)
+        np.testing.assert_allclose(gain[1::2], 0, atol=1e-6)
+        placed = in_space()
+        placed.place_receiver("panel", [30, 40, 10.0], array=array, look_at=[0, 0, 10])
+        placed.add_channel("panel_csi", receivers=["panel/array"])
+        np.testing.assert_allclose(placed.paths("panel_csi").amplitude, at.amplitude, rtol=1e-6, atol=1e-12)
+
+
+class SameBytes(unittest.TestCase):
+    def test_as_the_data_set(self):
+        ds = greatx.load(support.street())
+        sim = street()
+        for record in ds["csi"]:
+            paths = sim.paths(tick=record.tick)
+            self.assertEqual(paths.cfr().tobytes(), np.ascontiguousarray(record.cfr).tobytes())
+            for name, array in record.paths().items():
+                self.assertEqual(array.tobytes(), paths[name].tobytes(), name)
+                self.assertEqual((array.dtype, array.shape), (paths[name].dtype, paths[name].shape), name)
+            stats = paths.statistics()
+            for name in ("path_count", "path_gain", "delay_spread", "k_factor", "line_of_sight"):
+                self.assertEqual(stats[name].tobytes(), np.ascontiguousarray(record[name]).tobytes(), name)
+
+    def test_run_as_the_data_set(self):
+        ds = greatx.load(support.street())
+        ticks = list(street().run())
+        self.assertEqual([t.tick for t in ticks], ds.sequences[0].ticks.tolist())
+        for tick in ticks:
+            kept = ds.at(tick.tick)
+            self.assertEqual(list(tick), list(kept))
+            self.assertEqual((tick.time_ns, tick.time_s), (kept.time_ns, kept.time_s))
+            for sensor, arrays in (("csi", ("cfr", "delay", "vertex")), ("poses", ("position",)), ("car/front", ("rgb", "depth"))):
+                for array in arrays if sensor in kept else ():
+                    self.assertEqual(tick[sensor][array].tobytes(), np.ascontiguousarray(kept[sensor][array]).tobytes())
+
+    def test_twice_and_two_at_once(self):
+        a, b = street(), street()
+        first = a.paths(tick=1)
+        second = b.paths(tick=1)
+        a.paths(tick=3)
+        for other in (second, a.paths(tick=1)):
+            self.assertEqual(first.cfr().tobytes(), other.cfr().tobytes())
+        runs = [a.run(), b.run()]
+        for x, y in zip(*runs):
+            self.assertEqual(x["csi"].cfr.tobytes(), y["csi"].cfr.tobytes())
+
+    def test_threads_share_a_simulation(self):
+        sim = street()
+        expected = [sim.paths(tick=t).cfr().tobytes() for t in range(4)]
+        found = [None] * 4
+
+        def work(t):
+            found[t] = sim.paths(tick=t).cfr().tobytes()
+
+        threads = [threading.Thread(target=work, args=(t,)) for t in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, expected)
+
+
+class Memory(unittest.TestCase):
+    def test_arrays_are_the_engines_own(self):
+        paths = in_space().paths()
+        for name, array in paths.arrays.items():
+            self.assertFalse(array.flags.owndata, name)
+            self.assertIs(paths[name], array)
+            self.assertEqual(type(array.base.obj).__name__, "Buffer")
+            self.assertTrue(np.shares_memory(array, np.asarray(array.base.obj)))
+        self.assertTrue(np.shares_memory(paths.link(0)["delay"], paths.delay))
+        self.assertFalse(paths.cfr().flags.owndata)
+
+    def test_they_outlive_everything_else(self):
+        paths = in_space().paths()
+        delay, watch = paths.delay, weakref.ref(paths.arrays)
+        del paths
+        gc.collect()
+        self.assertIsNone(watch())
+        self.assertAlmostEqual(delay[0], 50 / C, delta=1e-20)
+
+    def test_memory_is_given_back(self):
+        paths = in_space().paths()
+
+        def resident():
+            with open("/proc/self/statm") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+        paths.cfr(subcarriers=1 << 20, subcarrier_spacing_hz=100)
+        before = resident()
+        for _ in range(40):  # 8 MiB each
+            paths.cfr(subcarriers=1 << 20, subcarrier_spacing_hz=100)
+        self.assertLess(resident() - before, 64 << 20)
+
+    def test_dlpack(self):
+        paths = in_space().paths()
+        for array in (paths.delay, paths.amplitude, paths.cfr(), paths.interaction):
+            taken = np.from_dlpack(array)
+            self.assertEqual(taken.ctypes.data, array.ctypes.data)
+            self.assertEqual(taken.dtype, array.dtype)
+        try:
+            import torch
+        except ImportError:
+            return
+        h = paths.cfr()
+        self.assertEqual(torch.from_dlpack(h).data_ptr(), h.ctypes.data)
+        self.assertEqual(torch.from_dlpack(h).dtype, torch.complex64)
+
+    def test_no_paths(self):
+        paths = in_space().paths(receivers=np.zeros((0, 3)))
+        self.assertEqual((len(paths), paths.shape, paths.cfr().shape), (0, (0, 1), (0, 1, 1, 1, 1, 8)))
+        self.assertEqual(paths.cir()[0].shape, (0, 1, 1, 1, 0))
+        self.assertEqual(paths.vertex.shape[0], 0)
+
+
+class Errors(unittest.TestCase):
+    def check(self, words, function, *arguments, **fields):
+        with self.assertRaises(greatx.Error) as caught:
+            function(*arguments, **fields)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+        self.assertIsInstance(caught.exception, ValueError)
+
+    def test_bad_input(self):
+        sim = in_space()
+        paths = sim.paths()
+        self.check(["no such scenario", "city"], greatx.Simulation, "nowhere.yaml")
+        self.check(["ticks", "expected"], greatx.Simulation, {"greatx": 1, "name": "x"})
+        self.check(["Simulation: effects", "one of auto, on, off", "'maybe'"], greatx.Simulation, EMPTY, effects={"gas": "maybe"})
+        self.check(["place_transmitter: array.rows", "from 1", "'0'"], sim.place_transmitter, "x", [0, 0, 0],
+                   array=greatx.Array(rows=0))
+        self.check(["array.row_spacing_wl", "greater than 0"], sim.place_receiver, "x", [0, 0, 0],
+                   array=greatx.Array(rows=2, row_spacing_wl=-1))
+        self.check(["place_receiver: position_m", "finite"], sim.place_receiver, "x", [0, 0, float("nan")])
+        self.check(["name", "free", "'bs'"], sim.place_receiver, "bs", [0, 0, 0])
+        self.check(["bandwidth_hz", "greater than 0"], sim.add_channel, "y", bandwidth_hz=0)
+        self.check(["'nobody/array'", "bs/array"], sim.add_channel, "y", receivers=["nobody/array"])
+        self.check(["no channel 'z'", "csi"], sim.paths, "z")
+        self.check(["tick", "0 to 0"], sim.paths, tick=1)
+        self.check(["sequence"], sim.paths, sequence=1)
+        self.check(["receivers", "[N, 3]"], sim.paths, receivers=[[1, 2]])
+        self.check(["receivers[1, 2]", "finite"], sim.paths, receivers=[[1, 2, 3], [1, 2, np.nan]])
+        self.check(["receivers=points"], sim.paths, array=greatx.Array())
+        self.check(["subcarrier_spacing_hz", "greater than 0"], paths.cfr, bandwidth_hz=-1.0)
+        self.check(["subcarriers"], paths.cfr, subcarriers=0)
+        self.check(["above 0 Hz"], paths.cfr, 8e9, 4)
+        self.check(["select", "line_of_sight"], paths.cfr, select="some")
+        self.check(["bandwidth_hz"], paths.taps, 0.0, 4)
+        self.check(["taps"], paths.taps, 1e6, 0)
+        self.check(["receive_port", "0 to 0"], paths.received, receive_port=1)
+        self.check(["level"], paths.coherence, 1.0)
+        self.check(["no such"], greatx.Simulation, EMPTY["name"])
+
+    def test_a_fault_changes_nothing(self):
+        sim = in_space()
+        before = sim.paths().cfr().tobytes()
+        with self.assertRaises(greatx.Error):
+            sim.place_receiver("x", [0, 0, 0], array=greatx.Array(columns=-1))
+        self.assertEqual(sim.nodes, {"bs": {"array": "antenna"}, "ue": {"array": "antenna"}})
+        self.assertEqual(sim.paths().cfr().tobytes(), before)
+
+    def test_device(self):
+        sim = greatx.Simulation(EMPTY, device="no such device")
+        sim.place_transmitter("a", [0, 0, 1])
+        sim.add_channel("csi")
+        with self.assertRaises(greatx.Error) as caught:
+            sim.paths(receivers=[[0, 0, 2.0]])
+        self.assertIn("no such device", str(caught.exception))
+
+    def test_points_only(self):
+        sim = greatx.Simulation(EMPTY, validation=True)
+        sim.place_transmitter("a", [0, 0, 1])
+        sim.add_channel("csi")
+        self.assertEqual(sim.channels["csi"]["receivers"], [])
+        self.assertEqual(len(sim.paths(receivers=[[0, 0, 2.0], [0, 0, 3.0]])), 2)
+        self.check(["no receivers", "points"], sim.paths)
+        self.check(["no receivers"], sim.run)
+
+    def test_interrupt(self):
+        sim = street()
+        points = np.tile([[0.1, -3, 1.5]], (200_000, 1))
+        calls = []
+
+        def progress(done):
+            calls.append(done)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            sim.paths(receivers=points, progress=progress)
+        self.assertTrue(calls)
+        with self.assertRaises(ZeroDivisionError):
+            sim.paths(receivers=points, progress=lambda done: 1 // 0)
+        self.assertEqual(sim.paths(tick=1).tick, 1)
+
+
+class Facts(unittest.TestCase):
+    def test_overrides(self):
+        sim = street(seed=5, ticks=2, effects={"reflection": "off"}, environment={"rain_mm_h": 200, "sun": {"elevation_deg": 5}})
+        self.assertEqual((sim.seed, sim.ticks, sim.name), (5, 2, "street"))
+        self.assertFalse(sim.effects["reflection"].on)
+        self.assertTrue((sim.paths().interaction[:, 0] != 1).all())
+        self.assertIn("reflection", sim.explain())
+
+    def test_what_there_is(self):
+        sim = street()
+        self.assertEqual(sim.channels["csi"]["receivers"], ["car/antenna", "walker/antenna"])
+        self.assertIn("bs/panel", sim.antennas)
+        self.assertGreater(sim.scene["triangles"], 100)
+        self.assertEqual(len(sim.scene["bounds_m"]), 2)
+        self.assertIn("name", sim.device)
+        self.assertIn("greatx.Simulation street", repr(sim))
+
+    def test_near_field_is_warned_of(self):
+        sim = greatx.Simulation(EMPTY, validation=True)
+        sim.place_transmitter("bs", [0, 0, 10], array=greatx.Array(rows=16, columns=16))
+        sim.place_receiver("ue", [3, 0, 10])
+        sim.add_channel("csi", subcarriers=4)
+        with self.assertWarnsRegex(UserWarning, "far field"):
+            sim.paths().cfr()
+
+    def test_nodes_of_any_kind(self):
+        sim = greatx.Simulation({**EMPTY, "ticks": 3, "tick_rate_hz": 10}, validation=True)
+        sim.add_node({"name": "uav", "trajectory": {"type": "waypoints", "points": [
+            {"t_s": 0, "position_m": [30, 0, 10]}, {"t_s": 1, "position_m": [40, 0, 10]}]},
+            "sensors": [{"name": "antenna", "type": "antenna"}]})
+        sim.place_transmitter("bs", [0, 0, 10])
+        sim.add_channel("csi", receivers=["uav/antenna"], subcarriers=4)
+        ticks = list(sim.run())
+        self.assertEqual([t["csi"].delay[0] for t in ticks], [sim.paths(tick=t).delay[0] for t in range(3)])
+        self.assertAlmostEqual(ticks[2]["csi"].delay[0], 32 / C, delta=1e-20)
+        self.assertLess(ticks[2]["csi"].doppler[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
