@@ -109,7 +109,7 @@ class Table:
         self.say(f"| process start to first answer, nothing cached but Sionna RT's kernels | {cold['wall_s']:.2f} s | "
                  + " | ".join(f"{s['to_first_ms'] / 1e3:.2f} s" for s in solves) + " |")
         self.say(f"| the same, greatx's search cached | {warm['wall_s']:.2f} s | – | – |")
-        self.say(f"| one position after another, median | {one['ticks'][next(iter(one['ticks']))]['tick_ms']['median']:.2f} ms | "
+        self.say(f"| one position after another, median | {one['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms | "
                  + " | ".join(f"{s['steady_ms']:.0f} ms" for s in solves) + " |")
         self.say(f"| peak memory of that | {cold['peak_mib']:.0f} MiB | "
                  + " | ".join(f"{s['peak_mib']:.0f} MiB" for s in solves) + " |")
@@ -126,7 +126,7 @@ class Table:
             self.results[f"many_{count}"] = {"greatx": ours, "inside": inside, "sionna": theirs}
         ours = self.greatx_radio(1, walls)
         theirs = self.sionna("first", self.receivers[:repeat + 1], walls, solve={"samples": 1e6}, repeat=repeat)
-        self.say(f"| one position, walls of 0.1 m passed as well | {ours['ticks'][next(iter(ours['ticks']))]['tick_ms']['median']:.2f} ms"
+        self.say(f"| one position, walls of 0.1 m passed as well | {ours['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms"
                  f" | {theirs['steady_ms']:.0f} ms | – |")
         for name, change, key in (("diffraction as well", {"walls": 3, "diffraction": True}, "diffraction"),):
             theirs = self.sionna("first", self.receivers[:repeat + 1], change, solve={"samples": 1e6}, repeat=repeat)
