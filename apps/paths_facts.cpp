@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "rf/channel/phase.h"
+#include "rf/channel/statistics.h"
 
 namespace greatx::apps {
 
@@ -123,23 +124,17 @@ std::string describe_interactions(const rf::Path& path, const PathScene& scene) 
 
 LinkFigures figures_of(const PathLink& link, double carrier_hz) {
   LinkFigures figures;
-  figures.paths = link.paths.size();
-  double first_moment = 0.0;
+  std::vector<double> gains;
   for (const rf::Path& path : link.paths) {
-    const double gain = path_gain(path, carrier_hz);
-    figures.line_of_sight |= path.interactions.empty();
+    gains.push_back(path_gain(path, carrier_hz));
     figures.first_delay_s = std::min(figures.first_delay_s.value_or(path.delay_s), path.delay_s);
-    figures.gain += gain;
-    first_moment += gain * (path.delay_s - link.paths[0].delay_s);
     ++figures.kinds[static_cast<size_t>(kind_of(path))];
   }
-  if (!(figures.gain > 0.0)) return figures;
-  // About the mean, so that nothing cancels.
-  const double mean = link.paths[0].delay_s + first_moment / figures.gain;
-  double second_moment = 0.0;
-  for (const rf::Path& path : link.paths)
-    second_moment += path_gain(path, carrier_hz) * (path.delay_s - mean) * (path.delay_s - mean);
-  figures.delay_spread_s = std::sqrt(second_moment / figures.gain);
+  const rf::LinkStatistics statistics = rf::link_statistics(link.paths, gains);
+  figures.paths = statistics.paths;
+  figures.line_of_sight = statistics.line_of_sight;
+  figures.gain = statistics.path_gain;
+  if (statistics.path_gain > 0.0) figures.delay_spread_s = statistics.delay_spread_s;
   return figures;
 }
 
