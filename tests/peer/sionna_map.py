@@ -13,8 +13,8 @@ CENTER, SIZE, HEIGHT = (60.0, -80.0), 300.0, 1.5
 def greatx_map(table):
     """(process figures, gain in dB [rows, columns]) of `greatx map`, or None where there is no such command."""
     from sionna_table import process
-    has = subprocess.run([table.program, "map", "--help"], capture_output=True)
-    if has.returncode != 0:
+    commands = subprocess.run([table.program, "--help"], capture_output=True, text=True).stdout
+    if not any(line.split()[:1] == ["map"] for line in commands.splitlines()):
         return None
     folder = table.options.work / "map"
     shutil.rmtree(folder, ignore_errors=True)

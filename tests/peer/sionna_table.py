@@ -11,6 +11,7 @@ import pathlib
 import platform
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -25,14 +26,16 @@ HERE = pathlib.Path(__file__).resolve().parent
 def process(words, environment=None):
     """(stdout, wall s, CPU s, peak MiB) of a program."""
     begin = time.perf_counter()
-    with open(os.devnull, "w") as nowhere:
-        child = subprocess.Popen([str(w) for w in words], stdout=subprocess.PIPE, stderr=nowhere if not
-                                 os.environ.get("PEER_DEBUG") else None, env=os.environ | (environment or {}))
-    output = child.stdout.read()
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        raise RuntimeError(f"{' '.join(map(str, words))[:200]}: exit code {child.returncode}")
+    with tempfile.TemporaryFile() as errors:
+        child = subprocess.Popen([str(w) for w in words], stdout=subprocess.PIPE, stderr=errors,
+                                 env=os.environ | (environment or {}))
+        output = child.stdout.read()
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        if child.returncode != 0:
+            errors.seek(0)
+            raise SystemExit(f"{' '.join(map(str, words))[:300]}: exit code {child.returncode}\n"
+                             + errors.read().decode(errors="replace")[-1000:])
     return output, time.perf_counter() - begin, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
@@ -57,11 +60,11 @@ class Table:
         output, wall, cpu, peak = process(words)
         return json.loads(output) | {"wall_s": wall, "cpu_s": cpu, "peak_mib": peak}
 
-    def greatx_paths(self, count, cache, change=None):
-        """The whole process: load, search, solve, print one line a receiver."""
+    def greatx_paths(self, count, cache, change=None, form="--brief"):
+        """The whole process: load, search, solve, print one line a receiver (or, --json, all there is)."""
         case = dataclasses.replace(self.case, **(change or {}))
         words = [self.program, "paths", self.greatx.scenario(case, self.receivers[:1]), "--assets", self.greatx.scenes,
-                 "--receivers", self.greatx.points_file(case, self.receivers[:count]), "--brief"]
+                 "--receivers", self.greatx.points_file(case, self.receivers[:count]), form]
         folder = self.options.work / "cache"
         output, wall, cpu, peak = process(words, {"GREATX_CACHE": str(folder) if cache else "off"})
         return {"wall_s": wall, "cpu_s": cpu, "peak_mib": peak, "digest": hashlib.sha256(output).hexdigest()}
@@ -171,11 +174,11 @@ class Table:
         self.say()
         self.say("| | different bytes | different sets of paths | paths |")
         self.say("|---|---|---|---|")
-        ours = {self.greatx_paths(20, False)["digest"] for _ in range(runs)}
+        ours = {self.greatx_paths(20, False, form="--json")["digest"] for _ in range(runs)}
         threads = set()
         for n in ("1", "2"):
             os.environ["LP_NUM_THREADS"] = n
-            threads.add(self.greatx_paths(20, False)["digest"])
+            threads.add(self.greatx_paths(20, False, form="--json")["digest"])
         del os.environ["LP_NUM_THREADS"]
         self.say(f"| greatx, 1 and 2 driver threads among them | {len(ours | threads)} | {len(ours | threads)} | |")
         for name, settings in (("Sionna RT", {"samples": 1e6}), ("Sionna RT, deterministic=True", {"samples": 1e6, "deterministic": True})):
