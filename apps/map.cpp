@@ -232,6 +232,7 @@ MapStage stage_of(const Options& options, const Request& request, const sim::Sce
 void run(const Options& given) {
   Options options = given;
   options.files.pictures = !options.no_pictures;
+  io::ignore_file_size_signal();
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds_since = [](auto start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -65,23 +65,21 @@ BlockHead head_of(uint64_t offset, std::span<const std::byte> payload, uint64_t 
   return head;
 }
 
-/// "request.cell_m: expected 1, found 2" of what differs first, depth first.
-std::string difference(const Json& expected, const Json& found, const std::string& name) {
-  if (expected == found) return {};
-  if (expected.is_object() && found.is_object())
-    for (const auto& [key, value] : expected.items()) {
-      if (!found.contains(key)) return name + key + ": found none";
-      if (std::string text = difference(value, found[key], name + key + "."); !text.empty()) return text;
-    }
-  return fmt::format("{}: asked for {}, the folder's has {}", name.substr(0, name.size() - 1),
-                     expected.dump(), found.dump());
+/// "/grid/cell_m: asked for 1, the folder's has 2": what differs first, by its JSON pointer.
+std::string difference(const Json& asked, const Json& found) {
+  const Json a = asked.flatten(), b = found.is_structured() ? found.flatten() : Json::object();
+  for (const auto& [key, value] : a.items())
+    if (!b.contains(key) || b[key] != value)
+      return fmt::format("{}: asked for {}, the folder's has {}", key, value.dump(),
+                         b.contains(key) ? b[key].dump() : "none");
+  return "it has more in it";
 }
 
 void check_same(const fs::path& folder, const Json& request, const std::string& stored_text) {
   const Json found = Json::parse(stored_text, nullptr, false);
   if (found == request) return;
   throw_user_error("{}: holds a radio map that asked for something else, which this one cannot resume: {}",
-                   folder.string(), difference(request, found, ""));
+                   folder.string(), difference(request, found));
 }
 
 }  // namespace

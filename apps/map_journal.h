@@ -22,7 +22,7 @@ class MapJournal {
  public:
   /// A new folder (or an empty one), or with `resume` one whose map was stopped and asked for the same. Throws UserError
   /// naming the folder: it holds something else, a map that is finished, one that is not and `resume` is off, or one that
-  /// asked for something else (the first difference is named).
+  /// asked for something else (the first difference is named, as a JSON pointer).
   MapJournal(const std::filesystem::path& folder, const nlohmann::ordered_json& request, bool resume);
 
   /// There is nothing left to do.

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `greatx map` from the command line: two masts above flat ground.
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <numbers>
 #include <sched.h>
+#include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -133,9 +138,10 @@ TEST_F(MapCli, ACellIsAReceiverOfGreatxPaths) {
   const Outcome outcome =
       greatx(fmt::format("paths {} --receivers {} --json", path("flat.yaml"), path("point.csv")));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json receiver = json::parse(outcome.out)["receivers"][0];
   double gain = 0.0;
   const double factor = 299792458.0 / 3.5e9 / (4.0 * std::numbers::pi);
-  for (const json& one : json::parse(outcome.out)["receivers"][0]["paths"]) {
+  for (const json& one : receiver["paths"]) {
     const json& t = one["transfer_per_m"][0];  // both ends are vertical
     gain += factor * factor * (std::pow(t[0].get<double>(), 2) + std::pow(t[1].get<double>(), 2));
   }
@@ -144,28 +150,48 @@ TEST_F(MapCli, ACellIsAReceiverOfGreatxPaths) {
 }
 
 TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
-  ASSERT_EQ(map("whole", area).code, 0);
-  // The file-size limit ends it in the middle of its journal: 1408 cells, 2 links of 96 bytes each.
-  const Outcome stopped = map("parts", area, "ulimit -f 300;");
-  EXPECT_EQ(stopped.code, 1);
-  EXPECT_TRUE(fs::exists(path("parts/links.part"))) << stopped.err;
+  // 35,200 cells: there is time to stop it.
+  const std::string large = "--min -110 -80 --max 110 80 --cell 1 --side 220 --quantities path_gain,sinr";
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string scenario_file = path("flat.yaml"), output = path("parts");
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(98);
+    execl(GREATX_PROGRAM, GREATX_PROGRAM, "map", scenario_file.c_str(), "-o", output.c_str(), "--min", "-110",
+          "-80", "--max", "110", "80", "--cell", "1", "--side", "220", "--quantities", "path_gain,sinr",
+          static_cast<char*>(nullptr));
+    _exit(99);
+  }
+  std::error_code missing;
+  for (int i = 0; i < 20000; ++i) {
+    const auto size = fs::file_size(folder_ / "parts/links.part", missing);
+    if (!missing && size > 60000) break;  // a block at least
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_TRUE(fs::exists(path("parts/links.part")));
   EXPECT_FALSE(fs::exists(path("parts/map.json")));
-  EXPECT_THAT(map("parts", area).err, HasSubstr("--resume finishes it"));
-  EXPECT_THAT(map("parts", fmt::format("{} --power 20 --resume", area)).err,
-              HasSubstr("power_dbm: asked for 20.0, the folder's has 30.0"));
+
+  EXPECT_THAT(map("parts", large).err, HasSubstr("--resume finishes it"));
+  EXPECT_THAT(map("parts", large + " --power 20 --resume").err,
+              HasSubstr("/transmitters/0/power_dbm: asked for 20.0, the folder's has 30.0"));
   // What was torn is dropped.
   { std::ofstream(folder_ / "parts/links.part", std::ios::app | std::ios::binary) << "torn"; }
-  const Outcome resumed = map("parts", fmt::format("{} --resume --json", area));
+  const Outcome resumed = map("parts", large + " --resume --json");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   const size_t solved = json::parse(resumed.out)["cells_solved"];
   EXPECT_GT(solved, 0u);
-  EXPECT_LT(solved, 1408u);
+  EXPECT_LT(solved, 35200u);
+  ASSERT_EQ(map("whole", large).code, 0);
   const auto whole = files("whole"), parts = files("parts");
   ASSERT_EQ(whole.size(), parts.size());
   for (const auto& [name, bytes] : whole) EXPECT_TRUE(parts.at(name) == bytes) << name;
 
-  EXPECT_THAT(map("parts", area).err, HasSubstr("holds a finished radio map"));
-  const Outcome again = map("parts", fmt::format("{} --resume", area));
+  EXPECT_THAT(map("parts", large).err, HasSubstr("holds a finished radio map"));
+  const Outcome again = map("parts", large + " --resume");
   EXPECT_EQ(again.code, 0);
   EXPECT_THAT(again.out, HasSubstr("already finished"));
 }
