@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds greatx (Release), generates the embedded default scenario into out/demo and draws its
+# Installs what is missing, builds greatx and its Python package (Release), generates the embedded default scenario into out/demo and draws its
 # contact sheet. Run again, it does only what is left to do; arguments go to `greatx generate`.
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/setup.sh
-scripts/build.sh release greatx
+scripts/build.sh release greatx greatx_python
 
 demo() { build/release/greatx generate --output out/demo --resume "$@"; }
 if ! demo "$@"; then

@@ -2,11 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# build.sh PRESET [TARGET]: configures (once) and builds; prints the compiler's words only when it fails.
+# build.sh PRESET [TARGET...]: configures (once) and builds; prints the compiler's words only when it fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1
-target=${2:-all}
+shift
+targets=("${@:-all}")
 log=build/$preset/build.log
 mkdir -p "build/$preset"
 step() { # step MESSAGE COMMAND...
@@ -16,5 +17,5 @@ step() { # step MESSAGE COMMAND...
   "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 }
 [ -f "build/$preset/build.ninja" ] || step "configuring build/$preset" cmake --preset "$preset"
-if ninja -C "build/$preset" -n "$target" | grep -q '^ninja: no work to do'; then exit 0; fi
-step "building build/$preset" cmake --build "build/$preset" --target "$target"
+if ninja -C "build/$preset" -n "${targets[@]}" | grep -q '^ninja: no work to do'; then exit 0; fi
+step "building build/$preset" cmake --build "build/$preset" --target "${targets[@]}"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The examples run, with whatever of their optional packages is there."""
+"""The examples on data sets run, with whatever of their optional packages is there."""
 import os
 import pathlib
 import subprocess

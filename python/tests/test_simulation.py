@@ -115,6 +115,47 @@ class ClosedForms(unittest.TestCase):
         np.testing.assert_allclose(placed.paths("panel_csi").amplitude, at.amplitude, rtol=1e-6, atol=1e-12)
 
 
+class Maps(unittest.TestCase):
+    AREA = {"min_m": [-15, -30], "max_m": [15, 30], "cell_m": 6}
+
+    def test_a_cell_is_a_receiver(self):
+        sim = street()
+        made = sim.radio_map(**self.AREA, power_dbm=[30, 27])
+        self.assertEqual(made.rss.shape, (2, 10, 5))
+        self.assertEqual((made.x[0], made.y[-1], made.extent), (-12, 27, (-15, 15, -30, 30)))
+        rows, columns = np.nonzero(made.placement != 2)
+        points = np.stack([made.x[columns], made.y[rows], made.z[rows, columns]], axis=1)
+        stats = sim.paths(receivers=points).statistics()
+        solved = made.placement[rows, columns] != 1
+        for mine, other in (("path_gain", "path_gain"), ("delay_spread", "delay_spread"), ("paths", "path_count"),
+                            ("arrival_azimuth_spread", "arrival_azimuth_spread")):
+            np.testing.assert_array_equal(made[mine][:, rows, columns].T[solved], stats[other][solved], mine)
+        np.testing.assert_allclose(made.rss[:, rows, columns].T[solved],
+                                   10 * np.log10(stats.path_gain[solved]) + np.array([30, 27]), rtol=1e-12)
+        served = made.best_server[rows, columns][solved]
+        self.assertEqual(served.tolist(), np.argmax(made.rss[:, rows, columns].T[solved], axis=1).tolist())
+
+    def test_friis_over_a_plane(self):
+        sim = in_space()
+        made = sim.radio_map(1.0, min_m=[20, 0], max_m=[24, 2], z_m=10.0, beyond_scene=True, array=greatx.Array(polarization="vh"))
+        distance = np.hypot(*np.meshgrid(made.x, made.y))
+        np.testing.assert_allclose(made.path_gain[0], (LAMBDA / (4 * np.pi * distance)) ** 2 / 2, rtol=1e-12)
+        self.assertTrue((made.line_of_sight == 1).all())
+
+    def test_bad_input(self):
+        sim = street()
+        for words, fields in ((("cell_m", "above 0"), {"cell_m": 0}), (("min_m, max_m", "meets the scene"), {"max_m": [-900, -900], "min_m": [-950, -950]}),
+                              (("z_m", "within the scene"), {"z_m": 5000.0}), (("power_dbm", "1 number, or 2"), {"power_dbm": [1, 2, 3]}),
+                              (("bandwidth_hz",), {"bandwidth_hz": 0.0}), (("noise_figure_db",), {"noise_figure_db": -1.0}),
+                              (("over", "roofs"), {"over": "clouds"}), (("min_m", "[x, y]"), {"min_m": [1, 2, 3]}),
+                              (("array.rows",), {"array": greatx.Array(rows=0)}), (("height_m",), {"height_m": 0.0})):
+            with self.assertRaises(greatx.Error) as caught:
+                sim.radio_map(**{**self.AREA, **fields})
+            for word in words:
+                self.assertIn(word, str(caught.exception))
+            self.assertNotIn("--", str(caught.exception))
+
+
 class SameBytes(unittest.TestCase):
     def test_as_the_data_set(self):
         ds = greatx.load(support.street())

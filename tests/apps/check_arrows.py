@@ -17,6 +17,7 @@ ARROWS = {
     "sim": {"renderer", "rf", "scene", "gpu", "core", "shaders"},
     "assets": set(),
     "apps": {"sim", "io", "assets", "renderer", "rf", "scene", "gpu", "core"},
+    "python": {"sim", "assets", "renderer", "rf", "scene", "gpu", "core"},
 }
 INCLUDE = re.compile(r'^\s*#include\s+"([^"]+)"', re.MULTILINE)
 

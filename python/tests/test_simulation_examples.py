@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples that compute run, with whatever of their optional packages is there."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[1] / "examples"
+
+
+class SimulationExamples(unittest.TestCase):
+    def run_example(self, name, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, EXAMPLES / name], cwd=folder, text=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, env=os.environ)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for word in words:
+            self.assertRegex(done.stdout, word)
+
+    def test_paths(self):
+        self.run_example("paths.py", "line of sight", r"H \(2, 2, 1, 64, 1, 256\) complex64", "40 receivers", "no torch|tensor")
+
+    def test_radio_map(self):
+        self.run_example("radio_map.py", "south/array: serves", "weakest: -", "radio_map.png|no matplotlib")
+
+    def test_stream(self):
+        self.run_example("stream.py", r"1\.90 s: ", "a beam that is a tick old loses")
+
+
+if __name__ == "__main__":
+    unittest.main()
