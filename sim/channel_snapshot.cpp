@@ -15,7 +15,9 @@ constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u
 ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world,
                                  const EffectPlan& plan, const scene::GpuSceneOptions& options,
                                  uint32_t channel, const Instant& instant)
-    : gpu_scene_(device, world.scene, options),
+    : scenario_(scenario),
+      world_(world),
+      gpu_scene_(device, world.scene, options),
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
       trajectories_(make_paths(scenario, instant.sequence)),
       moment_(moment_at(world, trajectories_, Clock(scenario.tick_rate_hz), instant.tick)),
@@ -30,6 +32,12 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, 
     paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene_, crossings_, plan, scenario, world, radio_,
                                                     channel, std::move(ends)));
   }
+}
+
+void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
+  trajectories_ = make_paths(scenario_, sequence);
+  moment_ = moment_at(world_, trajectories_, Clock(scenario_.tick_rate_hz), tick);
+  started_ = false;  // as if a sequence began here
 }
 
 void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take); }

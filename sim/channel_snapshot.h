@@ -40,6 +40,10 @@ class ChannelSnapshot {
   ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan,
                   const scene::GpuSceneOptions& options, uint32_t channel, const Instant& instant);
 
+  /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again. Gives the same
+  /// paths as a snapshot that is made there; counters go on. What shares radio() sees bodies move.
+  void move(uint32_t sequence, int64_t tick);
+
   /// Receivers one after the other in their order, each with all transmitters in theirs; false: enough.
   using Take = std::function<bool(Link)>;
   /// The channel's own receivers.
@@ -64,6 +68,8 @@ class ChannelSnapshot {
  private:
   bool solve_batch(size_t first, const Take& take);
 
+  const Scenario& scenario_;
+  const World& world_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
   std::vector<std::unique_ptr<Path>> trajectories_;

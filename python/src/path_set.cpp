@@ -91,10 +91,10 @@ void PathSet::add(sim::ChannelSnapshot::Link solved) {
   links_.push_back(std::move(link));
 }
 
-void PathSet::finish(const sim::ChannelSnapshot& snapshot) {
+void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before) {
   if (stage_->plan.dispersion.on) radio_ = snapshot.radio();
   fill_arrays(snapshot);
-  describe(snapshot);
+  describe(snapshot, before);
 }
 
 rf::ArrayPose PathSet::transmitter(const Link& link) const {
@@ -155,7 +155,7 @@ NamedArray PathSet::table(const char* name, const char* unit, const char* descri
   return {name, unit, description, Array(DType::f64, std::move(shape))};
 }
 
-void PathSet::describe(const sim::ChannelSnapshot& snapshot) {
+void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before) {
   using Json = nlohmann::ordered_json;
   NamedArray distance = table("distance", "m", "[rx, tx] between the ends' reference points");
   NamedArray from{"transmitter_position", "m", "[tx, xyz] world",
@@ -192,7 +192,12 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot) {
             {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
-  for (const auto& [name, count] : counters) json["counters"][name] = count;
+  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths are a run's.
+  for (const auto& [name, count] : counters)
+    if (name.starts_with("candidate"))
+      json["counters"][name] = count;
+    else if (name != "path_births" && name != "path_deaths")
+      json["counters"][name] = count - (before.contains(name) ? before.at(name) : 0);
   for (const auto& [name, text] : snapshot.notes()) json["notes"][name] = text;
   facts_ = json.dump();
 }

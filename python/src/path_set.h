@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,8 +43,8 @@ class PathSet {
           std::vector<rf::AntennaArray> receiver_arrays);
 
   void add(sim::ChannelSnapshot::Link link);
-  /// After the last link; `snapshot` is the one they come from.
-  void finish(const sim::ChannelSnapshot& snapshot);
+  /// After the last link; `snapshot` is the one they come from, `before` what it had counted until then.
+  void finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
 
   size_t receivers() const { return links_.size() / transmitters_.size(); }
   size_t transmitters() const { return transmitters_.size(); }
@@ -80,7 +81,7 @@ class PathSet {
   rf::ArrayPose receiver(const Link& link) const;
   std::vector<double> powers(const Link& link) const;
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
-  void describe(const sim::ChannelSnapshot& snapshot);
+  void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
 
   std::shared_ptr<const Stage> stage_;
   uint32_t channel_;

@@ -267,17 +267,23 @@ void Session::check_instant(uint32_t sequence, int64_t tick) const {
 sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stage,
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant, bool points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own.
-  if (kept_ == nullptr || kept_->stage != stage || kept_->channel != channel || kept_->points != points ||
-      kept_->sequence != instant.sequence || kept_->tick != instant.tick) {
+  // Points take the place of the receivers for good, so each has a snapshot of its own. With dispersion results go on
+  // looking at the bodies (PathSet), which then stay where they are.
+  const bool same =
+      kept_ != nullptr && kept_->stage == stage && kept_->channel == channel && kept_->points == points;
+  const bool there = same && kept_->sequence == instant.sequence && kept_->tick == instant.tick;
+  if (same && !there && !stage->plan.dispersion.on) {
+    kept_->snapshot->move(instant.sequence, instant.tick);
+  } else if (!there) {
     kept_.reset();
-    auto kept =
-        std::make_unique<Kept>(Kept{stage, gpu, channel, instant.sequence, instant.tick, points, nullptr});
+    auto kept = std::make_unique<Kept>(Kept{stage, gpu, channel, 0, 0, points, nullptr});
     kept->snapshot =
         std::make_unique<sim::ChannelSnapshot>(gpu->device, stage->scenario, stage->world, stage->plan,
                                                sim::gpu_scene_options(stage->plan), channel, instant);
     kept_ = std::move(kept);
   }
+  kept_->sequence = instant.sequence;
+  kept_->tick = instant.tick;
   return *kept_->snapshot;
 }
 
@@ -307,6 +313,7 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
   auto set = std::make_shared<PathSet>(now, channel, std::move(arrays));
   bool stopped = false;
   size_t links = 0;
+  std::map<std::string, uint64_t> before;
   const auto take = [&](sim::ChannelSnapshot::Link link) {
     if (points) link.receiver_state.orientation = orientation;
     set->add(std::move(link));
@@ -316,11 +323,12 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
   try {
     sim::ChannelSnapshot& solver =
         snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, points.has_value());
+    solver.count(before);
     if (points)
       solver.solve(points->points, 0, take);
     else
       solver.solve(take);
-    if (!stopped) set->finish(solver);
+    if (!stopped) set->finish(solver, before);
     gpu->check_validation();
   } catch (...) {
     kept_.reset();

@@ -5,7 +5,6 @@ import pickle
 import unittest
 import warnings
 from fractions import Fraction
-from unittest import mock
 
 import numpy as np
 
@@ -121,13 +120,6 @@ class Loading(unittest.TestCase):
         half = np.sqrt(0.5)
         np.testing.assert_allclose(rotation([half, 0, 0, half]) @ [1, 0, 0], [0, 1, 0], atol=1e-15)
         self.assertEqual(rotation(np.tile([1.0, 0, 0, 0], (5, 2, 1))).shape, (5, 2, 3, 3))
-
-    def test_native_names_say_how_to_build(self):
-        with self.assertRaisesRegex(AttributeError, "no attribute 'nonsense'"):
-            greatx.nonsense
-        with mock.patch.object(greatx, "NATIVE", ("Scene",)), mock.patch.dict("sys.modules", {"greatx._native": None}):
-            with self.assertRaisesRegex(ImportError, "pip install"):
-                greatx.Scene
 
 
 class TwoTransmitters(unittest.TestCase):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes, paths and channels computed from Python."""
 import gc
+import logging
 import os
 import signal
 import threading
@@ -13,6 +14,7 @@ import support
 
 import greatx
 
+logging.getLogger("greatx").setLevel(logging.ERROR)
 C = support.C
 EMPTY = {"greatx": 1, "name": "empty", "ticks": 1}
 LAMBDA = C / 3.5e9
@@ -169,6 +171,35 @@ class SameBytes(unittest.TestCase):
             stats = paths.statistics()
             for name in ("path_count", "path_gain", "delay_spread", "k_factor", "line_of_sight"):
                 self.assertEqual(stats[name].tobytes(), np.ascontiguousarray(record[name]).tobytes(), name)
+
+    def test_sequences_as_the_data_set(self):
+        ds = greatx.load(support.space())
+        sim = greatx.Simulation(support.scenario_file("space", support.SPACE), sequences=2, validation=True)
+        for sequence in (1, 0):
+            for record in reversed(list(ds.sequences[sequence]["csi"])):
+                paths = sim.paths(tick=record.tick, sequence=sequence)
+                self.assertEqual(paths.cfr().tobytes(), np.ascontiguousarray(record.cfr).tobytes())
+                self.assertEqual(paths.facts["counters"]["paths"], 1)
+
+    def test_another_tick_is_as_made_for_it(self):
+        everywhere = "max_depth: 2}"
+        for change, effects in (({}, {}), ({everywhere: "max_depth: 2, search: every_tick}"}, {}),
+                                ({everywhere: "max_depth: 2, rays: 4096}"}, {}), ({}, {"moving_reflectors": "on"}),
+                                ({"tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna]":
+                                  "tx: [walker/antenna, car/antenna], rx: [bs/panel]"}, {}),
+                                ({}, {"dispersion": "on", "moving_reflectors": "on"})):
+            text = support.STREET
+            for old, new in change.items():
+                self.assertIn(old, text)
+                text = text.replace(old, new)
+            path = support.scenario_file("changed", text)
+            kept = greatx.Simulation(path, effects=effects, validation=True)
+            kept.paths(tick=0), kept.paths(tick=3)
+            for fresh_too in (kept.paths(tick=2), kept.paths(tick=2)):
+                fresh = greatx.Simulation(path, effects=effects, validation=True).paths(tick=2)
+                for name in fresh.arrays:
+                    self.assertEqual(fresh[name].tobytes(), fresh_too[name].tobytes(), (change, effects, name))
+                self.assertEqual(fresh.cfr().tobytes(), fresh_too.cfr().tobytes(), (change, effects))
 
     def test_run_as_the_data_set(self):
         ds = greatx.load(support.street())
