@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "apps/bench/measure.h"
+#include "apps/bench/radio_bench.h"
+#include "apps/bench/recall.h"
 #include "apps/commands.h"
-#include "apps/measure.h"
 #include "apps/progress.h"
-#include "apps/radio_bench.h"
-#include "apps/recall.h"
 #include "apps/session.h"
 #include "apps/summary.h"
 #include "io/dataset_writer.h"
@@ -155,6 +155,10 @@ void add_bench(CLI::App& app) {
   command->add_option("--many", options->radio_options.receivers, "of --radio: receivers in one call")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--map-cells", options->radio_options.map_cells,
+                   "of --radio: also a radio map of so many cells of 1 m along each side, e.g. 300 [none]")
+      ->check(CLI::Range(1, 2000));
   command
       ->add_option("--row-seconds", options->radio_options.seconds,
                    "of --radio: a row of ticks ends after so long")

@@ -8,7 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/session.h"
-#include "sim/channel_notes.h"
+#include "sim/channel/notes.h"
 
 namespace greatx::apps {
 

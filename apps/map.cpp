@@ -9,16 +9,16 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
-#include "apps/map_background.h"
-#include "apps/map_journal.h"
-#include "apps/map_output.h"
-#include "apps/paths_render.h"
+#include "apps/map/background.h"
+#include "apps/map/journal.h"
+#include "apps/map/output.h"
+#include "apps/paths/render.h"
 #include "apps/progress.h"
 #include "apps/session.h"
 #include "core/hash.h"
-#include "sim/channel_antennas.h"
-#include "sim/plan_options.h"
-#include "sim/radio_map_values.h"
+#include "sim/channel/antennas.h"
+#include "sim/channel/radio_map_values.h"
+#include "sim/plan/plan_options.h"
 
 namespace greatx::apps {
 
@@ -40,9 +40,7 @@ struct Options {
   bool inside = false, beyond_scene = false, no_pictures = false, resume = false, json = false, quiet = false;
 };
 
-constexpr double default_power_dbm = 30.0, default_height_m = 1.5;
-/// Of the longer side, if no cell is given.
-constexpr double default_cells = 150.0;
+constexpr double default_height_m = 1.5;
 
 /// What is asked of which channel.
 struct Request {
@@ -54,17 +52,6 @@ struct Request {
   std::vector<MapMarker> transmitters;
   std::vector<dvec3> ends;  ///< [tx] world positions
 };
-
-uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
-  if (scenario.channels.empty())
-    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
-  std::vector<std::string> names;
-  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
-    if (name.empty() || scenario.channels[i].name == name) return i;
-    names.push_back(scenario.channels[i].name);
-  }
-  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
-}
 
 /// All that needs no scene.
 Request request_of(const Options& options, const sim::Scenario& scenario) {
@@ -79,39 +66,8 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
                      options.instant.sequence);
   for (const std::string& name : options.files.quantities) sim::map_quantity(name);
   request.height = {options.plane, options.height.value_or(default_height_m), options.over};
-  const size_t transmitters = channel.transmitters.size();
-  request.power.transmit_dbm = options.power;
-  if (request.power.transmit_dbm.empty())
-    request.power.transmit_dbm = {channel.power_dbm.value_or(default_power_dbm)};
-  if (request.power.transmit_dbm.size() == 1)
-    request.power.transmit_dbm.assign(transmitters, request.power.transmit_dbm[0]);
-  if (request.power.transmit_dbm.size() != transmitters)
-    throw_user_error("--power: expected 1 number, or {}, one a transmitter of channel '{}', found {}",
-                     transmitters, channel.name, request.power.transmit_dbm.size());
-  request.power.bandwidth_hz =
-      options.bandwidth.value_or(channel.subcarriers * channel.subcarrier_spacing_hz);
-  request.power.noise_figure_db = options.noise_figure;
-  sim::check_power(request.power);
+  request.power = sim::map_power(options.power, options.bandwidth, options.noise_figure, channel);
   return request;
-}
-
-double round_cell(double extent_m) {
-  const double least = extent_m / default_cells, decade = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (step * decade >= least) return step * decade;
-  return 10.0 * decade;
-}
-
-sim::MapGrid grid_of(const Options& options, const scene::Scene& scene, size_t transmitters) {
-  if (scene.bounds.empty() && (options.min.empty() || options.max.empty()))
-    throw_user_error("--min, --max: expected where the map is, as the scene is empty, found none");
-  const dvec2 min = options.min.empty() ? dvec2(scene.bounds.min + scene.origin)
-                                        : dvec2(options.min[0], options.min[1]),
-              max = options.max.empty() ? dvec2(scene.bounds.max + scene.origin)
-                                        : dvec2(options.max[0], options.max[1]);
-  const double extent = std::max(max.x - min.x, max.y - min.y);
-  const double cell = options.cell.value_or(extent > 0.0 ? round_cell(extent) : 1.0);
-  return sim::make_map_grid(min, max, cell, transmitters);
 }
 
 /// What needs the moment: where transmitters are, how the receiver is turned.
@@ -240,7 +196,11 @@ void run(const Options& given) {
   const sim::Scenario scenario = load_scenario(options.scenario);
   Request request = request_of(options, scenario);
   const sim::World world = sim::load_world(scenario);
-  request.grid = grid_of(options, world.scene, scenario.channels[request.channel].transmitters.size());
+  const auto corner = [](const std::vector<double>& xy) {
+    return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
+  };
+  request.grid = sim::map_grid_of(corner(options.min), corner(options.max), options.cell, world.scene,
+                                  scenario.channels[request.channel].transmitters.size());
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(scenario, world.scene) : plan;
   gpu::Device device(options.run.device_options());
@@ -335,7 +295,7 @@ void add_radio(CLI::App& command, Options& options) {
   command
       .add_option("--power", options.power,
                   fmt::format("dBm of all transmitters, or P,P,...: one each [the channel's, else {}]",
-                              default_power_dbm))
+                              sim::default_map_power_dbm))
       ->delimiter(',');
   command.add_option("--bandwidth", options.bandwidth, "of the noise, Hz [the channel's]");
   command.add_option("--noise-figure", options.noise_figure, "of the receiver, dB")->capture_default_str();

@@ -9,16 +9,16 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
-#include "apps/paths_cfr.h"
-#include "apps/paths_draw.h"
-#include "apps/paths_glb.h"
-#include "apps/paths_output.h"
-#include "apps/paths_render.h"
+#include "apps/paths/cfr.h"
+#include "apps/paths/draw.h"
+#include "apps/paths/glb.h"
+#include "apps/paths/output.h"
+#include "apps/paths/render.h"
 #include "apps/progress.h"
 #include "apps/session.h"
 #include "io/png.h"
-#include "sim/plan_options.h"
-#include "sim/receiver_list.h"
+#include "sim/plan/plan_options.h"
+#include "sim/scenario/receiver_list.h"
 
 namespace greatx::apps {
 
@@ -51,18 +51,6 @@ struct Request {
   std::optional<uint32_t> only;      ///< of --receiver
   std::optional<CameraName> camera;  ///< of --view; none: automatic
 };
-
-uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
-  if (scenario.channels.empty())
-    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
-  if (name.empty()) return 0;
-  std::vector<std::string> names;
-  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
-    if (scenario.channels[i].name == name) return i;
-    names.push_back(scenario.channels[i].name);
-  }
-  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
-}
 
 /// An end by its number or, if it has one, by its name.
 uint32_t find_end(const char* option, const std::string& text, size_t count,

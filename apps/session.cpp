@@ -56,6 +56,18 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
   return scenario;
 }
 
+uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
+  if (scenario.channels.empty())
+    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
+  if (name.empty()) return 0;
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
+    if (scenario.channels[i].name == name) return i;
+    names.push_back(scenario.channels[i].name);
+  }
+  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+}
+
 io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,
                              const sim::EffectPlan& plan, const gpu::Device& device,
                              const std::vector<SensorSpec>& sensors) {

@@ -12,8 +12,8 @@
 
 #include "gpu/device.h"
 #include "io/dataset_format.h"
-#include "sim/effect_plan.h"
-#include "sim/scenario.h"
+#include "sim/plan/effect_plan.h"
+#include "sim/scenario/scenario.h"
 #include "sim/world.h"
 
 namespace greatx::apps {
@@ -38,6 +38,9 @@ struct RunOptions {
 
 /// Reads the scenario and applies the options.
 sim::Scenario load_scenario(const ScenarioOptions& options);
+
+/// Index of the channel of that name (--channel); of the first one if `name` is empty. Throws UserError.
+uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 
 /// What a data set says of its run: everything that decides its bytes, and the tables that ids refer to.
 io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,

@@ -100,7 +100,8 @@ class Cmd {
   Cmd(Device& device, VkCommandBuffer handle, Timestamps* timestamps)
       : device_(&device), handle_(handle), timestamps_(timestamps) {}
 
-  /// Debug label, GPU timestamps and a count of one pass, until the end of the C++ scope.
+  /// Debug label, GPU timestamps and a count of one pass, until the end of the C++ scope. Scopes beyond those that the
+  /// tick's Timestamps have room for are not timed.
   class Scope {
    public:
     ~Scope();

@@ -15,7 +15,7 @@
 
 namespace greatx::rf {
 
-/// Which effects act; the effect plan decides (sim/effect_plan.h).
+/// Which effects act; the effect plan decides (sim/plan/effect_plan.h).
 struct RadioEffects {
   bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
   bool foliage = false;

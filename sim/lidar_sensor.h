@@ -5,7 +5,7 @@
 #include <array>
 
 #include "renderer/lidar.h"
-#include "sim/effect_plan.h"
+#include "sim/plan/effect_plan.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "sim/clock.h"
+#include "sim/scenario/clock.h"
+#include "sim/scenario/trajectory.h"
 #include "sim/sensor.h"
-#include "sim/trajectory.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/clock.h"
+#include "sim/scenario/clock.h"
 
 namespace greatx::sim {
 

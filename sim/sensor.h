@@ -18,7 +18,7 @@
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
 #include "sim/error_statistics.h"
-#include "sim/scenario.h"
+#include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
 

@@ -8,10 +8,10 @@
 #include "renderer/probe.h"
 #include "rf/crossings.h"
 #include "sim/camera_sensor.h"
-#include "sim/channel_sensor.h"
+#include "sim/channel/channel_sensor.h"
 #include "sim/consistency.h"
 #include "sim/lidar_sensor.h"
-#include "sim/plan_options.h"
+#include "sim/plan/plan_options.h"
 #include "sim/pose_sensor.h"
 
 namespace greatx::sim {

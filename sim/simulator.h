@@ -14,12 +14,12 @@
 #include "core/record.h"
 #include "gpu/tick_ring.h"
 #include "scene/gpu_scene.h"
-#include "sim/clock.h"
-#include "sim/effect_plan.h"
 #include "sim/moment.h"
+#include "sim/plan/effect_plan.h"
+#include "sim/scenario/clock.h"
+#include "sim/scenario/trajectory.h"
 #include "sim/schedule.h"
 #include "sim/sensor.h"
-#include "sim/trajectory.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "sim/scenario.h"
+#include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
 

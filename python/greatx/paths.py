@@ -71,9 +71,18 @@ class Paths:
     def _of_paths(self, name: str) -> bool:
         return self.arrays.description(name).startswith("[path")
 
-    def cir(self) -> Tuple[np.ndarray, np.ndarray]:
+    def first_delay(self) -> np.ndarray:
+        """Of the first path of each link, float64 [rx, tx] s; 0 where there is none."""
+        first = np.full(self.shape, np.inf)
+        np.minimum.at(first, (self.arrays["rx"], self.arrays["tx"]), self.arrays["delay"])
+        return np.where(np.isfinite(first), first, 0.0)
+
+    def cir(self, *, normalize_delays: bool = False) -> Tuple[np.ndarray, np.ndarray]:
         """The impulse response h(t) = sum_i a_i delta(t - tau_i) about the carrier, links filled up with zeros to the longest:
-        a complex64 [rx, rx_ant, tx, tx_ant, path], tau float64 [rx, tx, path] in seconds, absolute."""
+        a complex64 [rx, rx_ant, tx, tx_ant, path], tau float64 [rx, tx, path] in seconds, absolute.
+
+        normalize_delays: tau without each link's first_delay(), as from a receiver that is in time with its first path. The
+        carrier's phase in a stays absolute."""
         rx, tx, amplitude = self.arrays["rx"], self.arrays["tx"], self.arrays["amplitude"]
         counts = np.diff(self.arrays["offsets"])
         number = np.arange(len(self)) - np.repeat(self.arrays["offsets"][:-1], counts)
@@ -81,14 +90,15 @@ class Paths:
         a = np.zeros((self.shape[0], amplitude.shape[1], self.shape[1], amplitude.shape[2], longest), np.complex64)
         tau = np.zeros((*self.shape, longest))
         a[rx, :, tx, :, number] = amplitude
-        tau[rx, tx, number] = self.arrays["delay"]
+        tau[rx, tx, number] = self.arrays["delay"] - (self.first_delay()[rx, tx] if normalize_delays else 0.0)
         return a, tau
 
     def cfr(self, bandwidth_hz: Optional[float] = None, subcarriers: Optional[int] = None, *,
             subcarrier_spacing_hz: Optional[float] = None, time_samples: Optional[int] = None,
-            time_spacing_s: Optional[float] = None, select: str = "all") -> np.ndarray:
+            time_spacing_s: Optional[float] = None, select: str = "all", normalize_delays: bool = False) -> np.ndarray:
         """The frequency response, complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]: H(f) at carrier + (k - floor(N/2)) *
-        spacing, absolute delays, nothing normalised.
+        spacing, absolute delays, nothing normalised unless `normalize_delays` asks for delays without each link's
+        first_delay(): H(f) e^{j 2 pi (f - carrier) first_delay}.
 
         Without arguments it is the channel's grid and the bytes of the data set's `cfr` at this tick. `bandwidth_hz` is all of
         it: the spacing is bandwidth_hz / subcarriers, unless subcarrier_spacing_hz is given instead. time_samples,
@@ -104,7 +114,13 @@ class Paths:
             warnings.warn(f"{self.facts['near_links']} links of {self.channel} are nearer than the far field of their arrays, "
                           "2 D^2/lambda: cfr() takes a plane wave over each array, Simulation.run() solves every element",
                           stacklevel=2)
-        return self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)
+        response = self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)
+        if not normalize_delays:
+            return response
+        spacing = self.facts["subcarrier_spacing_hz"] if subcarrier_spacing_hz is None else subcarrier_spacing_hz
+        offset = (np.arange(response.shape[-1]) - response.shape[-1] // 2) * spacing
+        turn = np.exp(2j * np.pi * self.first_delay()[:, :, None] * offset).astype(np.complex64)
+        return response * turn[:, None, :, None, None, :]
 
     def taps(self, bandwidth_hz: Optional[float] = None, taps: Optional[int] = None, *, first: int = 0, time_samples: int = 1,
              time_spacing_s: float = 1e-3) -> Arrays:

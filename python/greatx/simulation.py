@@ -62,6 +62,15 @@ class Effect(NamedTuple):
     switchable: bool
 
 
+def _turn(name: str, position_m: Position, orientation_deg: Any, look_at: Optional[Position]) -> Any:
+    """orientation_deg, or the one that look_at gives."""
+    if look_at is None:
+        return orientation_deg
+    if orientation_deg is not None:
+        raise Error(f"{name}: expected one of orientation_deg and look_at, found both")
+    return look_from_to(position_m, look_at)
+
+
 class Simulation:
     """A scenario that can be asked for paths, channels, maps and records, and added to.
 
@@ -168,17 +177,14 @@ class Simulation:
         """Any node, as an item of a scenario's `nodes`: with a trajectory, a mesh, cameras, LiDARs, antennas."""
         self._parsed(self._native.add_nodes, "add_node", {"nodes": [node]})
 
-    def _place(self, role: str, name: str, position_m: Position, array: Optional[Array], orientation_deg: Any,
-               look_at: Optional[Position]) -> str:
-        if look_at is not None:
-            if orientation_deg is not None:
-                raise Error(f"{name}: expected one of orientation_deg and look_at, found both")
-            orientation_deg = look_from_to(position_m, look_at)
-        node = {"name": name, "trajectory": {"type": "static", "position_m": list(np.asarray(position_m).tolist())},
-                "sensors": [(array or Array()).as_sensor("array", orientation_deg)]}
-        self._parsed(self._native.add_nodes, "place_" + role, {"nodes": [node]})
-        self._placed[role + "s"].append(f"{name}/array")
-        return f"{name}/array"
+    def _place(self, role: str, placed: Sequence[Tuple[str, Position, Any]], array: Optional[Array]) -> List[str]:
+        """(name, position_m, orientation_deg) of each; all of them, or none if one is not as it should be."""
+        nodes = [{"name": name, "trajectory": {"type": "static", "position_m": np.asarray(position).tolist()},
+                  "sensors": [(array or Array()).as_sensor("array", orientation)]} for name, position, orientation in placed]
+        self._parsed(self._native.add_nodes, "place_" + role, {"nodes": nodes})
+        antennas = [f"{name}/array" for name, _, _ in placed]
+        self._placed[role + "s"] += antennas
+        return antennas
 
     def place_transmitter(self, name: str, position_m: Position, *, array: Optional[Array] = None,
                           orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
@@ -186,18 +192,18 @@ class Simulation:
 
         position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a position.
         """
-        return self._place("transmitter", name, position_m, array, orientation_deg, look_at)
+        return self._place("transmitter", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array)[0]
 
     def place_receiver(self, name: str, position_m: Position, *, array: Optional[Array] = None,
                        orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
         """As place_transmitter."""
-        return self._place("receiver", name, position_m, array, orientation_deg, look_at)
+        return self._place("receiver", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array)[0]
 
     def place_receivers(self, positions_m: np.ndarray, *, array: Optional[Array] = None, names: str = "rx{}",
                         orientation_deg: Optional[Sequence[float]] = None) -> List[str]:
         """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is quicker."""
-        return [self.place_receiver(names.format(i), position, array=array, orientation_deg=orientation_deg)
-                for i, position in enumerate(np.asarray(positions_m))]
+        return self._place("receiver", [(names.format(i), position, orientation_deg)
+                                        for i, position in enumerate(np.asarray(positions_m))], array)
 
     def add_channel(self, name: str, *, transmitters: Optional[Sequence[str]] = None, receivers: Optional[Sequence[str]] = None,
                     carrier_hz: float = 3.5e9, **fields: Any) -> str:
@@ -249,7 +255,7 @@ class Simulation:
         receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers, each with `array`
                           (by default one isotropic, vertical element) turned by orientation_deg. A point has the paths that
                           an antenna there would have, to the bit, whichever others there are; the search from the
-                          transmitters is done once and kept for further calls at the same tick.
+                          transmitters is done once and kept for further calls.
         progress          called now and then with the number of receivers that are done
         """
         name = self._channel(channel)
@@ -266,7 +272,7 @@ class Simulation:
 
     def radio_map(self, cell_m: float, channel: Optional[str] = None, *, min_m: Optional[Position] = None,
                   max_m: Optional[Position] = None, z_m: Optional[float] = None, height_m: float = 1.5, over: str = "ground",
-                  power_dbm: Union[float, Sequence[float]] = 30.0, bandwidth_hz: Optional[float] = None,
+                  power_dbm: Optional[Union[float, Sequence[float]]] = None, bandwidth_hz: Optional[float] = None,
                   noise_figure_db: float = 0.0, array: Optional[Array] = None, orientation_deg: Optional[Sequence[float]] = None,
                   inside_solids: bool = False, beyond_scene: bool = False, tick: int = 0, sequence: int = 0,
                   progress: Optional[Callable[[int], None]] = None) -> RadioMap:
@@ -275,7 +281,7 @@ class Simulation:
         cell_m            side of the cells
         min_m, max_m      [x, y] corners; by default the scene's bounds
         z_m               height of the plane; None: draped, height_m above what `over` says: "ground", or "roofs"
-        power_dbm         of each transmitter, or one for all
+        power_dbm         of each transmitter, or one for all; by default the channel's, else 30
         bandwidth_hz, noise_figure_db   of the noise, k 290 K B F; the bandwidth is the channel's by default
         array, orientation_deg          of the receiver, by default one isotropic, vertical element
         inside_solids     cells inside solids have values, too
@@ -289,7 +295,7 @@ class Simulation:
             if xy is not None and len(xy) != 2:
                 raise Error(f"{name}: expected [x, y] in metres, found {xy}")
         return RadioMap(*_call(self._native.radio_map, self._channel(channel), sequence, tick, *corner, cell_m, z_m, height_m,
-                               over == "roofs", [float(p) for p in np.atleast_1d(power_dbm)], bandwidth_hz, noise_figure_db,
+                               over == "roofs", [] if power_dbm is None else [float(p) for p in np.atleast_1d(power_dbm)], bandwidth_hz, noise_figure_db,
                                inside_solids, beyond_scene, self._antenna(array, orientation_deg), progress))
 
     def run(self, sequence: int = 0, first_tick: int = 0) -> Run:

@@ -6,27 +6,6 @@
 
 namespace greatx::python {
 
-sim::MapPower map_power(const MapRequest& request, const sim::ChannelConfig& config) {
-  const size_t transmitters = config.transmitters.size();
-  sim::MapPower power{request.power_dbm,
-                      request.bandwidth_hz.value_or(config.subcarriers * config.subcarrier_spacing_hz),
-                      request.noise_figure_db};
-  if (power.transmit_dbm.size() == 1) power.transmit_dbm.assign(transmitters, power.transmit_dbm[0]);
-  if (power.transmit_dbm.size() != transmitters)
-    throw_user_error("--power: expected 1 number, or {}, one a transmitter of channel '{}', found {}",
-                     transmitters, config.name, power.transmit_dbm.size());
-  sim::check_power(power);
-  return power;
-}
-
-sim::MapGrid map_grid(const MapRequest& request, const scene::Scene& scene, size_t transmitters) {
-  if (scene.bounds.empty() && !(request.min_m && request.max_m))
-    throw_user_error("--min, --max: expected where the map is, as the scene is empty, found none");
-  const dvec2 min = request.min_m ? *request.min_m : dvec2(scene.bounds.min + scene.origin),
-              max = request.max_m ? *request.max_m : dvec2(scene.bounds.max + scene.origin);
-  return sim::make_map_grid(min, max, request.cell_m, transmitters);
-}
-
 MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitters,
                      const sim::ChannelConfig& config) {
   const sim::MapCells& cells = *map.cells;

@@ -5,13 +5,9 @@
 #include <span>
 
 #include "python/src/session.h"
-#include "sim/radio_map_values.h"
+#include "sim/channel/radio_map_values.h"
 
 namespace greatx::python {
-
-/// Checked; throws UserError in the words of `greatx map`.
-sim::MapPower map_power(const MapRequest& request, const sim::ChannelConfig& config);
-sim::MapGrid map_grid(const MapRequest& request, const scene::Scene& scene, size_t transmitters);
 
 /// All quantities, and of the cells: z [rows, columns], placement [rows, columns], x [columns], y [rows];
 /// transmitter_position [tx, 3].

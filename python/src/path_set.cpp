@@ -14,8 +14,8 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/received.h"
 #include "rf/channel/taps.h"
-#include "sim/channel_antennas.h"
-#include "sim/channel_columns.h"
+#include "sim/channel/antennas.h"
+#include "sim/channel/columns.h"
 
 namespace greatx::python {
 
@@ -83,9 +83,9 @@ PathSet::PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
   const auto wish = stage_->scenario.effects.find("every_element");
-  const double aperture_m = transmitter(link).array.aperture() + receiver(link).array.aperture();
-  // As sim/array_plan.h.
-  const double far_m = 2.0 * aperture_m * aperture_m * config_.carrier_hz / speed_of_light;
+  // As sim/plan/array_plan.h.
+  const double far_m =
+      rf::far_field_distance_m(transmitter(link).array, receiver(link).array, config_.carrier_hz);
   link.near = link.solved.distance_m < far_m &&
               (wish == stage_->scenario.effects.end() || wish->second != sim::Switch::off);
   links_.push_back(std::move(link));
@@ -298,8 +298,7 @@ NamedArrays PathSet::statistics() const {
 
 NamedArrays PathSet::received(const ReceivedRequest& request) const {
   check_above_0("resistance_ohm", request.resistance_ohm);
-  if (!(request.transmit_power_w >= 0.0) || !std::isfinite(request.transmit_power_w))
-    throw_user_error("power_w: expected a finite number of at least 0, found {}", request.transmit_power_w);
+  check_above_0("power_w", request.transmit_power_w);
   const auto check_port = [](const char* name, uint32_t port, uint32_t ports) {
     if (port >= ports) throw_user_error("{}: expected 0 to {}, found {}", name, ports - 1, port);
   };

@@ -11,9 +11,9 @@
 #include "python/src/map_result.h"
 #include "python/src/path_set.h"
 #include "python/src/stream.h"
-#include "sim/channel_antennas.h"
-#include "sim/channel_notes.h"
-#include "sim/plan_options.h"
+#include "sim/channel/antennas.h"
+#include "sim/channel/notes.h"
+#include "sim/plan/plan_options.h"
 
 namespace greatx::python {
 
@@ -127,8 +127,9 @@ void Session::add_nodes(const std::string& text, const std::string& where) {
 void Session::add_channels(const std::string& text, const std::string& where, bool no_receivers) {
   const std::lock_guard lock(mutex_);
   const sim::Scenario more = parse(text, where);
-  for (sim::ChannelConfig channel : more.channels) {
+  for (const sim::ChannelConfig& channel : more.channels)
     check_name_is_free(scenario_, channel.name, channel.where);
+  for (sim::ChannelConfig channel : more.channels) {
     if (no_receivers) channel.receivers.clear();
     scenario_.channels.push_back(std::move(channel));
   }
@@ -343,11 +344,13 @@ std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t se
   const uint32_t channel = find_channel(name);
   check_instant(sequence, tick);
   const sim::ChannelConfig& config = scenario_.channels[channel];
-  const sim::MapPower power = map_power(request, config);
+  const sim::MapPower power =
+      sim::map_power(request.power_dbm, request.bandwidth_hz, request.noise_figure_db, config);
   sim::MapReceiver receiver = antenna_at_points(request.antenna, config.carrier_hz);
 
   const std::shared_ptr<const Stage> now = stage();
-  const sim::MapGrid grid = map_grid(request, now->world.scene, config.transmitters.size());
+  const sim::MapGrid grid = sim::map_grid_of(request.min_m, request.max_m, request.cell_m, now->world.scene,
+                                             config.transmitters.size());
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   try {

@@ -5,26 +5,48 @@
 // Nothing here knows Python; every call may come from any thread.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/record.h"
 #include "gpu/device.h"
-#include "sim/channel_snapshot.h"
-#include "sim/effect_plan.h"
-#include "sim/radio_map.h"
-#include "sim/scenario.h"
+#include "sim/channel/channel_snapshot.h"
+#include "sim/channel/radio_map.h"
+#include "sim/plan/effect_plan.h"
+#include "sim/scenario/scenario.h"
 #include "sim/world.h"
 
 namespace greatx::python {
 
 class PathSet;
 class Stream;
+
+/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something would wait for
+/// itself for ever.
+class SessionMutex {
+ public:
+  void lock() {
+    if (owner_.load() == std::this_thread::get_id())
+      throw_user_error("a Simulation cannot be used from its own progress function");
+    mutex_.lock();
+    owner_ = std::this_thread::get_id();
+  }
+  void unlock() {
+    owner_ = std::thread::id();
+    mutex_.unlock();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<std::thread::id> owner_;
+};
 
 /// What was asked at one time, and never changes: what is computed of it may outlive the next change of the session.
 struct Stage {
@@ -37,7 +59,7 @@ struct Stage {
 struct Gpu {
   explicit Gpu(const gpu::DeviceOptions& options) : device(options) {}
   gpu::Device device;
-  std::mutex mutex;
+  std::recursive_mutex mutex;  ///< a stream may end while its own thread reports progress
   /// Throws std::runtime_error if the validation layer had anything to say.
   void check_validation();
 };
@@ -57,12 +79,12 @@ struct PointReceivers {
   std::string antenna;        ///< a scenario whose first sensor is the antenna at each of them
 };
 
-/// A radio map (sim/radio_map.h).
+/// A radio map (sim/channel/radio_map.h).
 struct MapRequest {
   std::optional<dvec2> min_m, max_m;  ///< none: the scene's bounds
   double cell_m = 1.0;
   sim::MapHeight height;
-  std::vector<double> power_dbm;  ///< one, or one a transmitter
+  std::vector<double> power_dbm;  ///< one, or one a transmitter; empty: the channel's
   std::optional<double> bandwidth_hz;
   double noise_figure_db = 0.0;
   bool inside_solids = false, beyond_scene = false;
@@ -112,7 +134,7 @@ class Session {
   sim::ChannelSnapshot& snapshot(const std::shared_ptr<const Stage>& stage, const std::shared_ptr<Gpu>& gpu,
                                  uint32_t channel, const sim::ChannelSnapshot::Instant& instant, bool points);
 
-  mutable std::mutex mutex_;
+  mutable SessionMutex mutex_;
   sim::Scenario scenario_;
   std::string assets_;
   gpu::DeviceOptions device_options_;

@@ -89,6 +89,25 @@ class ClosedForms(unittest.TestCase):
         mine = paths.cfr(subcarriers=16, subcarrier_spacing_hz=1e6)[..., 0, :]
         np.testing.assert_allclose(mine, h, atol=1e-5 * np.abs(h).max())
 
+    def test_normalized_delays_are_asked_for(self):
+        paths = street().paths()
+        a, tau = paths.cir(normalize_delays=True)
+        valid = np.abs(a).max((1, 3)) > 0
+        first = np.where(valid, tau, np.inf).min(-1)
+        np.testing.assert_array_equal(first[valid.any(-1)], 0)
+        f = (np.arange(16) - 8) * 1e6
+        h = np.einsum("uavbp,uvpf->uavbf", a.astype(complex), np.exp(-2j * np.pi * f * tau[..., None]))
+        mine = paths.cfr(subcarriers=16, subcarrier_spacing_hz=1e6, normalize_delays=True)[..., 0, :]
+        np.testing.assert_allclose(mine, h, atol=1e-5 * np.abs(h).max())
+        plain = paths.cfr(subcarriers=16, subcarrier_spacing_hz=1e6)[..., 0, :]
+        self.assertGreater(np.abs(plain - h).max(), 0.1 * np.abs(h).max())
+
+    def test_power_is_above_0(self):
+        paths = street().paths()
+        for power in (0.0, -1.0, float("nan"), float("inf")):
+            with self.assertRaisesRegex(greatx.Error, "power_w"):
+                paths.received(power)
+
     def test_points_are_receivers(self):
         sim = street()
         names = sim.channels["csi"]["receivers"]

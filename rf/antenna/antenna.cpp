@@ -66,4 +66,16 @@ double AntennaArray::aperture() const {
   return largest;
 }
 
+double AntennaArray::reach() const {
+  if (positions_m.empty()) return 0.5 * aperture();
+  double largest = 0.0;
+  for (const dvec3& position : positions_m) largest = std::max(largest, glm::length(position));
+  return largest;
+}
+
+double far_field_distance_m(const AntennaArray& a, const AntennaArray& b, double carrier_hz) {
+  const double extent_m = 2.0 * (a.reach() + b.reach());
+  return 2.0 * extent_m * extent_m * carrier_hz / speed_of_light;
+}
+
 }  // namespace greatx::rf

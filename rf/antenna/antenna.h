@@ -44,6 +44,13 @@ struct AntennaArray {
   /// The largest distance between two elements, metres: D of the far-field distance 2 D^2/lambda (IEEE Std 145). 0 for one
   /// element, whose own size is not known.
   double aperture() const;
+  /// The largest distance of an element from the array's origin, where the paths of the whole array end, metres.
+  double reach() const;
 };
+
+/// 2 (D_a + D_b)^2 / lambda, metres, D = 2 AntennaArray::reach(), the aperture of an array that is centred: where the far field of a link of two arrays begins (C. A. Balanis, Antenna
+/// Theory, 4th ed., 2.2.4; for two apertures their sum). Beyond it a spherical wave differs from a plane one by less than
+/// pi/8 at the arrays' edges. 0 for single elements at their origins.
+double far_field_distance_m(const AntennaArray& a, const AntennaArray& b, double carrier_hz);
 
 }  // namespace greatx::rf

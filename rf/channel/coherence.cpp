@@ -67,8 +67,9 @@ double decorrelation(std::vector<Weighted> samples, double level) {
       im += sample.weight * std::sin(angle);
     }
     const double above = std::hypot(re, im) - level;
-    if (above <= 1e-9 * level) return x;
-    x += above / (2.0 * pi * rms);
+    const double next = x + above / (2.0 * pi * rms);
+    if (above <= 1e-9 * level || !(next > x)) return x;  // or a level below the rounding of the sum
+    x = next;
   }
   return infinity;
 }

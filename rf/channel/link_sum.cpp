@@ -14,7 +14,9 @@ namespace greatx::rf {
 namespace {
 
 constexpr size_t term_chunk = 128;  // terms summed at a time: their factors stay in the cache
-constexpr size_t row_tile = 64;     // rows summed at a time: as their amplitudes and sums do
+constexpr size_t most_factors = size_t{1}
+                                << 20;  // of all columns; the number of terms at a time changes no bit
+constexpr size_t row_tile = 64;         // rows summed at a time: as their amplitudes and sums do
 constexpr size_t lanes = sum_lanes;
 
 std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
@@ -45,7 +47,8 @@ LinkSum::LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> 
       amplitudes_of_(transmitter, receiver, times.carrier_hz),
       order_(selected_order(paths, spectra, selection)),
       terms_(order_.size() * terms_per_path()),
-      chunk_(std::min(term_chunk, terms_)),
+      chunk_(
+          std::min({term_chunk, terms_, std::max<size_t>(1, most_factors / std::max<size_t>(1, columns))})),
       factors_(columns, chunk_),
       rows_(size_t{amplitudes_of_.pairs()} * times.samples) {
   check_link(paths, transmitter, receiver, times.carrier_hz);

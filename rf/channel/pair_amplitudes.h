@@ -44,7 +44,7 @@ class Ports {
 class PairAmplitudes {
  public:
   PairAmplitudes(const ArrayPose& transmitter, const ArrayPose& receiver, double carrier_hz);
-  uint32_t pairs() const { return tx_.count() * rx_.count(); }
+  size_t pairs() const { return size_t{tx_.count()} * rx_.count(); }
   void operator()(const Path& path, Complex* out) { (*this)(path, path.transfer, out); }
   /// With t, [4], in place of the path's own transfer.
   void operator()(const Path& path, const Complex* t, Complex* out);

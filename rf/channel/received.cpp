@@ -81,6 +81,26 @@ Received received(std::span<const Path> paths, const ArrayPose& transmitter, con
   return result;
 }
 
+void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, double carrier_hz,
+                     double power_w, std::span<std::complex<float>> out) {
+  const size_t ports = transmitter.array.port_count();
+  GREATX_CHECK(out.size() == paths.size() * ports * 2, "{} values for {} paths and {} ports", out.size(),
+               paths.size(), ports);
+  const Ports from(transmitter, carrier_hz);
+  const double scale = std::sqrt(vacuum_impedance_ohm * power_w / (4.0 * pi));
+  std::vector<Jones> sent;
+  size_t next = 0;
+  for (const Path& path : paths) {
+    from.respond(path.departure, sent);
+    const Complex carrier = scale * unit_phasor(-turns_of(carrier_hz, path.delay_s));
+    const Complex* t = path.transfer;
+    for (const Jones& field : sent) {
+      out[next++] = std::complex<float>((t[0] * field.theta + t[1] * field.phi) * carrier);
+      out[next++] = std::complex<float>((t[2] * field.theta + t[3] * field.phi) * carrier);
+    }
+  }
+}
+
 double path_loss_db(double power_gain) { return -decibels(power_gain); }
 double dbm(double power_w) { return decibels(power_w / 1e-3); }
 double watts(double dbm) { return 1e-3 * from_decibels(dbm); }

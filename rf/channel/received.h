@@ -61,6 +61,11 @@ struct Received {
 Received received(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
                   const RadioLink& link);
 
+/// Of every path and every transmit port the field before the receiver, V/m rms on theta-hat and phi-hat of the arrival, with
+/// the phase at the receiver's origin: out [paths, tx_ant, 2]; `power_w` into each port. Thread-safe.
+void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, double carrier_hz,
+                     double power_w, std::span<std::complex<float>> out);
+
 /// -10 log10 of a power gain; +inf of 0. With isotropic antennas: basic transmission loss; with patterns: transmission loss,
 /// antennas included (Rec. ITU-R P.341), which is what path_powers() and LinkStatistics::path_gain give.
 double path_loss_db(double power_gain);

@@ -103,7 +103,7 @@ class Cli : public testing::Test {
 TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_THAT(greatx("--help").out, HasSubstr("generate"));
   for (const char* command :
-       {"info", "generate", "inspect", "verify", "scene", "explain", "paths", "bench"}) {
+       {"info", "generate", "inspect", "verify", "scene", "explain", "paths", "map", "bench"}) {
     const Outcome help = greatx(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("--help")) << command;

@@ -7,10 +7,10 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/map_background.h"
-#include "apps/paths_render.h"
+#include "apps/map/background.h"
+#include "apps/paths/render.h"
 #include "scene/scene_hash.h"
-#include "sim/plan_options.h"
+#include "sim/plan/plan_options.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

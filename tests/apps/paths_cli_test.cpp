@@ -3,6 +3,8 @@
 //
 // `greatx paths` from the command line, in a scene with closed forms: one mast above flat ground.
 #include <cmath>
+#include <complex>
+#include <cstring>
 #include <numbers>
 #include <sched.h>
 
@@ -69,6 +71,13 @@ class PathsCli : public testing::Test {
     const Outcome outcome = paths("--json " + arguments, before);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(outcome.out);
+  }
+  /// complex64 of an .npy of greatx's, whose header takes 256 bytes.
+  std::vector<std::complex<float>> responses(const std::string& file) const {
+    const std::string bytes = read_file(file);
+    std::vector<std::complex<float>> values((bytes.size() - 256) / 8);
+    std::memcpy(values.data(), bytes.data() + 256, values.size() * 8);
+    return values;
   }
   /// A grid of receivers above the ground, more than are solved at once.
   std::string grid() const {
@@ -225,6 +234,41 @@ TEST_F(PathsCli, FaultyRequests) {
   fails("--within 30", "--within: expected --png or --glb with it");
   fails("--png a.png --view bs/panel",
         "--view: expected auto or a camera of the scenario (it has none), found 'bs/panel'");
+}
+
+TEST_F(PathsCli, ResponsesAreThoseOfARunAndOfNodesPutThere) {
+  ASSERT_EQ(paths("-q --tick 5 --cfr " + path("own.npy")).code, 0);
+  const Outcome run =
+      greatx(fmt::format("generate {} -o {}", path("flat.yaml"), path("run")), "GREATX_CACHE=off");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto own = responses(path("own.npy")), all = responses(path("run/sequence_0000/csi/cfr.npy"));
+  ASSERT_EQ(own.size(), 2u * 16u);
+  ASSERT_EQ(all.size(), 11 * own.size());
+  EXPECT_EQ(std::memcmp(own.data(), all.data() + 5 * own.size(), own.size() * 8), 0);
+
+  // The receiver of tick 5, at rest, as the second of three points.
+  write("points.csv", "x,y,z\n50,10,3\n105,0,10\n-40,20,8\n");
+  ASSERT_EQ(paths("-q --tick 5 --receivers " + path("points.csv") + " --cfr " + path("points.npy")).code, 0);
+  const auto points = responses(path("points.npy"));
+  ASSERT_EQ(points.size(), 3 * own.size());
+  EXPECT_EQ(std::memcmp(points.data() + own.size(), own.data(), own.size() * 8), 0);
+  EXPECT_FALSE(fs::exists(path("points.npy.part")));
+  EXPECT_EQ(paths("-q --receiver 0 --cfr " + path("one.npy")).code, 1);
+}
+
+TEST_F(PathsCli, TakesOneOfSeveralTransmitters) {
+  std::string text = scenario;
+  const std::string one = "name: csi, tx: bs/panel, rx: [uav/antenna]";
+  text.replace(text.find(one), one.size(), "name: csi, tx: [bs/panel, uav/antenna], rx: [bs/panel]");
+  text.replace(text.find(", polarization: vh"), 18, "");
+  write("flat.yaml", text);
+  EXPECT_EQ(all("")["transmitter"], "bs/panel");
+  const json second = all("--transmitter uav/antenna");
+  EXPECT_EQ(second["transmitter"], "uav/antenna");
+  EXPECT_EQ(second["receivers"], all("--transmitter 1")["receivers"]);
+  EXPECT_NEAR(second["receivers"][0]["distance_m"].get<double>(), std::hypot(100.0, 10.0), 1e-9);
+  EXPECT_THAT(paths("--transmitter 2").err,
+              HasSubstr("--transmitter: expected 0 to 1, or one of bs/panel, uav/antenna"));
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/paths_facts.h"
-
 #include <cmath>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths_output.h"
-#include "apps/paths_text.h"
+#include "apps/paths/facts.h"
+#include "apps/paths/output.h"
+#include "apps/paths/text.h"
 #include "core/error.h"
 #include "tests/apps/sample_paths.h"
 

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Read back by tinygltf: counts, positions, names.
-#include "apps/paths_glb.h"
-
 #include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include "apps/paths/glb.h"
 #include "tests/apps/sample_paths.h"
 
 namespace greatx::apps {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths_draw.h"
+#include "apps/paths/draw.h"
 #include "core/random.h"
 #include "tests/apps/sample_paths.h"
 

@@ -53,7 +53,7 @@ class RadioBench : public ::testing::Test {
 };
 
 TEST_F(RadioBench, HasEveryRow) {
-  const Outcome outcome = bench("--json", (folder_ / "cache").string());
+  const Outcome outcome = bench("--json --map-cells 10", (folder_ / "cache").string());
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["scenario"], "street");
@@ -67,7 +67,13 @@ TEST_F(RadioBench, HasEveryRow) {
   EXPECT_EQ(json["many"]["receivers"], 7);
   EXPECT_GT(json["many"]["paths"], 0);
   EXPECT_GT(json["many"]["peak_rss_target_bytes"], 0);
-  for (const char* row : {"first_cir", "search", "many"})
+  EXPECT_EQ(json["response"]["paths"], 20);
+  EXPECT_GT(json["response"]["ports"], 0);
+  EXPECT_EQ(json["written_tick"]["tick_ms"]["count"], 2);
+  EXPECT_EQ(json["map"]["cells"], 100);
+  EXPECT_GT(json["map"]["paths"], 0);
+  EXPECT_EQ(json["many_responses"]["receivers"], 7);
+  for (const char* row : {"first_cir", "search", "many", "response", "many_responses", "map"})
     for (const char* key : {"ms", "target", "ratio", "cpu_s", "peak_rss_bytes"})
       EXPECT_TRUE(json[row].contains(key)) << row << ' ' << key;
 

@@ -4,7 +4,7 @@
 // Paths made by hand in a scene of a wall and a roof.
 #pragma once
 
-#include "apps/paths_facts.h"
+#include "apps/paths/facts.h"
 #include "core/units.h"
 #include "tests/support/tiny_scene.h"
 

@@ -120,6 +120,20 @@ TEST(AntennaArray, FreeElementsOnAGridAreTheGrid) {
   EXPECT_NEAR(free.aperture(), grid.aperture(), 1e-15);
 }
 
+TEST(AntennaArray, FarFieldCountsFromTheOriginThatPathsEndAt) {
+  const double wavelength = 0.1, carrier_hz = speed_of_light / wavelength;
+  AntennaArray panel;
+  panel.rows = 4, panel.columns = 8, panel.row_spacing_m = 0.2, panel.column_spacing_m = 0.05;
+  const double d = panel.aperture();
+  EXPECT_NEAR(far_field_distance_m(panel, {}, carrier_hz), 2.0 * d * d / wavelength, 1e-12);
+  EXPECT_NEAR(far_field_distance_m(panel, panel, carrier_hz), 8.0 * d * d / wavelength, 1e-12);
+  EXPECT_EQ(far_field_distance_m({}, {}, carrier_hz), 0.0);
+  AntennaArray off;
+  off.positions_m = {{2.0, 0.0, 0.0}};  // one element, 2 m from where the paths end
+  EXPECT_EQ(off.aperture(), 0.0);
+  EXPECT_NEAR(far_field_distance_m(off, {}, carrier_hz), 2.0 * 16.0 / wavelength, 1e-9);
+}
+
 TEST(AntennaArray, ApertureOfOneElementIsZero) { EXPECT_EQ(AntennaArray{}.aperture(), 0.0); }
 
 }  // namespace

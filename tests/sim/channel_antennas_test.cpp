@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/channel_antennas.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "sim/channel/antennas.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::sim {

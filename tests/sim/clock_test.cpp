@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/clock.h"
+#include "sim/scenario/clock.h"
 
 #include <limits>
 

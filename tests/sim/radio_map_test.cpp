@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 
 #include "core/units.h"
-#include "sim/plan_options.h"
-#include "sim/radio_map_values.h"
+#include "sim/channel/radio_map_values.h"
+#include "sim/plan/plan_options.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {

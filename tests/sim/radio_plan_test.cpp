@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which radio effects a scenario calls for, why, and that what is left out is as small as the plan says.
-#include "sim/radio_plan.h"
+#include "sim/plan/radio_plan.h"
 
 #include <cmath>
 #include <complex>

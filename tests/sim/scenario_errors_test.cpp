@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "sim/scenario.h"
+#include "sim/scenario/scenario.h"
 
 namespace greatx::sim {
 namespace {

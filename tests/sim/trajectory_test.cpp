@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/trajectory.h"
+#include "sim/scenario/trajectory.h"
 
 #include <cmath>
 #include <functional>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "sim/clock.h"
+#include "sim/scenario/clock.h"
 
 namespace greatx::sim {
 namespace {

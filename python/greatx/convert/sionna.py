@@ -12,6 +12,7 @@ from typing import Any, Dict, Optional, Union
 import numpy as np
 
 from ..dataset import Dataset, Record
+from ..errors import DatasetError
 from ..links import DIFFRACTION, REFLECTION, SCATTERING, TRANSMISSION, antenna_pose, check_channel, paths_of, receivers, \
     transmitters
 from .common import make_folder, pick_channel, pick_sequence, turns
@@ -94,6 +95,11 @@ def write_sionna(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel:
     sequence or (None) of all. Counts of what was written; DatasetError, or FileExistsError for a folder in use."""
     sequences = dataset.sequences if sequence is None else [pick_sequence(dataset, sequence)]
     sensors = [pick_channel(s, channel) for s in sequences]
+    for sensor in sensors:
+        for needed in ("cfr", "delay"):
+            if needed not in sensor.arrays:
+                raise DatasetError(f"{sensor.name}: expected an array {needed!r}, found none; the scenario's channel needs "
+                                   "outputs: [cfr, paths]")
     root = make_folder(out)
     written = 0
     for sensor in sensors:

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/recall.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "apps/bench/measure.h"
+#include "apps/bench/recall_scene.h"
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "rf/reference/comparison.h"
+#include "rf/reference/exhaustive_paths.h"
+#include "sim/channel/channel_paths.h"
+#include "sim/moment.h"
+#include "sim/plan/plan_options.h"
+#include "sim/scenario/receiver_list.h"
+
+namespace greatx::apps {
+
+namespace {
+
+using rf::reference::Comparison;
+/// A scene with its transmitter and receivers, and what the reference says.
+struct Case {
+  sim::Scenario scenario;
+  sim::World world;
+  std::vector<dvec3> receivers;  ///< world coordinates
+  rf::reference::ExhaustiveResult reference;
+  double reference_s = 0.0;
+};
+
+/// greatx's own answer.
+struct Answer {
+  std::vector<sim::ChannelPaths::Link> links;  ///< [receivers]
+  uint64_t candidates = 0;
+  double search_s = 0.0;  ///< candidates and their images
+  double solve_s = 0.0;   ///< every receiver: geometry, what stands in the way, fields
+};
+
+/// The channel's own way through a tick, with the receivers as points. `rays` 0: the guaranteed search.
+Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
+  sim::Scenario scenario = c.scenario;
+  scenario.channels[0].candidates = rays == 0 ? "beams" : "rays";
+  if (rays > 0) scenario.channels[0].rays = rays;
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, c.world.scene);
+  scene::GpuScene gpu_scene(device, c.world.scene, sim::gpu_scene_options(plan));
+  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(c.world.scene, sim::radio_effects(plan, scenario)));
+  sim::ChannelPaths paths(gpu_scene, crossings, plan, scenario, c.world, 0);
+  paths.set_points(c.receivers);
+  const auto motions = sim::make_paths(scenario, 0);
+  const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(scenario.tick_rate_hz), 0);
+
+  Answer answer;
+  Clock::time_point begin = Clock::now();
+  paths.start(moment.context);
+  answer.search_s = seconds_since(begin);
+  begin = Clock::now();
+  gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, moment.bodies);
+  paths.record(slot, moment.context);
+  ring.submit(slot);
+  ring.wait(slot);
+  answer.links = paths.collect(slot).links;
+  answer.solve_s = seconds_since(begin);
+  std::map<std::string, uint64_t> counters;
+  paths.count(counters);
+  answer.candidates = counters["candidates"];
+  return answer;
+}
+
+Comparison compare(const Case& c, const Answer& answer) {
+  Comparison comparison(c.scenario.channels[0].max_depth);
+  for (uint32_t r = 0; r < answer.links.size(); ++r)
+    comparison.add(r, rf::reference::polylines(c.reference.paths[r]),
+                   rf::reference::polylines(answer.links[r].paths));
+  return comparison;
+}
+
+Case make_case(const RecallOptions& options, const std::string& name) {
+  ScenarioOptions chosen = options.scenario;
+  chosen.scenario = name;
+  Case c{frozen_for_recall(load_scenario(chosen), options.max_depth, options.max_transmissions), {}, {}, {}};
+  c.world = sim::load_world(c.scenario);
+  c.receivers = options.receiver_file.empty()
+                    ? draw_receivers(c.world.scene, c.scenario.seed, options.receivers)
+                    : sim::load_receiver_list(options.receiver_file);
+  const sim::EffectPlan plan = sim::make_effect_plan(c.scenario, c.world.scene);
+  const rf::FacetKinds kinds = rf::facet_kinds(c.world.scene, sim::radio_effects(plan, c.scenario));
+  const rf::FacetWorld world(c.world.scene);
+  const auto motions = sim::make_paths(c.scenario, 0);
+  const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(c.scenario.tick_rate_hz), 0);
+  std::vector<dvec3> local;
+  for (const dvec3& receiver : c.receivers) local.push_back(c.world.scene.to_local(receiver));
+
+  Progress progress(fmt::format("{}: reference", name), 1000, options.json, "");
+  rf::reference::ExhaustiveOptions exhaustive;
+  exhaustive.max_depth = options.max_depth;
+  exhaustive.max_transmissions = options.max_transmissions;
+  exhaustive.progress = [&](double done) { progress.update(static_cast<int64_t>(1000.0 * done)); };
+  const Clock::time_point begin = Clock::now();
+  c.reference =
+      rf::reference::exhaustive_paths(c.world.scene, world, moment.bodies, kinds,
+                                      transmitter_position(c.scenario, c.world, moment), local, exhaustive);
+  c.reference_s = seconds_since(begin);
+  return c;
+}
+
+nlohmann::json json_of(const Comparison::Counts& counts) {
+  return {{"reference", counts.reference},
+          {"found", counts.found},
+          {"missing", counts.missing},
+          {"doubled", counts.doubled},
+          {"extra", counts.extra}};
+}
+
+/// Where they go, for whoever looks into a fault; the first few of them.
+void print_mismatches(const Case& c, const Answer& answer, const Comparison& comparison) {
+  constexpr size_t shown = 20;
+  static constexpr const char* names[] = {"missing", "doubled", "extra"};
+  const auto print = [](const char* fault, uint32_t receiver, double length, const auto& interactions,
+                        const std::vector<dvec3>& vertices) {
+    std::string line = fmt::format("    {}: receiver {}, {:.6f} m:", fault, receiver, length);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      if (i > 0 && i + 1 < vertices.size())
+        line += fmt::format(" {} at {}", rf::name_of(interactions[i - 1].type), interactions[i - 1].element);
+      line += fmt::format(" ({:.4f}, {:.4f}, {:.4f})", vertices[i].x, vertices[i].y, vertices[i].z);
+    }
+    std::cout << line << '\n';
+  };
+  for (size_t i = 0; i < std::min(shown, comparison.mismatches().size()); ++i) {
+    const Comparison::Mismatch& m = comparison.mismatches()[i];
+    const char* fault = names[static_cast<size_t>(m.fault)];
+    if (m.fault == Comparison::Fault::missing) {
+      const rf::GeometricPath& path = c.reference.paths[m.receiver][m.path];
+      print(fault, m.receiver, path.length_m, path.interactions, path.vertices);
+    } else {
+      const rf::Path& path = answer.links[m.receiver].paths[m.path];
+      print(fault, m.receiver, path.length_m, path.interactions, path.vertices);
+    }
+  }
+  if (comparison.mismatches().size() > shown)
+    std::cout << fmt::format("    and {} more\n", comparison.mismatches().size() - shown);
+}
+
+/// The guaranteed search; false if it is not what it promises.
+bool measure_beams(gpu::Device& device, const Case& c, bool quiet, nlohmann::json& result) {
+  const Answer answer = solve(device, c, 0);
+  const Comparison comparison = compare(c, answer);
+  nlohmann::json& beams = result["beams"];
+  beams = {{"candidates", answer.candidates},
+           {"search_s", answer.search_s},
+           {"solve_s", answer.solve_s},
+           {"all", json_of(comparison.all())}};
+  for (const Comparison::Counts& counts : comparison.by_depth()) beams["depths"].push_back(json_of(counts));
+  if (!quiet) {
+    std::cout << fmt::format(
+        "  beams: {} candidates, search {:.3f} s, all receivers {:.3f} s\n"
+        "  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n",
+        answer.candidates, answer.search_s, answer.solve_s, "depth", "reference", "found", "missing",
+        "doubled", "extra");
+    for (size_t depth = 0; depth < comparison.by_depth().size(); ++depth) {
+      const Comparison::Counts& n = comparison.by_depth()[depth];
+      std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}\n", depth, n.reference, n.found,
+                               n.missing, n.doubled, n.extra);
+    }
+    print_mismatches(c, answer, comparison);
+    std::cout << std::flush;
+  }
+  return comparison.all().perfect();
+}
+
+/// Plain shoot and bounce over the number of rays.
+void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& options, nlohmann::json& result) {
+  result["rays"] = nlohmann::json::array();
+  if (options.max_rays_log2 < 14) return;
+  if (!options.json)
+    std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9}\n", "rays", "candidates",
+                             "found", "missing", "doubled", "recall", "search s", "solve s");
+  const spdlog::level::level_enum level = spdlog::get_level();
+  spdlog::set_level(spdlog::level::err);  // where receivers stand has been said by the beams
+  for (uint32_t log2 = 14; log2 <= options.max_rays_log2; ++log2) {
+    const Answer answer = solve(device, c, 1u << log2);
+    const Comparison::Counts all = compare(c, answer).all();
+    result["rays"].push_back({{"rays", 1u << log2},
+                              {"candidates", answer.candidates},
+                              {"search_s", answer.search_s},
+                              {"solve_s", answer.solve_s},
+                              {"all", json_of(all)}});
+    if (!options.json)
+      std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>9.3f}% {:>9.3f} {:>9.3f}\n",
+                               fmt::format("2^{}", log2), answer.candidates, all.found, all.missing,
+                               all.doubled, 100.0 * all.recall(), answer.search_s, answer.solve_s)
+                << std::flush;
+  }
+  spdlog::set_level(level);
+}
+
+}  // namespace
+
+void run_recall(const RecallOptions& options) {
+  // What is timed is the search, not a file of an earlier one.
+  setenv("GREATX_CACHE", "off", 1);
+  std::vector<std::string> names{options.scenario.scenario};
+  if (options.every_scene) names = {"room", "canyon", "city"};
+  gpu::Device device(options.run.device_options());
+  nlohmann::json results = nlohmann::json::array();
+  bool perfect = true;
+  for (const std::string& name : names) {
+    const Case c = make_case(options, name);
+    nlohmann::json& result = results.emplace_back();
+    result = {{"scene", c.scenario.name},
+              {"facets", c.world.scene.facets.size()},
+              {"receivers", c.receivers.size()},
+              {"max_depth", options.max_depth},
+              {"max_transmissions", options.max_transmissions},
+              {"reference_s", c.reference_s},
+              {"reference_sequences", c.reference.sequences}};
+    if (!options.json)
+      std::cout << fmt::format(
+                       "{}: {} facets, {} receivers, {} interactions, of them {} walls; reference {:.1f} s\n",
+                       c.scenario.name, c.world.scene.facets.size(), c.receivers.size(), options.max_depth,
+                       options.max_transmissions, c.reference_s)
+                << std::flush;
+    perfect = measure_beams(device, c, options.json, result) && perfect;
+    measure_rays(device, c, options, result);
+    check_validation(device);
+  }
+  if (options.json) std::cout << results.dump(2) << '\n';
+  if (!perfect) throw Failed{};
+}
+
+}  // namespace greatx::apps

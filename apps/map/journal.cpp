@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/map/journal.h"
+
+#include <array>
+#include <cstring>
+#include <sys/file.h>
+
+#include "core/hash.h"
+
+namespace greatx::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view mark = "greatx map 1\n";
+constexpr const char* journal_file = "links.part";
+constexpr size_t numbers = 12;  ///< doubles of a link on disk
+using Stored = std::array<double, numbers>;
+
+Stored stored(const rf::LinkStatistics& link) {
+  return {static_cast<double>(link.paths),
+          link.line_of_sight ? 1.0 : 0.0,
+          link.path_gain,
+          link.mean_delay_s,
+          link.delay_spread_s,
+          link.k_factor,
+          link.departure_azimuth_spread,
+          link.departure_zenith_spread,
+          link.arrival_azimuth_spread,
+          link.arrival_zenith_spread,
+          link.mean_doppler_hz,
+          link.doppler_spread_hz};
+}
+
+rf::LinkStatistics loaded(const Stored& s) {
+  rf::LinkStatistics link;
+  link.paths = static_cast<uint32_t>(s[0]);
+  link.line_of_sight = s[1] != 0.0;
+  link.path_gain = s[2];
+  link.mean_delay_s = s[3];
+  link.delay_spread_s = s[4];
+  link.k_factor = s[5];
+  link.departure_azimuth_spread = s[6];
+  link.departure_zenith_spread = s[7];
+  link.arrival_azimuth_spread = s[8];
+  link.arrival_zenith_spread = s[9];
+  link.mean_doppler_hz = s[10];
+  link.doppler_spread_hz = s[11];
+  return link;
+}
+
+/// Before the links of a block.
+struct BlockHead {
+  uint64_t links = 0;
+  char hash[16] = {};
+};
+
+BlockHead head_of(uint64_t offset, std::span<const std::byte> payload, uint64_t links) {
+  BlockHead head{links, {}};
+  const std::string hex = Sha256().update_value(offset).update(payload).hex();
+  std::memcpy(head.hash, hex.data(), sizeof head.hash);
+  return head;
+}
+
+/// "/grid/cell_m: asked for 1, the folder's has 2": what differs first, by its JSON pointer.
+std::string difference(const Json& asked, const Json& found) {
+  const Json a = asked.flatten(), b = found.is_structured() ? found.flatten() : Json::object();
+  for (const auto& [key, value] : a.items())
+    if (!b.contains(key) || b[key] != value)
+      return fmt::format("{}: asked for {}, the folder's has {}", key, value.dump(),
+                         b.contains(key) ? b[key].dump() : "none");
+  return "it has more in it";
+}
+
+void check_same(const fs::path& folder, const Json& request, const std::string& stored_text) {
+  const Json found = Json::parse(stored_text, nullptr, false);
+  if (found == request) return;
+  throw_user_error("{}: holds a radio map that asked for something else, which this one cannot resume: {}",
+                   folder.string(), difference(request, found));
+}
+
+}  // namespace
+
+MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume) : folder_(folder) {
+  io::create_folders(folder);
+  io::ignore_file_size_signal();
+  const fs::path journal = folder / journal_file, description = folder / map_description;
+  if (fs::exists(description)) {
+    if (!resume)
+      throw_user_error("{}: holds a finished radio map, which is not overwritten; choose another folder",
+                       folder.string());
+    const Json finished = Json::parse(io::read_text_file(description), nullptr, false);
+    if (!finished.is_object() || !finished.contains("request"))
+      throw_user_error("{}: expected a radio map's description, found something else", description.string());
+    check_same(folder, request, finished["request"].dump());
+    finished_ = true;
+    fs::remove(journal);  // if the map was killed between its last file and this
+    return;
+  }
+  if (fs::exists(journal)) {
+    if (!resume)
+      throw_user_error("{}: holds an unfinished radio map; --resume finishes it, or choose another folder",
+                       folder.string());
+  } else {
+    for (const auto& entry : fs::directory_iterator(folder))
+      throw_user_error(
+          "{}: expected an empty folder or an unfinished radio map, found a folder with other files ({}); "
+          "choose another folder",
+          folder.string(), entry.path().filename().string());
+  }
+  file_ = io::File::open_for_writing(journal);
+  if (::flock(file_.descriptor(), LOCK_EX | LOCK_NB) != 0)
+    throw_user_error("{}: is being written by another process", folder.string());
+
+  const uint64_t size = file_.size(), head = mark.size() + sizeof(uint64_t);
+  uint64_t length = 0;
+  std::string text(mark.size(), '\0');
+  if (size >= head) {
+    file_.read_at(0, std::as_writable_bytes(std::span(text)));
+    file_.read_at(mark.size(), std::as_writable_bytes(std::span(&length, 1)));
+    if (text != mark)
+      throw_user_error("{}: expected an unfinished radio map of this version, found something else",
+                       journal.string());
+  }
+  if (size < head || size - head < length) {  // killed while it was made
+    open_new(request.dump());
+    return;
+  }
+  text.resize(length);
+  file_.read_at(head, std::as_writable_bytes(std::span(text)));
+  check_same(folder, request, text);
+  read_blocks(head + length);
+}
+
+void MapJournal::open_new(const std::string& request) {
+  const uint64_t length = request.size();
+  io::Bytes bytes;
+  io::append(bytes, io::bytes_of(mark));
+  io::append(bytes, std::as_bytes(std::span(&length, 1)));
+  io::append(bytes, io::bytes_of(request));
+  file_.truncate(0);
+  file_.write_at(0, bytes);
+  bytes_ = bytes.size();
+}
+
+void MapJournal::read_blocks(uint64_t begin) {
+  const uint64_t size = file_.size();
+  bytes_ = begin;
+  while (size - bytes_ >= sizeof(BlockHead)) {
+    BlockHead head;
+    file_.read_at(bytes_, std::as_writable_bytes(std::span(&head, 1)));
+    const uint64_t room = size - bytes_ - sizeof head;
+    if (head.links == 0 || head.links > room / sizeof(Stored)) break;
+    std::vector<Stored> payload(head.links);
+    file_.read_at(bytes_ + sizeof head, std::as_writable_bytes(std::span(payload)));
+    const BlockHead expected = head_of(bytes_, std::as_bytes(std::span(payload)), head.links);
+    if (std::memcmp(&head, &expected, sizeof head) != 0) break;
+    for (const Stored& link : payload) links_.push_back(loaded(link));
+    bytes_ += sizeof head + payload.size() * sizeof(Stored);
+  }
+  file_.truncate(bytes_);
+}
+
+void MapJournal::append(std::span<const rf::LinkStatistics> links) {
+  if (links.empty()) return;
+  std::vector<Stored> payload;
+  for (const rf::LinkStatistics& link : links) payload.push_back(stored(link));
+  const BlockHead head = head_of(bytes_, std::as_bytes(std::span(payload)), payload.size());
+  io::Bytes bytes;
+  io::append(bytes, std::as_bytes(std::span(&head, 1)));
+  io::append(bytes, std::as_bytes(std::span(payload)));
+  file_.write_at(bytes_, bytes);
+  bytes_ += bytes.size();
+  links_.insert(links_.end(), links.begin(), links.end());
+}
+
+void MapJournal::finish() {
+  file_.close();
+  fs::remove(folder_ / journal_file);
+}
+
+}  // namespace greatx::apps

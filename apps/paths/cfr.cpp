@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/paths/cfr.h"
+
+#include <spdlog/spdlog.h>
+
+#include "io/npy.h"
+#include "sim/channel/antennas.h"
+
+namespace greatx::apps {
+
+CfrFile::CfrFile(const std::filesystem::path& file, const sim::Scenario& scenario, const sim::World& world,
+                 const sim::EffectPlan& plan, uint32_t channel, uint32_t transmitter,
+                 std::optional<size_t> points, const rf::RadioModel& model)
+    : path_(file) {
+  const sim::ChannelConfig& config = scenario.channels[channel];
+  transmitter_ = sim::antenna_array(scenario, config.transmitters[transmitter], config.carrier_hz);
+  if (points)
+    receivers_.emplace_back();
+  else
+    for (const std::string& name : config.receivers)
+      receivers_.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
+  for (const rf::AntennaArray& receiver : receivers_)
+    if (receiver.port_count() != receivers_[0].port_count())
+      throw_user_error("--cfr: channel '{}': expected receivers with one number of ports, found {} and {}",
+                       config.name, receivers_[0].port_count(), receiver.port_count());
+  count_ = points.value_or(receivers_.size());
+  grid_ = {config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers, config.time_samples,
+           plan.doppler.on ? config.time_spacing_s : 0.0};
+  if (plan.dispersion.on) dispersion_.emplace(world.scene, model.field_model(), model.effects.weather, grid_);
+
+  if (path_.has_parent_path()) io::create_folders(path_.parent_path());
+  file_ = io::File::open_for_writing(io::part_name(path_));
+  file_.truncate(0);
+  file_.write_at(0, io::npy_header(DType::complex64,
+                                   {static_cast<int64_t>(count_), receivers_[0].port_count(), 1,
+                                    transmitter_.port_count(), grid_.time_samples, grid_.subcarriers}));
+}
+
+CfrFile::~CfrFile() {
+  std::error_code ignored;
+  if (!finished_) std::filesystem::remove(io::part_name(path_), ignored);
+}
+
+void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
+  const rf::ArrayPose transmitter{transmitter_, link.transmitter_state.orientation},
+      receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation};
+  response_.resize(rf::response_size(transmitter, receiver, grid_));
+  std::vector<rf::TransferSpectrum> spectra;
+  if (dispersion_) spectra = dispersion_->spectra(link.paths);
+  rf::frequency_response_into(link.paths, spectra, transmitter, receiver, grid_, response_);
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(response_));
+  file_.write_at(io::npy_header_bytes + link.receiver * bytes.size(), bytes);
+  ++added_;
+  near_ += link.distance_m < rf::far_field_distance_m(transmitter_, receiver.array, grid_.carrier_hz);
+}
+
+void CfrFile::finish() {
+  if (added_ != count_)
+    throw_user_error("{}: expected the responses of {} receivers, found {}", path_.string(), count_, added_);
+  if (near_ > 0)
+    spdlog::warn(
+        "{}: {} of {} receivers are nearer than the far field of the arrays, 2 D^2/lambda: a plane wave "
+        "passes "
+        "over each array here; a run solves every element",
+        path_.string(), near_, count_);
+  file_.close();
+  io::rename_file(io::part_name(path_), path_);
+  finished_ = true;
+}
+
+}  // namespace greatx::apps

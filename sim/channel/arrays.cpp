@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a channel delivers: its declaration and the arrays of a record, in the same order.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+#include "rf/channel/coherence.h"
+#include "rf/channel/received.h"
+#include "sim/channel/antennas.h"
+#include "sim/channel/channel_sensor.h"
+#include "sim/sensor_metadata.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// 16 GiB of complex64.
+constexpr double most_values_of_a_record = 2147483648.0;
+
+/// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
+nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
+  nlohmann::json walls = nlohmann::json::array();
+  for (uint32_t material = 0; material < scene.materials.size(); ++material) {
+    nlohmann::json layers;
+    for (const rf::DielectricLayer& layer : surfaces.surface(material).front)
+      layers.push_back({{"relative_permittivity", {layer.eta.real(), layer.eta.imag()}},
+                        {"thickness_m", layer.thickness_m}});
+    walls.push_back({{"material", scene.materials[material].name}, {"layers", std::move(layers)}});
+  }
+  return walls;
+}
+
+nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::span<const ChannelEnd> ends) {
+  nlohmann::json json = nlohmann::json::array();
+  for (size_t i = 0; i < arrays.size(); ++i) {
+    json.push_back(describe_array(arrays[i]));
+    json.back()["name"] = ends[i].name;
+    json.back()["body_from_antenna"] = json_of(ends[i].mount);
+  }
+  return json;
+}
+
+/// An array with a row for each of `rows`, one below the other; `leading`: the shape before the row's.
+template <typename View>
+Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span<const View> rows) {
+  leading.insert(leading.end(), column.row.begin(), column.row.end());
+  Array array(column.dtype, std::move(leading));
+  const size_t step = column.row_bytes();
+  for (size_t i = 0; i < rows.size(); ++i) column.fill(rows[i], array.bytes.data() + i * step);
+  return array;
+}
+
+}  // namespace
+
+/// Everything of a link that its arrays need.
+struct ChannelSensor::LinkFacts {
+  LinkView view;  ///< without its pointer: facts move
+  rf::LinkStatistics statistics;
+  std::vector<std::complex<float>> amplitudes;  ///< [paths, rx_ant, tx_ant]
+  std::vector<std::complex<float>> fields;      ///< [paths, tx_ant, 2], if a power is given
+};
+
+void ChannelSensor::describe() {
+  const int64_t receivers = static_cast<int64_t>(receiver_arrays_.size()),
+                transmitters = static_cast<int64_t>(transmitter_arrays_.size());
+  columns_ = {&world_.scene, &radio_->model, &config_, receiver_arrays_[0].port_count(),
+              transmitter_arrays_[0].port_count()};
+  link_columns_ = link_columns(columns_);
+  if (config_.outputs.paths) path_columns_ = path_columns(columns_);
+  blocks_ = port_blocks(config_, grid_, dispersion_ ? &*dispersion_ : nullptr);
+  spec_.name = config_.name;
+  spec_.kind = "csi";
+  spec_.rate = config_.rate_hz.str();
+  for (const PortBlock& block : blocks_) {
+    spec_.arrays.push_back(
+        {block.name,
+         DType::complex64,
+         {receivers, columns_.rx_ports, transmitters, columns_.tx_ports, block.time, block.last},
+         "1",
+         block.description});
+    spec_.outputs.push_back({block.name, FileFormat::npy_stack, {block.name}});
+  }
+  for (const LinkColumn& column : link_columns_) {
+    spec_.arrays.push_back(
+        {column.name, column.dtype, {receivers, transmitters}, column.unit, column.description});
+    spec_.outputs.push_back({column.name, FileFormat::npy_stack, {column.name}});
+  }
+  for (const PathColumn& column : path_columns_) {
+    std::vector<int64_t> shape{-1};
+    shape.insert(shape.end(), column.row.begin(), column.row.end());
+    spec_.arrays.push_back({column.name, column.dtype, std::move(shape), column.unit, column.description});
+    spec_.outputs.push_back({"paths/" + column.name, FileFormat::npy_ragged, {column.name}});
+  }
+  spec_.metadata_json = metadata();
+}
+
+std::string ChannelSensor::metadata() const {
+  nlohmann::json metadata;
+  metadata["carrier_hz"] = config_.carrier_hz;
+  metadata["subcarrier_spacing_hz"] = config_.subcarrier_spacing_hz;
+  metadata["subcarriers"] = config_.subcarriers;
+  metadata["first_subcarrier"] = -static_cast<int64_t>(config_.subcarriers / 2);
+  metadata["time_samples"] = config_.time_samples;
+  metadata["time_spacing_s"] = config_.time_spacing_s;
+  metadata["max_depth"] = config_.max_depth;
+  metadata["non_finite"] = {"vertex"};
+  for (const LinkColumn& column : link_columns_)
+    if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
+  metadata["axes"] = {"batch", "rx", "rx_ant", "tx", "tx_ant", "time", "subcarrier"};
+  if (config_.taps)
+    metadata["taps"] = {{"bandwidth_hz", config_.taps->bandwidth_hz}, {"first", config_.taps->first}};
+  if (config_.power_dbm) {
+    metadata["power_dbm"] = *config_.power_dbm;
+    metadata["resistance_ohm"] = config_.resistance_ohm;
+  }
+  metadata["time_convention"] = "e^{+j omega t}";
+  std::vector<ChannelEnd> transmitters;
+  for (const auto& paths : paths_) transmitters.push_back(paths->transmitter());
+  metadata["every_element"] =
+      !near_links_.empty();  // of links nearer than 2 (D_tx + D_rx)^2 / lambda, or all
+  metadata["transmitters"] = describe_ends(transmitter_arrays_, transmitters);
+  metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
+  metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
+  metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
+  metadata["dispersion"] =
+      dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
+  metadata["walls"] = describe_walls(world_.scene, radio_->model.surfaces);
+  for (const auto& [name, text] : paths_[0]->notes()) metadata["candidates"][name] = text;
+  return metadata.dump();
+}
+
+rf::ArrayPose ChannelSensor::transmitter_pose(const Results& results, size_t transmitter) const {
+  return {transmitter_arrays_[transmitter], results[transmitter].transmitter.orientation};
+}
+
+rf::ArrayPose ChannelSensor::receiver_pose(const Results& results, size_t receiver) const {
+  return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation};
+}
+
+/// Of all links, [rx, rx_ant, tx, tx_ant, time, last].
+Array ChannelSensor::block_of(const PortBlock& block, const Results& results, uint32_t slot) const {
+  const size_t transmitters = results.size(), receivers = results[0].links.size();
+  const size_t rx_ports = static_cast<size_t>(columns_.rx_ports),
+               row = static_cast<size_t>(columns_.tx_ports) * block.per_pair();
+  Array array(DType::complex64,
+              {static_cast<int64_t>(receivers), columns_.rx_ports, static_cast<int64_t>(transmitters),
+               columns_.tx_ports, block.time, block.last});
+  const std::span<std::complex<float>> out = array.as<std::complex<float>>();
+  parallel_for(receivers * transmitters, 0, [&](size_t index) {
+    const size_t r = index / transmitters, t = index % transmitters;
+    // With one transmitter a link's values lie together: no copy.
+    std::vector<std::complex<float>> apart(transmitters == 1 ? 0 : rx_ports * row);
+    const std::span<std::complex<float>> h =
+        transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);
+    if (const ElementPaths* elements = elements_of(r, t, slot))
+      elements->assemble(block.per_pair(), block.sum, h);
+    else
+      block.sum(results[t].links[r].paths, transmitter_pose(results, t), receiver_pose(results, r), h);
+    for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
+      std::copy_n(
+          h.begin() + static_cast<std::ptrdiff_t>(port * row), row,
+          out.begin() + static_cast<std::ptrdiff_t>(((r * rx_ports + port) * transmitters + t) * row));
+  });
+  return array;
+}
+
+ChannelSensor::LinkFacts ChannelSensor::facts_of(const Results& results, size_t receiver, size_t transmitter,
+                                                 uint32_t slot) const {
+  const std::vector<rf::Path>& paths = results[transmitter].links[receiver].paths;
+  const rf::ArrayPose from = transmitter_pose(results, transmitter), to = receiver_pose(results, receiver);
+  const std::vector<double> powers = rf::path_powers(paths, from, to, config_.carrier_hz);
+  LinkFacts facts;
+  facts.statistics = rf::link_statistics(paths, powers);
+  facts.view.receiver = static_cast<int32_t>(receiver);
+  facts.view.transmitter = static_cast<int32_t>(transmitter);
+  facts.view.every_element = elements_of(receiver, transmitter, slot) != nullptr;
+  if (config_.outputs.coherence) {
+    facts.view.coherence_bandwidth_hz = rf::coherence_bandwidth_hz(paths, powers, 0.5);
+    facts.view.coherence_time_s = rf::coherence_time_s(paths, powers, 0.5);
+  }
+  if (config_.taps)
+    facts.view.taps_power_outside = rf::tap_coverage(paths, powers, tap_grid(config_, grid_)).power_outside;
+  if (!config_.outputs.paths) return facts;
+  facts.amplitudes = rf::impulse_response(paths, from, to, config_.carrier_hz).amplitude;
+  if (config_.power_dbm) {
+    facts.fields.resize(paths.size() * from.array.port_count() * 2);
+    rf::arriving_fields(paths, from, config_.carrier_hz, rf::watts(*config_.power_dbm), facts.fields);
+  }
+  return facts;
+}
+
+std::vector<Array> ChannelSensor::arrays_of(const Results& results, uint32_t slot) const {
+  const size_t transmitters = results.size(), receivers = results[0].links.size();
+  std::vector<LinkFacts> facts(receivers * transmitters);
+  parallel_for(facts.size(), 0, [&](size_t index) {
+    facts[index] = facts_of(results, index / transmitters, index % transmitters, slot);
+    facts[index].view.statistics = &facts[index].statistics;
+  });
+
+  std::vector<LinkView> links;
+  for (const LinkFacts& of : facts) links.push_back(of.view);
+  std::vector<PathView> paths;
+  const size_t pairs = static_cast<size_t>(columns_.rx_ports * columns_.tx_ports),
+               fields = config_.power_dbm ? static_cast<size_t>(columns_.tx_ports * 2) : 0;
+  for (size_t index = 0; !path_columns_.empty() && index < facts.size(); ++index) {
+    const std::vector<rf::Path>& own = results[index % transmitters].links[index / transmitters].paths;
+    for (size_t i = 0; i < own.size(); ++i)
+      paths.push_back({&links[index], &own[i], std::span(facts[index].amplitudes).subspan(i * pairs, pairs),
+                       std::span(facts[index].fields).subspan(i * fields, fields)});
+  }
+  std::vector<Array> arrays;
+  const int64_t rx = static_cast<int64_t>(receivers), tx = static_cast<int64_t>(transmitters);
+  for (const PortBlock& block : blocks_) arrays.push_back(block_of(block, results, slot));
+  for (const LinkColumn& column : link_columns_) arrays.push_back(filled<LinkView>(column, {rx, tx}, links));
+  for (const PathColumn& column : path_columns_)
+    arrays.push_back(filled<PathView>(column, {static_cast<int64_t>(paths.size())}, paths));
+  return arrays;
+}
+
+}  // namespace greatx::sim

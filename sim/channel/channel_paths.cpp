@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/channel/channel_paths.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <spdlog/spdlog.h>
+
+#include "core/parallel.h"
+#include "sim/plan/radio_plan.h"
+
+namespace greatx::sim {
+
+rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario) {
+  rf::RadioEffects effects;
+  effects.line_of_sight = plan.line_of_sight.on;
+  effects.reflection = plan.reflection.on;
+  effects.transmission = plan.transmission.on;
+  effects.diffraction = plan.diffraction.on;
+  effects.scattering = plan.scattering.on;
+  effects.lit_region = plan.diffraction_lit_region.on;
+  effects.free_edges = plan.free_edges.on;
+  effects.field.roughness = plan.roughness.on;
+  effects.field.scattering = plan.scattering.on;
+  effects.field.gas = plan.gas.on;
+  effects.field.rain = plan.rain.on;
+  effects.field.fog = plan.fog.on;
+  effects.field.foliage = plan.foliage.on;
+  effects.field.seed = scenario.seed;
+  effects.weather = weather_of(scenario.environment);
+  for (const ChannelConfig& channel : scenario.channels)
+    if (effects.lowest_carrier_hz == 0.0 || channel.carrier_hz < effects.lowest_carrier_hz)
+      effects.lowest_carrier_hz = channel.carrier_hz;
+  return effects;
+}
+
+RadioWorld::RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel)
+    : model(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
+      surroundings(world.scene, model.kinds) {}
+
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                           const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
+                           uint32_t channel, ChannelEnds ends)
+    : world_(world),
+      config_(scenario.channels[channel]),
+      ends_(std::move(ends)),
+      radio_(std::move(radio)),
+      crossings_(crossings) {
+  const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
+                                          [](const ChannelEnd& end) { return end.rests; });
+  search_.emplace(&gpu_scene, radio_->model, plan, config_,
+                  ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
+}
+
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                           const Scenario& scenario, const World& world, uint32_t channel)
+    : ChannelPaths(gpu_scene, crossings, plan, scenario, world,
+                   std::make_shared<RadioWorld>(plan, scenario, world, channel), channel,
+                   channel_ends(scenario, world, channel, 0)) {}
+
+void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
+  ends_.receivers.clear();
+  for (size_t i = 0; i < points.size(); ++i) ends_.receivers.push_back(point_end(points[i], first + i));
+  search_->set_points();
+  ids_known_ = false;
+  if (!placed_.empty()) placed_.resize(1);  // the transmitter's
+}
+
+std::vector<dvec3> ChannelPaths::receiver_positions(const TickContext& context) const {
+  std::vector<dvec3> positions;
+  for (const ChannelEnd& end : ends_.receivers) positions.push_back(state(end, context).position);
+  return positions;
+}
+
+void ChannelPaths::start(const TickContext& context) {
+  ids_known_ = false;
+  placed_.clear();
+  placements_told_ = 0;
+  move_bodies(bodies_at(context));
+  search_->start(state(ends_.transmitter, context).position, receiver_positions(context), context.body_poses);
+}
+
+void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
+  search_->record_ahead(slot, state(ends_.transmitter, next).position);
+}
+
+ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
+  Bodies bodies;
+  for (uint32_t node = 0; node < context.nodes.size(); ++node)
+    if (const uint32_t body = world_.body_of_node[node]; body != 0) {
+      Motion motion = context.nodes[node];
+      motion.pose = world_.scene.to_local(motion.pose);
+      bodies.emplace_back(body, motion);
+    }
+  return bodies;
+}
+
+void ChannelPaths::move_bodies(const Bodies& bodies) {
+  for (const auto& [body, motion] : bodies) radio_->model.facets.move(body, motion);
+}
+
+void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
+  InFlight& flight = in_flight_[slot.index];
+  flight.transmitter = state(ends_.transmitter, context);
+  flight.bodies = bodies_at(context);
+  move_bodies(flight.bodies);
+  check_placements(context);
+  search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
+
+  flight.links.assign(ends_.receivers.size(), {});
+  std::vector<uint64_t> overflow(ends_.receivers.size());
+  parallel_for(ends_.receivers.size(), 0, [&](size_t r) {
+    LinkInFlight& link = flight.links[r];
+    link.receiver = state(ends_.receivers[r], context);
+    link.distance_m = glm::distance(world_position(ends_.transmitter, context),
+                                    world_position(ends_.receivers[r], context));
+    rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver);
+    link.paths = std::move(geometry.paths);
+    overflow[r] = geometry.overflow;
+  });
+  flight.segments.clear();
+  for (size_t r = 0; r < ends_.receivers.size(); ++r) {
+    LinkInFlight& link = flight.links[r];
+    if (overflow[r] > 0 && path_overflow_ == 0)
+      spdlog::warn(
+          "channel '{}', {}: {} geometric paths beyond max_paths ({}) were left out; more in the counters",
+          config_.name, ends_.receivers[r].name, overflow[r], config_.max_paths);
+    path_overflow_ += overflow[r];
+    geometric_paths_ += link.paths.size();
+    link.first_segment = flight.segments.size();
+    search_->solver().add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
+    link.segment_count = flight.segments.size() - link.first_segment;
+  }
+  flight.crossings = crossings_.record(slot, flight.segments);
+}
+
+ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
+  InFlight& flight = in_flight_[slot.index];
+  const std::vector<rf::Crossing> crossings = crossings_.collect(flight.crossings, flight.segments);
+  move_bodies(flight.bodies);  // the tick after this one may have been recorded
+  Result result;
+  result.transmitter = flight.transmitter;
+  result.links.resize(flight.links.size());
+  parallel_for(flight.links.size(), 0, [&](size_t r) {
+    LinkInFlight& link = flight.links[r];
+    result.links[r].receiver = link.receiver;
+    result.links[r].distance_m = link.distance_m;
+    result.links[r].paths = search_->solver().finish(
+        link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
+        link.receiver);
+  });
+  if (!ids_known_) ids_.assign(result.links.size(), {});
+  for (size_t r = 0; r < result.links.size(); ++r) {
+    lit_paths_ += result.links[r].paths.size();
+    note_births(r, result.links[r].paths);
+  }
+  ids_known_ = true;
+  return result;
+}
+
+/// A path that was not there at the tick before is born, one that is not there any more has died.
+void ChannelPaths::note_births(size_t link, const std::vector<rf::Path>& paths) {
+  std::vector<uint64_t> now;
+  for (const rf::Path& path : paths) now.push_back(path.id());
+  std::sort(now.begin(), now.end());
+  if (ids_known_) {
+    std::vector<uint64_t> stayed;
+    std::set_intersection(now.begin(), now.end(), ids_[link].begin(), ids_[link].end(),
+                          std::back_inserter(stayed));
+    births_ += now.size() - stayed.size();
+    deaths_ += ids_[link].size() - stayed.size();
+  }
+  ids_[link] = std::move(now);
+}
+
+/// Says once per end and sequence where it should not be, and counts. Ends at rest are judged once.
+void ChannelPaths::check_placements(const TickContext& context) {
+  constexpr size_t most_told = 5;
+  placed_.resize(1 + ends_.receivers.size());
+  const bool said = placements_told_ > most_told;
+  for (size_t i = 0; i < placed_.size(); ++i) {
+    const ChannelEnd& end = i == 0 ? ends_.transmitter : ends_.receivers[i - 1];
+    Placed& placed = placed_[i];
+    if (i == 0 ? !ends_.check_transmitter : !ends_.check_receivers) continue;
+    if (!placed.checked || !end.rests) {
+      const rf::EndState at = state(end, context);
+      const rf::Placement placement = radio_->surroundings.of(at.position, context.body_poses, at.body);
+      placed.checked = true;
+      placed.inside = placement.solid != rf::Placement::none;
+      if (!placement.free() && !placed.told) {
+        placed.told = true;
+        const bool wrong = placed.inside || placement.surface != rf::Placement::none;
+        if (++placements_told_ <= most_told)
+          spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
+                      config_.name, context.tick, end.name,
+                      rf::describe(placement, world_.scene, radio_->model.kinds));
+      }
+    }
+    ends_inside_ += placed.inside;
+  }
+  if (placements_told_ > most_told && !said)
+    spdlog::warn("channel '{}', tick {}: more ends lie inside or on something; the counters have them all",
+                 config_.name, context.tick);
+}
+
+void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
+  search_->count(counters);
+  counters["geometric_paths"] = geometric_paths_;
+  counters["path_overflow"] = path_overflow_;
+  counters["paths"] = lit_paths_;
+  counters["path_births"] = births_;
+  counters["path_deaths"] = deaths_;
+  counters["ends_inside_solids"] = ends_inside_;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/channel/channel_sensor.h"
+
+#include <cmath>
+#include <limits>
+
+#include <spdlog/spdlog.h>
+
+#include "core/units.h"
+#include "sim/channel/antennas.h"
+#include "sim/plan/array_plan.h"
+
+namespace greatx::sim {
+
+namespace {
+
+std::vector<rf::AntennaArray> arrays_called(const std::vector<std::string>& names, const char* end,
+                                            const Scenario& scenario, const ChannelConfig& config) {
+  std::vector<rf::AntennaArray> arrays;
+  for (const std::string& name : names) arrays.push_back(antenna_array(scenario, name, config.carrier_hz));
+  for (const rf::AntennaArray& array : arrays)
+    if (array.port_count() != arrays[0].port_count())
+      throw_user_error_at(config.where,
+                          "channel '{}': {}: expected antennas with one number of ports, found {} and {}; "
+                          "give each its own channel",
+                          config.name, end, arrays[0].port_count(), array.port_count());
+  return arrays;
+}
+
+}  // namespace
+
+ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                             const Scenario& scenario, const World& world, uint32_t channel)
+    : gpu_scene_(gpu_scene),
+      crossings_(crossings),
+      plan_(plan),
+      scenario_(scenario),
+      world_(world),
+      channel_(channel),
+      config_(scenario.channels[channel]),
+      doppler_(plan.doppler.on),
+      radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)),
+      transmitter_arrays_(arrays_called(config_.transmitters, "tx", scenario, config_)),
+      receiver_arrays_(arrays_called(config_.receivers, "rx", scenario, config_)) {
+  for (uint32_t t = 0; t < config_.transmitters.size(); ++t)
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, plan, scenario, world, radio_,
+                                                    channel, channel_ends(scenario, world, channel, t)));
+  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
+           doppler_ ? config_.time_spacing_s : 0.0};
+  if (plan.dispersion.on)
+    dispersion_.emplace(world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid_);
+  if (plan.every_element.on) find_near_links();
+  describe();
+}
+
+void ChannelSensor::find_near_links() {
+  if (config_.candidates == "rays") return;
+  const auto wish = scenario_.effects.find("every_element");
+  const bool all = wish != scenario_.effects.end() && wish->second == Switch::on;
+  for (size_t r = 0; r < receiver_arrays_.size(); ++r)
+    for (size_t t = 0; t < transmitter_arrays_.size(); ++t) {
+      const double far_m =
+          rf::far_field_distance_m(transmitter_arrays_[t], receiver_arrays_[r], config_.carrier_hz);
+      if (far_m > 0.0 && (all || may_be_near(scenario_, config_, t, r)))
+        near_links_.push_back({r, t, all ? std::numeric_limits<double>::infinity() : far_m, nullptr, {}});
+    }
+}
+
+std::unique_ptr<ElementPaths> ChannelSensor::make_elements(const NearLink& link) const {
+  const ChannelPaths& paths = *paths_[link.transmitter];
+  return std::make_unique<ElementPaths>(
+      gpu_scene_, crossings_, plan_, scenario_, world_, radio_, channel_,
+      ArrayEnd{paths.transmitter(), transmitter_arrays_[link.transmitter]},
+      ArrayEnd{paths.receivers()[link.receiver], receiver_arrays_[link.receiver]});
+}
+
+void ChannelSensor::start(const TickContext& context) {
+  for (const auto& paths : paths_) paths->start(context);
+  for (const NearLink& link : near_links_)
+    if (link.elements) link.elements->start();
+}
+
+void ChannelSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  for (const auto& paths : paths_) paths->record(slot, context);
+  for (NearLink& link : near_links_) {
+    const ChannelPaths& paths = *paths_[link.transmitter];
+    const double distance_m = glm::distance(world_position(paths.transmitter(), context),
+                                            world_position(paths.receivers()[link.receiver], context));
+    link.recorded[slot.index] = distance_m < link.within_m;
+    if (!link.recorded[slot.index]) continue;
+    if (!told_near_)
+      spdlog::info(
+          "channel '{}', tick {}: {} and {} are in the near field: every element is searched from, once "
+          "(effects: {{every_element: off}} to do without)",
+          config_.name, context.tick, paths.transmitter().name, paths.receivers()[link.receiver].name);
+    told_near_ = true;
+    if (!link.elements) link.elements = make_elements(link);
+    link.elements->record(slot, context);
+  }
+}
+
+void ChannelSensor::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
+  for (const auto& paths : paths_) paths->record_ahead(slot, next);
+}
+
+std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
+  Results results;
+  for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+  for (NearLink& link : near_links_)
+    if (link.recorded[slot.index]) {
+      link.elements->collect(slot);
+      ++near_ticks_;
+    }
+  check_sights(results);
+  return arrays_of(results, slot.index);
+}
+
+const ElementPaths* ChannelSensor::elements_of(size_t receiver, size_t transmitter, uint32_t slot) const {
+  for (const NearLink& link : near_links_)
+    if (link.receiver == receiver && link.transmitter == transmitter)
+      return link.recorded[slot] ? link.elements.get() : nullptr;
+  return nullptr;
+}
+
+void ChannelSensor::check_sights(const Results& results) {
+  for (const ChannelPaths::Result& result : results)
+    for (const ChannelPaths::Link& link : result.links)
+      for (const rf::Path& path : link.paths)
+        if (path.interactions.empty())
+          line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) /
+                                    link.distance_m);
+}
+
+void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
+  for (const auto& paths : paths_) {
+    std::map<std::string, uint64_t> own;
+    paths->count(own);
+    for (const auto& [name, value] : own) counters[config_.name + "." + name] += value;
+  }
+  if (near_links_.empty()) return;
+  std::map<std::string, uint64_t> of_elements;
+  for (const NearLink& link : near_links_)
+    if (link.elements) link.elements->count(of_elements);
+  counters[config_.name + ".every_element_links"] = near_ticks_;
+  for (const char* name : {"paths", "candidate_overflow", "path_overflow"})
+    counters[fmt::format("{}.every_element_{}", config_.name, name)] = of_elements[name];
+}
+
+void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
+  for (const auto& [name, text] : paths_[0]->notes()) notes.emplace_back(config_.name + "." + name, text);
+}
+
+}  // namespace greatx::sim

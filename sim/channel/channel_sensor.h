@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths, seen through
+// the antennas.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rf/channel/dispersion.h"
+#include "rf/channel/frequency_response.h"
+#include "sim/channel/blocks.h"
+#include "sim/channel/channel_paths.h"
+#include "sim/channel/columns.h"
+#include "sim/channel/element_paths.h"
+#include "sim/plan/effect_plan.h"
+#include "sim/sensor.h"
+#include "sim/world.h"
+
+namespace greatx::sim {
+
+class ChannelSensor : public Sensor {
+ public:
+  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the receivers differ in their number of ports.
+  ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
+                const Scenario& scenario, const World& world, uint32_t channel);
+
+  const SensorSpec& spec() const override { return spec_; }
+  void start(const TickContext& context) override;
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  bool looks_ahead() const override { return paths_[0]->looks_ahead(); }
+  void record_ahead(gpu::TickSlot& slot, const TickContext& next) override;
+  std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  void report(Consistency& consistency) const override {
+    consistency.line_of_sight.add(line_of_sight_errors_);
+  }
+  void count(std::map<std::string, uint64_t>& counters) const override;
+  void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
+
+ private:
+  using Results = std::vector<ChannelPaths::Result>;  ///< [tx]
+  /// A link of arrays that may come into their near field.
+  struct NearLink {
+    size_t receiver = 0, transmitter = 0;
+    double within_m = 0.0;                   ///< nearer than this, every element is solved
+    std::unique_ptr<ElementPaths> elements;  ///< made when it first is; else null
+    std::array<bool, slots_in_flight> recorded{};
+  };
+  void find_near_links();
+  std::unique_ptr<ElementPaths> make_elements(const NearLink& link) const;
+  /// The link of these ends, if it was solved by elements at the tick of `slot`; else null.
+  const ElementPaths* elements_of(size_t receiver, size_t transmitter, uint32_t slot) const;
+  void describe();
+  std::string metadata() const;
+  void check_sights(const Results& results);
+  std::vector<Array> arrays_of(const Results& results, uint32_t slot) const;
+  struct LinkFacts;
+  LinkFacts facts_of(const Results& results, size_t receiver, size_t transmitter, uint32_t slot) const;
+  rf::ArrayPose transmitter_pose(const Results& results, size_t transmitter) const;
+  rf::ArrayPose receiver_pose(const Results& results, size_t receiver) const;
+  Array block_of(const PortBlock& block, const Results& results, uint32_t slot) const;
+
+  scene::GpuScene& gpu_scene_;
+  rf::CrossingPass& crossings_;
+  const EffectPlan& plan_;
+  const Scenario& scenario_;
+  const World& world_;
+  uint32_t channel_;
+  const ChannelConfig& config_;
+  bool doppler_;
+  std::shared_ptr<RadioWorld> radio_;
+  std::vector<std::unique_ptr<ChannelPaths>> paths_;  ///< [tx]
+  std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
+  std::vector<NearLink> near_links_;
+  bool told_near_ = false;
+  uint64_t near_ticks_ = 0;  ///< links and ticks that were solved by elements
+  rf::ChannelGrid grid_;
+  std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
+  ColumnContext columns_;
+  std::vector<PortBlock> blocks_;
+  std::vector<LinkColumn> link_columns_;
+  std::vector<PathColumn> path_columns_;
+  SensorSpec spec_;
+  ErrorStatistics line_of_sight_errors_;
+};
+
+}  // namespace greatx::sim

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/channel/channel_snapshot.h"
+
+#include <algorithm>
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
+
+}  // namespace
+
+ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world,
+                                 const EffectPlan& plan, const scene::GpuSceneOptions& options,
+                                 uint32_t channel, const Instant& instant)
+    : scenario_(scenario),
+      world_(world),
+      gpu_scene_(device, world.scene, options),
+      ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
+      trajectories_(make_paths(scenario, instant.sequence)),
+      moment_(moment_at(world, trajectories_, Clock(scenario.tick_rate_hz), instant.tick)),
+      crossings_(gpu_scene_, rf::facet_kinds(world.scene, radio_effects(plan, scenario))),
+      radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)) {
+  for (uint32_t t = 0; t < scenario.channels[channel].transmitters.size(); ++t)
+    if (t == instant.transmitter.value_or(t)) transmitters_.push_back(t);
+  GREATX_CHECK(!transmitters_.empty(), "no transmitter {}", *instant.transmitter);
+  for (const uint32_t t : transmitters_) {
+    ChannelEnds ends = channel_ends(scenario, world, channel, t);
+    ends.check_receivers = t == transmitters_[0];
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene_, crossings_, plan, scenario, world, radio_,
+                                                    channel, std::move(ends)));
+  }
+}
+
+void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
+  trajectories_ = make_paths(scenario_, sequence);
+  moment_ = moment_at(world_, trajectories_, Clock(scenario_.tick_rate_hz), tick);
+  started_ = false;  // as if a sequence began here
+}
+
+void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take); }
+
+void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const Take& take, bool check) {
+  paths_[0]->check_receivers(check);  // once is enough for points that have several transmitters
+  for (size_t begin = 0; begin < points.size(); begin += points_at_once) {
+    for (const auto& paths : paths_)
+      paths->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)),
+                        first + begin);
+    if (!solve_batch(first + begin, take)) return;
+  }
+}
+
+bool ChannelSnapshot::solve_batch(size_t first, const Take& take) {
+  if (!started_)
+    for (const auto& paths : paths_) paths->start(moment_.context);
+  started_ = true;
+  gpu::TickSlot& slot = ring_.begin();
+  gpu_scene_.record_update(slot, moment_.bodies);
+  for (const auto& paths : paths_) paths->record(slot, moment_.context);
+  ring_.submit(slot);
+  ring_.wait(slot);
+  std::vector<ChannelPaths::Result> results;
+  for (const auto& paths : paths_) results.push_back(paths->collect(slot));
+
+  for (size_t r = 0; r < results[0].links.size(); ++r)
+    for (size_t t = 0; t < results.size(); ++t) {
+      ChannelPaths::Link& solved = results[t].links[r];
+      Link link{transmitters_[t],
+                first + r,
+                paths_[t]->transmitter().name,
+                paths_[t]->receivers()[r].name,
+                results[t].transmitter,
+                solved.receiver,
+                solved.distance_m,
+                std::move(solved.paths)};
+      if (!take(std::move(link))) return false;
+    }
+  return true;
+}
+
+void ChannelSnapshot::count(std::map<std::string, uint64_t>& counters) const {
+  for (const auto& paths : paths_) {
+    std::map<std::string, uint64_t> own;
+    paths->count(own);
+    for (const auto& [name, value] : own) counters[name] += value;
+  }
+}
+
+}  // namespace greatx::sim

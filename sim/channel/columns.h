@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a channel writes of every path and of every link, as tables: one row here is one array of the data set, its
+// declaration and its value together.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/record.h"
+#include "rf/channel/statistics.h"
+#include "rf/path.h"
+#include "rf/radio_model.h"
+#include "sim/scenario/scenario.h"
+
+namespace greatx::sim {
+
+/// A link with everything that its rows may need.
+struct LinkView {
+  int32_t receiver = 0, transmitter = 0;  ///< indices in the channel
+  const rf::LinkStatistics* statistics = nullptr;
+  bool every_element =
+      false;  ///< its frequency response is of every element, not of a plane wave over the arrays
+  double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< if they are asked for
+  double taps_power_outside = 0.0;                              ///< rf::TapCoverage, if there are taps
+};
+
+/// A path of a link.
+struct PathView {
+  const LinkView* link = nullptr;
+  const rf::Path* path = nullptr;
+  std::span<const std::complex<float>> amplitude;  ///< [rx_ant, tx_ant]
+  std::span<const std::complex<float>> field;      ///< [tx_ant, 2] V/m, if a power is given
+};
+
+/// An array with one row of `row` elements a path or a link.
+template <typename View>
+struct Column {
+  std::string name;
+  DType dtype = DType::f64;
+  std::vector<int64_t> row;  ///< shape of one row; empty: a number
+  std::string unit, description;
+  std::function<void(const View&, std::byte*)> fill;  ///< writes one row
+
+  size_t row_bytes() const;
+};
+using PathColumn = Column<PathView>;
+using LinkColumn = Column<LinkView>;
+
+/// The sizes and tables that rows refer to; outlives the columns.
+struct ColumnContext {
+  const scene::Scene* scene = nullptr;
+  const rf::RadioModel* model = nullptr;
+  const ChannelConfig* config = nullptr;
+  int64_t rx_ports = 1, tx_ports = 1;
+};
+std::vector<PathColumn> path_columns(const ColumnContext& context);
+std::vector<LinkColumn> link_columns(const ColumnContext& context);
+
+}  // namespace greatx::sim

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/channel/ends.h"
+
+#include <fmt/format.h>
+
+namespace greatx::sim {
+
+ChannelEnd antenna_end(const Scenario& scenario, const World& world, const std::string& name) {
+  const auto [node, sensor] = sensor_place(scenario, name);
+  const NodeConfig& config = scenario.nodes[node];
+  return {name, node, mount_pose(config.sensors[sensor].mount), world.body_of_node[node],
+          std::holds_alternative<StaticTrajectory>(config.trajectory)};
+}
+
+ChannelEnd point_end(const dvec3& point, size_t number) {
+  return {fmt::format("point {}", number), std::nullopt, Pose{point, dquat(1.0, 0.0, 0.0, 0.0)}, 0, true};
+}
+
+ChannelEnds channel_ends(const Scenario& scenario, const World& world, uint32_t channel,
+                         uint32_t transmitter) {
+  const ChannelConfig& config = scenario.channels[channel];
+  ChannelEnds ends;
+  ends.transmitter = antenna_end(scenario, world, config.transmitters[transmitter]);
+  for (const std::string& name : config.receivers)
+    ends.receivers.push_back(antenna_end(scenario, world, name));
+  ends.check_receivers = transmitter == 0;
+  return ends;
+}
+
+rf::EndState state_of(const ChannelEnd& end, const World& world, const TickContext& context) {
+  rf::EndState state;
+  if (!end.node) {
+    const Pose pose = world.scene.to_local(end.mount);
+    state.position = pose.position;
+    state.orientation = pose.orientation;
+    return state;
+  }
+  const Motion& node = context.nodes[*end.node];
+  const Pose pose = world.scene.to_local(node.pose) * end.mount;
+  state.position = pose.position;
+  state.velocity = node.velocity + glm::cross(node.angular_velocity, node.pose.rotate(end.mount.position));
+  state.orientation = pose.orientation;
+  state.body = end.body;
+  return state;
+}
+
+dvec3 world_position(const ChannelEnd& end, const TickContext& context) {
+  return end.node ? (context.nodes[*end.node].pose * end.mount).position : end.mount.position;
+}
+
+}  // namespace greatx::sim

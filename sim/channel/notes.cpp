@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/channel/notes.h"
+
+#include <algorithm>
+
+#include "sim/channel/channel_paths.h"
+#include "sim/channel/channel_search.h"
+
+namespace greatx::sim {
+
+std::vector<std::pair<std::string, std::string>> channel_notes(const Scenario& scenario, const World& world,
+                                                               const EffectPlan& plan, uint32_t channel) {
+  const ChannelConfig& config = scenario.channels[channel];
+  const ChannelEnds of = channel_ends(scenario, world, channel, 0);
+  const ChannelSearch::Ends ends{
+      of.transmitter.rests,
+      std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
+      of.transmitter.body};
+  // No note speaks of edges, and finding them takes a while.
+  rf::RadioEffects effects = radio_effects(plan, scenario);
+  effects.diffraction = false;
+  const rf::RadioModel model(world.scene, config.carrier_hz, effects);
+  return ChannelSearch(nullptr, model, plan, config, ends).notes();
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/plan/array_plan.h"
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "sim/channel/antennas.h"
+#include "sim/plan/trajectory_bounds.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// Where an antenna can ever be, world coordinates.
+scene::Bounds reach_of(const Scenario& scenario, const std::string& name) {
+  const auto [node, sensor] = sensor_place(scenario, name);
+  scene::Bounds bounds;
+  add_trajectory(scenario.nodes[node].trajectory, bounds);
+  const dvec3 mount(glm::length(scenario.nodes[node].sensors[sensor].mount.position_m));
+  return {bounds.min - mount, bounds.max + mount};
+}
+
+double distance(const scene::Bounds& a, const scene::Bounds& b) {
+  return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), dvec3(0.0)));
+}
+
+/// The link that may come deepest into its near field.
+struct Nearest {
+  double far_m = 0.0, distance_m = 0.0;  ///< its far field's beginning; the least that its ends can be apart
+  std::string transmitter, receiver;
+  bool near() const { return distance_m < far_m; }
+};
+
+Nearest nearest_of(const Scenario& scenario) {
+  Nearest nearest;
+  for (const ChannelConfig& channel : scenario.channels) {
+    if (channel.candidates == "rays") continue;
+    for (size_t t = 0; t < channel.transmitters.size(); ++t)
+      for (size_t r = 0; r < channel.receivers.size(); ++r) {
+        const double far_m = far_field_distance_m(scenario, channel, t, r);
+        if (far_m == 0.0) continue;
+        const double distance_m =
+            distance(reach_of(scenario, channel.transmitters[t]), reach_of(scenario, channel.receivers[r]));
+        if (nearest.far_m == 0.0 || distance_m / far_m < nearest.distance_m / nearest.far_m)
+          nearest = {far_m, distance_m, channel.transmitters[t], channel.receivers[r]};
+      }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+double far_field_distance_m(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
+                            size_t receiver) {
+  return rf::far_field_distance_m(
+      antenna_array(scenario, channel.transmitters[transmitter], channel.carrier_hz),
+      antenna_array(scenario, channel.receivers[receiver], channel.carrier_hz), channel.carrier_hz);
+}
+
+bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
+                 size_t receiver) {
+  return distance(reach_of(scenario, channel.transmitters[transmitter]),
+                  reach_of(scenario, channel.receivers[receiver])) <
+         far_field_distance_m(scenario, channel, transmitter, receiver);
+}
+
+void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
+  const Nearest nearest = nearest_of(scenario);
+  const bool rays = std::any_of(scenario.channels.begin(), scenario.channels.end(),
+                                [](const ChannelConfig& channel) { return channel.candidates == "rays"; });
+  plan.every_element = planner.decide(
+      "every_element", nearest.near(),
+      scenario.channels.empty() ? "no channel"
+      : nearest.far_m == 0.0    ? (rays ? "candidates from rays are for one point of an array"
+                                        : "no antenna has more than one element")
+      : nearest.near()
+          ? fmt::format("{} and {} may come within {:.3g} m: in links nearer than their far field every two "
+                        "elements are solved apart",
+                        nearest.transmitter, nearest.receiver, nearest.distance_m)
+          : "all links are in the far field of their arrays: a plane wave over each",
+      nearest.far_m == 0.0
+          ? ""
+          : fmt::format("far field from 2 (D_tx + D_rx)^2/lambda = {:.3g} m ({}, {}); beyond it "
+                        "phases at the edges are off by pi/8 at most",
+                        nearest.far_m, nearest.transmitter, nearest.receiver));
+  if (!plan.every_element.on) return;
+  if (rays) throw_user_error("effects: every_element: expected auto or off with candidates: rays, found on");
+  if (nearest.far_m == 0.0) plan.every_element.on = false;
+}
+
+}  // namespace greatx::sim

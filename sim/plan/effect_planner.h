@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the parts of the effect plan decide: what is needed, then what the scenario switches.
+#pragma once
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "sim/plan/effect_plan.h"
+
+namespace greatx::sim {
+
+/// Applies the scenario's switches on top of the automatic decision.
+class Planner {
+ public:
+  explicit Planner(const Scenario& scenario) : scenario_(scenario) {}
+
+  Effect fixed(const std::string& name, bool needed, const std::string& reason,
+               const std::string& bound = "") const {
+    if (scenario_.effects.count(name) > 0 && scenario_.effects.at(name) != Switch::automatic)
+      throw_user_error("{}: effects.{}: cannot be switched: it is {} because {}; expected auto",
+                       scenario_.file.empty() ? scenario_.name : scenario_.file.string(), name,
+                       needed ? "on" : "off", reason);
+    return {name, false, needed, reason, bound};
+  }
+  Effect decide(const std::string& name, bool needed, const std::string& reason,
+                const std::string& bound = "") const {
+    const auto it = scenario_.effects.find(name);
+    const Switch wish = it == scenario_.effects.end() ? Switch::automatic : it->second;
+    if (wish == Switch::on && !needed)
+      return {name, true, true, fmt::format("switched on ({})", reason), bound};
+    if (wish == Switch::off && needed)
+      return {name, true, false, fmt::format("switched off ({})", reason), bound};
+    return {name, true, needed, reason, bound};
+  }
+
+ private:
+  const Scenario& scenario_;
+};
+
+/// The radio part of the plan (sim/plan/radio_plan.cpp).
+void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
+                const scene::Scene& scene);
+
+}  // namespace greatx::sim

@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which radio effects a scenario calls for, each with a bound on what it can change.
+#include "sim/plan/radio_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+#include "rf/atmosphere/bounds.h"
+#include "rf/atmosphere/fog.h"
+#include "rf/atmosphere/gas.h"
+#include "rf/atmosphere/rain.h"
+#include "rf/radio_model.h"
+#include "rf/roughness.h"
+#include "sim/plan/array_plan.h"
+#include "sim/plan/effect_planner.h"
+#include "sim/plan/trajectory_bounds.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// What the channels ask for, and the largest of each.
+struct Asks {
+  size_t channels = 0;
+  uint32_t max_depth = 0, walls = 0, time_samples = 1;
+  bool every_tick = false, beams = false, rays = false;
+  std::vector<double> carriers_hz;  ///< [channels]
+  double longest_record_s = 0.0, highest_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
+};
+
+/// What the scene's surfaces are to radio.
+struct Surfaces {
+  bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
+  size_t walls = 0;            ///< materials that let waves pass (rf::dark_wall_db)
+  double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
+  std::string clearest;        ///< the material that has it
+  double roughness_m = 0.0;
+};
+
+Asks asks_of(const Scenario& scenario) {
+  Asks asks;
+  for (const ChannelConfig& channel : scenario.channels) {
+    ++asks.channels;
+    asks.max_depth = std::max(asks.max_depth, channel.max_depth);
+    asks.walls = std::max(asks.walls, channel.walls());
+    asks.time_samples = std::max(asks.time_samples, channel.time_samples);
+    asks.longest_record_s =
+        std::max(asks.longest_record_s, (channel.time_samples - 1) * channel.time_spacing_s);
+    asks.carriers_hz.push_back(channel.carrier_hz);
+    asks.highest_hz = std::max(asks.highest_hz, channel.carrier_hz);
+    asks.lowest_hz = std::min(asks.lowest_hz, channel.carrier_hz);
+    asks.every_tick |= channel.search == "every_tick";
+    (channel.candidates == "rays" ? asks.rays : asks.beams) = true;
+  }
+  return asks;
+}
+
+Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
+  Surfaces surfaces;
+  std::vector<bool> seen(scene.materials.size(), false);
+  for (const scene::Facet& facet : scene.facets) {
+    surfaces.triangles = true;
+    surfaces.moving |= facet.body != 0;
+    const scene::Material& material = scene.materials[facet.material];
+    if (asks.channels == 0 || seen[facet.material] || !material.radio) continue;
+    seen[facet.material] = true;
+    if (material.radio->foliage) {
+      surfaces.foliage = true;
+      continue;
+    }
+    surfaces.edges = true;
+    surfaces.scattering |= material.radio->scattering_coefficient > 0.0;
+    surfaces.roughness_m = std::max(surfaces.roughness_m, material.radio->roughness_m);
+    if (!rf::penetrable(*material.radio)) continue;
+    const double loss = rf::wall_loss_db(material, asks.lowest_hz);
+    if (loss >= rf::dark_wall_db) continue;
+    if (surfaces.walls++ == 0 || loss < surfaces.least_loss_db) {
+      surfaces.least_loss_db = loss;
+      surfaces.clearest = material.name;
+    }
+  }
+  return surfaces;
+}
+
+/// No path is longer: each of its segments stays in the box around the scene and its trajectories.
+double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth) {
+  scene::Bounds bounds;
+  if (!scene.bounds.empty()) {
+    bounds.add(scene.bounds.min + scene.origin);
+    bounds.add(scene.bounds.max + scene.origin);
+  }
+  for (const NodeConfig& node : scenario.nodes) add_trajectory(node.trajectory, bounds);
+  return (max_depth + 1.0) * glm::length(bounds.size());
+}
+
+/// The parts of the decision that every function below needs.
+struct Radio {
+  const Planner& planner;
+  const Asks& asks;
+  const Surfaces& surfaces;
+  bool on() const { return asks.channels > 0; }
+  /// `reason`, unless there is no channel.
+  std::string why(const std::string& reason) const { return on() ? reason : "no channel"; }
+};
+
+void plan_reflection(EffectPlan& plan, const Radio& radio) {
+  const Asks& asks = radio.asks;
+  plan.channel =
+      radio.planner.fixed("channel", radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
+  plan.line_of_sight =
+      radio.planner.decide("line_of_sight", radio.on(), radio.why("transmitters and receivers"));
+  const bool reflect = radio.on() && asks.max_depth > 0 && radio.surfaces.triangles;
+  plan.reflection = radio.planner.decide(
+      "reflection", reflect,
+      radio.why(asks.max_depth == 0         ? "max_depth is 0"
+                : !radio.surfaces.triangles ? "the scene has no surface"
+                                            : fmt::format("surfaces, up to {} reflections", asks.max_depth)),
+      !reflect    ? ""
+      : asks.rays ? "candidates from rays: what is narrower than their spacing may be missed"
+                  : "candidates from beams: none is missed");
+  plan.moving_reflectors = radio.planner.decide(
+      "moving_reflectors", plan.reflection.on && radio.surfaces.moving && asks.every_tick,
+      radio.why(!plan.reflection.on      ? "no reflection"
+                : !radio.surfaces.moving ? "no mesh moves"
+                : asks.every_tick        ? "candidates are searched at every tick"
+                                  : "candidates of the static world are searched once; moving meshes block "
+                                    "paths but do not reflect "
+                                    "them (effects: {moving_reflectors: on} to have that)"));
+}
+
+void plan_transmission(EffectPlan& plan, const Radio& radio) {
+  const Surfaces& surfaces = radio.surfaces;
+  const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
+  plan.transmission = radio.planner.decide(
+      "transmission", walls,
+      radio.why(
+          radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
+          : surfaces.walls == 0
+              ? fmt::format("no material lets waves pass: all are half-spaces (no thickness given), or "
+                            "take {:.0f} dB or more",
+                            rf::dark_wall_db)
+              : fmt::format("{} materials let waves pass, up to {} walls", surfaces.walls, radio.asks.walls)),
+      walls ? fmt::format(
+                  "the clearest, {}, takes {:.2f} dB at normal incidence and {:.4g} GHz; dark from {:.0f} dB",
+                  surfaces.clearest, surfaces.least_loss_db, radio.asks.lowest_hz * 1e-9, rf::dark_wall_db)
+            : "");
+}
+
+/// Asked for, but there is nothing for it to act on.
+void deny(Effect& effect) {
+  effect.on = false;
+  effect.reason = "asked for, but nothing to act on" + effect.reason.substr(effect.reason.find(" ("));
+}
+
+/// Effects that cost a search or thousands of paths, and that a scenario therefore asks for by name.
+void plan_on_request(EffectPlan& plan, const Radio& radio) {
+  const bool deep = radio.on() && radio.asks.max_depth > 0;
+  const bool edges = deep && radio.surfaces.edges;
+  plan.diffraction = radio.planner.decide(
+      "diffraction", false,
+      radio.why(edges ? "not asked for (effects: {diffraction: on})"
+                      : (deep ? "the scene has no edge" : "max_depth is 0")),
+      edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
+            : "");
+  if (plan.diffraction.on && !edges) deny(plan.diffraction);
+  plan.diffraction_lit_region = radio.planner.decide(
+      "diffraction_lit_region", plan.diffraction.on,
+      plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
+  plan.free_edges =
+      radio.planner.decide("free_edges", false, "edges of one facet alone bound drawings, seldom plates");
+  const bool rough = deep && radio.surfaces.scattering;
+  plan.scattering = radio.planner.decide("scattering", false,
+                                         radio.why(rough ? "not asked for (effects: {scattering: on})"
+                                                         : "no material has a scattering coefficient"));
+  if (plan.scattering.on && !rough) deny(plan.scattering);
+  plan.dispersion = radio.planner.decide(
+      "dispersion", false,
+      radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
+}
+
+/// The most that the air does to any path of any channel.
+struct Most {
+  double db = 0.0, carrier_hz = 0.0;  ///< of the channel that it does it to
+  double outside_hz = 0.0;            ///< a carrier that the recommendation does not cover; 0: none
+};
+using AirBound = double (*)(const rf::Weather&, double frequency_hz, double distance_m);
+
+Most most_of(const Asks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
+             AirBound bound) {
+  Most most;
+  for (const double carrier : asks.carriers_hz) {
+    if (!covers(carrier)) {
+      most.outside_hz = carrier;
+      continue;
+    }
+    // Attenuation by gas has lines: the highest carrier need not be the one that loses most.
+    const double db = bound(weather, carrier, distance_m);
+    if (most.carrier_hz == 0.0 || db > most.db) most.db = db, most.carrier_hz = carrier;
+  }
+  return most;
+}
+
+/// Gas, rain, fog. Outside its recommendation's range an effect has no bound: it stays off, and says so.
+Effect plan_air(const Radio& radio, const char* name, const Most& most, double longest_m, double tolerance,
+                const std::string& none, const char* source) {
+  const bool needed = radio.on() && most.db > tolerance;
+  const bool no_bound = !radio.on() || most.db == 0.0;
+  const std::string but = most.outside_hz > 0.0 ? fmt::format("; not at {:.4g} GHz, which {} does not cover",
+                                                              most.outside_hz * 1e-9, source)
+                                                : std::string();
+  Effect effect = radio.planner.decide(
+      name, needed,
+      radio.why(needed ? "more than the tolerance" + but
+                : most.outside_hz > 0.0
+                    ? fmt::format("{} does not cover {:.4g} GHz", source, most.outside_hz * 1e-9)
+                : most.db == 0.0 ? none
+                                 : "within the tolerance"),
+      no_bound ? ""
+               : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most.db,
+                             longest_m, most.carrier_hz * 1e-9, tolerance));
+  if (effect.on && most.outside_hz > 0.0 && most.carrier_hz == 0.0)
+    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on", name,
+                     source, most.outside_hz * 1e-9);
+  return effect;
+}
+
+/// Effects that a bound decides.
+void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
+  const double tolerance = scenario.tolerance_db;
+  const rf::Weather weather = weather_of(scenario.environment);
+  const Asks& asks = radio.asks;
+  const Most gas = most_of(asks, weather, longest_m, rf::gas_model_covers, rf::most_gas_db);
+  plan.gas = plan_air(radio, "gas", gas, longest_m, tolerance, "no air", "P.676-13");
+  Most rain, fog;
+  if (weather.rain_mm_h > 0.0)
+    rain = most_of(asks, weather, longest_m, rf::rain_model_covers, rf::most_rain_db);
+  plan.rain = plan_air(radio, "rain", rain, longest_m, tolerance, "no rain", "P.838-3");
+  if (weather.fog_g_m3 > 0.0) fog = most_of(asks, weather, longest_m, rf::fog_model_covers, rf::most_fog_db);
+  plan.fog = plan_air(radio, "fog", fog, longest_m, tolerance, "no fog", "P.840");
+  const bool leaves = radio.on() && radio.surfaces.foliage;
+  plan.foliage = radio.planner.decide(
+      "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
+  const double g = rf::roughness_parameter(radio.surfaces.roughness_m, 1.0,
+                                           speed_of_light / std::max(asks.highest_hz, 1.0));
+  const double rough_db =
+      asks.max_depth * -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
+  const bool rough = plan.reflection.on && rough_db > tolerance;
+  plan.roughness =
+      radio.planner.decide("roughness", rough,
+                           radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
+                                     : rough                           ? "more than the tolerance"
+                                                                       : "within the tolerance"),
+                           radio.surfaces.roughness_m == 0.0 || !radio.on()
+                               ? ""
+                               : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
+                                             rough_db, asks.max_depth, tolerance));
+}
+
+/// Speeds are not known before the run: the Doppler bound is stated per m/s.
+void plan_doppler(EffectPlan& plan, const Radio& radio) {
+  const bool doppler = radio.on() && radio.asks.time_samples > 1;
+  plan.doppler = radio.planner.decide(
+      "doppler", doppler,
+      radio.why(doppler ? fmt::format("{} time samples a record", radio.asks.time_samples)
+                        : "one time sample a record: shifts are reported with the paths, phases do not turn"),
+      doppler ? fmt::format("{:.3g} turns per m/s within a record",
+                            radio.asks.longest_record_s * radio.asks.highest_hz / speed_of_light)
+              : "");
+}
+
+}  // namespace
+
+rf::Weather weather_of(const Environment& environment) {
+  rf::Weather weather;
+  weather.temperature_k = environment.temperature_k;
+  weather.dry_pressure_hpa = environment.pressure_hpa;
+  weather.water_vapour_g_m3 = environment.water_vapour_g_m3;
+  weather.rain_mm_h = environment.rain_mm_h;
+  weather.fog_g_m3 = environment.fog_g_m3;
+  return weather;
+}
+
+void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
+                const scene::Scene& scene) {
+  const Asks asks = asks_of(scenario);
+  const Surfaces surfaces = surfaces_of(scene, asks);
+  const Radio radio{planner, asks, surfaces};
+  plan_reflection(plan, radio);
+  plan_transmission(plan, radio);
+  plan_on_request(plan, radio);
+  plan_attenuation(plan, radio, scenario, longest_path_m(scenario, scene, asks.max_depth));
+  plan_doppler(plan, radio);
+  plan_arrays(plan, planner, scenario);
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/scene.h"
+#include "sim/scenario/scenario.h"
+
+namespace greatx::sim {
+
+/// Adds a box, world coordinates, that the trajectory never leaves, whatever is drawn.
+void add_trajectory(const Trajectory& trajectory, scene::Bounds& bounds);
+
+}  // namespace greatx::sim

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scenario as the user wrote it: what is in the world, who moves how, which sensors fire when. Plain data,
+// no behaviour; docs/scenario.md documents every field, docs/scenario.schema.json checks it in an editor.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "core/vec.h"
+#include "rf/antenna/antenna.h"
+#include "sim/scenario/rational.h"
+
+namespace greatx::sim {
+
+// ---------------------------------------------------------------------------------------------- what is in
+// the world
+
+/// A scene or model made by the generator (scene/generator) instead of read from a file.
+struct Generated {
+  std::string kind;  ///< city, country, canyon, room, mast, car, quadrotor
+  uint64_t seed = 1;
+  double size_m = 300.0;  ///< city, country: edge of the square; canyon: length
+  std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
+};
+
+/// Where a mesh comes from.
+struct ModelSource {
+  std::variant<std::filesystem::path, Generated> source;  ///< path: absolute after parsing
+  SourceLocation where;
+};
+
+/// A model that never moves.
+struct StaticObject {
+  std::string name;
+  ModelSource model;
+  dvec3 position_m{0.0};
+  dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
+  dvec3 scale{1.0};
+  std::optional<std::string> semantic_class;
+};
+
+struct SceneConfig {
+  std::vector<StaticObject> objects;  ///< `scene.file` or `scene.generate` is the first one
+  std::optional<dvec3> origin_m;
+  std::filesystem::path radio_materials;  ///< sidecar YAML; empty: none
+  bool optical_only = false;
+};
+
+struct Environment {
+  double sun_azimuth = -0.25 * pi;        ///< rad, from x (east) towards y (north): the direction to the sun
+  double sun_elevation = 0.25 * pi;       ///< rad above the horizon
+  double sun_illuminance_lux = 100000.0;  ///< on a surface facing the sun
+  double sky_illuminance_lux = 15000.0;   ///< on the ground from the sky alone
+  double temperature_k = 288.15;
+  double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
+  double water_vapour_g_m3 = 7.5;
+  double rain_mm_h = 0.0;
+  double fog_g_m3 = 0.0;  ///< liquid water
+};
+
+// ------------------------------------------------------------------------------------------------- who moves
+// and how
+
+struct StaticTrajectory {
+  dvec3 position_m{0.0};
+  dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
+};
+
+struct WayPoint {
+  double time_s = 0.0;
+  dvec3 position_m{0.0};
+  std::optional<dquat> orientation;
+};
+
+/// Way-points with times, in the file or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]). Positions by
+/// a C1 cubic Hermite (Catmull-Rom tangents for uneven times) or linear; attitude by slerp, or along the
+/// velocity if none given.
+struct WayPointTrajectory {
+  std::vector<WayPoint> points;  ///< at least one, times ascending
+  bool smooth = true;
+};
+
+/// Cubic Bezier curve in a box: start and end drawn from the seed within `min`..`max` and at d_min..d_max
+/// from a node; P1 and P2 are the thirds of the chord plus offsets drawn within +-offset; B(u) sampled
+/// uniformly over the duration.
+struct BezierTrajectory {
+  dvec3 min_m{0.0}, max_m{0.0};
+  std::string reference_node;  ///< empty: no distance limit
+  double min_distance_m = 0.0, max_distance_m = 1e9;
+  dvec3 offset_m{0.0};
+  /// All four control points given instead of drawn.
+  std::optional<std::array<dvec3, 4>> control_points;
+};
+
+/// Spatially constrained random linear interpolation: straight legs between points drawn within `width_m`,
+/// `height_m` of a centre line, at a constant speed.
+struct CorridorTrajectory {
+  std::vector<dvec3> center_line_m;  ///< two points at least
+  double width_m = 0.0, height_m = 0.0;
+  int legs = 4;
+};
+
+using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory>;
+
+// ------------------------------------------------------------------------------------------------------- the
+// sensors
+
+/// 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
+struct Mount {
+  dvec3 position_m{0.0};
+  dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
+};
+
+struct CameraConfig {
+  uint32_t width = 640, height = 480;
+  double fx = 0.0, fy = 0.0, cx = 0.0,
+         cy = 0.0;  ///< pixels; from `fov_deg` (horizontal) if the user gave that
+  double near_m = 0.1;
+  uint32_t msaa = 4;                          ///< samples per pixel of the colour: 1 or 4
+  double exposure_ev100 = 15.0;               ///< EV at ISO 100
+  bool rgb = true, depth = true, ids = true;  ///< what to deliver
+  bool hdr = false;                           ///< also the linear radiance as EXR
+  bool depth_png24 = true, depth_log = false;
+  bool see_own_body = false;
+};
+
+struct LidarConfig {
+  std::vector<double> elevations;  ///< rad, one a channel, from the first ring up or down as given
+  uint32_t azimuth_steps = 1024;
+  double azimuth_start = 0.0, azimuth_span = 2.0 * pi;  ///< rad; left is positive
+  double sweep_s = 0.0;                                 ///< duration of one sweep; 0: all shots at the tick
+  double min_range_m = 0.5, max_range_m = 120.0;
+  double wavelength_nm = 905.0;  ///< 905 or 1550
+  bool see_own_body = false;
+};
+
+/// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.
+struct AntennaConfig {
+  rf::ElementPattern pattern;
+  rf::Polarization polarization = rf::Polarization::v;
+  double single_slant = 0.0;  ///< rad, of Polarization::single
+  rf::ArrayPlane plane = rf::ArrayPlane::yz;
+  uint32_t rows = 1, columns = 1;
+  double row_spacing_wl = 0.5, column_spacing_wl = 0.5;
+  std::vector<dvec3> elements_wl;  ///< if there are any, they take the place of rows and columns
+};
+
+struct SensorConfig {
+  std::string name;
+  Mount mount;
+  std::variant<CameraConfig, LidarConfig, AntennaConfig> config;
+  Rational rate_hz;  ///< of cameras and LiDARs; antennas fire with their channel
+  SourceLocation where;
+};
+
+struct NodeConfig {
+  std::string name;
+  Trajectory trajectory;
+  std::optional<ModelSource> model;  ///< a mesh that follows the node
+  Mount model_mount;                 ///< body_from_model
+  dvec3 model_scale{1.0};
+  std::optional<std::string> semantic_class;
+  std::vector<SensorConfig> sensors;
+  SourceLocation where;
+};
+
+/// Channel state information from transmit antennas to receive antennas.
+struct ChannelConfig {
+  std::string name;
+  std::vector<std::string> transmitters;  ///< "node/sensor"
+  std::vector<std::string> receivers;     ///< "node/sensor"
+  Rational rate_hz;
+  double carrier_hz = 3.5e9;
+  double subcarrier_spacing_hz = 30e3;
+  uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
+  uint32_t time_samples = 1;   ///< per record, by Doppler
+  double time_spacing_s = 1e-3;
+  uint32_t max_depth = 3;  ///< interactions on a path: reflections, walls passed, a diffraction or scattering
+  std::optional<uint32_t> max_transmissions;  ///< of them walls passed; none given: max_depth
+  uint32_t max_reflections_after =
+      0;  ///< of them reflections between a diffraction or scattering and the searched-for end
+  /// Of them reflections between the end that is searched from and a scattering.
+  uint32_t max_reflections_before_scattering = 1;
+  double scattering_patch_m = 10.0;  ///< longest side of the pieces that scatter as one
+  uint32_t max_paths = 100'000;      ///< geometric paths of a link and tick; what is beyond is reported
+  std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
+  uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
+  std::string search = "auto";       ///< auto, once (from a static end), every_tick
+  /// Which arrays are written besides those of every link.
+  struct Outputs {
+    bool cfr = true, paths = true;
+    bool cfr_parts = false;  ///< the line of sight and all else apart
+    bool coherence = false;  ///< bandwidth and time
+  } outputs;
+  struct Taps {
+    double bandwidth_hz = 20e6;
+    int32_t first = 0;
+    uint32_t count = 64;
+  };
+  std::optional<Taps> taps;
+  std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
+  double resistance_ohm = 50.0;     ///< of each receive port
+  uint32_t walls() const { return std::min(max_transmissions.value_or(max_depth), max_depth); }
+  SourceLocation where;
+};
+
+// ------------------------------------------------------------------------------------------------------ all
+// together
+
+enum class Switch { automatic, on, off };
+
+struct Scenario {
+  std::string name;
+  std::filesystem::path file;  ///< empty: embedded
+  std::string text;            ///< the YAML as read; its SHA-256 is the scenario's hash
+  uint64_t seed = 1;
+  uint32_t sequences = 1;  ///< runs of the same scenario, each with its own draws
+  Rational tick_rate_hz{1000, 1};
+  int64_t ticks = 0;  ///< per sequence
+  SceneConfig scene;
+  Environment environment;
+  std::vector<NodeConfig> nodes;
+  std::vector<ChannelConfig> channels;
+  std::map<std::string, Switch> effects;  ///< by the names of sim/plan/effect_plan.h
+  double tolerance_db = 0.01;             ///< an effect that cannot matter more than this stays off
+};
+
+/// Where a sensor called "node/sensor" is.
+struct SensorPlace {
+  uint32_t node = 0, sensor = 0;  ///< indices into Scenario::nodes, NodeConfig::sensors
+};
+std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name);
+/// Of a name that the parser has checked, such as a channel's ends.
+SensorPlace sensor_place(const Scenario& scenario, const std::string& name);
+
+/// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
+/// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
+/// sensors).
+/// A relative path that does not exist beside the scenario is looked for in `assets`, if that is not empty.
+Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets = {});
+/// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
+Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                        const std::filesystem::path& assets = {});
+
+}  // namespace greatx::sim

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// nodes[].sensors[]: what all have, cameras, LiDARs.
+#include <cmath>
+#include <set>
+
+#include "core/units.h"
+#include "sim/scenario/scenario_parse.h"
+
+namespace greatx::sim {
+namespace {
+
+constexpr uint32_t largest_image_edge = 16384;
+constexpr uint32_t most_channels = 4096;
+
+Mount parse_mount(const Field& field) {
+  const FieldMap map(field, {"position_m", "rotation_deg"});
+  Mount mount;
+  if (const auto f = map.find("position_m")) mount.position_m = f->vector3();
+  if (const auto f = map.find("rotation_deg")) mount.rotation = f->angles_deg();
+  return mount;
+}
+
+/// fov_deg (horizontal, square pixels), or fx and, if it differs, fy; the principal point is the centre by
+/// default.
+void parse_intrinsics(const FieldMap& map, CameraConfig& camera) {
+  map.exclude("fov_deg", "fx");
+  map.exclude("fov_deg", "fy");
+  if (const auto f = map.find("fov_deg")) {
+    const double fov_deg = f->number();
+    if (!(fov_deg > 0.0 && fov_deg < 180.0)) f->fail("an angle greater than 0 and less than 180");
+    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * radians(fov_deg));
+  } else {
+    camera.fx = camera.fy = map.require("fx", "a focal length in pixels (or 'fov_deg')").positive();
+    if (const auto fy = map.find("fy")) camera.fy = fy->positive();
+  }
+  camera.cx = 0.5 * camera.width;
+  camera.cy = 0.5 * camera.height;
+  if (const auto f = map.find("cx")) camera.cx = f->number();
+  if (const auto f = map.find("cy")) camera.cy = f->number();
+}
+
+void parse_outputs(const Field& field, CameraConfig& camera) {
+  camera.rgb = camera.depth = camera.ids = camera.hdr = camera.depth_png24 = camera.depth_log = false;
+  bool* const outputs[] = {&camera.rgb, &camera.depth,       &camera.ids,
+                           &camera.hdr, &camera.depth_png24, &camera.depth_log};
+  for (const Field& item : field.list("outputs", 1)) {
+    bool& output = *outputs[item.choice({"rgb", "depth", "ids", "hdr", "depth_png24", "depth_log"})];
+    if (output) item.fail("every output once", fmt::format("a second '{}'", item.text()));
+    output = true;
+  }
+}
+
+CameraConfig parse_camera(const FieldMap& map) {
+  CameraConfig camera;
+  if (const auto f = map.find("width")) camera.width = f->integer32(1, largest_image_edge);
+  if (const auto f = map.find("height")) camera.height = f->integer32(1, largest_image_edge);
+  parse_intrinsics(map, camera);
+  if (const auto f = map.find("near_m")) camera.near_m = f->positive();
+  if (const auto f = map.find("msaa")) camera.msaa = f->choice({"1", "4"}) == 0 ? 1 : 4;
+  if (const auto f = map.find("exposure_ev100")) camera.exposure_ev100 = f->between(-20.0, 40.0);
+  if (const auto f = map.find("outputs")) parse_outputs(*f, camera);
+  if (const auto f = map.find("see_own_body")) camera.see_own_body = f->boolean();
+  return camera;
+}
+
+void parse_elevations(const FieldMap& map, LidarConfig& lidar) {
+  for (const char* even : {"channels", "elevation_min_deg", "elevation_max_deg"})
+    map.exclude("elevations_deg", even);
+  if (const auto table = map.find("elevations_deg")) {
+    const std::vector<Field> items = table->list("elevations", 1);
+    if (items.size() > most_channels) table->fail(fmt::format("at most {} elevations", most_channels));
+    for (const Field& item : items) lidar.elevations.push_back(radians(item.between(-90.0, 90.0)));
+    return;
+  }
+  const uint32_t channels =
+      map.require("channels", "a number of channels (or 'elevations_deg')").integer32(1, most_channels);
+  const double low = map.require("elevation_min_deg", "an angle in degrees").between(-90.0, 90.0);
+  const Field high_field = map.require("elevation_max_deg", "an angle in degrees");
+  const double high = high_field.between(-90.0, 90.0);
+  if (high < low) high_field.fail(fmt::format("an angle of at least elevation_min_deg, {}", low));
+  if (channels == 1 && high != low) high_field.fail(fmt::format("elevation_min_deg, {}, for 1 channel", low));
+  for (uint32_t i = 0; i < channels; ++i)
+    lidar.elevations.push_back(radians(channels == 1 ? low : low + (high - low) * i / (channels - 1)));
+}
+
+LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz) {
+  LidarConfig lidar;
+  parse_elevations(map, lidar);
+  if (const auto f = map.find("azimuth_steps")) lidar.azimuth_steps = f->integer32(1, 1u << 20);
+  if (const auto f = map.find("azimuth_start_deg")) lidar.azimuth_start = radians(f->between(-360.0, 360.0));
+  if (const auto f = map.find("azimuth_span_deg")) {
+    const double span_deg = f->between(-360.0, 360.0);
+    if (span_deg == 0.0) f->fail("an angle other than 0");
+    lidar.azimuth_span = radians(span_deg);
+  }
+  if (const auto f = map.find("sweep_s")) {
+    lidar.sweep_s = f->non_negative();
+    const double period_s = 1.0 / rate_hz.value();
+    if (lidar.sweep_s > period_s * (1.0 + 1e-9)) f->fail(fmt::format("at most one period, {} s", period_s));
+  }
+  const auto min_range = map.find("min_range_m"), max_range = map.find("max_range_m");
+  if (min_range) lidar.min_range_m = min_range->non_negative();
+  if (max_range) lidar.max_range_m = max_range->positive();
+  if (lidar.max_range_m <= lidar.min_range_m) {
+    if (max_range) max_range->fail(fmt::format("a number greater than min_range_m, {}", lidar.min_range_m));
+    min_range->fail(fmt::format("a number less than max_range_m, {}", lidar.max_range_m));
+  }
+  if (const auto f = map.find("wavelength_nm"))
+    lidar.wavelength_nm = f->choice({"905", "1550"}) == 0 ? 905.0 : 1550.0;
+  if (const auto f = map.find("see_own_body")) lidar.see_own_body = f->boolean();
+  return lidar;
+}
+
+}  // namespace
+
+SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns) {
+  enum { camera, lidar, antenna };
+  const size_t kind = kind_of(field, "type", {"camera", "lidar", "antenna"});
+  const FieldMap map =
+      kind == camera
+          ? FieldMap(field, {"name", "type", "mount", "rate_hz", "width", "height", "fov_deg", "fx", "fy",
+                             "cx", "cy", "near_m", "msaa", "exposure_ev100", "outputs", "see_own_body"})
+      : kind == lidar ? FieldMap(field, {"name", "type", "mount", "rate_hz", "channels", "elevation_min_deg",
+                                         "elevation_max_deg", "elevations_deg", "azimuth_steps",
+                                         "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m",
+                                         "max_range_m", "wavelength_nm", "see_own_body"})
+                      : FieldMap(field, {"name", "type", "mount", "pattern", "pattern_file", "polarization",
+                                         "slant_deg", "polarization_model", "plane", "rows", "columns",
+                                         "row_spacing_wl", "column_spacing_wl", "elements_wl"});
+  SensorConfig sensor;
+  sensor.where = field.where();
+  const Field name = map.require("name", "a name");
+  sensor.name = name.name();
+  if (sensor.name == "pose") name.fail("a name other than 'pose', which is every node's own record");
+  if (const auto f = map.find("mount")) sensor.mount = parse_mount(*f);
+  if (kind != antenna)
+    sensor.rate_hz = rate_of(map.require("rate_hz", "a rate greater than 0 such as 10, 29.97 or 30000/1001"),
+                             tick_rate_hz);
+  if (kind == camera) sensor.config = parse_camera(map);
+  if (kind == lidar) sensor.config = parse_lidar(map, sensor.rate_hz);
+  if (kind == antenna) sensor.config = parse_antenna(map, patterns);
+  return sensor;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reading YAML strictly: every value knows its place in the file and its path
+// ("nodes[1].sensors[0].rate_hz"), every wrong one throws UserError "file:line: path: expected ..., found
+// ...".
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "core/error.h"
+#include "core/vec.h"
+#include "sim/scenario/rational.h"
+
+namespace greatx::sim {
+
+/// One value of the document. Numbers follow YAML 1.2's core schema: plain (unquoted) scalars, finite.
+class Field {
+ public:
+  /// The root of the one document in `text`. Throws UserError with the line if it is not well-formed YAML.
+  static Field parse(const std::string& text, const std::string& file_name,
+                     const std::filesystem::path& folder, const std::filesystem::path& assets = {});
+
+  SourceLocation where() const { return {source_->file_name, line_}; }
+  const std::string& path() const { return path_; }
+  [[noreturn]] void fail(const std::string& expected) const;
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
+
+  bool is_list() const { return node_.IsSequence(); }
+  bool is_scalar() const { return node_.IsScalar(); }
+  bool boolean() const;
+  std::string text() const;  ///< not empty
+  /// A name that is also a folder's or file's: letters, digits, '_', '-', '.'; does not begin with '.' or
+  /// '-'.
+  std::string name() const;
+  double number() const;
+  double positive() const;
+  double non_negative() const;
+  double between(double low, double high) const;  ///< inclusive
+  uint64_t integer(uint64_t low, uint64_t high = std::numeric_limits<uint64_t>::max()) const;
+  uint32_t integer32(uint32_t low, uint32_t high) const { return static_cast<uint32_t>(integer(low, high)); }
+  /// A positive rational number, from a number or a text such as 30000/1001; `expected` describes it.
+  Rational rational(const std::string& expected) const;
+  dvec3 vector3() const;
+  dvec3 angles_deg() const;  ///< yaw, pitch, roll in degrees; returned in rad
+  /// The index of the text in `choices`.
+  size_t choice(std::initializer_list<std::string_view> choices) const;
+  /// Items with at least `least` of them; `of_what` names them in messages, e.g. "sensors".
+  std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
+  /// An existing regular file, absolute; relative ones are looked for in the scenario's folder, then among the assets.
+  std::filesystem::path file() const;
+
+ private:
+  friend std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
+  struct Source {
+    std::string file_name;
+    std::filesystem::path folder;
+    std::filesystem::path assets;  ///< empty: none
+  };
+  Field(std::shared_ptr<const Source> source, YAML::Node node, std::string path, int line);
+  std::string describe() const;
+
+  std::shared_ptr<const Source> source_;
+  YAML::Node node_;
+  std::string path_;
+  int line_ = 0;
+};
+
+/// A map whose keys are known beforehand. Unknown and duplicate keys throw.
+class FieldMap {
+ public:
+  FieldMap(const Field& field, std::initializer_list<std::string_view> keys);
+  const Field& field() const { return field_; }
+  std::optional<Field> find(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key).has_value(); }
+  /// Throws "expected `expected`, found nothing" at the map's line if the key is missing.
+  Field require(std::string_view key, const std::string& expected) const;
+  /// Throws if both keys are there.
+  void exclude(std::string_view key, std::string_view other) const;
+
+ private:
+  Field field_;
+  std::vector<std::pair<std::string, Field>> entries_;
+};
+
+/// The entries of a map with free keys, in the file's order. Duplicate keys throw.
+std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
+
+/// " (did you mean 'x'?)" for the candidate nearest to `word`, empty if none is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace greatx::sim
