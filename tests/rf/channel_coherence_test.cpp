@@ -18,6 +18,12 @@ using testing::random_paths;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+TEST(Coherence, ALevelBelowRoundingEndsAtTheNull) {
+  const std::vector<Path> paths{plain_path(1e-6), plain_path(1e-6 + 250e-9, 1.0, false)};
+  const std::vector<double> powers{1e-10, 1e-10};
+  EXPECT_NEAR(coherence_bandwidth_hz(paths, powers, 1e-12) * 250e-9, 0.5, 1e-6);
+}
+
 TEST(Coherence, TwoPaths) {
   // |p + q e^{j x}|^2 = p^2 + q^2 + 2 p q cos x.
   const double apart = 250e-9;

@@ -197,6 +197,22 @@ TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
   }
 }
 
+TEST(EveryElement, MoreElementsThanATickHasTimestampsFor) {
+  // 17 x 16 elements: as many crossings to record in one tick.
+  const RadioRun r = run(scenario({0.5}, forced, "rows: 17, columns: 16"), nothing());
+  EXPECT_EQ(r.counter("every_element_paths"), 272u);
+}
+
+TEST(EveryElement, AnElementOffTheOriginHasItsOwnDistance) {
+  // One element 0.4 m before the mount: paths of the mount would be 0.4 m too long.
+  const double offset_wl = 0.4 * carrier_hz / speed_of_light;
+  const RadioRun r =
+      run(scenario({2.0}, forced, fmt::format("elements_wl: [[{}, 0, 0]]", offset_wl)), nothing());
+  const auto h = r.values<std::complex<float>>(0, "cfr");
+  const double expected = speed_of_light / carrier_hz / (4.0 * pi * 1.6);
+  EXPECT_NEAR(std::abs(h[0]), expected, 1e-5 * expected);
+}
+
 TEST(SeveralTransmitters, EachLinkIsThatOfAChannelOfItsOwn) {
   TinyScene tiny;
   tiny.object("ground", 0, tiny.material_as(radio_material("medium_dry_ground")))
