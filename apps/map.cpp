@@ -97,6 +97,17 @@ void add_ends(Request& request, const Options& options, const sim::Scenario& sce
 }
 
 /// Everything that decides the map's bytes.
+/// Where everything that moves stands: files that the scenario names decide it, too.
+std::string hash_of(std::span<const Pose> bodies) {
+  Sha256 hash;
+  for (const Pose& pose : bodies) {
+    const dquat& q = pose.orientation;
+    const double values[] = {pose.position.x, pose.position.y, pose.position.z, q.w, q.x, q.y, q.z};
+    hash.update(std::as_bytes(std::span(values)));
+  }
+  return hash.hex();
+}
+
 Json json_of(const Options& options, const Request& request, const sim::Scenario& scenario,
              const sim::World& world, const sim::EffectPlan& plan, const sim::MapCells& cells,
              const gpu::Device& device, const sim::Moment& moment) {
@@ -108,6 +119,7 @@ Json json_of(const Options& options, const Request& request, const sim::Scenario
             {"scenario", scenario.name},
             {"scenario_sha256", Sha256().update(scenario.text).hex()},
             {"scene_sha256", world.scene.hash},
+            {"bodies_sha256", hash_of(moment.bodies)},
             {"device", device.info().name},
             {"driver", device.info().driver},
             {"seed", scenario.seed},
