@@ -33,12 +33,12 @@ def rows(table):
     cells = int(SIZE)
     table.say(f"Radio map, {cells} x {cells} cells of 1 m at {HEIGHT} m, etoile, depth 3, opaque walls:")
     table.say()
-    table.say("| | whole process | in a warm process | CPU | peak memory | cells with power | beside greatx: median, 95 % of abs(dB) |")
+    table.say("| | whole process | in a warm process | CPU | cells with power | beside greatx: median, 95 % of abs(dB) |")
     table.say("|---|---|---|---|---|---|---|")
     if ours:
         lit = int(np.isfinite(ours[1]).sum())
         table.say(f"| greatx map (each cell's centre, exact paths) | {ours[0]['wall_s']:.1f} s | – | {ours[0]['cpu_s']:.0f} s | "
-                  f"{ours[0]['peak_mib']:.0f} MiB | {lit} | – |")
+                  f"{lit} | – |")
     else:
         table.say("| greatx map | not built | | | | | |")
     for samples in (1e6, 1e7) if table.options.quick else (1e6, 1e7, 1e8):
@@ -54,7 +54,7 @@ def rows(table):
             beside = (f"{np.median(difference):.2f}, {np.percentile(difference, 95):.1f}; power in {only[0]} cells that have none "
                       f"here, none in {only[1]} that have")
         table.say(f"| Sionna RT, {samples:.0e} rays (mean over a cell) | {got['wall_s']:.1f} s | {got['steady_ms'] / 1e3:.2f} s | "
-                  f"{got['cpu_s']:.0f} s | {got['peak_mib']:.0f} MiB | {got['lit']} | {beside} |")
+                  f"{got['cpu_s']:.0f} s | {got['lit']} | {beside} |")
         table.results.setdefault("map", {})[f"{samples:.0e}"] = got
     table.results.setdefault("map", {})["greatx"] = ours[0] if ours else None
     table.say()
