@@ -210,6 +210,29 @@ TEST_F(Cli, BenchTimesTicksAndPasses) {
   EXPECT_TRUE(json["pass_ms"].contains("uav/lidar"));
 }
 
+TEST_F(Cli, ImportsAMitsubaScene) {
+  const auto write = [&](const char* name, const char* text) { std::ofstream(folder_ / name) << text; };
+  write("floor.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n4 0 0\n0 3 0\n3 0 1 2\n");
+  write("floor.xml",
+        "<scene version=\"2.1.0\">\n<bsdf type=\"diffuse\" id=\"mat-itu_concrete\">"
+        "<rgb value=\"0.5 0.5 0.5\" name=\"reflectance\"/></bsdf>\n<shape type=\"ply\" id=\"floor\">"
+        "<string name=\"filename\" value=\"floor.ply\"/><ref id=\"mat-itu_concrete\" "
+        "name=\"bsdf\"/></shape>\n</scene>\n");
+  const std::string out = (folder_ / "new/floor.glb").string();
+  const Outcome done = greatx(fmt::format("scene import {} -o {}", (folder_ / "floor.xml").string(), out));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("1 objects, 1 triangles, 1 materials"));
+  const Outcome info = greatx("scene info " + out);
+  EXPECT_EQ(info.code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("itu_concrete"));
+  fs::remove(folder_ / "floor.ply");
+  const Outcome lacks = greatx(fmt::format("scene import {} -o {}", (folder_ / "floor.xml").string(), out));
+  EXPECT_EQ(lacks.code, 1);
+  EXPECT_THAT(lacks.err, HasSubstr("floor.ply"));
+}
+
 TEST_F(Cli, ScenesAreWrittenAndDescribed) {
   ASSERT_EQ(greatx(fmt::format("scene car --variant van -o {}", path("van.glb"))).code, 0);
   const Outcome described = greatx("scene info " + path("van.glb"));
