@@ -58,12 +58,7 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
   Request request;
   request.channel = find_channel(options.channel, scenario);
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
-  if (options.instant.tick >= scenario.ticks)
-    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
-                     scenario.name, options.instant.tick);
-  if (options.instant.sequence >= scenario.sequences)
-    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1,
-                     options.instant.sequence);
+  check_instant(options.instant.sequence, options.instant.tick, scenario);
   for (const std::string& name : options.files.quantities) sim::map_quantity(name);
   request.height = {options.plane, options.height.value_or(default_height_m), options.over};
   request.power = sim::map_power(options.power, options.bandwidth, options.noise_figure, channel);

@@ -78,12 +78,7 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
       options.transmitter.empty()
           ? 0
           : find_end("--transmitter", options.transmitter, channel.transmitters.size(), channel.transmitters);
-  if (options.instant.tick >= scenario.ticks)
-    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
-                     scenario.name, options.instant.tick);
-  if (options.instant.sequence >= scenario.sequences)
-    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1,
-                     options.instant.sequence);
+  check_instant(options.instant.sequence, options.instant.tick, scenario);
   if (options.view != "auto")
     request.camera = find_camera(options.view, scenario);
   else if (options.height < picture_bars + 100)
@@ -174,7 +169,7 @@ void write_picture(const Options& options, const Request& request, const sim::Sc
   const io::Bytes png =
       io::encode_png(draw_paths(chosen.view, images.rgb, images.depth, links, scene, options.colors, text));
   const std::filesystem::path file = options.png;
-  if (file.has_parent_path()) io::create_folders(file.parent_path());
+  io::create_folder_of(file);
   io::write_file_atomically(file, png);
 }
 
@@ -187,7 +182,7 @@ void write_glb(const Options& options, const Json& head, std::span<const PathLin
   glb.time_s = snapshot.moment().context.time_s;
   if (options.with_scene) glb.bodies = snapshot.moment().bodies;
   const std::filesystem::path file = options.glb;
-  if (file.has_parent_path()) io::create_folders(file.parent_path());
+  io::create_folder_of(file);
   io::write_file_atomically(file, paths_glb(links, scene, glb));
 }
 

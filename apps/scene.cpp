@@ -41,9 +41,8 @@ struct ImportCommand {
 void import(const ImportCommand& command) {
   const scene::ImportedScene imported = scene::import_mitsuba(command.file, command.options);
   const std::filesystem::path file(command.file);
-  for (const std::filesystem::path& out :
-       {std::filesystem::path(command.output), std::filesystem::path(command.radio_materials)})
-    if (out.has_parent_path()) io::create_folders(out.parent_path());
+  io::create_folder_of(command.output);
+  io::create_folder_of(command.radio_materials);
   io::write_file_atomically(command.output, imported_glb(imported, file.stem().string()));
   std::cout << fmt::format("wrote {}: {} objects, {} triangles, {} materials\n", command.output,
                            imported.objects.size(), imported.triangle_count(), imported.materials.size());

@@ -68,6 +68,14 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
   throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
 }
 
+void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario) {
+  if (tick >= scenario.ticks)
+    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
+                     scenario.name, tick);
+  if (sequence >= scenario.sequences)
+    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1, sequence);
+}
+
 io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,
                              const sim::EffectPlan& plan, const gpu::Device& device,
                              const std::vector<SensorSpec>& sensors) {

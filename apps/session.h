@@ -42,6 +42,9 @@ sim::Scenario load_scenario(const ScenarioOptions& options);
 /// Index of the channel of that name (--channel); of the first one if `name` is empty. Throws UserError.
 uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 
+/// Throws UserError if the scenario has no such sequence (--sequence) or tick (--tick).
+void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario);
+
 /// What a data set says of its run: everything that decides its bytes, and the tables that ids refer to.
 io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,
                              const sim::EffectPlan& plan, const gpu::Device& device,

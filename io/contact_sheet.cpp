@@ -162,7 +162,7 @@ Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
 
 void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file, uint32_t sequence) {
   const Bytes png = encode_png(contact_sheet(reader, sequence));
-  if (file.has_parent_path()) create_folders(file.parent_path());
+  create_folder_of(file);
   write_file_atomically(file, png);
 }
 

@@ -118,6 +118,10 @@ void create_folders(const std::filesystem::path& folder) {
   if (error) throw WriteError(folder, error.value());
 }
 
+void create_folder_of(const std::filesystem::path& file) {
+  if (file.has_parent_path()) create_folders(file.parent_path());
+}
+
 Bytes read_file(const std::filesystem::path& path) {
   const File file = File::open_for_reading(path);
   Bytes bytes(file.size());

@@ -62,6 +62,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 /// mkdir -p. Throws WriteError.
 void create_folders(const std::filesystem::path& folder);
+/// The folder that `file` lies in, if its path names one.
+void create_folder_of(const std::filesystem::path& file);
 Bytes read_file(const std::filesystem::path& path);
 std::string read_text_file(const std::filesystem::path& path);
 

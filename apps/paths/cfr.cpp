@@ -29,7 +29,7 @@ CfrFile::CfrFile(const std::filesystem::path& file, const sim::Scenario& scenari
            plan.doppler.on ? config.time_spacing_s : 0.0};
   if (plan.dispersion.on) dispersion_.emplace(world.scene, model.field_model(), model.effects.weather, grid_);
 
-  if (path_.has_parent_path()) io::create_folders(path_.parent_path());
+  io::create_folder_of(path_);
   file_ = io::File::open_for_writing(io::part_name(path_));
   file_.truncate(0);
   file_.write_at(0, io::npy_header(DType::complex64,

@@ -85,7 +85,7 @@ class TableOutput : public PathsOutput {
 class CsvOutput : public PathsOutput {
  public:
   CsvOutput(std::filesystem::path file, double carrier_hz) : file_(std::move(file)), carrier_hz_(carrier_hz) {
-    if (file_.has_parent_path()) io::create_folders(file_.parent_path());
+    io::create_folder_of(file_);
     out_.open(io::part_name(file_), std::ios::binary | std::ios::trunc);
     out_ << csv_head();
     check();

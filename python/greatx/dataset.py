@@ -15,6 +15,7 @@ from .arrays import Frames, Ragged, open_stack
 from .errors import DatasetError
 from .frames import load_npy
 from .layout import ArrayInfo, SensorInfo, parse_sensors, read_info
+from .ticks import TickRecords
 
 if TYPE_CHECKING:
     from .samples import Samples
@@ -170,33 +171,16 @@ class Sequence:
         return f"<greatx.Sequence {self.number}: {len(self.ticks)} ticks, sensors {', '.join(self.sensors)}>"
 
 
-class Tick(Mapping[str, "Record"]):
+class Tick(TickRecords["Record"]):
     """The records of one tick by the sensor's name; only of the sensors that fired."""
 
     def __init__(self, tick: int, time_ns: int, sequence: Sequence, records: Dict[str, "Record"]):
-        self.tick = tick
-        self.time_ns = time_ns  #: exact time, rounded to nanoseconds
+        super().__init__(tick, time_ns, records, where=f"{sequence.path}: ")
         self.sequence = sequence
-        self._records = records
 
     @property
     def time_s(self) -> float:
         return float(self.tick / self.sequence.dataset.tick_rate_hz)
-
-    def __getitem__(self, sensor: str) -> "Record":
-        if sensor not in self._records:
-            raise KeyError(f"{self.sequence.path}: sensor {sensor!r} has no record at tick {self.tick}; "
-                           f"{', '.join(self._records)} have")
-        return self._records[sensor]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._records)
-
-    def __len__(self) -> int:
-        return len(self._records)
-
-    def __repr__(self) -> str:
-        return f"<greatx.Tick {self.tick}, {self.time_s:g} s: {', '.join(self._records)}>"
 
 
 class Sensor:

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from typing import Any, Callable, Dict, Iterator, List, Mapping
+from typing import Any, Callable, Dict, Iterator, List
 
 import numpy as np
 
 from .tables import Arrays
+from .ticks import TickRecords
 
 
 class Run:
@@ -39,28 +40,12 @@ class Run:
         return json.loads(self._native.summary())
 
 
-class RunTick(Mapping[str, "RunRecord"]):
+class RunTick(TickRecords["RunRecord"]):
     """The records of one tick by the sensor's name; only of the sensors that fired."""
 
     def __init__(self, run: Run, tick: int, time_ns: int, records: Dict[str, "RunRecord"]):
-        self.tick = tick
-        self.time_ns = time_ns  #: exact time, rounded to nanoseconds
+        super().__init__(tick, time_ns, records)
         self.time_s = float(tick / run.tick_rate_hz)
-        self._records = records
-
-    def __getitem__(self, sensor: str) -> "RunRecord":
-        if sensor not in self._records:
-            raise KeyError(f"sensor {sensor!r} has no record at tick {self.tick}; {', '.join(self._records)} have")
-        return self._records[sensor]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._records)
-
-    def __len__(self) -> int:
-        return len(self._records)
-
-    def __repr__(self) -> str:
-        return f"<greatx.RunTick {self.tick}, {self.time_s:g} s: {', '.join(self._records)}>"
 
 
 class RunRecord(Arrays):

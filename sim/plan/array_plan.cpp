@@ -25,6 +25,13 @@ double distance(const scene::Bounds& a, const scene::Bounds& b) {
   return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), dvec3(0.0)));
 }
 
+double far_field_of(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
+                    size_t receiver) {
+  return rf::far_field_distance_m(
+      antenna_array(scenario, channel.transmitters[transmitter], channel.carrier_hz),
+      antenna_array(scenario, channel.receivers[receiver], channel.carrier_hz), channel.carrier_hz);
+}
+
 /// The link that may come deepest into its near field.
 struct Nearest {
   double far_m = 0.0, distance_m = 0.0;  ///< its far field's beginning; the least that its ends can be apart
@@ -38,7 +45,7 @@ Nearest nearest_of(const Scenario& scenario) {
     if (channel.candidates == "rays") continue;
     for (size_t t = 0; t < channel.transmitters.size(); ++t)
       for (size_t r = 0; r < channel.receivers.size(); ++r) {
-        const double far_m = far_field_distance_m(scenario, channel, t, r);
+        const double far_m = far_field_of(scenario, channel, t, r);
         if (far_m == 0.0) continue;
         const double distance_m =
             distance(reach_of(scenario, channel.transmitters[t]), reach_of(scenario, channel.receivers[r]));
@@ -51,18 +58,11 @@ Nearest nearest_of(const Scenario& scenario) {
 
 }  // namespace
 
-double far_field_distance_m(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
-                            size_t receiver) {
-  return rf::far_field_distance_m(
-      antenna_array(scenario, channel.transmitters[transmitter], channel.carrier_hz),
-      antenna_array(scenario, channel.receivers[receiver], channel.carrier_hz), channel.carrier_hz);
-}
-
 bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
                  size_t receiver) {
   return distance(reach_of(scenario, channel.transmitters[transmitter]),
                   reach_of(scenario, channel.receivers[receiver])) <
-         far_field_distance_m(scenario, channel, transmitter, receiver);
+         far_field_of(scenario, channel, transmitter, receiver);
 }
 
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {

@@ -8,11 +8,7 @@
 
 namespace greatx::sim {
 
-/// rf::far_field_distance_m of a channel's link.
-double far_field_distance_m(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter,
-                            size_t receiver);
-
-/// Whether the trajectories may bring the link nearer than that.
+/// Whether the trajectories may bring the link nearer than its far field (rf::far_field_distance_m).
 bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter, size_t receiver);
 
 /// Decides EffectPlan::every_element: on where some link of an array may be nearer than its far field.

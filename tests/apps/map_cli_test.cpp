@@ -17,25 +17,18 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flat_ground.h"
 #include "tests/apps/program.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using greatx::apps::test::greatx;
+using greatx::apps::test::ground_gltf;
 using greatx::apps::test::Outcome;
 using greatx::apps::test::read_file;
 using nlohmann::json;
 using testing::HasSubstr;
-
-/// A triangle (0, 0, 0), (1, 0, 0), (0, 0, -1) of glTF: (0, 0), (1, 0), (0, 1) on the ground with z up.
-constexpr const char* ground_gltf =
-    R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "ground"}],
-    "materials": [{"name": "itu_medium_dry_ground", "pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.5, 0.3, 1]}}],
-    "meshes": [{"name": "ground", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
-    "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})";
 
 constexpr const char* scenario = R"(greatx: 1
 name: flat
