@@ -147,15 +147,19 @@ void GpuScene::build_structures() {
   tlas_ = gpu::Tlas(*device_, static_cast<uint32_t>(blas_.size()), "tlas");
 }
 
-void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
+void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
   GREATX_CHECK(body_poses.size() == scene_->bodies.size(), "{} poses for {} bodies", body_poses.size(),
                scene_->bodies.size());
+  std::vector<shared::GpuBody> bodies;
+  for (const Pose& pose : body_poses) bodies.push_back(gpu_body(bodies.empty() ? Pose{} : pose));
+  bodies_ = slot.upload.put(std::span<const shared::GpuBody>(bodies));
+}
+
+void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
+  record_poses(slot, body_poses);
+  if (!options_.acceleration_structure) return;
   std::vector<Pose> poses(body_poses.begin(), body_poses.end());
   poses[0] = Pose{};
-  std::vector<shared::GpuBody> bodies;
-  for (const Pose& pose : poses) bodies.push_back(gpu_body(pose));
-  bodies_ = slot.upload.put(std::span<const shared::GpuBody>(bodies));
-  if (!options_.acceleration_structure) return;
 
   const bool moved =
       !tlas_.built() || !std::equal(poses.begin(), poses.end(), last_poses_.begin(), last_poses_.end(), same);

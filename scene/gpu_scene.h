@@ -31,6 +31,9 @@ class GpuScene {
   /// recorded before any pass of the tick that uses the scene.
   void record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses);
 
+  /// The poses alone, for raster passes that look at another instant than the tick's; the acceleration structure stays.
+  void record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses);
+
   const Scene& scene() const { return *scene_; }
   gpu::Device& device() const { return *device_; }
   const gpu::Tlas& tlas() const { return tlas_; }

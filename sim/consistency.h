@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "renderer/camera.h"
+#include "renderer/camera/camera.h"
 
 namespace greatx::sim {
 

@@ -7,7 +7,7 @@
 
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

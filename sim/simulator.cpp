@@ -7,12 +7,12 @@
 
 #include "renderer/probe.h"
 #include "rf/crossings.h"
-#include "sim/camera_sensor.h"
 #include "sim/channel/channel_sensor.h"
 #include "sim/consistency.h"
-#include "sim/lidar_sensor.h"
 #include "sim/plan/plan_options.h"
-#include "sim/pose_sensor.h"
+#include "sim/sensors/camera_sensor.h"
+#include "sim/sensors/lidar_sensor.h"
+#include "sim/sensors/pose_sensor.h"
 
 namespace greatx::sim {
 
@@ -27,6 +27,7 @@ constexpr size_t lidar_comparisons = 1024;
 /// Passes that several sensors share; only those of the plan exist.
 struct Simulator::Passes {
   std::unique_ptr<render::SceneLighting> lighting;
+  std::unique_ptr<Stage> stage;  ///< with the lighting
   std::unique_ptr<render::ProbePass> probe;
   std::unique_ptr<rf::CrossingPass> crossings;
 };
@@ -52,6 +53,7 @@ Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World&
   if (plan.camera.on)
     passes_->lighting = std::make_unique<render::SceneLighting>(gpu_scene_, lighting_of(scenario.environment),
                                                                 camera_effects(plan));
+  if (passes_->lighting) passes_->stage = std::make_unique<Stage>(gpu_scene_, *passes_->lighting, world);
   if (plan.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
   if (plan.channel.on)
     passes_->crossings = std::make_unique<rf::CrossingPass>(
@@ -67,8 +69,7 @@ void Simulator::add_sensors() {
     const std::vector<SensorConfig>& configs = scenario_.nodes[node].sensors;
     for (uint32_t i = 0; i < configs.size(); ++i) {
       if (std::holds_alternative<CameraConfig>(configs[i].config))
-        add(std::make_unique<CameraSensor>(*passes_->lighting, passes_->probe.get(), scenario_, world_, node,
-                                           i),
+        add(std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, i),
             configs[i].rate_hz);
       else if (std::holds_alternative<LidarConfig>(configs[i].config))
         add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);

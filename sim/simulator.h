@@ -19,7 +19,7 @@
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/schedule.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

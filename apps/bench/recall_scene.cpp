@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "sim/scenario/trajectory.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 
 namespace greatx::apps {
 

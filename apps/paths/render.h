@@ -8,8 +8,8 @@
 
 #include "apps/paths/view.h"
 #include "gpu/tick_ring.h"
-#include "renderer/camera.h"
-#include "renderer/lighting.h"
+#include "renderer/camera/camera.h"
+#include "renderer/light/lighting.h"
 #include "sim/moment.h"
 #include "sim/plan/effect_plan.h"
 

@@ -18,7 +18,10 @@ layout(constant_id = develop_spec_semantic) const bool want_semantic = true;
 layout(constant_id = develop_spec_material) const bool want_material = true;
 
 layout(set = 0, binding = develop_color_binding, rgba16f) uniform readonly image2D color_image;
-layout(set = 0, binding = develop_ids_binding, rg32ui) uniform readonly uimage2D ids_image;
+layout(set = 0, binding = develop_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
+layout(set = 0, binding = develop_triangle_primitives_binding, scalar) readonly buffer TrianglePrimitivesBlock {
+  uint triangle_primitives[];
+};
 layout(push_constant, scalar) uniform Constants { DevelopConstants picture; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Floats { float v[]; };
@@ -47,12 +50,12 @@ void main() {
       }
     }
     if (want_depth || want_instance || want_semantic || want_material) {
-      uvec2 ids = imageLoad(ids_image, at).rg;
-      if (want_depth) Words(picture.depth).v[first + i] = ids.x;
+      uvec2 seen = imageLoad(seen_image, at).rg;
+      if (want_depth) Words(picture.depth).v[first + i] = seen.x;
       if (want_instance || want_semantic || want_material) {
         uvec3 found = uvec3(0u);
-        if (ids.y != 0u) {
-          GpuPrimitive primitive = scene_primitive(ids.y - 1u);
+        if (seen.y != 0u) {
+          GpuPrimitive primitive = scene_primitive(triangle_primitives[seen.y - 1u]);
           found = uvec3(primitive.instance + 1u, primitive.semantic_class, primitive.material + 1u);
         }
         if (want_instance) Words(picture.instance).v[first + i] = found.x;

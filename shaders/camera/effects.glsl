@@ -16,5 +16,9 @@ layout(constant_id = spec_textures) const bool textures_on = true;
 layout(constant_id = spec_normal_maps) const bool normal_maps_on = true;
 layout(constant_id = spec_emissive) const bool emissive_on = true;
 layout(constant_id = spec_lights) const bool lights_on = true;
+layout(constant_id = spec_luminance) const bool luminance_on = true;
 layout(constant_id = spec_specular) const bool specular_on = true;
+layout(constant_id = spec_haze) const bool haze_on = false;
+layout(constant_id = spec_night_sky) const bool night_sky_on = false;
+layout(constant_id = spec_ambient_occlusion) const bool ambient_occlusion_on = false;
 #endif

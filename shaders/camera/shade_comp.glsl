@@ -4,7 +4,9 @@
 // Shades what the visibility pass found: each triangle that a pixel's samples saw once, weighed by its samples. Depth
 // and id are those of the triangle that the pixel's centre looks at. GREATX_MULTISAMPLED: four samples a pixel.
 #extension GL_EXT_nonuniform_qualifier : require
+#include "camera/haze.glsl"
 #include "camera/light.glsl"
+#include "camera/sky.glsl"
 #include "camera/visibility_view.glsl"
 
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
@@ -22,11 +24,13 @@ layout(set = 0, binding = triangle_primitives_binding, scalar) readonly buffer T
   uint triangle_primitives[];
 };
 layout(set = 0, binding = shade_color_binding, rgba16f) uniform writeonly image2D color_image;
-layout(set = 0, binding = shade_ids_binding, rg32ui) uniform writeonly uimage2D ids_image;
+layout(set = 0, binding = shade_seen_binding, rg32ui) uniform writeonly uimage2D seen_image;
+layout(set = 0, binding = shade_luminance_binding, r32f) uniform writeonly image2D luminance_image;
 
 /// A triangle as the eye sees it along a ray d with dot(d, forward) = 1: planar depth and barycentrics of the second
 /// and third corner are quotients of functions linear in d (Moeller and Trumbore 1997, sorted by d).
 struct Seen {
+  uint triangle;
   uint primitive;
   uvec3 vertices;
   vec3 p0, e1, e2;       // from the eye, local axes
@@ -36,6 +40,7 @@ struct Seen {
 
 Seen see(uint triangle) {
   Seen seen;
+  seen.triangle = triangle;
   seen.primitive = triangle_primitives[triangle];
   uint body = scene_primitive(seen.primitive).body;
   seen.vertices = uvec3(scene_index(3u * triangle), scene_index(3u * triangle + 1u), scene_index(3u * triangle + 2u));
@@ -128,15 +133,8 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     if (specular_on) radiance += r.albedo * environment_radiance(reflect(-v, n), roughness);
   }
   if (lights_on) radiance += reflect_lights(r, n, v, p);
+  if (haze_on) radiance = through_haze(radiance, -v, length(p));
   return radiance;
-}
-
-vec3 sky_radiance(vec3 ray) {
-  if (!sky_on) return vec3(0.0);
-  vec3 direction = normalize(ray);
-  vec3 radiance = environment_radiance(direction, 0.0);
-  if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius) radiance += lighting.sun_disc;
-  return min(radiance, vec3(65504.0) / camera.exposure);
 }
 
 /// What the pixel's centre looks at, as triangle by triangle comes along.
@@ -152,13 +150,13 @@ void look(inout Center center, Seen seen, vec3 ray) {
   const float rim = 1e-4;  // on an edge both neighbours cover the centre
   vec2 b = vec2(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator)) / facing;
   bool covers = sample_count == 1u || (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
-  if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.primitive + 1u);
+  if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.triangle + 1u);
 }
 
 /// The triangle's rim where it comes closest to the centre.
 Center rim_of(Seen seen, vec3 ray) {
   vec2 b = inside(barycentrics(seen, ray));
-  return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.primitive + 1u);
+  return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
 }
 
 void main() {
@@ -182,16 +180,17 @@ void main() {
     float weight = float(bitCount(same)) / float(sample_count);
     if (id == 0u) {
       sky = true;
-      if (color_on) radiance += weight * sky_radiance(ray);
+      if (color_on || luminance_on) radiance += weight * sky_radiance(ray);
     } else {
       Seen seen = see(id - 1u);
       if (ids_on) look(center, seen, ray);
       if (ids_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
-      if (color_on) radiance += weight * surface_radiance(seen, ray);
+      if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray);
     }
   }
   // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
   if (center.id == 0u && !sky) center = first;
   if (color_on) imageStore(color_image, at, vec4(min(radiance * camera.exposure, vec3(65504.0)), 1.0));
-  if (ids_on) imageStore(ids_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
+  if (luminance_on) imageStore(luminance_image, at, vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722))));
+  if (ids_on) imageStore(seen_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
 }

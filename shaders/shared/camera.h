@@ -18,10 +18,12 @@ const uint moving_shadow_binding = 9u;  // sampled with comparison
 const uint visibility_binding = 10u;    // sampled, unsigned, multisampled or not: triangle + 1
 const uint triangle_primitives_binding = 11u;  // storage: the primitive of each triangle
 const uint shade_color_binding = 12u;          // storage image rgba16f
-const uint shade_ids_binding = 13u;            // storage image rg32ui: planar depth's bits, primitive + 1
+const uint shade_luminance_binding = 14u;      // storage image r32f, cd/m^2
+const uint shade_seen_binding = 13u;           // storage image rg32ui: planar depth's bits, triangle + 1
 // The developing pass.
-const uint develop_color_binding = 4u;  // storage image rgba16f
-const uint develop_ids_binding = 5u;    // storage image rg32ui
+const uint develop_color_binding = 4u;                  // storage image rgba16f
+const uint develop_seen_binding = 5u;                   // storage image rg32ui
+const uint develop_triangle_primitives_binding = 6u;  // storage: the primitive of each triangle
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
 const uint spec_color = 0u;
@@ -35,7 +37,11 @@ const uint spec_normal_maps = 7u;
 const uint spec_emissive = 8u;
 const uint spec_lights = 9u;
 const uint spec_specular = 10u;
-const uint shade_spec_count = 11u;
+const uint spec_luminance = 11u;
+const uint spec_haze = 12u;
+const uint spec_night_sky = 13u;
+const uint spec_ambient_occlusion = 14u;
+const uint shade_spec_count = 15u;
 // Of the developing pipeline.
 const uint develop_spec_rgb = 0u;
 const uint develop_spec_hdr = 1u;

@@ -11,7 +11,7 @@
 #include "rf/channel/received.h"
 #include "sim/channel/antennas.h"
 #include "sim/channel/channel_sensor.h"
-#include "sim/sensor_metadata.h"
+#include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
 

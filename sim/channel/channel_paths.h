@@ -21,7 +21,7 @@
 #include "sim/channel/channel_search.h"
 #include "sim/channel/ends.h"
 #include "sim/plan/effect_plan.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

@@ -17,7 +17,7 @@
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
 #include "sim/plan/effect_plan.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

@@ -10,7 +10,7 @@
 
 #include "core/vec.h"
 #include "rf/path_solver.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

@@ -4,7 +4,7 @@
 // From the plan to what scene and renderer are told to build.
 #pragma once
 
-#include "renderer/lighting.h"
+#include "renderer/light/lighting.h"
 #include "scene/gpu_scene.h"
 #include "sim/plan/effect_plan.h"
 

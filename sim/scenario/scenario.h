@@ -19,6 +19,7 @@
 #include "core/units.h"
 #include "core/vec.h"
 #include "rf/antenna/antenna.h"
+#include "sim/scenario/optics.h"
 #include "sim/scenario/rational.h"
 
 namespace greatx::sim {
@@ -55,18 +56,6 @@ struct SceneConfig {
   std::optional<dvec3> origin_m;
   std::filesystem::path radio_materials;  ///< sidecar YAML; empty: none
   bool optical_only = false;
-};
-
-struct Environment {
-  double sun_azimuth = -0.25 * pi;        ///< rad, from x (east) towards y (north): the direction to the sun
-  double sun_elevation = 0.25 * pi;       ///< rad above the horizon
-  double sun_illuminance_lux = 100000.0;  ///< on a surface facing the sun
-  double sky_illuminance_lux = 15000.0;   ///< on the ground from the sky alone
-  double temperature_k = 288.15;
-  double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
-  double water_vapour_g_m3 = 7.5;
-  double rain_mm_h = 0.0;
-  double fog_g_m3 = 0.0;  ///< liquid water
 };
 
 // ------------------------------------------------------------------------------------------------- who moves
@@ -122,19 +111,6 @@ struct Mount {
   dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
 };
 
-struct CameraConfig {
-  uint32_t width = 640, height = 480;
-  double fx = 0.0, fy = 0.0, cx = 0.0,
-         cy = 0.0;  ///< pixels; from `fov_deg` (horizontal) if the user gave that
-  double near_m = 0.1;
-  uint32_t msaa = 4;                          ///< samples per pixel of the colour: 1 or 4
-  double exposure_ev100 = 15.0;               ///< EV at ISO 100
-  bool rgb = true, depth = true, ids = true;  ///< what to deliver
-  bool hdr = false;                           ///< also the linear radiance as EXR
-  bool depth_png24 = true, depth_log = false;
-  bool see_own_body = false;
-};
-
 struct LidarConfig {
   std::vector<double> elevations;  ///< rad, one a channel, from the first ring up or down as given
   uint32_t azimuth_steps = 1024;
@@ -159,7 +135,7 @@ struct AntennaConfig {
 struct SensorConfig {
   std::string name;
   Mount mount;
-  std::variant<CameraConfig, LidarConfig, AntennaConfig> config;
+  std::variant<CameraConfig, EventCameraConfig, LidarConfig, AntennaConfig> config;
   Rational rate_hz;  ///< of cameras and LiDARs; antennas fire with their channel
   SourceLocation where;
 };

@@ -37,8 +37,13 @@ dvec3 parse_scale(const Field& field);
 std::string parse_semantic_class(const Field& field);
 
 SceneConfig parse_scene(const Field& field);
+Environment parse_environment(const Field& field);
 Trajectory parse_trajectory(const Field& field, size_t node, std::vector<NodeReference>& references);
 SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns);
+/// width, height, intrinsics, near_m, msaa, distortion.
+void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
+CameraConfig parse_camera(const FieldMap& map);
+EventCameraConfig parse_event_camera(const FieldMap& map);
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,

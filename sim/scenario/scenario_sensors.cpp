@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: what all have, cameras, LiDARs.
+// nodes[].sensors[]: what all have, LiDARs.
 #include <cmath>
 #include <set>
 
@@ -11,7 +11,6 @@
 namespace greatx::sim {
 namespace {
 
-constexpr uint32_t largest_image_edge = 16384;
 constexpr uint32_t most_channels = 4096;
 
 Mount parse_mount(const Field& field) {
@@ -20,49 +19,6 @@ Mount parse_mount(const Field& field) {
   if (const auto f = map.find("position_m")) mount.position_m = f->vector3();
   if (const auto f = map.find("rotation_deg")) mount.rotation = f->angles_deg();
   return mount;
-}
-
-/// fov_deg (horizontal, square pixels), or fx and, if it differs, fy; the principal point is the centre by
-/// default.
-void parse_intrinsics(const FieldMap& map, CameraConfig& camera) {
-  map.exclude("fov_deg", "fx");
-  map.exclude("fov_deg", "fy");
-  if (const auto f = map.find("fov_deg")) {
-    const double fov_deg = f->number();
-    if (!(fov_deg > 0.0 && fov_deg < 180.0)) f->fail("an angle greater than 0 and less than 180");
-    camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * radians(fov_deg));
-  } else {
-    camera.fx = camera.fy = map.require("fx", "a focal length in pixels (or 'fov_deg')").positive();
-    if (const auto fy = map.find("fy")) camera.fy = fy->positive();
-  }
-  camera.cx = 0.5 * camera.width;
-  camera.cy = 0.5 * camera.height;
-  if (const auto f = map.find("cx")) camera.cx = f->number();
-  if (const auto f = map.find("cy")) camera.cy = f->number();
-}
-
-void parse_outputs(const Field& field, CameraConfig& camera) {
-  camera.rgb = camera.depth = camera.ids = camera.hdr = camera.depth_png24 = camera.depth_log = false;
-  bool* const outputs[] = {&camera.rgb, &camera.depth,       &camera.ids,
-                           &camera.hdr, &camera.depth_png24, &camera.depth_log};
-  for (const Field& item : field.list("outputs", 1)) {
-    bool& output = *outputs[item.choice({"rgb", "depth", "ids", "hdr", "depth_png24", "depth_log"})];
-    if (output) item.fail("every output once", fmt::format("a second '{}'", item.text()));
-    output = true;
-  }
-}
-
-CameraConfig parse_camera(const FieldMap& map) {
-  CameraConfig camera;
-  if (const auto f = map.find("width")) camera.width = f->integer32(1, largest_image_edge);
-  if (const auto f = map.find("height")) camera.height = f->integer32(1, largest_image_edge);
-  parse_intrinsics(map, camera);
-  if (const auto f = map.find("near_m")) camera.near_m = f->positive();
-  if (const auto f = map.find("msaa")) camera.msaa = f->choice({"1", "4"}) == 0 ? 1 : 4;
-  if (const auto f = map.find("exposure_ev100")) camera.exposure_ev100 = f->between(-20.0, 40.0);
-  if (const auto f = map.find("outputs")) parse_outputs(*f, camera);
-  if (const auto f = map.find("see_own_body")) camera.see_own_body = f->boolean();
-  return camera;
 }
 
 void parse_elevations(const FieldMap& map, LidarConfig& lidar) {
@@ -113,22 +69,54 @@ LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz) {
   return lidar;
 }
 
+/// By kind.
+const std::initializer_list<std::string_view> keys_of_kind[] = {
+    {"name",
+     "type",
+     "mount",
+     "rate_hz",
+     "width",
+     "height",
+     "fov_deg",
+     "fx",
+     "fy",
+     "cx",
+     "cy",
+     "near_m",
+     "msaa",
+     "distortion",
+     "exposure_ev100",
+     "exposure",
+     "motion_blur_samples",
+     "vignetting",
+     "noise",
+     "outputs",
+     "box_classes",
+     "see_own_body"},
+    {"name",         "type",
+     "mount",        "rate_hz",
+     "width",        "height",
+     "fov_deg",      "fx",
+     "fy",           "cx",
+     "cy",           "near_m",
+     "msaa",         "distortion",
+     "steps",        "threshold",
+     "noise",        "dark_cd_m2",
+     "refractory_s", "cutoff_hz",
+     "difference",   "max_events_per_pixel",
+     "outputs",      "see_own_body"},
+    {"name", "type", "mount", "rate_hz", "channels", "elevation_min_deg", "elevation_max_deg",
+     "elevations_deg", "azimuth_steps", "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m",
+     "max_range_m", "wavelength_nm", "see_own_body"},
+    {"name", "type", "mount", "pattern", "pattern_file", "polarization", "slant_deg", "polarization_model",
+     "plane", "rows", "columns", "row_spacing_wl", "column_spacing_wl", "elements_wl"}};
+
 }  // namespace
 
 SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns) {
-  enum { camera, lidar, antenna };
-  const size_t kind = kind_of(field, "type", {"camera", "lidar", "antenna"});
-  const FieldMap map =
-      kind == camera
-          ? FieldMap(field, {"name", "type", "mount", "rate_hz", "width", "height", "fov_deg", "fx", "fy",
-                             "cx", "cy", "near_m", "msaa", "exposure_ev100", "outputs", "see_own_body"})
-      : kind == lidar ? FieldMap(field, {"name", "type", "mount", "rate_hz", "channels", "elevation_min_deg",
-                                         "elevation_max_deg", "elevations_deg", "azimuth_steps",
-                                         "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m",
-                                         "max_range_m", "wavelength_nm", "see_own_body"})
-                      : FieldMap(field, {"name", "type", "mount", "pattern", "pattern_file", "polarization",
-                                         "slant_deg", "polarization_model", "plane", "rows", "columns",
-                                         "row_spacing_wl", "column_spacing_wl", "elements_wl"});
+  enum { camera, event_camera, lidar, antenna };
+  const size_t kind = kind_of(field, "type", {"camera", "event_camera", "lidar", "antenna"});
+  const FieldMap map(field, keys_of_kind[kind]);
   SensorConfig sensor;
   sensor.where = field.where();
   const Field name = map.require("name", "a name");
@@ -139,6 +127,7 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, Patt
     sensor.rate_hz = rate_of(map.require("rate_hz", "a rate greater than 0 such as 10, 29.97 or 30000/1001"),
                              tick_rate_hz);
   if (kind == camera) sensor.config = parse_camera(map);
+  if (kind == event_camera) sensor.config = parse_event_camera(map);
   if (kind == lidar) sensor.config = parse_lidar(map, sensor.rate_hz);
   if (kind == antenna) sensor.config = parse_antenna(map, patterns);
   return sensor;

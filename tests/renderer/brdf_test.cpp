@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/camera.h"
-#include "renderer/sky.h"
+#include "renderer/camera/camera.h"
+#include "renderer/light/sky.h"
 #include "shaders/shared/develop.h"
 
 namespace greatx {

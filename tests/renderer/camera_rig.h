@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/units.h"
-#include "renderer/camera.h"
-#include "renderer/lighting.h"
-#include "renderer/sky.h"
+#include "renderer/camera/camera.h"
+#include "renderer/light/lighting.h"
+#include "renderer/light/sky.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

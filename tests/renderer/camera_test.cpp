@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Geometry of the camera: depth, ids, samples, slots, what is built.
-#include "renderer/camera.h"
+#include "renderer/camera/camera.h"
 
 #include <algorithm>
 #include <cmath>

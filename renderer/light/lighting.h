@@ -10,13 +10,13 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "renderer/shadow.h"
+#include "renderer/light/shadow.h"
 #include "scene/gpu_scene.h"
 
 namespace greatx::render {
 
 enum class SkyModel {
-  clear,    ///< renderer/atmosphere.h
+  clear,    ///< renderer/light/atmosphere.h
   uniform,  ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
 
@@ -49,7 +49,10 @@ struct CameraEffects {
   bool alpha_mask = true;
   bool emissive = true;
   bool punctual_lights = true;
-  bool specular = true;  ///< off: every surface is Lambertian
+  bool haze = false;               ///< fog and rain
+  bool night_sky = false;          ///< stars, the moon's disc
+  bool ambient_occlusion = false;  ///< of the sky's light, by what never moves
+  bool specular = true;            ///< off: every surface is Lambertian
 };
 
 class SceneLighting {
@@ -67,6 +70,8 @@ class SceneLighting {
   /// Poses of the tick being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
   const ShadowMaps& shadows() const { return shadows_; }
+  /// uint [triangles]: the primitive of each.
+  const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
   /// Bindings and descriptors that every camera's shading shares, without the lamps (each camera has its own).
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/lighting.h"
+#include "renderer/light/lighting.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/units.h"
-#include "renderer/sky.h"
+#include "renderer/light/sky.h"
 
 namespace greatx::render {
 

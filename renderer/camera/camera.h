@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,7 +16,7 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "renderer/lighting.h"
+#include "renderer/light/lighting.h"
 #include "scene/gpu_scene.h"
 
 namespace greatx::render {
@@ -24,8 +25,11 @@ namespace greatx::render {
 struct CameraOutputs {
   bool rgb = true, depth = true, instance = true, semantic = true, material = true;
   bool hdr = false;
+  // What stays on the GPU for another pass (luminance_image, seen_image).
+  bool luminance = false, seen = false;
   bool color() const { return rgb || hdr; }
-  bool ids() const { return depth || instance || semantic || material; }
+  bool ids() const { return depth || instance || semantic || material || seen; }
+  bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }
 };
 
 struct CameraDesc {
@@ -57,12 +61,14 @@ struct CameraImages {
 double saturation_luminance(double ev100);
 
 struct CameraView;
+class DevelopPass;
 
 class CameraPass {
  public:
   /// Builds only the pipelines that this scene, these outputs and the lighting's effects need. `lighting` and its
   /// scene outlive the pass. Throws UserError naming the camera and the field if `desc` is not sensible.
   CameraPass(const SceneLighting& lighting, const CameraDesc& desc);
+  ~CameraPass();
 
   /// Records one picture into the slot; after GpuScene::record_update and SceneLighting::record of the same tick.
   /// `local_from_sensor`: x forward, y left, z up, in local coordinates.
@@ -73,6 +79,11 @@ class CameraPass {
   const CameraDesc& desc() const { return desc_; }
   /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times saturation_luminance is cd/m^2.
   gpu::Image& hdr_image() { return color_; }
+  /// Of `outputs.luminance`: cd/m^2, R32_SFLOAT, in ImageUse::storage after record().
+  gpu::Image& luminance_image() { return luminance_; }
+  /// What pixels' centres see: planar depth's bits (sky: +inf), triangle + 1 (0: nothing); R32G32_UINT, in
+  /// ImageUse::storage after record().
+  gpu::Image& seen_image() { return seen_; }
   /// Primitives drawn, and left out because they lie outside the view, by the last record().
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
@@ -83,10 +94,6 @@ class CameraPass {
     dvec3 center{0.0};
     double radius = 0.0;
   };
-  struct Readback {
-    gpu::Slice rgb, hdr, depth, instance, semantic, material;
-  };
-
   void check() const;
   void bound_primitives();
   void sort_primitives();
@@ -96,7 +103,6 @@ class CameraPass {
   gpu::Slice upload_lights(gpu::TickSlot& slot, const CameraView& view) const;
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void record_shading(gpu::TickSlot& slot, const CameraView& view);
-  void record_develop(gpu::TickSlot& slot);
 
   const SceneLighting* lighting_;
   const scene::GpuScene* scene_;
@@ -106,12 +112,12 @@ class CameraPass {
   std::vector<uint32_t> opaque_, masked_;                             ///< primitives
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< what their materials need
   gpu::GraphicsPipeline visibility_opaque_, visibility_masked_;
-  gpu::ComputePipeline shade_, develop_;
+  gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
-  gpu::Image color_, ids_;
-  std::vector<Readback> readbacks_;  ///< by slot
-  std::string visibility_scope_, shade_scope_, develop_scope_;
+  gpu::Image color_, luminance_, seen_;
+  std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
+  std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
 };
 

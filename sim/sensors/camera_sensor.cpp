@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/camera_sensor.h"
+#include "sim/sensors/camera_sensor.h"
 
 #include <cmath>
 
 #include "sim/consistency.h"
-#include "sim/sensor_metadata.h"
+#include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
 
@@ -25,7 +25,7 @@ render::CameraDesc camera_desc(const NodeConfig& node, const SensorConfig& senso
   desc.cy = config.cy;
   desc.near_m = config.near_m;
   desc.msaa = config.msaa;
-  desc.exposure_ev100 = config.exposure_ev100;
+  desc.exposure_ev100 = config.exposure.ev100;
   desc.outputs = {config.rgb, config.depth || config.depth_png24 || config.depth_log,
                   config.ids, config.ids,
                   config.ids, config.hdr};
@@ -45,19 +45,20 @@ bool fits_16_bits(size_t instances) { return instances < 65535; }
 
 }  // namespace
 
-CameraSensor::CameraSensor(const render::SceneLighting& lighting, const render::ProbePass* probe,
-                           const Scenario& scenario, const World& world, uint32_t node, uint32_t sensor)
-    : world_(world),
+CameraSensor::CameraSensor(Stage& stage, const render::ProbePass* probe, const Scenario& scenario,
+                           uint32_t node, uint32_t sensor)
+    : stage_(stage),
+      world_(stage.world()),
       config_(std::get<CameraConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
-      pass_(lighting, camera_desc(scenario.nodes[node], scenario.nodes[node].sensors[sensor],
-                                  world.body_of_node[node])),
+      pass_(stage.lighting(), camera_desc(scenario.nodes[node], scenario.nodes[node].sensors[sensor],
+                                          world_.body_of_node[node])),
       probe_(pass_.desc().outputs.depth ? probe : nullptr) {
   spec_.name = pass_.desc().name;
   spec_.kind = "camera";
   spec_.rate = scenario.nodes[node].sensors[sensor].rate_hz.str();
-  describe(config_, world.scene.instances.size());
+  describe(config_, world_.scene.instances.size());
   if (probe_ != nullptr) probe_pixels_ = probe_pixels(config_.width, config_.height, probes_per_picture);
 }
 
@@ -108,7 +109,7 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
   metadata["pixel_center"] = 0.5;
   metadata["near_m"] = config.near_m;
   metadata["msaa"] = config.msaa;
-  metadata["exposure_ev100"] = config.exposure_ev100;
+  metadata["exposure_ev100"] = config.exposure.ev100;
   metadata["depth"] = "planar";
   metadata["optical_frame"] = "x right, y down, z forward";
   metadata["body_from_sensor"] = json_of(mount_);

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "core/vec.h"
-#include "renderer/camera.h"
-#include "renderer/shadow.h"
+#include "renderer/camera/camera.h"
+#include "renderer/light/shadow.h"
 #include "scene/scene.h"
 #include "shaders/shared/camera.h"
 

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/camera.h"
+#include "renderer/camera/camera.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "core/error.h"
-#include "renderer/camera_view.h"
+#include "renderer/camera/camera_view.h"
+#include "renderer/camera/develop.h"
 
 namespace greatx::render {
 
@@ -15,15 +16,9 @@ namespace {
 
 constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
 constexpr VkFormat color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat ids_format = VK_FORMAT_R32G32_UINT;
+constexpr VkFormat luminance_format = VK_FORMAT_R32_SFLOAT;
+constexpr VkFormat seen_format = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
-
-template <typename T>
-std::vector<T> copied(const gpu::Slice& slice, size_t count) {
-  if (slice.buffer == VK_NULL_HANDLE) return {};
-  const std::span<T> values = slice.as<T>();
-  return std::vector<T>(values.begin(), values.begin() + static_cast<ptrdiff_t>(count));
-}
 
 }  // namespace
 
@@ -35,14 +30,16 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
       desc_(desc),
       effects_(lighting.effects()),
       visibility_scope_(desc.name + " visibility"),
-      shade_scope_(desc.name + " shade"),
-      develop_scope_(desc.name + " develop") {
+      shade_scope_(desc.name + " shade") {
   check();
   bound_primitives();
   sort_primitives();
   build_pipelines();
   create_images();
+  if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
 }
+
+CameraPass::~CameraPass() = default;
 
 void CameraPass::check() const {
   const auto require = [&](bool holds, const char* field, const char* expected, double found) {
@@ -61,7 +58,8 @@ void CameraPass::check() const {
   require(desc_.msaa == 1 || desc_.msaa == 4, "msaa", "1 or 4", desc_.msaa);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
-  require(desc_.outputs.color() || desc_.outputs.ids(), "outputs", "at least one", 0);
+  require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
+          0);
   const size_t materials = scene_->scene().materials.size();
   require(!desc_.outputs.material || materials < 65535, "outputs.material",
           "a scene of at most 65534 materials", double(materials));
@@ -120,11 +118,13 @@ void CameraPass::build_pipelines() {
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::visibility_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::shade_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  shade.bindings.push_back({shared::shade_ids_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  shade.bindings.push_back({shared::shade_luminance_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  shade.bindings.push_back({shared::shade_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
   shade.push_constant_bytes = sizeof(shared::CameraConstants);
   shade.textures = &scene_->textures();
   shade.specialization.resize(shared::shade_spec_count);
   shade.specialization[shared::spec_color] = desc_.outputs.color();
+  shade.specialization[shared::spec_luminance] = desc_.outputs.luminance;
   shade.specialization[shared::spec_ids] = desc_.outputs.ids();
   shade.specialization[shared::spec_sun] = effects_.sun;
   shade.specialization[shared::spec_sky] = effects_.sky;
@@ -135,22 +135,10 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_emissive] = effects_.emissive && emissive_;
   shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
   shade.specialization[shared::spec_specular] = effects_.specular;
+  shade.specialization[shared::spec_haze] = effects_.haze;
+  shade.specialization[shared::spec_night_sky] = effects_.night_sky;
+  shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
-
-  gpu::ComputeDesc develop;
-  develop.shader = "camera/develop.comp";
-  develop.bindings = scene::GpuScene::bindings(false);
-  develop.bindings.push_back({shared::develop_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  develop.bindings.push_back({shared::develop_ids_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  develop.push_constant_bytes = sizeof(shared::DevelopConstants);
-  develop.specialization.resize(shared::develop_spec_count);
-  develop.specialization[shared::develop_spec_rgb] = desc_.outputs.rgb;
-  develop.specialization[shared::develop_spec_hdr] = desc_.outputs.hdr;
-  develop.specialization[shared::develop_spec_depth] = desc_.outputs.depth;
-  develop.specialization[shared::develop_spec_instance] = desc_.outputs.instance;
-  develop.specialization[shared::develop_spec_semantic] = desc_.outputs.semantic;
-  develop.specialization[shared::develop_spec_material] = desc_.outputs.material;
-  develop_ = gpu::ComputePipeline(device, develop, desc_.name + " develop");
 }
 
 void CameraPass::create_images() {
@@ -172,7 +160,8 @@ void CameraPass::create_images() {
                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, "visibility", true);
   depth_ = image(depth_format, desc_.msaa, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth", true);
   color_ = image(color_format, 1, kept, "radiance", desc_.outputs.color());
-  ids_ = image(ids_format, 1, kept, "ids", desc_.outputs.ids());
+  luminance_ = image(luminance_format, 1, kept, "luminance", desc_.outputs.luminance);
+  seen_ = image(seen_format, 1, kept, "seen", desc_.outputs.ids());
   texel_sampler_ = gpu::Sampler(device, {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
 }
 
@@ -227,7 +216,7 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor) {
   const CameraView view(desc_, local_from_sensor, lighting_->shadows().frame());
   record_visibility(*slot.cmd, view);
   record_shading(slot, view);
-  record_develop(slot);
+  if (develop_) develop_->record(slot, color_, seen_);
 }
 
 void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
@@ -262,13 +251,15 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, gpu::ImageUse::sampled);
   cmd.transition(color_, gpu::ImageUse::storage, true);
-  cmd.transition(ids_, gpu::ImageUse::storage, true);
+  cmd.transition(luminance_, gpu::ImageUse::storage, true);
+  cmd.transition(seen_, gpu::ImageUse::storage, true);
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lights(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color_));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_ids_binding, ids_));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_luminance_binding, luminance_));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_seen_binding, seen_));
   cmd.bind(shade_);
   cmd.push(descriptors);
   cmd.constants(view.constants);
@@ -276,61 +267,8 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
                (desc_.height + shared::shade_group_height - 1) / shared::shade_group_height);
 }
 
-void CameraPass::record_develop(gpu::TickSlot& slot) {
-  const CameraOutputs& outputs = desc_.outputs;
-  const size_t groups =
-      (size_t(desc_.width) * desc_.height + shared::develop_pixels - 1) / shared::develop_pixels;
-  const auto words = [&](bool wanted, size_t per_group) {
-    return wanted ? slot.readback.allocate(4 * per_group * groups) : gpu::Slice{};
-  };
-  Readback readback;
-  readback.rgb = words(outputs.rgb, 3);
-  readback.hdr = words(outputs.hdr, 12);
-  readback.depth = words(outputs.depth, 4);
-  readback.instance = words(outputs.instance, 4);
-  readback.semantic = words(outputs.semantic, 1);
-  readback.material = words(outputs.material, 2);
-  if (readbacks_.size() <= slot.index) readbacks_.resize(slot.index + 1);
-  readbacks_[slot.index] = readback;
-
-  gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope(develop_scope_);
-  cmd.transition(color_, gpu::ImageUse::storage);
-  cmd.transition(ids_, gpu::ImageUse::storage);
-  cmd.bind(develop_);
-  std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
-  descriptors.push_back(gpu::Descriptor::storage(shared::develop_color_binding, color_));
-  descriptors.push_back(gpu::Descriptor::storage(shared::develop_ids_binding, ids_));
-  cmd.push(descriptors);
-  shared::DevelopConstants constants{};
-  constants.rgb = readback.rgb.address;
-  constants.hdr = readback.hdr.address;
-  constants.depth = readback.depth.address;
-  constants.instance = readback.instance.address;
-  constants.semantic = readback.semantic.address;
-  constants.material = readback.material.address;
-  constants.width = desc_.width;
-  constants.height = desc_.height;
-  constants.radiance_scale = float(saturation_luminance(desc_.exposure_ev100));
-  cmd.constants(constants);
-  cmd.dispatch(static_cast<uint32_t>((groups + shared::develop_group_size - 1) / shared::develop_group_size));
-}
-
 CameraImages CameraPass::collect(const gpu::TickSlot& slot) const {
-  GREATX_CHECK(slot.index < readbacks_.size(), "camera {}: nothing was recorded into slot {}", desc_.name,
-               slot.index);
-  const Readback& from = readbacks_[slot.index];
-  const size_t count = size_t(desc_.width) * desc_.height;
-  CameraImages images;
-  images.width = desc_.width;
-  images.height = desc_.height;
-  images.rgb = copied<uint8_t>(from.rgb, 3 * count);
-  images.hdr = copied<float>(from.hdr, 3 * count);
-  images.depth = copied<float>(from.depth, count);
-  images.instance = copied<uint32_t>(from.instance, count);
-  images.semantic = copied<uint8_t>(from.semantic, count);
-  images.material = copied<uint16_t>(from.material, count);
-  return images;
+  return develop_ ? develop_->collect(slot) : CameraImages{.width = desc_.width, .height = desc_.height};
 }
 
 }  // namespace greatx::render

@@ -6,7 +6,7 @@
 
 #include "renderer/lidar.h"
 #include "sim/plan/effect_plan.h"
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {

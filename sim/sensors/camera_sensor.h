@@ -5,10 +5,10 @@
 #include <array>
 #include <optional>
 
-#include "renderer/camera.h"
+#include "renderer/camera/camera.h"
 #include "renderer/probe.h"
-#include "sim/sensor.h"
-#include "sim/world.h"
+#include "sim/sensors/sensor.h"
+#include "sim/sensors/stage.h"
 
 namespace greatx::sim {
 
@@ -16,8 +16,8 @@ namespace greatx::sim {
 class CameraSensor : public Sensor {
  public:
   /// `node`, `sensor`: indices into the scenario. `probe` may be null; the others outlive this.
-  CameraSensor(const render::SceneLighting& lighting, const render::ProbePass* probe,
-               const Scenario& scenario, const World& world, uint32_t node, uint32_t sensor);
+  CameraSensor(Stage& stage, const render::ProbePass* probe, const Scenario& scenario, uint32_t node,
+               uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
@@ -34,6 +34,7 @@ class CameraSensor : public Sensor {
   void describe(const CameraConfig& config, size_t instances);
   void check(const gpu::TickSlot& slot);
 
+  Stage& stage_;
   const World& world_;
   CameraConfig config_;
   uint32_t node_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/pose_sensor.h"
+#include "sim/sensors/pose_sensor.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/lidar_sensor.h"
+#include "sim/sensors/lidar_sensor.h"
 
 #include "core/units.h"
-#include "sim/sensor_metadata.h"
+#include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
 

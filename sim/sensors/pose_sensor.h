@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "sim/sensor.h"
+#include "sim/sensors/sensor.h"
 
 namespace greatx::sim {
 

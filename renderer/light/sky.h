@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "renderer/atmosphere.h"
-#include "renderer/lighting.h"
+#include "renderer/light/atmosphere.h"
+#include "renderer/light/lighting.h"
 
 namespace greatx::render {
 

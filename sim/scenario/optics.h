@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a scenario says of light, weather and the sensors that see light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/units.h"
+#include "core/vec.h"
+
+namespace greatx::sim {
+
+/// Where on the Earth the scene's origin is, and when: sun and moon follow from it (renderer/light/almanac.h).
+struct PlaceAndTime {
+  double latitude = 0.0, longitude = 0.0;  ///< rad, north and east positive (WGS 84)
+  double height_m = 0.0;                   ///< above the sea
+  std::string time;                        ///< RFC 3339 as written, "2026-06-21T12:00:00+02:00"
+  double unix_s = 0.0;                     ///< the same instant, UTC seconds since 1970
+};
+
+struct Environment {
+  std::optional<PlaceAndTime> place;      ///< given instead of the positions below
+  double sun_azimuth = -0.25 * pi;        ///< rad, from x (east) towards y (north): the direction to the sun
+  double sun_elevation = 0.25 * pi;       ///< rad above the horizon
+  double sun_illuminance_lux = 100000.0;  ///< on a surface facing the sun
+  double sky_illuminance_lux = 15000.0;   ///< on the ground from the sky alone
+  double temperature_k = 288.15;
+  double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
+  double water_vapour_g_m3 = 7.5;
+  double rain_mm_h = 0.0;
+  double fog_g_m3 = 0.0;  ///< liquid water
+};
+
+/// Brown-Conrady distortion of normalised coordinates (D. Brown, "Decentering Distortion of Lenses", 1966; the order and
+/// signs of OpenCV's calib3d): x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise.
+struct Distortion {
+  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
+  bool any() const { return k1 != 0.0 || k2 != 0.0 || p1 != 0.0 || p2 != 0.0 || k3 != 0.0; }
+};
+
+/// How much light is taken. `automatic` meters each picture by itself, so that no picture depends on another.
+struct Exposure {
+  bool automatic = false;
+  double ev100 = 15.0;           ///< EV at ISO 100; of `automatic`: ignored
+  double compensation_ev = 0.0;  ///< of `automatic`: positive is brighter
+  std::optional<double>
+      shutter_s;  ///< exposure time; what moves meanwhile is blurred if `motion_blur_samples` > 0
+};
+
+/// Of a sensor of light: electrons and digital numbers.
+struct SensorNoise {
+  double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
+  double read_noise_e = 2.5;     ///< rms
+  uint32_t bits = 12;            ///< of the converter
+};
+
+/// Loss of light towards the rim.
+struct Vignetting {
+  bool natural = false;  ///< cos^4 of the angle from the axis
+  std::array<double, 3> radial{
+      0, 0, 0};  ///< times 1 + a1 r^2 + a2 r^4 + a3 r^6, r from the principal point over half
+                 ///< of the picture's diagonal
+  bool any() const { return natural || radial[0] != 0.0 || radial[1] != 0.0 || radial[2] != 0.0; }
+};
+
+/// Intrinsics, shared by cameras and event cameras. Pixels.
+struct PinholeConfig {
+  uint32_t width = 640, height = 480;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if the user gave that
+  double near_m = 0.1;
+  uint32_t msaa = 4;  ///< samples per pixel of the colour: 1 or 4
+  Distortion distortion;
+};
+
+struct CameraConfig : PinholeConfig {
+  Exposure exposure;
+  uint32_t motion_blur_samples = 0;  ///< instants within the shutter time; 0: sharp
+  Vignetting vignetting;
+  std::optional<SensorNoise> noise;
+  // What to deliver.
+  bool rgb = true, depth = true, ids = true;
+  bool hdr = false;  ///< also the linear radiance as EXR
+  bool depth_png24 = true, depth_log = false;
+  bool depth_ray = false;  ///< along the ray
+  bool normals = false, flow = false, boxes = false;
+  std::vector<std::string>
+      box_classes;  ///< semantic classes that get boxes; empty: everything but ground and buildings
+  bool see_own_body = false;
+};
+
+/// An event camera (docs/events.md): brightness changes instead of pictures.
+struct EventCameraConfig : PinholeConfig {
+  uint32_t substeps = 4;  ///< pictures per interval; adaptive: at most
+  enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
+  double max_flow_px = 0.5;  ///< of by_flow: motion from one picture to the next, at most
+  double max_change = 0.5;   ///< of by_brightness: change of the logarithm over the threshold, at most
+  double threshold_on = 0.2, threshold_off = 0.2;  ///< of the natural logarithm
+  double threshold_sigma = 0.0;                    ///< mismatch from pixel to pixel, standard deviation
+  double refractory_s = 0.0;
+  double leak_rate_hz = 0.0, shot_rate_hz = 0.0;
+  double cutoff_hz = 0.0;             ///< bandwidth of the photoreceptor in bright light; 0: unlimited
+  double dark_cd_m2 = 1e-3;           ///< epsilon of log(epsilon + luminance)
+  uint32_t max_events_per_pixel = 0;  ///< of the buffer, on average a picture interval; 0: chosen
+  bool events = true, differences = false, instance = false;  ///< what to deliver
+  bool hdf5 = false, text = false;                   ///< DSEC's HDF5, v2e's text beside the npy files
+  double difference_on = 0.1, difference_off = 0.1;  ///< thresholds of the difference image, see docs
+  bool see_own_body = false;
+};
+
+}  // namespace greatx::sim
