@@ -5,33 +5,14 @@
 #include <cmath>
 
 #include "sim/consistency.h"
-#include "sim/sensors/sensor_metadata.h"
+#include "sim/sensors/box_arrays.h"
+#include "sim/sensors/camera_desc.h"
 
 namespace greatx::sim {
 
 namespace {
 
 constexpr uint32_t probes_per_picture = 256;
-
-render::CameraDesc camera_desc(const NodeConfig& node, const SensorConfig& sensor, uint32_t body) {
-  const auto& config = std::get<CameraConfig>(sensor.config);
-  render::CameraDesc desc;
-  desc.name = node.name + "/" + sensor.name;
-  desc.width = config.width;
-  desc.height = config.height;
-  desc.fx = config.fx;
-  desc.fy = config.fy;
-  desc.cx = config.cx;
-  desc.cy = config.cy;
-  desc.near_m = config.near_m;
-  desc.msaa = config.msaa;
-  desc.exposure_ev100 = config.exposure.ev100;
-  desc.outputs = {config.rgb, config.depth || config.depth_png24 || config.depth_log,
-                  config.ids, config.ids,
-                  config.ids, config.hdr};
-  if (body != 0 && !config.see_own_body) desc.excluded_body = body;
-  return desc;
-}
 
 /// Ids as 16-bit pictures where they fit.
 Array narrow_ids(const std::vector<uint32_t>& ids, std::vector<int64_t> shape) {
@@ -52,14 +33,24 @@ CameraSensor::CameraSensor(Stage& stage, const render::ProbePass* probe, const S
       config_(std::get<CameraConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
-      pass_(stage.lighting(), camera_desc(scenario.nodes[node], scenario.nodes[node].sensors[sensor],
-                                          world_.body_of_node[node])),
+      clock_(scenario.tick_rate_hz),
+      times_(scenario.tick_rate_hz, scenario.nodes[node].sensors[sensor].rate_hz),
+      pass_(stage.lighting(), camera_desc(scenario, scenario.nodes[node],
+                                          scenario.nodes[node].sensors[sensor], world_.body_of_node[node])),
       probe_(pass_.desc().outputs.depth ? probe : nullptr) {
   spec_.name = pass_.desc().name;
   spec_.kind = "camera";
   spec_.rate = scenario.nodes[node].sensors[sensor].rate_hz.str();
   describe(config_, world_.scene.instances.size());
   if (probe_ != nullptr) probe_pixels_ = probe_pixels(config_.width, config_.height, probes_per_picture);
+  if (const render::TruthOutputs outputs = truth_outputs(config_); outputs.any())
+    truth_ = std::make_unique<render::TruthPass>(stage.lighting(), pass_.desc(), outputs);
+  if (!config_.boxes) return;
+  boxes_ = std::make_unique<Boxes>(world_.scene, pass_.desc(), config_.box_classes);
+  node_of_body_.assign(world_.scene.bodies.size(), -1);
+  for (size_t i = 0; i < world_.body_of_node.size(); ++i)
+    if (const uint32_t body = world_.body_of_node[i]; body != 0)
+      node_of_body_[body] = static_cast<int32_t>(i);
 }
 
 void CameraSensor::describe(const CameraConfig& config, size_t instances) {
@@ -88,6 +79,20 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
     array("depth_log", DType::f32, {h, w}, "1", "[row, column] ln(planar depth in metres + 1); sky: +inf");
     output("depth_log", FileFormat::exr, "depth_log");
   }
+  if (config.depth_ray) {
+    array("depth_ray", DType::f32, {h, w}, "m", "[row, column] distance along the pixel's ray; sky: +inf");
+    output("depth_ray", FileFormat::exr, "depth_ray");
+  }
+  if (config.normals) {
+    array("normals", DType::f32, {h, w, 3}, "1",
+          "[row, column, xyz] surface normal on the camera's side, unit, world axes; sky: 0");
+    output("normals", FileFormat::exr, "normals");
+  }
+  if (config.flow) {
+    array("flow", DType::f32, {h, w, 2}, "pixel",
+          "[row, column, uv] motion to the camera's next picture, right and down; NaN: out of sight then");
+    output("flow", FileFormat::npy_frame, "flow");
+  }
   if (config.ids) {
     const bool narrow = fits_16_bits(instances);
     array("instance", narrow ? DType::u16 : DType::u32, {h, w}, "1",
@@ -99,26 +104,33 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
     output("semantic", FileFormat::png, "semantic");
     output("material", FileFormat::png, "material");
   }
-  nlohmann::json metadata;
-  metadata["width"] = w;
-  metadata["height"] = h;
-  metadata["fx"] = config.fx;
-  metadata["fy"] = config.fy;
-  metadata["cx"] = config.cx;
-  metadata["cy"] = config.cy;
-  metadata["pixel_center"] = 0.5;
-  metadata["near_m"] = config.near_m;
-  metadata["msaa"] = config.msaa;
-  metadata["exposure_ev100"] = config.exposure.ev100;
-  metadata["depth"] = "planar";
-  metadata["optical_frame"] = "x right, y down, z forward";
-  metadata["body_from_sensor"] = json_of(mount_);
-  spec_.metadata_json = metadata.dump();
+  if (config.boxes) describe_boxes(spec_);
+  if (config.exposure.automatic) {
+    array("ev100", DType::f32, {}, "EV", "exposure that the meter set, at ISO 100");
+    output("ev100", FileFormat::npy_stack, "ev100");
+  }
+  spec_.metadata_json = camera_metadata(config, mount_).dump();
+}
+
+TruthMoment CameraSensor::next_sample(const TickContext& context) const {
+  const int64_t next = times_.tick_of(times_.sample_at(context.tick) + 1);
+  std::vector<Motion> motions;
+  for (uint32_t node = 0; node < context.nodes.size(); ++node)
+    motions.push_back(context.motion_at(node, clock_.seconds(next)));
+  return {world_.scene.to_local(motions[node_].pose) * mount_, body_poses(world_, motions)};
 }
 
 void CameraSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   const Pose local_from_sensor = world_.scene.to_local(context.nodes[node_].pose) * mount_;
-  pass_.record(slot, local_from_sensor);
+  pass_.record(slot, local_from_sensor, {context.sequence, context.tick});
+  if (truth_) {
+    TruthMoment next{local_from_sensor, {context.body_poses.begin(), context.body_poses.end()}};
+    if (config_.flow) next = next_sample(context);
+    truth_->record(slot, pass_.seen_image(), {local_from_sensor, context.body_poses},
+                   {next.local_from_sensor, next.bodies});
+  }
+  if (boxes_)
+    moments_[slot.index] = {local_from_sensor, {context.body_poses.begin(), context.body_poses.end()}};
   if (probe_ == nullptr) return;
   std::vector<shared::ProbeRay> rays;
   for (const glm::uvec2& pixel : probe_pixels_)
@@ -142,6 +154,12 @@ std::vector<Array> CameraSensor::collect(const gpu::TickSlot& slot) {
                    [](float z) { return std::log1p(z); });
     arrays.push_back(std::move(log));
   }
+  if (truth_) {
+    const render::TruthImages truth = truth_->collect(slot);
+    if (config_.depth_ray) arrays.push_back(Array::of<float>(shape, truth.depth_ray));
+    if (config_.normals) arrays.push_back(Array::of<float>(color_shape, truth.normals));
+    if (config_.flow) arrays.push_back(Array::of<float>({config_.height, config_.width, 2}, truth.flow));
+  }
   if (config_.ids) {
     if (fits_16_bits(world_.scene.instances.size()))
       arrays.push_back(narrow_ids(images_.instance, shape));
@@ -150,6 +168,13 @@ std::vector<Array> CameraSensor::collect(const gpu::TickSlot& slot) {
     arrays.push_back(Array::of<uint8_t>(shape, images_.semantic));
     arrays.push_back(Array::of<uint16_t>(shape, images_.material));
   }
+  if (boxes_) {
+    const TruthMoment& moment = moments_[slot.index];
+    const std::vector<ObjectBox> found =
+        boxes_->find(moment.local_from_sensor, moment.bodies, images_.instance);
+    for (Array& array : box_arrays(*boxes_, found, node_of_body_)) arrays.push_back(std::move(array));
+  }
+  if (config_.exposure.automatic) arrays.push_back(Array::of<float>({}, std::span(&images_.ev100, 1)));
   return arrays;
 }
 

@@ -3,14 +3,24 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <memory>
+#include <vector>
 
 #include "renderer/camera/camera.h"
+#include "renderer/camera/truth.h"
 #include "renderer/probe.h"
+#include "sim/scenario/clock.h"
+#include "sim/sensors/boxes.h"
 #include "sim/sensors/sensor.h"
 #include "sim/sensors/stage.h"
 
 namespace greatx::sim {
+
+/// Where a camera and all bodies are at one instant, local coordinates.
+struct TruthMoment {
+  Pose local_from_sensor;
+  std::vector<Pose> bodies;
+};
 
 /// A camera on a node. With a probe pass, each picture's depth is held against rays through pixel centres.
 class CameraSensor : public Sensor {
@@ -33,14 +43,22 @@ class CameraSensor : public Sensor {
  private:
   void describe(const CameraConfig& config, size_t instances);
   void check(const gpu::TickSlot& slot);
+  /// When the camera fires next; after a sequence's last sample the trajectories go on as Path has it.
+  TruthMoment next_sample(const TickContext& context) const;
 
   Stage& stage_;
   const World& world_;
   CameraConfig config_;
   uint32_t node_;
   Pose mount_;
+  Clock clock_;
+  SampleTimes times_;
   SensorSpec spec_;
   render::CameraPass pass_;
+  std::unique_ptr<render::TruthPass> truth_;  ///< null if no output asks for it
+  std::unique_ptr<Boxes> boxes_;              ///< likewise
+  std::vector<int32_t> node_of_body_;
+  std::array<TruthMoment, slots_in_flight> moments_;  ///< of the ticks in flight, for boxes
   const render::ProbePass* probe_;
   std::vector<glm::uvec2> probe_pixels_;
   std::array<gpu::Slice, slots_in_flight> probe_hits_;

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ground truth of a camera's pixels besides planar depth and ids (which DevelopPass unpacks): surface normals, distance
+// along the ray, optical flow. docs/truth.md has conventions, formulas and accuracy.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/tick_ring.h"
+#include "renderer/camera/camera.h"
+#include "shaders/shared/truth.h"
+
+namespace greatx::render {
+
+struct TruthOutputs {
+  bool normals = false, depth_ray = false, flow = false;
+  bool any() const { return normals || depth_ray || flow; }
+};
+
+/// Arrays that were not asked for are empty. C order, row 0 on top.
+struct TruthImages {
+  std::vector<float>
+      normals;  ///< [height, width, 3] unit, local (= world) axes, on the eye's side; 0 where nothing is
+  std::vector<float> depth_ray;  ///< [height, width] distance from the eye, m; sky: +inf
+  std::vector<float> flow;       ///< [height, width, 2] to the right and down, pixels; NaN: out of sight then
+};
+
+/// A camera and the bodies it looks at, at one instant; local coordinates.
+struct TruthInstant {
+  Pose local_from_sensor;
+  std::span<const Pose> bodies;  ///< by body; [0] is ignored: the static world stays
+};
+
+class TruthPass {
+ public:
+  /// Builds the pipeline for `outputs`, at least one, of the camera `desc`, whose `outputs.seen` is set. `lighting`
+  /// outlives this.
+  TruthPass(const SceneLighting& lighting, const CameraDesc& desc, const TruthOutputs& outputs);
+  /// After CameraPass::record of the same tick; `seen` is its seen_image(). `next`: where all is when the camera takes
+  /// its next picture; read only for the flow.
+  void record(gpu::TickSlot& slot, gpu::Image& seen, const TruthInstant& now, const TruthInstant& next);
+  /// What was recorded into `slot`, once its submission is done.
+  TruthImages collect(const gpu::TickSlot& slot) const;
+
+ private:
+  struct Readback {
+    gpu::Slice normals, depth_ray, flow;
+  };
+  void upload_lens();
+
+  const SceneLighting* lighting_;
+  CameraDesc desc_;
+  TruthOutputs outputs_;
+  gpu::ComputePipeline pipeline_;
+  gpu::Buffer lens_;                 ///< only behind a lens that distorts
+  std::vector<Readback> readbacks_;  ///< by slot
+  std::string scope_;
+};
+
+/// How a body moves against the camera from one instant to the other (shared::GpuBodyMotion).
+shared::GpuBodyMotion body_motion(const Pose& local_from_sensor, const Pose& local_from_body,
+                                  const Pose& next_local_from_sensor, const Pose& next_local_from_body);
+
+}  // namespace greatx::render

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/camera_desc.h"
+
+#include <string_view>
+
+#include "sim/sensors/sensor_metadata.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// FNV-1a (draft-eastlake-fnv, 32 bits): a sensor's draws depend on its name alone.
+uint32_t stream_of(std::string_view sensor) {
+  uint32_t hash = 2166136261u;
+  for (const char c : sensor) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+}  // namespace
+
+render::TruthOutputs truth_outputs(const CameraConfig& config) {
+  return {config.normals, config.depth_ray, config.flow};
+}
+
+render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node, const SensorConfig& sensor,
+                               uint32_t body) {
+  const auto& config = std::get<CameraConfig>(sensor.config);
+  render::CameraDesc desc;
+  desc.name = node.name + "/" + sensor.name;
+  desc.width = config.width;
+  desc.height = config.height;
+  desc.fx = config.fx;
+  desc.fy = config.fy;
+  desc.cx = config.cx;
+  desc.cy = config.cy;
+  desc.near_m = config.near_m;
+  desc.msaa = config.msaa;
+  const Distortion& lens = config.distortion;
+  desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  desc.exposure_ev100 = config.exposure.ev100;
+  desc.automatic_exposure = config.exposure.automatic;
+  desc.compensation_ev = config.exposure.compensation_ev;
+  desc.vignetting = {config.vignetting.natural, config.vignetting.radial};
+  if (config.noise)
+    desc.noise = {config.noise->full_well_e, config.noise->read_noise_e, config.noise->bits, scenario.seed,
+                  stream_of(desc.name)};
+  desc.outputs.rgb = config.rgb;
+  desc.outputs.hdr = config.hdr;
+  desc.outputs.depth = config.depth || config.depth_png24 || config.depth_log;
+  // Boxes count the pixels that show an instance.
+  desc.outputs.instance = config.ids || config.boxes;
+  desc.outputs.semantic = desc.outputs.material = config.ids;
+  desc.outputs.seen = truth_outputs(config).any();
+  if (body != 0 && !config.see_own_body) desc.excluded_body = body;
+  return desc;
+}
+
+nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_from_sensor) {
+  nlohmann::json metadata;
+  metadata["width"] = config.width;
+  metadata["height"] = config.height;
+  metadata["fx"] = config.fx;
+  metadata["fy"] = config.fy;
+  metadata["cx"] = config.cx;
+  metadata["cy"] = config.cy;
+  metadata["pixel_center"] = 0.5;
+  metadata["near_m"] = config.near_m;
+  metadata["msaa"] = config.msaa;
+  metadata["optical_frame"] = "x right, y down, z forward";
+  metadata["body_from_sensor"] = json_of(body_from_sensor);
+  const Distortion& lens = config.distortion;
+  if (lens.any())
+    metadata["distortion"] = {{"model", "Brown-Conrady as OpenCV's calib3d"},
+                              {"k1", lens.k1},
+                              {"k2", lens.k2},
+                              {"p1", lens.p1},
+                              {"p2", lens.p2},
+                              {"k3", lens.k3}};
+  return metadata;
+}
+
+nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from_sensor) {
+  nlohmann::json metadata = pinhole_metadata(config, body_from_sensor);
+  const Exposure& exposure = config.exposure;
+  if (exposure.automatic)
+    metadata["exposure"] = {{"automatic", true}, {"compensation_ev", exposure.compensation_ev}};
+  else
+    metadata["exposure_ev100"] = exposure.ev100;
+  if (exposure.shutter_s) metadata["shutter_s"] = *exposure.shutter_s;
+  if (config.motion_blur_samples > 0) metadata["motion_blur_samples"] = config.motion_blur_samples;
+  if (config.vignetting.any())
+    metadata["vignetting"] = {{"natural", config.vignetting.natural}, {"radial", config.vignetting.radial}};
+  if (config.noise)
+    metadata["noise"] = {{"full_well_e", config.noise->full_well_e},
+                         {"read_noise_e", config.noise->read_noise_e},
+                         {"bits", config.noise->bits}};
+  metadata["depth"] = "planar";
+  if (config.normals)
+    metadata["normals"] = "interpolated vertex normals, world axes, on the camera's side; 0 0 0: sky";
+  if (config.flow) {
+    metadata["flow"] =
+        "pixels from this picture to the camera's next one, right and down; NaN: out of sight then";
+    metadata["non_finite"] = {"flow"};
+  }
+  if (config.boxes)
+    metadata["boxes"] = "u_min v_min u_max v_max in pixel coordinates; size along the box's x y z";
+  return metadata;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a camera of a scenario to what renderer/ is told to build, and to the metadata of its data.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/camera/camera.h"
+#include "renderer/camera/truth.h"
+#include "sim/scenario/scenario.h"
+
+namespace greatx::sim {
+
+/// `body`: that carries the camera; 0: none.
+render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node, const SensorConfig& sensor,
+                               uint32_t body);
+render::TruthOutputs truth_outputs(const CameraConfig& config);
+
+/// Intrinsics, lens, frames and exposure: what a user needs to make sense of the pictures (docs/truth.md).
+nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from_sensor);
+/// Of a camera or an event camera.
+nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_from_sensor);
+
+}  // namespace greatx::sim

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/coverage.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "renderer/camera/lens.h"
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The first of 0 .. end whose centre, + 0.5, is at or beyond x.
+uint32_t first_center(double x, uint32_t end) {
+  return static_cast<uint32_t>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(end)));
+}
+
+}  // namespace
+
+Projection::Projection(const render::CameraDesc& desc)
+    : width_(desc.width),
+      height_(desc.height),
+      fx_(desc.fx),
+      fy_(desc.fy),
+      cx_(desc.cx),
+      cy_(desc.cy),
+      near_m_(desc.near_m),
+      distortion_(desc.distortion),
+      fold_radius_(desc.distortion.fold_radius()),
+      least_(0.0),
+      most_(desc.width, desc.height) {
+  if (!distorted()) return;
+  const render::Lens lens(
+      {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion});
+  const dvec2 focal(fx_, fy_), principal(cx_, cy_);
+  least_ = principal + focal * lens.bounds().least;
+  most_ = principal + focal * lens.bounds().most;
+  centers_.reserve(size_t{width_} * height_);
+  for (uint32_t row = 0; row < height_; ++row)
+    for (uint32_t column = 0; column < width_; ++column)
+      centers_.push_back(principal + focal * lens.undistorted({column + 0.5, row + 0.5}));
+}
+
+dvec2 Projection::picture(const dvec2& pinhole) const {
+  if (!distorted()) return pinhole;
+  const dvec2 focal(fx_, fy_), principal(cx_, cy_);
+  dvec2 n = (pinhole - principal) / focal;
+  if (const double r = glm::length(n); r > fold_radius_) n *= fold_radius_ / r;
+  return principal + focal * distortion_.distort(n);
+}
+
+Coverage::Coverage(const Projection& projection)
+    : projection_(&projection),
+      words_((size_t{projection.width()} + 63) / 64),
+      bits_(words_ * projection.height(), 0),
+      first_row_(projection.height()),
+      end_row_(0) {
+  if (!projection.distorted()) return;
+  const uint32_t width = projection.width(), height = projection.height();
+  row_most_.assign(height, -infinity);
+  row_least_.assign(height, infinity);
+  column_most_.assign(width, -infinity);
+  column_least_.assign(width, infinity);
+  for (uint32_t row = 0; row < height; ++row)
+    for (uint32_t column = 0; column < width; ++column) {
+      const dvec2& center = projection.centers()[size_t{row} * width + column];
+      row_most_[row] = std::max(row_most_[row], center.y);
+      row_least_[row] = std::min(row_least_[row], center.y);
+      column_most_[column] = std::max(column_most_[column], center.x);
+      column_least_[column] = std::min(column_least_[column], center.x);
+    }
+  for (std::vector<double>* most : {&row_most_, &column_most_})
+    for (size_t i = 1; i < most->size(); ++i) (*most)[i] = std::max((*most)[i], (*most)[i - 1]);
+  for (std::vector<double>* least : {&row_least_, &column_least_})
+    for (size_t i = least->size() - 1; i-- > 0;) (*least)[i] = std::min((*least)[i], (*least)[i + 1]);
+}
+
+void Coverage::clear() {
+  if (first_row_ < end_row_)
+    std::fill(bits_.begin() + static_cast<ptrdiff_t>(words_ * first_row_),
+              bits_.begin() + static_cast<ptrdiff_t>(words_ * end_row_), 0);
+  first_row_ = projection_->height();
+  end_row_ = 0;
+}
+
+uint64_t* Coverage::row_bits(uint32_t row) {
+  first_row_ = std::min(first_row_, row);
+  end_row_ = std::max(end_row_, row + 1);
+  return bits_.data() + words_ * row;
+}
+
+uint32_t Coverage::count() const {
+  uint32_t total = 0;
+  for (size_t i = words_ * first_row_; i < words_ * end_row_; ++i)
+    total += static_cast<uint32_t>(std::popcount(bits_[i]));
+  return total;
+}
+
+void Coverage::add(std::span<const dvec2> polygon) {
+  if (projection_->distorted())
+    add_distorted(polygon);
+  else
+    add_straight(polygon);
+}
+
+void Coverage::add_span(uint32_t row, uint32_t first, uint32_t end) {
+  if (first >= end) return;
+  uint64_t* const words = row_bits(row);
+  const uint32_t last = end - 1;
+  const uint64_t from = ~uint64_t{0} << (first % 64), to = ~uint64_t{0} >> (63 - last % 64);
+  if (first / 64 == last / 64) {
+    words[first / 64] |= from & to;
+    return;
+  }
+  words[first / 64] |= from;
+  for (uint32_t i = first / 64 + 1; i < last / 64; ++i) words[i] = ~uint64_t{0};
+  words[last / 64] |= to;
+}
+
+void Coverage::add_straight(std::span<const dvec2> polygon) {
+  double top = infinity, bottom = -infinity;
+  for (const dvec2& corner : polygon) {
+    top = std::min(top, corner.y);
+    bottom = std::max(bottom, corner.y);
+  }
+  const uint32_t end = first_center(bottom, projection_->height());
+  for (uint32_t row = first_center(top, projection_->height()); row < end; ++row) {
+    const double y = row + 0.5;
+    double left = infinity, right = -infinity;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      // From the upper end to the lower one, whichever way round the polygon goes: neighbours find the same crossing.
+      const dvec2 *a = &polygon[i], *b = &polygon[(i + 1) % polygon.size()];
+      if (a->y > b->y) std::swap(a, b);
+      if (!(a->y <= y && y < b->y)) continue;
+      const double x = a->x + (y - a->y) * ((b->x - a->x) / (b->y - a->y));
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+    if (left < right)
+      add_span(row, first_center(left, projection_->width()), first_center(right, projection_->width()));
+  }
+}
+
+void Coverage::add_distorted(std::span<const dvec2> polygon) {
+  dvec2 least(infinity), most(-infinity);
+  double doubled_area = 0.0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    least = glm::min(least, polygon[i]);
+    most = glm::max(most, polygon[i]);
+    const dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    doubled_area += a.x * b.y - a.y * b.x;
+  }
+  if (doubled_area == 0.0) return;
+  const double side = doubled_area > 0.0 ? 1.0 : -1.0;
+  const auto range = [](const std::vector<double>& greatest, const std::vector<double>& smallest, double from,
+                        double to) {
+    const auto first = std::ranges::lower_bound(greatest, from) - greatest.begin();
+    const auto end = std::ranges::upper_bound(smallest, to) - smallest.begin();
+    return std::pair(static_cast<uint32_t>(first), static_cast<uint32_t>(end));
+  };
+  const auto [first_row, end_row] = range(row_most_, row_least_, least.y, most.y);
+  const auto [first_column, end_column] = range(column_most_, column_least_, least.x, most.x);
+  for (uint32_t row = first_row; row < end_row; ++row) {
+    const dvec2* const centers = projection_->centers().data() + size_t{row} * projection_->width();
+    for (uint32_t column = first_column; column < end_column; ++column) {
+      bool inside = true;
+      for (size_t i = 0; inside && i < polygon.size(); ++i) {
+        const dvec2& a = polygon[i];
+        const dvec2 along = polygon[(i + 1) % polygon.size()] - a, to = centers[column] - a;
+        inside = side * (along.x * to.y - along.y * to.x) >= 0.0;
+      }
+      if (inside) add(column, row);
+    }
+  }
+}
+
+}  // namespace greatx::sim
