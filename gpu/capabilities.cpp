@@ -105,8 +105,18 @@ bool has_ray_tracing_extensions(VkPhysicalDevice physical) {
                      [&](const char* name) { return contains(extensions, name); });
 }
 
+bool has_conditional_rendering(VkPhysicalDevice physical) {
+  if (!contains(extensions_of(physical), VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME)) return false;
+  VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT};
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &conditional, {}};
+  vkGetPhysicalDeviceFeatures2(physical, &features);
+  return conditional.conditionalRendering == VK_TRUE;
+}
+
 std::vector<const char*> wanted_extensions(VkPhysicalDevice physical) {
   std::vector<const char*> names{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  if (has_conditional_rendering(physical)) names.push_back(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
   if (has_ray_tracing_extensions(physical))
     names.insert(names.end(), ray_tracing_extensions.begin(), ray_tracing_extensions.end());
   return names;
@@ -142,6 +152,8 @@ DeviceInfo describe(VkPhysicalDevice physical, uint32_t index) {
     vkGetPhysicalDeviceFeatures2(physical, &available.core);
     for (const FeatureUse& use : feature_uses)
       info.capabilities.push_back({use.name, use.used_for, true, *use.at(available) == VK_TRUE});
+    info.capabilities.push_back({"conditionalRendering", "adaptive steps of event cameras", false,
+                                 has_conditional_rendering(physical)});
   }
   return info;
 }

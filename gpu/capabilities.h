@@ -36,5 +36,7 @@ DeviceInfo describe(VkPhysicalDevice physical, uint32_t index);
 /// Device extensions that greatx switches on where they exist.
 std::vector<const char*> wanted_extensions(VkPhysicalDevice physical);
 bool has_ray_tracing_extensions(VkPhysicalDevice physical);
+/// VK_EXT_conditional_rendering and its feature: what the GPU decides to leave out (gpu/condition.h).
+bool has_conditional_rendering(VkPhysicalDevice physical);
 
 }  // namespace greatx::gpu

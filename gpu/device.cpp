@@ -253,6 +253,10 @@ void Device::create_logical() {
   request_features(wanted, available);
   const std::vector<const char*> extensions = wanted_extensions(physical_);
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &wanted.core};
+  VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT, &wanted.core, VK_TRUE, VK_FALSE};
+  const bool has_conditions = has_conditional_rendering(physical_);
+  if (has_conditions) info.pNext = &conditional;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
@@ -276,6 +280,10 @@ void Device::create_logical() {
   GREATX_LOAD(acceleration_structure_build_sizes, vkGetAccelerationStructureBuildSizesKHR);
   GREATX_LOAD(acceleration_structure_address, vkGetAccelerationStructureDeviceAddressKHR);
   GREATX_LOAD(build_acceleration_structures, vkCmdBuildAccelerationStructuresKHR);
+  if (has_conditions) {
+    GREATX_LOAD(begin_condition, vkCmdBeginConditionalRenderingEXT);
+    GREATX_LOAD(end_condition, vkCmdEndConditionalRenderingEXT);
+  }
   if (debug_utils_) {
     GREATX_LOAD(set_object_name, vkSetDebugUtilsObjectNameEXT);
     GREATX_LOAD(begin_label, vkCmdBeginDebugUtilsLabelEXT);

@@ -87,6 +87,8 @@ struct Functions {
   PFN_vkGetAccelerationStructureBuildSizesKHR acceleration_structure_build_sizes = nullptr;
   PFN_vkGetAccelerationStructureDeviceAddressKHR acceleration_structure_address = nullptr;
   PFN_vkCmdBuildAccelerationStructuresKHR build_acceleration_structures = nullptr;
+  PFN_vkCmdBeginConditionalRenderingEXT begin_condition = nullptr;  ///< null without conditional rendering
+  PFN_vkCmdEndConditionalRenderingEXT end_condition = nullptr;
   PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;  ///< null without debug utils
   PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
