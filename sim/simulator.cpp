@@ -91,6 +91,7 @@ void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz) {
 
 void Simulator::start(uint32_t sequence, int64_t first_tick) {
   GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
+  sequence_ = sequence;
   paths_ = make_paths(scenario_, sequence);
   due_ticks_ = 0;
   for (next_tick_ = schedule_.next(0, scenario_.ticks); next_tick_ < std::min(first_tick, scenario_.ticks);
@@ -102,7 +103,9 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
 }
 
 Moment Simulator::moment_at(int64_t tick) const {
-  return sim::moment_at(world_, paths_, clock_, tick, schedule_.previous(tick));
+  Moment moment = sim::moment_at(world_, paths_, clock_, tick, schedule_.previous(tick));
+  moment.context.sequence = sequence_;
+  return moment;
 }
 
 bool Simulator::step(RecordSink& sink) {

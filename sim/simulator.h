@@ -87,6 +87,7 @@ class Simulator {
   std::vector<SensorSpec> specs_;
   std::vector<std::unique_ptr<Path>> paths_;
   std::unique_ptr<InFlight> pending_;
+  uint32_t sequence_ = 0;
   int64_t next_tick_ = 0;
   int64_t due_ticks_ = 0;  ///< of the sequence, before next_tick_
   bool looks_ahead_ = false;

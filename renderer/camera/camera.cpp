@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/develop.h"
+#include "renderer/camera/meter.h"
 
 namespace greatx::render {
 
@@ -23,6 +24,11 @@ constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 }  // namespace
 
 double saturation_luminance(double ev100) { return 1.2 * std::exp2(ev100); }
+
+double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting) {
+  if (!desc.automatic_exposure) return saturation_luminance(desc.exposure_ev100);
+  return anchor_luminance(lighting.ground_illuminance_lux());
+}
 
 CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
     : lighting_(&lighting),
@@ -212,11 +218,12 @@ gpu::Slice CameraPass::upload_lights(gpu::TickSlot& slot, const CameraView& view
   return slice;
 }
 
-void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor) {
-  const CameraView view(desc_, local_from_sensor, lighting_->shadows().frame());
+void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame) {
+  const CameraView view(desc_, local_from_sensor, lighting_->shadows().frame(),
+                        1.0 / stored_luminance(desc_, *lighting_));
   record_visibility(*slot.cmd, view);
   record_shading(slot, view);
-  if (develop_) develop_->record(slot, color_, seen_);
+  if (develop_) develop_->record(slot, color_, seen_, frame);
 }
 
 void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {

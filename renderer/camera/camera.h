@@ -16,6 +16,7 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
+#include "renderer/camera/lens.h"
 #include "renderer/light/lighting.h"
 #include "scene/gpu_scene.h"
 
@@ -32,15 +33,35 @@ struct CameraOutputs {
   bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }
 };
 
+/// Of a sensor of light (docs/film.md). Every draw is a function of (seed, stream, sequence, tick, pixel) alone.
+struct SensorNoise {
+  double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
+  double read_noise_e = 2.5;     ///< rms
+  uint32_t bits = 12;            ///< of the converter
+  uint64_t seed = 0;
+  uint32_t stream = 0;  ///< of the sensor: no two of a run share one
+};
+
+/// Which picture of a run: noise differs from one to the next.
+struct FrameNumber {
+  uint32_t sequence = 0;
+  int64_t tick = 0;
+};
+
 struct CameraDesc {
   std::string name = "camera";  ///< for labels, timestamps and messages
   uint32_t width = 640, height = 480;
   double fx = 0.0, fy = 0.0;  ///< focal lengths, pixels
   double cx = 0.0,
          cy = 0.0;  ///< principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5)
-  double near_m = 0.1;  ///< planar depth of the nearest visible point; there is no far plane
-  uint32_t msaa = 4;    ///< samples a pixel: 1 or 4
-  double exposure_ev100 = 15.0;
+  double near_m = 0.1;              ///< planar depth of the nearest visible point; there is no far plane
+  uint32_t msaa = 4;                ///< samples a pixel: 1 or 4
+  double exposure_ev100 = 15.0;     ///< not of `automatic_exposure`
+  bool automatic_exposure = false;  ///< each picture by its own meter (renderer/camera/meter.h)
+  double compensation_ev = 0.0;     ///< of `automatic_exposure`: positive is brighter
+  Distortion distortion;
+  Vignetting vignetting;             ///< of rgb
+  std::optional<SensorNoise> noise;  ///< of rgb
   CameraOutputs outputs;
   std::optional<uint32_t> excluded_body;  ///< the body that carries the camera, if it shall not see it
 };
@@ -48,8 +69,10 @@ struct CameraDesc {
 /// What a camera saw at one tick; arrays that were not asked for are empty. C order, row 0 on top.
 struct CameraImages {
   uint32_t width = 0, height = 0;
-  std::vector<uint8_t> rgb;        ///< [height, width, 3], sRGB
-  std::vector<float> hdr;          ///< [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 L_max
+  float ev100 = 0.0f;        ///< of the exposure that rgb was developed with
+  std::vector<uint8_t> rgb;  ///< [height, width, 3], sRGB
+  std::vector<float>
+      hdr;  ///< [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 stored_luminance()
   std::vector<float> depth;        ///< [height, width], planar metres at the pixel's centre; sky: +inf
   std::vector<uint32_t> instance;  ///< [height, width], instance index + 1; 0: nothing
   std::vector<uint8_t> semantic;   ///< [height, width], SemanticClass; 0: nothing or unlabeled
@@ -59,6 +82,9 @@ struct CameraImages {
 /// Luminance that saturates the sensor at an exposure value: 1.2 * 2^EV100 cd/m^2 (ISO 12232 with a lens
 /// transmission of .65; Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH course 2014, section 5.1.2).
 double saturation_luminance(double ev100);
+/// cd/m^2 that a stored radiance of 1 stands for: L_max of a fixed exposure; of an automatic one what suits the light
+/// of the scene, so that halves hold day and night (docs/film.md).
+double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting);
 
 struct CameraView;
 class DevelopPass;
@@ -72,12 +98,12 @@ class CameraPass {
 
   /// Records one picture into the slot; after GpuScene::record_update and SceneLighting::record of the same tick.
   /// `local_from_sensor`: x forward, y left, z up, in local coordinates.
-  void record(gpu::TickSlot& slot, const Pose& local_from_sensor);
+  void record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame = {});
   /// The picture that was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
 
   const CameraDesc& desc() const { return desc_; }
-  /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times saturation_luminance is cd/m^2.
+  /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times stored_luminance() is cd/m^2.
   gpu::Image& hdr_image() { return color_; }
   /// Of `outputs.luminance`: cd/m^2, R32_SFLOAT, in ImageUse::storage after record().
   gpu::Image& luminance_image() { return luminance_; }

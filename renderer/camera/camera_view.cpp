@@ -7,7 +7,8 @@
 
 namespace greatx::render {
 
-CameraView::CameraView(const CameraDesc& desc, const Pose& local_from_sensor, const SunFrame& sun)
+CameraView::CameraView(const CameraDesc& desc, const Pose& local_from_sensor, const SunFrame& sun,
+                       double exposure)
     : eye(local_from_sensor.position), forward(local_from_sensor.rotate({1.0, 0.0, 0.0})) {
   // Optical axes: right = -left, down = -up.
   const dvec3 right = local_from_sensor.rotate({0.0, -1.0, 0.0}),
@@ -26,7 +27,7 @@ CameraView::CameraView(const CameraDesc& desc, const Pose& local_from_sensor, co
   constants.ray_0 = vec3(forward - right * (desc.cx / desc.fx) - down * (desc.cy / desc.fy));
   constants.light_eye = vec3(sun.from_local(eye));
   constants.near_m = float(desc.near_m);
-  constants.exposure = float(1.0 / saturation_luminance(desc.exposure_ev100));
+  constants.exposure = float(exposure);
 
   const auto plane = [](const dvec3& inwards, double offset) {
     return Plane{glm::normalize(inwards), offset / glm::length(inwards)};

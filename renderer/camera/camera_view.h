@@ -15,7 +15,8 @@
 namespace greatx::render {
 
 struct CameraView {
-  CameraView(const CameraDesc& desc, const Pose& local_from_sensor, const SunFrame& sun);
+  /// `exposure`: times radiance in cd/m^2 gives what is stored.
+  CameraView(const CameraDesc& desc, const Pose& local_from_sensor, const SunFrame& sun, double exposure);
 
   dvec3 eye;      ///< local coordinates
   dvec3 forward;  ///< unit

@@ -38,7 +38,7 @@ DevelopPass::DevelopPass(const SceneLighting& lighting, const CameraDesc& desc)
   pipeline_ = gpu::ComputePipeline(lighting_->scene().device(), develop, desc_.name + " develop");
 }
 
-void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen) {
+void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen, const FrameNumber&) {
   const CameraOutputs& outputs = desc_.outputs;
   const size_t groups =
       (size_t(desc_.width) * desc_.height + shared::develop_pixels - 1) / shared::develop_pixels;
@@ -75,7 +75,7 @@ void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& see
   constants.material = readback.material.address;
   constants.width = desc_.width;
   constants.height = desc_.height;
-  constants.radiance_scale = float(saturation_luminance(desc_.exposure_ev100));
+  constants.radiance_scale = float(stored_luminance(desc_, *lighting_));
   cmd.constants(constants);
   cmd.dispatch(static_cast<uint32_t>((groups + shared::develop_group_size - 1) / shared::develop_group_size));
 }
@@ -88,6 +88,7 @@ CameraImages DevelopPass::collect(const gpu::TickSlot& slot) const {
   CameraImages images;
   images.width = desc_.width;
   images.height = desc_.height;
+  images.ev100 = float(desc_.exposure_ev100);
   images.rgb = copied<uint8_t>(from.rgb, 3 * count);
   images.hdr = copied<float>(from.hdr, 3 * count);
   images.depth = copied<float>(from.depth, count);

@@ -17,7 +17,7 @@ class DevelopPass {
   /// Builds the pipeline for the outputs of `desc`. `lighting` outlives this.
   DevelopPass(const SceneLighting& lighting, const CameraDesc& desc);
   /// `color` and `seen` as CameraPass keeps them (hdr_image, seen_image).
-  void record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen);
+  void record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen, const FrameNumber& frame);
   /// What was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
 

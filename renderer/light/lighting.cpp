@@ -41,6 +41,8 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
   const bool sun_shines = lighting.sun_direction.z > 0.0 && lighting.sun_illuminance_lux > 0.0;
   effects_.sun = effects.sun && sun_shines;
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
+  if (effects_.sun) ground_illuminance_lux_ += lighting.sun_illuminance_lux * lighting.sun_direction.z;
+  if (effects_.sky) ground_illuminance_lux_ += lighting.sky_illuminance_lux;
   effects_.static_shadows = effects.static_shadows && effects_.sun;
   effects_.moving_shadows = effects.moving_shadows && effects_.sun;
   shadows_ = ShadowMaps(scene, SunFrame::of(lighting.sun_direction),

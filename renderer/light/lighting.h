@@ -70,6 +70,8 @@ class SceneLighting {
   /// Poses of the tick being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
   const ShadowMaps& shadows() const { return shadows_; }
+  /// On level ground from sun and sky, less what an effect leaves out.
+  double ground_illuminance_lux() const { return ground_illuminance_lux_; }
   /// uint [triangles]: the primitive of each.
   const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
   /// Bindings and descriptors that every camera's shading shares, without the lamps (each camera has its own).
@@ -82,6 +84,7 @@ class SceneLighting {
   const scene::GpuScene* scene_;
   CameraEffects effects_;  ///< what was asked, less what this light cannot cast
   ShadowMaps shadows_;
+  double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;
   gpu::Buffer block_;                ///< GpuLighting

@@ -25,6 +25,7 @@ namespace greatx::sim {
 /// Everything that a sensor may know of the tick being recorded.
 struct TickContext {
   int64_t tick = 0;
+  uint32_t sequence = 0;  ///< of the run
   double time_s = 0.0;
   /// Time of the tick before at which something was due; NaN at the first one of a sequence.
   double previous_time_s = 0.0;
