@@ -71,22 +71,20 @@ double fold_radius_any_direction(const Distortion& d, double within) {
   for (int i = 0; i < directions; ++i) {
     const double angle = 2.0 * pi * i / directions;
     const dvec2 towards(std::cos(angle), std::sin(angle));
+    const auto folded = [&](double r) { return !(glm::determinant(d.jacobian(towards * r)) > 0.0); };
     for (int k = 1; k <= steps; ++k) {
-      const double r = within * k / steps;
-      if (r >= least) break;
-      if (!(glm::determinant(d.jacobian(towards * r)) > 0.0)) least = r;
+      double high = within * k / steps, low = within * (k - 1) / steps;
+      if (low >= least) break;
+      if (!folded(high)) continue;
+      for (int half = 0; half < 40; ++half) {
+        const double middle = 0.5 * (low + high);
+        (folded(middle) ? high : low) = middle;
+      }
+      least = std::min(least, low);
+      break;
     }
   }
   return least;
-}
-
-/// Points around the rim of the picture, a pixel apart, with the corners.
-template <typename Visit>
-void around_rim(const LensGeometry& g, Visit&& visit) {
-  for (uint32_t x = 0; x <= g.width; ++x) visit(dvec2(x, 0.0));
-  for (uint32_t y = 0; y <= g.height; ++y) visit(dvec2(g.width, y));
-  for (uint32_t x = 0; x <= g.width; ++x) visit(dvec2(g.width - x, g.height));
-  for (uint32_t y = 0; y <= g.height; ++y) visit(dvec2(0.0, g.height - y));
 }
 
 [[noreturn]] void fail(const LensGeometry& g, const dvec2& pixel, const dvec2& distorted) {
@@ -182,20 +180,25 @@ dvec2 Lens::pixel(const dvec2& undistorted) const {
 
 void Lens::find_bounds() {
   bounds_ = {dvec2(infinity), dvec2(-infinity)};
-  dvec2 last(0.0), before(0.0);
   double bend = 0.0;
-  int along = 0;
-  around_rim(geometry_, [&](const dvec2& pixel) {
-    const dvec2 distorted = normalised(pixel), u = inverse(distorted);
-    if (std::isnan(u.x) || !unfolded(geometry_.distortion, u)) fail(geometry_, pixel, distorted);
-    bounds_.least = glm::min(bounds_.least, u);
-    bounds_.most = glm::max(bounds_.most, u);
-    // Corners bend most of all; their differences only make the margin wider.
-    if (along++ >= 2 && u != last) bend = std::max(bend, glm::length(u - 2.0 * last + before));
-    if (u == last) along = 1;  // a corner, visited from both sides
-    before = last;
-    last = u;
-  });
+  const auto along = [&](const dvec2& from, const dvec2& to, uint32_t steps) {
+    dvec2 last(0.0), before(0.0);
+    for (uint32_t i = 0; i <= steps; ++i) {
+      const dvec2 pixel = glm::mix(from, to, double(i) / steps), distorted = normalised(pixel);
+      const dvec2 u = inverse(distorted);
+      if (std::isnan(u.x) || !unfolded(geometry_.distortion, u)) fail(geometry_, pixel, distorted);
+      bounds_.least = glm::min(bounds_.least, u);
+      bounds_.most = glm::max(bounds_.most, u);
+      if (i >= 2) bend = std::max(bend, glm::length(u - 2.0 * last + before));
+      before = last;
+      last = u;
+    }
+  };
+  const double w = geometry_.width, h = geometry_.height;
+  along({0.0, 0.0}, {w, 0.0}, geometry_.width);
+  along({0.0, h}, {w, h}, geometry_.width);
+  along({0.0, 0.0}, {0.0, h}, geometry_.height);
+  along({w, 0.0}, {w, h}, geometry_.height);
   // Between two points a curve leaves its chord by an eighth of its second difference.
   bounds_.least -= dvec2(0.25 * bend);
   bounds_.most += dvec2(0.25 * bend);
