@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/event/event_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "gpu/condition.h"
+#include "renderer/event/event_sort.h"
+
+namespace greatx::render {
+
+namespace {
+
+constexpr gpu::Sync compute_access{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
+constexpr uint32_t pattern_sequence = ~0u;  ///< draws that are the sensor's, not a sequence's
+
+constexpr uint32_t groups(uint32_t count, uint32_t size) { return (count + size - 1) / size; }
+
+/// Rounded down, so that k thresholds are never more than k times the number that was asked for.
+int32_t fixed_threshold(double c) { return static_cast<int32_t>(std::floor(c * shared::log_one)); }
+
+glm::uvec2 key_of(const EventDesc& desc, uint32_t sequence) {
+  const uint64_t bits = RandomStream(desc.seed, desc.stream, sequence).bits();
+  return {static_cast<uint32_t>(bits), static_cast<uint32_t>(bits >> 32)};
+}
+
+/// Thresholds leaked by then, 32.32 fixed point.
+uint64_t turns_at(double rate_hz, int64_t t_ns) {
+  __extension__ using Wide = unsigned __int128;
+  const auto rate = static_cast<uint64_t>(std::llround(rate_hz * 0x1p32));
+  return static_cast<uint64_t>(Wide{rate} * static_cast<uint64_t>(t_ns) / 1'000'000'000u);
+}
+
+}  // namespace
+
+EventPass::EventPass(const scene::GpuScene& scene, const EventDesc& desc)
+    : scene_(&scene),
+      desc_(desc),
+      scope_(desc.name + " events"),
+      difference_scope_(desc.name + " differences") {
+  check();
+  build_pipelines();
+  create_resources();
+}
+
+void EventPass::check() const {
+  const auto require = [&](bool holds, const char* field, const char* expected, double found) {
+    if (!holds)
+      throw_user_error("event camera {}: {}: expected {}, found {}", desc_.name, field, expected, found);
+  };
+  constexpr uint32_t largest_edge = 16384;  // 14 bits of an event's place
+  require(desc_.width >= 1 && desc_.width <= largest_edge, "width", "1 to 16384", desc_.width);
+  require(desc_.height >= 1 && desc_.height <= largest_edge, "height", "1 to 16384", desc_.height);
+  require(desc_.substeps >= 1 && desc_.substeps <= shared::most_substeps, "steps", "1 to 64", desc_.substeps);
+  require(desc_.threshold_on >= least_threshold && desc_.threshold_on <= 1.0, "threshold", "0.01 to 1",
+          desc_.threshold_on);
+  require(desc_.threshold_off >= least_threshold && desc_.threshold_off <= 1.0, "threshold", "0.01 to 1",
+          desc_.threshold_off);
+  require(desc_.threshold_sigma >= 0.0 && desc_.threshold_sigma <= 0.5, "threshold.sigma", "0 to 0.5",
+          desc_.threshold_sigma);
+  require(desc_.refractory_s >= 0.0 && desc_.refractory_s <= 1.0, "refractory_s", "0 to 1",
+          desc_.refractory_s);
+  require(desc_.leak_rate_hz >= 0.0 && desc_.leak_rate_hz <= 10.0, "leak_rate_hz", "0 to 10",
+          desc_.leak_rate_hz);
+  require(desc_.shot_rate_hz >= 0.0 && desc_.shot_rate_hz <= 1000.0, "shot_rate_hz", "0 to 1000",
+          desc_.shot_rate_hz);
+  require(desc_.cutoff_hz >= 0.0 && desc_.cutoff_hz <= 1e6, "cutoff_hz", "0 to 1e6", desc_.cutoff_hz);
+  require(desc_.dark_cd_m2 >= 1e-6 && desc_.dark_cd_m2 <= 1e6, "dark_cd_m2", "1e-6 to 1e6", desc_.dark_cd_m2);
+  require(desc_.bright_cd_m2 >= 1e-6 && desc_.bright_cd_m2 <= 1e9, "bright_cd_m2", "1e-6 to 1e9",
+          desc_.bright_cd_m2);
+  require(desc_.capacity >= 1 && desc_.capacity <= 1u << 28, "max_events_per_pixel",
+          "room for 1 to 268435456 events an interval", desc_.capacity);
+  require(!desc_.adaptive() || desc_.wanted > 0.0, "steps", "a positive motion or change", desc_.wanted);
+  if (desc_.adaptive() && !gpu::has_conditions(scene_->device()))
+    throw_user_error(
+        "event camera {}: steps: expected a number, for adaptive ones need VK_EXT_conditional_rendering, "
+        "which "
+        "'{}' does not have",
+        desc_.name, scene_->device().info().name);
+}
+
+void EventPass::build_pipelines() {
+  gpu::Device& device = scene_->device();
+  if (desc_.differences) {
+    gpu::ComputeDesc compute;
+    compute.shader = "event/difference.comp";
+    compute.bindings = {{shared::event_previous_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                        {shared::event_luminance_binding + 1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
+    compute.push_constant_bytes = sizeof(shared::DifferenceConstants);
+    difference_ = gpu::ComputePipeline(device, compute, difference_scope_);
+  }
+  if (!desc_.events) return;
+  gpu::ComputeDesc compute;
+  for (const uint32_t slot :
+       {shared::event_model_binding, shared::event_control_binding, shared::event_runs_binding,
+        shared::event_objects_binding, shared::event_motion_binding})
+    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  for (const uint32_t slot :
+       {shared::event_luminance_binding, shared::event_seen_binding, shared::event_pixel_binding,
+        shared::event_extra_binding, shared::event_before_binding, shared::event_threshold_binding})
+    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  compute.push_constant_bytes = sizeof(shared::EventConstants);
+  compute.specialization.resize(shared::event_spec_count);
+  compute.specialization[shared::event_spec_mismatch] = desc_.threshold_sigma > 0.0;
+  compute.specialization[shared::event_spec_leak] = desc_.leak_rate_hz > 0.0;
+  compute.specialization[shared::event_spec_shot] = desc_.shot_rate_hz > 0.0;
+  compute.specialization[shared::event_spec_refractory] = desc_.refractory_s > 0.0;
+  compute.specialization[shared::event_spec_bandwidth] = desc_.cutoff_hz > 0.0;
+  compute.specialization[shared::event_spec_instance] = desc_.instance;
+  compute.specialization[shared::event_spec_adaptive] = static_cast<uint32_t>(desc_.steps);
+  const auto build = [&](gpu::ComputePipeline& pipeline, const char* name) {
+    compute.shader = std::string("event/") + name + ".comp";
+    pipeline = gpu::ComputePipeline(device, compute, desc_.name + " " + name);
+  };
+  build(begin_, "begin");
+  build(step_, "step");
+  build(scan_, "scan");
+  build(emit_, "emit");
+}
+
+void EventPass::create_resources() {
+  gpu::Device& device = scene_->device();
+  std::vector<gpu::Image*> images;
+  const auto image = [&](gpu::Image& to, VkFormat format, bool wanted, const char* what) {
+    to = gpu::Image(device,
+                    {.format = format,
+                     .width = wanted ? desc_.width : 1,
+                     .height = wanted ? desc_.height : 1,
+                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                    desc_.name + " " + what);
+    images.push_back(&to);
+  };
+  const bool extra = desc_.cutoff_hz > 0.0 || desc_.refractory_s > 0.0;
+  const bool thresholds = desc_.events && (desc_.threshold_sigma > 0.0 || desc_.leak_rate_hz > 0.0);
+  image(previous_, VK_FORMAT_R32_SFLOAT, desc_.differences, "picture before");
+  image(pixels_, VK_FORMAT_R32G32_SINT, desc_.events, "pixels");
+  image(extra_, VK_FORMAT_R32G32_SINT, desc_.events && extra, "pixels' delays");
+  image(before_, VK_FORMAT_R32G32B32A32_SINT, desc_.events, "pixels before");
+  image(thresholds_, VK_FORMAT_R32G32B32A32_SINT, thresholds, "thresholds");
+  image(no_seen_, VK_FORMAT_R32G32_UINT, false, "nothing seen");
+  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
+    for (gpu::Image* each : images) cmd.transition(*each, gpu::ImageUse::storage, true);
+  });
+  if (thresholds) upload_thresholds();
+  const shared::EventModel block = model();
+  model_ = gpu::upload_buffer(device, std::as_bytes(std::span(&block, 1)), desc_.name + " model");
+  control_ = gpu::Buffer(device, sizeof(shared::EventControl), gpu::Memory::device, desc_.name + " control",
+                         gpu::condition_usage(device));
+  runs_ =
+      gpu::Buffer(device, sizeof(shared::EventRun) * groups(desc_.width, shared::run_pixels) * desc_.height,
+                  gpu::Memory::device, desc_.name + " runs");
+  no_motions_ = gpu::Buffer(device, 0, gpu::Memory::device, desc_.name + " no motions");
+  upload_objects();
+}
+
+shared::EventModel EventPass::model() const {
+  shared::EventModel block{};
+  block.width = desc_.width;
+  block.height = desc_.height;
+  block.on = fixed_threshold(desc_.threshold_on);
+  block.off = fixed_threshold(desc_.threshold_off);
+  block.dark = static_cast<float>(desc_.dark_cd_m2);
+  block.bright = static_cast<float>(desc_.bright_cd_m2);
+  block.angular_cutoff = static_cast<float>(2.0 * pi * desc_.cutoff_hz * 1e-9);
+  block.shot_rate_hz = static_cast<float>(desc_.shot_rate_hz);
+  block.refractory_ns = static_cast<int32_t>(std::llround(desc_.refractory_s * 1e9));
+  block.capacity = desc_.capacity;
+  block.fx = static_cast<float>(desc_.fx);
+  block.fy = static_cast<float>(desc_.fy);
+  block.cx = static_cast<float>(desc_.cx);
+  block.cy = static_cast<float>(desc_.cy);
+  block.wanted = static_cast<float>(desc_.wanted);
+  return block;
+}
+
+void EventPass::upload_thresholds() {
+  const glm::uvec2 key = key_of(desc_, pattern_sequence);
+  std::vector<glm::ivec4> values(size_t(desc_.width) * desc_.height);
+  for (uint32_t pixel = 0; pixel < values.size(); ++pixel) {
+    const glm::uvec4 words = shared::random_bits(key.x, key.y, 0, pixel, 0);
+    // Box and Muller's two normal numbers: one for each threshold.
+    const double radius = std::sqrt(-2.0 * std::log((words.x + 0.5) * 0x1p-32));
+    const double angle = 2.0 * pi * words.y * 0x1p-32;
+    const auto threshold = [&](double c, double normal) {
+      return fixed_threshold(
+          std::clamp(c + desc_.threshold_sigma * normal, least_threshold, largest_threshold));
+    };
+    values[pixel] = {threshold(desc_.threshold_on, radius * std::cos(angle)),
+                     threshold(desc_.threshold_off, radius * std::sin(angle)), static_cast<int32_t>(words.z),
+                     0};
+  }
+  gpu::Buffer staging(scene_->device(), values.size() * sizeof(glm::ivec4), gpu::Memory::upload,
+                      desc_.name + " thresholds");
+  std::ranges::copy(values, staging.slice().as<glm::ivec4>().begin());
+  gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
+    cmd.transition(thresholds_, gpu::ImageUse::transfer_target);
+    cmd.copy(staging.slice(), thresholds_);
+    cmd.transition(thresholds_, gpu::ImageUse::storage);
+  });
+}
+
+void EventPass::upload_objects() {
+  std::vector<glm::uvec2> objects;
+  if (needs_seen()) {
+    const scene::Scene& scene = scene_->scene();
+    objects.resize(scene.indices.size() / 3);
+    for (const scene::Primitive& primitive : scene.primitives)
+      std::fill_n(objects.begin() + primitive.first_index / 3, primitive.index_count / 3,
+                  glm::uvec2(primitive.instance + 1, scene.instances[primitive.instance].body));
+  }
+  objects_ = gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(objects)), desc_.name + " objects");
+}
+
+void EventPass::begin(gpu::TickSlot& slot, const EventInterval& interval) {
+  GREATX_CHECK(interval.begin_ns >= 0 &&
+                   (first_ || (interval.end_ns > interval.begin_ns &&
+                               interval.end_ns - interval.begin_ns <= shared::longest_interval_ns)),
+               "{}: interval from {} to {} ns", desc_.name, interval.begin_ns, interval.end_ns);
+  now_ = {};
+  now_.interval = interval;
+  now_.first = first_;
+  first_ = false;
+  if (!desc_.events) return;
+  if (!now_.first) {
+    now_.events = slot.readback.allocate_for<shared::uvec2>(desc_.capacity);
+    if (desc_.instance) now_.instances = slot.readback.allocate_for<uint32_t>(desc_.capacity);
+  }
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope(scope_);
+  if (desc_.adaptive())
+    cmd.barrier({gpu::sync::condition_read.stage | VK_PIPELINE_STAGE_2_TRANSFER_BIT | compute_access.stage,
+                 compute_access.access},
+                compute_access);
+  else
+    cmd.barrier({VK_PIPELINE_STAGE_2_TRANSFER_BIT | compute_access.stage, compute_access.access},
+                compute_access);
+  descriptors_.clear();
+  for (const auto& [binding, image] : {std::pair{shared::event_luminance_binding, &previous_},
+                                       {shared::event_seen_binding, &no_seen_},
+                                       {shared::event_pixel_binding, &pixels_},
+                                       {shared::event_extra_binding, &extra_},
+                                       {shared::event_before_binding, &before_},
+                                       {shared::event_threshold_binding, &thresholds_}})
+    descriptors_.push_back(gpu::Descriptor::storage(binding, *image));
+  for (const auto& [binding, buffer] : {std::pair{shared::event_model_binding, &model_},
+                                        {shared::event_control_binding, &control_},
+                                        {shared::event_runs_binding, &runs_},
+                                        {shared::event_objects_binding, &objects_},
+                                        {shared::event_motion_binding, &no_motions_}})
+    descriptors_.push_back(gpu::Descriptor::buffer(binding, *buffer));
+  bind(cmd, begin_, now_.first ? 0 : 1);
+  cmd.dispatch(1);
+  if (desc_.adaptive())
+    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | compute_access.stage,
+                                           gpu::sync::condition_read.access | compute_access.access});
+}
+
+gpu::Slice EventPass::condition(uint32_t index) const {
+  if (!desc_.adaptive() || !desc_.events || now_.first || index == desc_.substeps) return {};
+  return control_.slice().part(shared::event_due_offset + sizeof(uint32_t) * index, sizeof(uint32_t));
+}
+
+int64_t EventPass::time_ns(uint32_t index) const {
+  const auto length = static_cast<uint32_t>(now_.interval.end_ns - now_.interval.begin_ns);
+  return now_.interval.begin_ns + shared::grid_time(length, desc_.substeps, index);
+}
+
+shared::EventConstants EventPass::constants(uint32_t index) const {
+  const glm::uvec2 key = key_of(desc_, now_.interval.sequence);
+  shared::EventConstants constants{};
+  constants.leak_begin = turns_at(desc_.leak_rate_hz, now_.interval.begin_ns);
+  constants.leak_interval = turns_at(desc_.leak_rate_hz, now_.interval.end_ns) - constants.leak_begin;
+  constants.events = now_.events.address;
+  constants.instances = now_.instances.address;
+  constants.interval_ns = static_cast<uint32_t>(now_.interval.end_ns - now_.interval.begin_ns);
+  constants.grid = desc_.substeps;
+  constants.index = index;
+  constants.noise_seed = key.x;
+  constants.noise_stream = key.y;
+  constants.noise_sample = static_cast<uint32_t>(now_.interval.sample);
+  return constants;
+}
+
+void EventPass::bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32_t index) {
+  cmd.bind(pipeline);
+  cmd.push(descriptors_);
+  cmd.constants(constants(index));
+}
+
+void EventPass::step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance, gpu::Image* seen,
+                     std::span<const shared::EventMotion> motions) {
+  GREATX_CHECK((index == 0) == now_.first && index <= desc_.substeps, "{}: picture {} of {}", desc_.name,
+               index, desc_.substeps);
+  if (!desc_.events) return;
+  GREATX_CHECK((seen != nullptr) == needs_seen(), "{}: what pixels see is needed: {}", desc_.name,
+               needs_seen());
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope(scope_);
+  cmd.transition(luminance, gpu::ImageUse::storage);
+  if (seen != nullptr) cmd.transition(*seen, gpu::ImageUse::storage);
+  cmd.barrier(gpu::sync::compute_write, compute_access);
+  for (gpu::Descriptor& descriptor : descriptors_) {
+    if (descriptor.slot == shared::event_luminance_binding)
+      descriptor = gpu::Descriptor::storage(descriptor.slot, luminance);
+    if (descriptor.slot == shared::event_seen_binding && seen != nullptr)
+      descriptor = gpu::Descriptor::storage(descriptor.slot, *seen);
+    if (descriptor.slot == shared::event_motion_binding && !motions.empty())
+      descriptor = gpu::Descriptor::buffer(descriptor.slot, slot.upload.put(motions));
+  }
+  const uint32_t runs = groups(desc_.width, shared::run_pixels) * desc_.height;
+  bind(cmd, step_, index);
+  cmd.dispatch(groups(runs, shared::event_group_size));
+  if (index == 0 && !desc_.adaptive()) return;
+  cmd.barrier(gpu::sync::compute_write, compute_access);
+  bind(cmd, scan_, index);
+  cmd.dispatch(1);
+  if (index > 0) {
+    cmd.barrier(gpu::sync::compute_write, compute_access);
+    bind(cmd, emit_, index);
+    cmd.dispatch(groups(runs, shared::event_group_size));
+  }
+  if (desc_.adaptive())
+    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | compute_access.stage,
+                                           gpu::sync::condition_read.access | compute_access.access});
+}
+
+void EventPass::end(gpu::TickSlot& slot, gpu::Image& luminance) {
+  gpu::Cmd& cmd = *slot.cmd;
+  if (desc_.differences) {
+    const auto scope = cmd.scope(difference_scope_);
+    const uint32_t words = groups(desc_.width * desc_.height, 4);
+    now_.difference = slot.readback.allocate_for<uint32_t>(words);
+    cmd.transition(luminance, gpu::ImageUse::storage);
+    cmd.transition(previous_, gpu::ImageUse::storage);
+    shared::DifferenceConstants constants{};
+    constants.picture = now_.difference.address;
+    constants.width = desc_.width;
+    constants.height = desc_.height;
+    constants.on = static_cast<float>(desc_.difference_on_cd_m2);
+    constants.off = static_cast<float>(desc_.difference_off_cd_m2);
+    constants.first = now_.first;
+    cmd.bind(difference_);
+    cmd.push({gpu::Descriptor::storage(shared::event_previous_binding, previous_),
+              gpu::Descriptor::storage(shared::event_luminance_binding + 1, luminance)});
+    cmd.constants(constants);
+    cmd.dispatch(groups(words, shared::event_group_size));
+  }
+  if (desc_.events) {
+    now_.control = slot.readback.allocate(sizeof(shared::EventControl));
+    cmd.barrier(gpu::sync::compute_write, gpu::sync::transfer_read);
+    cmd.copy(control_.slice(), now_.control);
+  }
+  if (pending_.size() <= slot.index) pending_.resize(slot.index + 1);
+  pending_[slot.index] = now_;
+}
+
+namespace {
+
+template <typename Event>
+std::vector<Event> listed(const gpu::Slice& events, const gpu::Slice& instances, size_t count) {
+  std::vector<Event> list(count);
+  const std::span<const shared::uvec2> from = events.as<shared::uvec2>();
+  for (size_t i = 0; i < count; ++i) {
+    list[i].t_ns = from[i].x;
+    list[i].place = from[i].y;
+    if constexpr (std::is_same_v<Event, ListedEventOfInstance>)
+      list[i].instance = instances.as<uint32_t>()[i];
+  }
+  return list;
+}
+
+template <typename Event>
+void unpack(std::vector<Event> list, uint32_t interval_ns, EventFrame& frame) {
+  std::vector<Event> scratch;
+  sort_events(list, scratch, interval_ns);
+  const size_t count = list.size();
+  frame.t_ns.resize(count);
+  frame.x.resize(count);
+  frame.y.resize(count);
+  frame.p.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    frame.t_ns[i] = list[i].t_ns;
+    frame.x[i] = static_cast<uint16_t>(list[i].place >> 1 & 0x3fffu);
+    frame.y[i] = static_cast<uint16_t>(list[i].place >> 15);
+    frame.p[i] = static_cast<uint8_t>(list[i].place & 1u);
+  }
+  if constexpr (std::is_same_v<Event, ListedEventOfInstance>) {
+    frame.instance.resize(count);
+    for (size_t i = 0; i < count; ++i) frame.instance[i] = list[i].instance;
+  }
+}
+
+}  // namespace
+
+EventFrame EventPass::collect(const gpu::TickSlot& slot) {
+  GREATX_CHECK(slot.index < pending_.size(), "{}: nothing was recorded into slot {}", desc_.name, slot.index);
+  const Pending& from = pending_[slot.index];
+  EventFrame frame;
+  if (desc_.differences) {
+    const std::span<const int8_t> bytes = from.difference.as<int8_t>();
+    frame.difference.assign(bytes.begin(),
+                            bytes.begin() + static_cast<ptrdiff_t>(size_t(desc_.width) * desc_.height));
+  }
+  if (!desc_.events || from.first) return frame;
+  const shared::EventControl& control = from.control.as<shared::EventControl>()[0];
+  const size_t count = std::min(control.events, desc_.capacity);
+  frame.dropped = control.events - count;
+  frame.pictures = desc_.adaptive() ? control.pictures : desc_.substeps;
+  frame.coarse = control.coarse;
+  frame.largest = shared::uintBitsToFloat(control.largest);
+  const auto interval_ns = static_cast<uint32_t>(from.interval.end_ns - from.interval.begin_ns);
+  if (desc_.instance)
+    unpack(listed<ListedEventOfInstance>(from.events, from.instances, count), interval_ns, frame);
+  else
+    unpack(listed<ListedEvent>(from.events, {}, count), interval_ns, frame);
+  return frame;
+}
+
+}  // namespace greatx::render

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From linear luminance to events and difference images (docs/events.md). A camera takes pictures at several instants of
+// each interval between two samples; this pass turns each step from one picture to the next into events, on the GPU, and
+// keeps every pixel's state from tick to tick. The model of a pixel is shaders/shared/events.h.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/tick_ring.h"
+#include "scene/gpu_scene.h"
+#include "shaders/shared/events.h"
+
+namespace greatx::render {
+
+/// When pictures are taken within an interval.
+enum class EventSteps {
+  fixed,          ///< at each of `substeps` even instants
+  by_flow,        ///< at those of them that keep motion from picture to picture to `wanted` pixels
+  by_brightness,  ///< at those that keep the change of any pixel to `wanted` thresholds
+};
+
+struct EventDesc {
+  std::string name = "event camera";  ///< for labels, timestamps and messages
+  uint32_t width = 640, height = 480;
+  double fx = 1.0, fy = 1.0, cx = 0.0, cy = 0.0;  ///< pixels; of by_flow alone
+  uint32_t substeps = 4;                          ///< even instants an interval, at most most_substeps
+  EventSteps steps = EventSteps::fixed;
+  double wanted = 0.5;                             ///< of adaptive steps
+  double threshold_on = 0.2, threshold_off = 0.2;  ///< of the natural logarithm, 0.01 to 1
+  double threshold_sigma = 0.0;                    ///< standard deviation from pixel to pixel
+  double refractory_s = 0.0;
+  double leak_rate_hz = 0.0;
+  double shot_rate_hz = 0.0;
+  double cutoff_hz = 0.0;       ///< 0: unlimited bandwidth
+  double dark_cd_m2 = 1e-3;     ///< added before the logarithm
+  double bright_cd_m2 = 1e3;    ///< of relative intensity 1: bandwidth and shot noise
+  uint32_t capacity = 1 << 20;  ///< events an interval that there is room for
+  bool events = true, instance = false, differences = false;
+  double difference_on_cd_m2 = 1.0, difference_off_cd_m2 = 1.0;
+  uint64_t seed = 0;
+  uint32_t stream = 0;  ///< of the sensor: no two of a run share one
+  bool adaptive() const { return steps != EventSteps::fixed; }
+};
+
+/// Thresholds of a pixel are no smaller and no larger than this, whatever the mismatch draws (0.01: v2e, ESIM).
+inline constexpr double least_threshold = 0.01, largest_threshold = 2.0;
+
+/// From the sample before to this one.
+struct EventInterval {
+  int64_t begin_ns = 0, end_ns = 0;  ///< after the beginning of the sequence
+  int64_t sample = 0;
+  uint32_t sequence = 0;
+};
+
+/// What happened in an interval, in order of (t, y, x, p).
+struct EventFrame {
+  std::vector<uint32_t> t_ns;  ///< after the interval's start, 1 to its length
+  std::vector<uint16_t> x, y;  ///< column, row
+  std::vector<uint8_t> p;      ///< 1: brighter, 0: darker
+  std::vector<uint32_t> instance;
+  uint64_t dropped = 0;            ///< events beyond the capacity
+  uint32_t pictures = 0;           ///< taken, without the one that the interval begins with
+  uint32_t coarse = 0;             ///< of those, how many moved or changed more than wanted
+  double largest = 0.0;            ///< motion or change from picture to picture; adaptive steps alone
+  std::vector<int8_t> difference;  ///< [height, width]: 1, 0, -1
+  size_t size() const { return t_ns.size(); }
+};
+
+class EventPass {
+ public:
+  /// Builds the pipelines that `desc` needs. `scene` outlives this. Throws UserError naming the sensor and the field if a
+  /// value is out of its range or the device cannot do adaptive steps.
+  EventPass(const scene::GpuScene& scene, const EventDesc& desc);
+
+  /// Forgets everything: the next interval's picture sets the references.
+  void restart() { first_ = true; }
+  bool first() const { return first_; }
+
+  /// Begins an interval in the slot's command buffer. If it is the first, step() takes one picture, of index 0; otherwise
+  /// one for each index from 1 to substeps, in order.
+  void begin(gpu::TickSlot& slot, const EventInterval& interval);
+  /// Whether the picture is taken: for gpu::Condition around everything that makes it, step() included. An empty slice: it
+  /// is, whatever happens.
+  gpu::Slice condition(uint32_t index) const;
+  /// Instant of the picture, after the beginning of the sequence.
+  int64_t time_ns(uint32_t index) const;
+  /// `luminance`: r32f, cd/m^2; `seen`: as CameraPass::seen_image, of `instance` and by_flow, else null; both in
+  /// ImageUse::storage. `motions`: by body, of by_flow.
+  void step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance, gpu::Image* seen,
+            std::span<const shared::EventMotion> motions);
+  /// Ends it; `luminance`: of the last picture.
+  void end(gpu::TickSlot& slot, gpu::Image& luminance);
+
+  /// The interval that was recorded into `slot`, once its submission is done.
+  EventFrame collect(const gpu::TickSlot& slot);
+
+  const EventDesc& desc() const { return desc_; }
+  /// Whether step() reads what pixels see.
+  bool needs_seen() const { return desc_.instance || desc_.steps == EventSteps::by_flow; }
+
+ private:
+  struct Pending {
+    gpu::Slice control, events, instances, difference;
+    EventInterval interval;
+    bool first = false;
+  };
+  void check() const;
+  void build_pipelines();
+  void create_resources();
+  void upload_thresholds();
+  void upload_objects();
+  shared::EventModel model() const;
+  shared::EventConstants constants(uint32_t index) const;
+  void bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32_t index);
+
+  const scene::GpuScene* scene_;
+  EventDesc desc_;
+  gpu::ComputePipeline begin_, step_, scan_, emit_, difference_;
+  gpu::Buffer model_, control_, runs_, objects_, no_motions_;
+  gpu::Image pixels_, extra_, before_, thresholds_, no_seen_, previous_;
+  std::vector<Pending> pending_;  ///< by slot
+  Pending now_;                   ///< being recorded
+  std::vector<gpu::Descriptor> descriptors_;
+  bool first_ = true;
+  std::string scope_, difference_scope_;
+};
+
+}  // namespace greatx::render

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The difference image: 1 where the picture is brighter than the one before by the threshold or more, -1 where it is
+// darker, else 0; a byte a pixel, four an invocation.
+#extension GL_EXT_buffer_reference : require
+#include "shared/events.h"
+
+layout(local_size_x = event_group_size) in;
+layout(set = 0, binding = event_luminance_binding + 1, r32f) uniform readonly image2D luminance_image;
+layout(set = 0, binding = event_previous_binding, r32f) uniform image2D previous_image;
+layout(push_constant, scalar) uniform Constants { DifferenceConstants difference; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
+
+void main() {
+  uint group = gl_GlobalInvocationID.x, count = difference.width * difference.height;
+  if (4u * group >= count) return;
+  uint word = 0u;
+  for (uint i = 0u; i < 4u; ++i) {
+    uint pixel = 4u * group + i;
+    if (pixel >= count) break;
+    ivec2 at = ivec2(pixel % difference.width, pixel / difference.width);
+    float now = imageLoad(luminance_image, at).r;
+    if (difference.first == 0u) {
+      float change = now - imageLoad(previous_image, at).r;
+      uint value = change >= difference.on ? 1u : -change >= difference.off ? 0xffu : 0u;
+      word |= value << (8u * i);
+    }
+    imageStore(previous_image, at, vec4(now));
+  }
+  Words(difference.picture).v[group] = word;
+}

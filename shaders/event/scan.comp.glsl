@@ -1,0 +1,59 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One workgroup: where in the interval's list each run's events begin, row by row behind those of the steps before. With
+// adaptive steps also when the next picture is taken.
+#include "event/pixels.glsl"
+
+layout(local_size_x = event_scan_size) in;
+shared uint sums[event_scan_size];
+
+/// What the pictures so far allow until the next one, ESIM's rule: what is wanted over how fast it moves or changes.
+void plan_next() {
+  float measured = uintBitsToFloat(control.measured);
+  float dt = float(this_step(control.last).dt_ns), moved = measured, per_ns = measured;
+  if (adaptive == adaptive_flow)
+    moved *= dt;
+  else
+    per_ns /= dt;
+  if (interval.index > 0u) {
+    control.pictures += 1u;
+    control.largest = max(control.largest, floatBitsToUint(moved));
+    if (moved > model.wanted) control.coarse += 1u;
+  }
+  if (interval.index > 0u || adaptive == adaptive_flow)
+    control.allowed = floatBitsToUint(min(model.wanted / max(per_ns, 1e-30), 1e30));
+  control.measured = 0u;
+  control.from = control.last;
+  control.last = interval.index;
+  if (interval.index == 0u || interval.index == interval.grid) return;
+  float spacing = float(interval.interval_ns) / float(interval.grid);
+  float ahead = clamp(uintBitsToFloat(control.allowed) / spacing, 1.0, float(interval.grid));
+  control.due[min(interval.index + uint(ahead), interval.grid)] = 1u;
+}
+
+void main() {
+  uint lane = gl_LocalInvocationIndex;
+  uint count = interval.index == 0u ? 0u : runs_per_row() * model.height;
+  uint share = (count + event_scan_size - 1u) / event_scan_size;
+  uint begin = min(lane * share, count), end = min(begin + share, count);
+  uint sum = 0u;
+  for (uint r = begin; r < end; ++r) sum += runs[r].count;
+  sums[lane] = sum;
+  barrier();
+  uint before = control.events, total = 0u;
+  for (uint i = 0u; i < event_scan_size; ++i) {
+    before += i < lane ? sums[i] : 0u;
+    total += sums[i];
+  }
+  for (uint r = begin; r < end; ++r) {
+    runs[r].first = before;
+    before += runs[r].count;
+  }
+  barrier();
+  if (lane != 0u) return;
+  control.events += total;
+  if (adaptive != 0u) plan_next();
+}

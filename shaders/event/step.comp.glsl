@@ -1,0 +1,87 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Takes every pixel from the picture before to this one: its new state, what it was before if it fires, and how many
+// events each run of pixels has.
+#include "event/pixels.glsl"
+
+layout(local_size_x = event_group_size) in;
+
+/// How fast what the pixel sees moves over the picture, pixels per nanosecond; without the lens's distortion.
+float flow_at(ivec2 at) {
+  uvec2 seen = imageLoad(seen_image, at).rg;
+  bool sky = seen.y == 0u;
+  float depth = sky ? 1.0 : uintBitsToFloat(seen.x);
+  EventMotion motion = motions[sky ? 0u : objects[seen.y - 1u].y];
+  vec3 ray = vec3((vec2(at) + 0.5 - vec2(model.cx, model.cy)) / vec2(model.fx, model.fy), 1.0);
+  vec3 velocity = (sky ? vec3(0.0) : motion.a) + cross(motion.w, ray * depth);  // the sky only turns
+  vec2 flow = vec2(model.fx, model.fy) * (velocity.xy - ray.xy * velocity.z) / depth;
+  return length(flow) * 1e-9;
+}
+
+/// The first picture: nothing happens, the pixel looks at it.
+void look(ivec2 at, int signal) {
+  int reference = signal;
+  if (leak_on) {
+    // Somewhere below the signal, or all pixels would leak at once.
+    ivec3 c = thresholds_at(at);
+    reference -= int(uint64_t(c.x) * uint64_t(uint(c.z)) >> 32);
+  }
+  imageStore(pixel_image, at, ivec4(reference, signal, 0, 0));
+  if (bandwidth_on || refractory_on) imageStore(extra_image, at, ivec4(signal, 0, 0, 0));
+}
+
+void main() {
+  uint run = gl_GlobalInvocationID.x;
+  if (run >= runs_per_row() * model.height) return;
+  uint pixels;
+  ivec2 at = run_start(run, pixels);
+  bool first = interval.index == 0u;
+  Step step = this_step(control.last);
+  uint events = 0u, fired = 0u;
+  float measured = 0.0;
+  for (uint i = 0u; i < pixels; ++i, ++at.x) {
+    float luminance = imageLoad(luminance_image, at).r;
+    int signal = event_signal(luminance, model.dark);
+    if (adaptive == adaptive_flow) measured = max(measured, flow_at(at));
+    if (first) {
+      look(at, signal);
+      continue;
+    }
+    ivec2 before = imageLoad(pixel_image, at).rg;
+    ivec2 extra = ivec2(0);
+    if (bandwidth_on || refractory_on) extra = imageLoad(extra_image, at).rg;
+    int seen = signal;
+    if (bandwidth_on)
+      signal = low_pass(before.y, extra.x, seen,
+                        float(step.dt_ns) * model.angular_cutoff * relative_intensity(luminance, model.bright));
+    ivec3 c = thresholds_at(at);
+    if (adaptive == adaptive_brightness) measured = max(measured, float(abs(signal - before.y)) / float(min(c.x, c.y)));
+    int leak = leak_on ? leak_between(step.leaked_from, step.leaked_to, c.x) : 0;
+    int to = signal + leak;
+    int crossings = count_crossings(before.x, to, c.x, c.y);
+    uint count = uint(abs(crossings));
+    int alive = extra.y;
+    if (shot_on || refractory_on) {
+      EventWalk walk = begin_walk(before.y, to, before.x, c.x, c.y, step.dt_ns, alive);
+      Shot shot = begin_shot(walk, at);
+      int t;
+      bool on;
+      for (count = 0u; next_event(walk, shot, t, on);) count += 1u;
+      alive = walk.alive_ns;
+    }
+    if (count > 0u) {
+      events += count;
+      fired |= 1u << i;
+      imageStore(before_image, at, ivec4(before.x, before.y, extra.y, count));
+    }
+    int reference = before.x + crossings * (crossings > 0 ? c.x : c.y) - leak;
+    imageStore(pixel_image, at, ivec4(reference, signal, 0, 0));
+    if (bandwidth_on || refractory_on) imageStore(extra_image, at, ivec4(seen, max(alive - step.dt_ns, 0), 0, 0));
+  }
+  runs[run].count = events;
+  runs[run].fired = fired;
+  if (adaptive != 0u) atomicMax(control.measured, floatBitsToUint(measured));  // of floats >= 0, in any order the same
+}

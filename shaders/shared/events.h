@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pixel of an event camera, as pure functions that shaders and C++ tests read alike (docs/events.md).
+//
+// Logarithms, references and thresholds are integers, multiples of 2^-24 of a natural logarithm: sums of thresholds are
+// exact however many there are, "on the threshold" is a comparison of integers, and a crossing's time is a quotient of
+// integers. Times within an interval are integer nanoseconds.
+#ifndef GREATX_SHADERS_SHARED_EVENTS_H
+#define GREATX_SHADERS_SHARED_EVENTS_H
+#include "random.h"
+
+#ifdef __cplusplus
+#include <bit>
+#include <cstdlib>
+
+#define GREATX_INOUT(type) type&
+namespace greatx::shared {
+using glm::abs;
+using glm::exp;
+using glm::floor;
+using glm::max;
+using glm::min;
+inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
+inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
+}  // namespace greatx::shared
+#else
+#define GREATX_INOUT(type) inout type
+#endif
+
+GREATX_SHARED_BEGIN
+
+/// 1.0 of a natural logarithm.
+const int log_one = 16777216;
+/// No event: later than any interval lasts.
+const int never_ns = 0x7fffffff;
+/// Intervals last at most that long.
+const int longest_interval_ns = 2000000000;
+
+/// ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7): ln 2 times the exponent, which is exact, and for the mantissa
+/// m in [sqrt 1/2, sqrt 2) the series 2 (s + s^3/3 + ... + s^9/9), s = (m - 1) / (m + 1), whose next term is below 1e-9.
+GREATX_FUNCTION int fixed_log(float x) {
+  const uint root_two = 0x3504f3u;  // mantissa bits of sqrt 2
+  uint bits = floatBitsToUint(x);
+  uint mantissa = bits & 0x7fffffu;
+  uint halved = mantissa >= root_two ? 1u : 0u;
+  int exponent = int(bits >> 23) - 127 + int(halved);
+  float m = uintBitsToFloat(mantissa | ((127u - halved) << 23));
+  float s = (m - 1.0f) / (m + 1.0f);
+  float q = s * s;
+  float p = s * (2.0f + q * (0.66666667f + q * (0.4f + q * (0.28571429f + q * 0.22222222f))));
+  return exponent * 11629080 + int(floor(p * 16777216.0f + 0.5f));
+}
+
+/// The photoreceptor's signal: ln(dark + luminance), both in cd/m^2. Black stays black, whatever the noise of zero.
+GREATX_FUNCTION int event_signal(float luminance, float dark) { return fixed_log(dark + max(luminance, 0.0f)); }
+
+/// Relative intensity that bandwidth and shot noise depend on: (255 L / bright + 20) / 275, at most 1 (v2e's
+/// scaling, with `bright` as its white).
+GREATX_FUNCTION float relative_intensity(float luminance, float bright) {
+  return min((255.0f / 275.0f) * (max(luminance, 0.0f) / bright) + 20.0f / 275.0f, 1.0f);
+}
+
+/// A first-order low pass after a step of `x` time constants during which its input goes linearly from `u0` to `u1`: the
+/// exact answer to that input. `y0`: before.
+GREATX_FUNCTION int low_pass(int y0, int u0, int u1, float x) {
+  float decay = exp(-x);
+  float lag = x < 1e-2f ? 1.0f - x * (0.5f - x * (1.0f / 6.0f)) : (1.0f - decay) / x;
+  return u1 + int(float(y0 - u0) * decay) - int(floor(float(u1 - u0) * lag + 0.5f));
+}
+
+/// Crossings of a step that ends at `signal`: every reference + k on (k = 1, 2, ...) up to it, counted positive, or every
+/// reference - k off down to it, counted negative. Exactly on the threshold counts. Afterwards the signal lies less than
+/// one threshold from the new reference.
+GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) {
+  int above = signal - reference;
+  if (above >= on) return above / on;
+  if (-above >= off) return -(-above / off);
+  return 0;
+}
+
+/// Nanoseconds after a step's start at which a signal that goes linearly from `from` to `to` reaches `level`, rounded up:
+/// 1 to dt_ns. `level` lies between them, not at `from`.
+GREATX_FUNCTION int crossing_time(int from, int to, int level, int dt_ns) {
+  uint64_t whole = uint64_t(abs(to - from));
+  uint64_t part = uint64_t(abs(level - from));
+  return int((part * uint64_t(dt_ns) + whole - uint64_t(1)) / whole);
+}
+
+/// Drift of a leaking reference between two instants, for a threshold: `turns` are thresholds leaked since the beginning,
+/// 32.32 fixed point. Sums over steps are exact: the fractions telescope.
+GREATX_FUNCTION int leak_between(uint64_t turns_from, uint64_t turns_to, int on) {
+  int whole = int(uint(turns_to >> 32) - uint(turns_from >> 32));
+  uint64_t c = uint64_t(on);
+  int to = int((c * (turns_to & uint64_t(0xffffffffu))) >> 32);
+  int from = int((c * (turns_from & uint64_t(0xffffffffu))) >> 32);
+  return on * whole + to - from;
+}
+
+/// Mean time between shot-noise events of both polarities, ns: v2e's rate, a quarter in bright light of what it is in the
+/// dark. At most 2e9.
+GREATX_FUNCTION float shot_mean_ns(float rate_hz, float intensity) {
+  return min(1e9f / (rate_hz * (1.0f - 0.75f * intensity)), 2e9f);
+}
+
+/// Time to the next event of a Poisson process, ns, from 1 on: -ln(u) times the mean, u uniform from 24 bits.
+GREATX_FUNCTION int shot_gap_ns(uint bits, float mean_ns) {
+  float u = (float(bits >> 8) + 0.5f) * (1.0f / 16777216.0f);
+  float gap = float(-fixed_log(u)) * (1.0f / 16777216.0f) * mean_ns;
+  return gap < 2e9f ? 1 + int(gap) : 2000000001;
+}
+
+/// The events of one pixel within one step, one after the other in order of time.
+struct EventWalk {
+  int from;      ///< signal at the step's start
+  int to;        ///< at its end
+  int dt_ns;     ///< length of the step
+  int level;     ///< of the next crossing
+  int stride;    ///< from one crossing to the next, signed
+  int left;      ///< crossings still to come
+  int alive_ns;  ///< no event before this: the pixel is refractory
+  int crossing_ns;
+  int shot_ns;  ///< the next of each kind; never_ns: none
+};
+
+GREATX_FUNCTION EventWalk begin_walk(int from, int to, int reference, int on, int off, int dt_ns, int alive_ns) {
+  int crossings = count_crossings(reference, to, on, off);
+  EventWalk walk;
+  walk.from = from;
+  walk.to = to;
+  walk.dt_ns = dt_ns;
+  walk.stride = crossings > 0 ? on : -off;
+  walk.level = reference + walk.stride;
+  walk.left = crossings > 0 ? crossings : -crossings;
+  walk.alive_ns = alive_ns;
+  walk.crossing_ns = walk.left > 0 ? crossing_time(from, to, walk.level, dt_ns) : never_ns;
+  walk.shot_ns = never_ns;
+  return walk;
+}
+
+/// Takes the next crossing off the walk and returns its time.
+GREATX_FUNCTION int take_crossing(GREATX_INOUT(EventWalk) walk) {
+  int t = walk.crossing_ns;
+  walk.left -= 1;
+  walk.level += walk.stride;
+  walk.crossing_ns = walk.left > 0 ? crossing_time(walk.from, walk.to, walk.level, walk.dt_ns) : never_ns;
+  return t;
+}
+
+/// Whether an event at `t_ns` is let through, and if so, makes the pixel refractory from then on.
+GREATX_FUNCTION bool pass_refractory(GREATX_INOUT(EventWalk) walk, int t_ns, int refractory_ns) {
+  if (t_ns < walk.alive_ns) return false;
+  walk.alive_ns = t_ns > never_ns - refractory_ns ? never_ns : t_ns + refractory_ns;
+  return true;
+}
+
+/// Where dimension blocks of the shot noise's random words begin: step * this + the block of four arrivals.
+const uint shot_blocks_per_step = 65536u;
+
+// ---- what the passes share -----------------------------------------------------------------------------------------
+
+const uint event_model_binding = 0u;       // storage: EventModel
+const uint event_control_binding = 1u;     // storage: EventControl
+const uint event_runs_binding = 2u;        // storage: EventRun [runs]
+const uint event_luminance_binding = 3u;   // storage image r32f, cd/m^2
+const uint event_seen_binding = 4u;        // storage image rg32ui: planar depth's bits, triangle + 1
+const uint event_pixel_binding = 5u;       // storage image rg32i: reference, signal
+const uint event_extra_binding = 6u;       // storage image rg32i: input of the low pass, end of the refractory time
+const uint event_before_binding = 7u;      // storage image rgba32i: reference, signal, end of the refractory time, events
+const uint event_threshold_binding = 8u;   // storage image rgba32i: on, off, phase of the leak
+const uint event_objects_binding = 9u;     // storage: uvec2 [triangles]: instance + 1, body
+const uint event_motion_binding = 10u;     // storage: EventMotion [bodies]
+const uint event_previous_binding = 3u;    // of the difference pass: storage image r32f, the picture before
+
+// Specialization constants: what is off is not compiled.
+const uint event_spec_mismatch = 0u;
+const uint event_spec_leak = 1u;
+const uint event_spec_shot = 2u;
+const uint event_spec_refractory = 3u;
+const uint event_spec_bandwidth = 4u;
+const uint event_spec_instance = 5u;
+const uint event_spec_adaptive = 6u;  // 0 fixed, 1 by flow, 2 by brightness
+const uint event_spec_count = 7u;
+const uint adaptive_flow = 1u;
+const uint adaptive_brightness = 2u;
+
+/// Pixels of a row that one invocation handles one after the other: a run. Runs are numbered row by row.
+const uint run_pixels = 16u;
+const uint event_group_size = 64u;
+const uint event_scan_size = 256u;
+const uint most_substeps = 64u;
+
+/// What does not change.
+struct EventModel {
+  uint width;
+  uint height;
+  int on;              ///< nominal thresholds
+  int off;
+  float dark;          ///< cd/m^2 added before the logarithm
+  float bright;        ///< cd/m^2 of relative intensity 1
+  float angular_cutoff;  ///< 2 pi times the bandwidth in bright light, rad/ns
+  float shot_rate_hz;
+  int refractory_ns;
+  uint capacity;       ///< events a picture interval
+  float fx;            ///< pixels; for the flow
+  float fy;
+  float cx;
+  float cy;
+  float wanted;        ///< of adaptive steps: pixels of motion, or change over the threshold, from picture to picture
+};
+
+/// A run of pixels in one step.
+struct EventRun {
+  uint first;  ///< the events before it in the interval; of the last step's scan
+  uint count;  ///< its own
+  uint fired;  ///< bit i: pixel i of the run has events
+};
+
+/// The buffer's head, kept from tick to tick.
+struct EventControl {
+  uint events;       ///< so far in this interval, those beyond the capacity included
+  uint last;         ///< grid index of the last picture taken
+  uint measured;     ///< bits of the largest flow (px/ns) or change (thresholds) since then
+  uint allowed;      ///< bits of the time to the next picture that these allow, ns
+  uint pictures;     ///< in this interval
+  uint coarse;       ///< of those, how many moved or changed more than wanted
+  uint largest;      ///< bits of the largest motion or change between two pictures of this interval
+  uint from;           ///< the picture before the last one
+  uint due[65];      ///< by grid index: whether a picture is taken then
+};
+const uint event_due_offset = 32u;  ///< bytes
+
+/// How a body moves as the camera sees it, optical axes: velocity of the point p is a + w x p, m/s and rad/s.
+struct EventMotion {
+  vec3 a;
+  vec3 w;
+};
+
+struct EventConstants {
+  uint64_t leak_begin;     ///< thresholds leaked at the interval's start, 32.32
+  uint64_t leak_interval;  ///< and during it
+  uint64_t events;         ///< address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p
+  uint64_t instances;      ///< address of uint [capacity]
+  uint interval_ns;
+  uint grid;   ///< instants of the interval
+  uint index;  ///< of this one, 1 to grid; 0: the first picture, which sets the reference
+  uint noise_seed;
+  uint noise_stream;
+  uint noise_sample;  ///< of the sensor
+};
+
+struct DifferenceConstants {
+  uint64_t picture;  ///< address of bytes [height * width], padded to words: 1, 0, -1
+  uint width;
+  uint height;
+  float on;   ///< cd/m^2
+  float off;
+  uint first;  ///< there is no picture before
+  uint pad;
+};
+
+/// Instant `index` of the interval, ns after its start.
+GREATX_FUNCTION int grid_time(uint interval_ns, uint grid, uint index) {
+  return int(uint64_t(interval_ns) * uint64_t(index) / uint64_t(grid));
+}
+
+/// Thresholds leaked at that instant, 32.32.
+GREATX_FUNCTION uint64_t leak_at(uint64_t begin, uint64_t during, uint grid, uint index) {
+  return begin + during * uint64_t(index) / uint64_t(grid);
+}
+
+GREATX_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(greatx::shared::EventModel) == 60);
+static_assert(sizeof(greatx::shared::EventRun) == 12);
+static_assert(sizeof(greatx::shared::EventControl) == 32 + 260);
+static_assert(sizeof(greatx::shared::EventConstants) == 56);
+static_assert(sizeof(greatx::shared::DifferenceConstants) == 32);
+#endif
+#endif

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pixel of an event camera: the shader's own text, run on the CPU, against closed forms.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "renderer/event/event_sort.h"
+#include "shaders/shared/events.h"
+
+namespace greatx::shared {
+namespace {
+
+constexpr double unit = 1.0 / log_one;
+int32_t fixed(double x) { return static_cast<int32_t>(std::floor(x * log_one)); }
+
+TEST(EventModel, LogarithmIsRightToThreeTenMillionths) {
+  double worst = 0.0;
+  for (int i = 0; i < 400000; ++i) {
+    const float x = static_cast<float>(std::exp(-20.0 + i * (60.0 / 400000.0)));
+    worst = std::max(worst, std::abs(fixed_log(x) * unit - std::log(double(x))));
+  }
+  EXPECT_LT(worst, 5 * unit);
+  for (const float x : {1.0f, 2.0f, 0.5f, 1.41421354f, 1.41421366f, 1e-6f, 3e38f})
+    EXPECT_NEAR(fixed_log(x) * unit, std::log(double(x)), 5 * unit) << x;
+  EXPECT_EQ(fixed_log(1.0f), 0);
+  for (float x = 0.5f; x < 2.0f; x = std::nextafter(x, 3.0f) + 1e-5f)
+    EXPECT_LE(fixed_log(x), fixed_log(std::nextafter(x, 3.0f))) << x;
+}
+
+TEST(EventModel, RampGivesAsManyEventsAsThresholdsFit) {
+  for (const double c : {0.1, 0.25, 1.0 / 3.0})
+    for (const double change : {0.05, 0.1, 0.25, 1.0, 1.24, 2.0, 7.5}) {
+      const int32_t on = fixed(c);
+      EXPECT_EQ(count_crossings(0, fixed(change), on, on), std::floor(change / c + 1e-9))
+          << c << " " << change;
+      EXPECT_EQ(count_crossings(0, -fixed(change), on, on), -std::floor(change / c + 1e-9))
+          << c << " " << change;
+    }
+}
+
+TEST(EventModel, ManyThresholdsAddUpExactly) {
+  // Ten thresholds of 0.1 make 1, a million times over: floats lose one in the first ten already.
+  const int32_t on = fixed(0.1);
+  int32_t reference = 0;
+  int64_t ups = 0, downs = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const int up = count_crossings(reference, log_one, on, on);
+    reference += up * on;
+    const int down = count_crossings(reference, 0, on, on);
+    reference += down * on;
+    ups += up;
+    downs -= down;
+  }
+  EXPECT_EQ(ups, 10000000 - 0);
+  EXPECT_EQ(downs, 10000000 - 0);
+  EXPECT_EQ(reference, 0);
+}
+
+TEST(EventModel, HardCaseN53BlackToBlackGivesNothing) {
+  const float tiny = 1e-6f;
+  const int black = event_signal(0.0f, tiny);
+  EXPECT_EQ(black, event_signal(-0.0f, tiny));
+  EXPECT_EQ(black, event_signal(-1e-9f, tiny));  // the rounding of a renderer
+  EXPECT_TRUE(std::isfinite(black * unit));
+  EXPECT_EQ(count_crossings(black, event_signal(0.0f, tiny), fixed(0.01), fixed(0.01)), 0);
+  EventWalk walk = begin_walk(black, black, black, fixed(0.01), fixed(0.01), 1000, 0);
+  EXPECT_EQ(walk.left, 0);
+  EXPECT_EQ(walk.crossing_ns, never_ns);
+}
+
+TEST(EventModel, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
+  const int32_t c = log_one / 4;
+  for (const int sign : {1, -1}) {
+    EXPECT_EQ(count_crossings(0, sign * (c - 1), c, c), 0);
+    EXPECT_EQ(count_crossings(0, sign * c, c, c), sign);
+    EXPECT_EQ(count_crossings(0, sign * 3 * c, c, c), 3 * sign);
+    // Having fired there, staying there or going on by less than a threshold fires no more.
+    EXPECT_EQ(count_crossings(sign * c, sign * c, c, c), 0);
+    EXPECT_EQ(count_crossings(sign * c, sign * (2 * c - 1), c, c), 0);
+    EXPECT_EQ(count_crossings(sign * c, sign, c, c), 0);
+    EXPECT_EQ(count_crossings(sign * c, 0, c, c), -sign);
+    EXPECT_EQ(crossing_time(0, sign * c, sign * c, 777), 777);
+  }
+}
+
+TEST(EventModel, HardCaseN55NothingIsDividedByNoChange) {
+  EventWalk walk = begin_walk(5, 5, 5, 100, 100, 1000, 0);
+  EXPECT_EQ(walk.left, 0);
+  // The smallest step there is.
+  walk = begin_walk(99, 100, 0, 100, 100, 1000, 0);
+  ASSERT_EQ(walk.left, 1);
+  EXPECT_EQ(take_crossing(walk), 1000);
+  EXPECT_EQ(walk.crossing_ns, never_ns);
+}
+
+TEST(EventModel, CrossingTimesAreTheQuotientRoundedUp) {
+  const int32_t from = -3 * log_one, to = 11 * log_one;
+  for (int k = 1; k < 1000; ++k) {
+    const int32_t level = from + k * 234567;
+    for (const int dt : {1, 1000, 8333333, longest_interval_ns}) {
+      const double exact = double(dt) * (double(level) - from) / (double(to) - from);
+      const int t = crossing_time(from, to, level, dt);
+      EXPECT_GE(t, 1);
+      EXPECT_LE(t, dt);
+      EXPECT_GE(t, exact - 1e-6);
+      EXPECT_LT(t, exact + 1.0 + 1e-6);
+      EXPECT_EQ(t, crossing_time(-from, -to, -level, dt));
+    }
+  }
+}
+
+TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
+  using render::ListedEvent;
+  std::vector<ListedEvent> events, scratch;
+  const auto place = [](uint32_t y, uint32_t x, uint32_t p) { return y << 15 | x << 1 | p; };
+  for (const uint32_t step : {0u, 1u})
+    for (uint32_t y = 0; y < 40; ++y)
+      for (uint32_t x = 0; x < 40; ++x)
+        for (const uint32_t k : {2u, 0u, 1u})  // of one pixel and time: the later polarity first
+          events.push_back({1000000 * step + 7 * ((x * y + k / 2) % 13) + 1, place(y, x, k == 2 ? 1 : k)});
+  std::vector<ListedEvent> sorted = events;
+  std::stable_sort(sorted.begin(), sorted.end());
+  render::sort_events(events, scratch, 33'333'333);
+  ASSERT_EQ(events.size(), sorted.size());
+  for (size_t i = 0; i < events.size(); ++i) {
+    EXPECT_EQ(events[i].t_ns, sorted[i].t_ns) << i;
+    EXPECT_EQ(events[i].place, sorted[i].place) << i;
+  }
+}
+
+TEST(EventModel, LowPassAnswersStepAndRampAsTheDifferentialEquation) {
+  const double tau = 3.0;
+  const auto run = [&](double h, const std::function<double(double)>& u, double y) {
+    int32_t out = fixed(y), before = fixed(u(0));
+    double t = 0.0;
+    for (; t < 6.0 - 1e-9; t += h) {
+      const int32_t now = fixed(u(t + h));
+      out = low_pass(out, before, now, float(h / tau));
+      before = now;
+    }
+    return out * unit;
+  };
+  for (const double h : {0.003, 0.1, 1.0, 6.0}) {
+    // Constant input: exponential decay; ramp: u - tau + (y0 + tau) e^(-t/tau). Exact whatever the step.
+    EXPECT_NEAR(run(
+                    h, [](double) { return 1.0; }, 5.0),
+                1.0 + 4.0 * std::exp(-2.0), 2e-4)
+        << h;
+    EXPECT_NEAR(run(
+                    h, [](double t) { return t; }, 2.0),
+                6.0 - tau + (2.0 + tau) * std::exp(-2.0), 2e-4)
+        << h;
+  }
+  EXPECT_EQ(low_pass(17, 17, 17, 0.5f), 17);
+  EXPECT_EQ(low_pass(0, 0, 1000, 1e9f), 1000);  // nothing is left of the past
+}
+
+TEST(EventModel, LeakOfManyStepsIsTheLeakOfOne) {
+  const int32_t on = fixed(0.237);
+  const uint64_t rate = uint64_t(0.37 * 4294967296.0);
+  int64_t sum = 0;
+  const uint64_t steps = 12345;
+  for (uint64_t i = 0; i < steps; ++i) sum += leak_between(rate * i / 7, rate * (i + 1) / 7, on);
+  EXPECT_NEAR(double(sum), double(on) * 0.37 * steps / 7, 2.0);
+}
+
+TEST(EventModel, RefractoryPixelLetsNothingThrough) {
+  // 10 crossings, 100 ns apart, dead for 250 ns after each event: the 1st, 4th, 7th and 10th get through.
+  EventWalk walk = begin_walk(0, 1000, 0, 100, 100, 1000, 0);
+  std::vector<int> times;
+  while (walk.left > 0) {
+    const int t = take_crossing(walk);
+    if (pass_refractory(walk, t, 250)) times.push_back(t);
+  }
+  EXPECT_EQ(times, (std::vector<int>{100, 400, 700, 1000}));
+  EXPECT_EQ(walk.alive_ns, 1250);
+}
+
+}  // namespace
+}  // namespace greatx::shared
