@@ -23,8 +23,10 @@ void plan_next() {
     control.largest = max(control.largest, floatBitsToUint(moved));
     if (moved > model.wanted) control.coarse += 1u;
   }
+  // How fast it will change is only guessed from how fast it changed: no step is more than twice as long as the last.
+  float longest = adaptive == adaptive_flow ? 1e30 : 2.0 * dt;
   if (interval.index > 0u || adaptive == adaptive_flow)
-    control.allowed = floatBitsToUint(min(model.wanted / max(per_ns, 1e-30), 1e30));
+    control.allowed = floatBitsToUint(min(model.wanted / max(per_ns, 1e-30), longest));
   control.measured = 0u;
   control.from = control.last;
   control.last = interval.index;
