@@ -104,6 +104,14 @@ Descriptor Descriptor::storage(uint32_t slot, const Image& image) {
   return descriptor;
 }
 
+Descriptor Descriptor::texels(uint32_t slot, const TexelBuffer& texels) {
+  Descriptor d;
+  d.slot = slot;
+  d.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  d.texel_view = texels.view();
+  return d;
+}
+
 Descriptor Descriptor::acceleration(uint32_t slot, const AccelerationStructure& structure) {
   Descriptor descriptor;
   descriptor.slot = slot;
@@ -175,6 +183,7 @@ void Cmd::push(std::span<const Descriptor> descriptors) {
     writes[i].descriptorType = descriptors[i].type;
     writes[i].pBufferInfo = &descriptors[i].buffer_info;
     writes[i].pImageInfo = &descriptors[i].image_info;
+    writes[i].pTexelBufferView = &descriptors[i].texel_view;
     if (descriptors[i].structure != VK_NULL_HANDLE) {
       structures[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
                        &descriptors[i].structure};

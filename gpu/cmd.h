@@ -45,6 +45,7 @@ struct Descriptor {
   VkDescriptorBufferInfo buffer_info{};
   VkDescriptorImageInfo image_info{};
   VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+  VkBufferView texel_view = VK_NULL_HANDLE;
 
   static Descriptor buffer(uint32_t slot, const Slice& slice);
   static Descriptor buffer(uint32_t slot, const Buffer& buffer) {
@@ -52,6 +53,7 @@ struct Descriptor {
   }
   static Descriptor sampled(uint32_t slot, const Image& image, const Sampler& sampler);
   static Descriptor storage(uint32_t slot, const Image& image);
+  static Descriptor texels(uint32_t slot, const TexelBuffer& texels);
   static Descriptor acceleration(uint32_t slot, const AccelerationStructure& structure);
 };
 

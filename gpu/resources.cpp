@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "gpu/cmd.h"
+
 namespace greatx::gpu {
 
 namespace {
@@ -91,6 +93,34 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(size_, other.size_);
   std::swap(address_, other.address_);
   std::swap(mapped_, other.mapped_);
+  return *this;
+}
+
+TexelBuffer::TexelBuffer(Device& device, std::span<const uint32_t> words, std::string_view name)
+    : device_(&device) {
+  constexpr size_t texel_words = 4;
+  GREATX_CHECK(words.size() % texel_words == 0, "{}: {} words are no whole texels", name, words.size());
+  const size_t texels = words.size() / texel_words;
+  if (texels > device.limits().maxTexelBufferElements)
+    throw_user_error("{}: expected at most {} texels, which is what the device can read, found {}", name,
+                     device.limits().maxTexelBufferElements, texels);
+  buffer_ = upload_buffer(device, std::as_bytes(words), name, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+  VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+  info.buffer = buffer_.handle();
+  info.format = VK_FORMAT_R32G32B32A32_UINT;
+  info.range = VK_WHOLE_SIZE;
+  GREATX_VK(vkCreateBufferView(device.handle(), &info, nullptr, &view_));
+  device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, reinterpret_cast<uint64_t>(view_), name);
+}
+
+TexelBuffer::~TexelBuffer() {
+  if (view_ != VK_NULL_HANDLE) vkDestroyBufferView(device_->handle(), view_, nullptr);
+}
+TexelBuffer::TexelBuffer(TexelBuffer&& other) noexcept { *this = std::move(other); }
+TexelBuffer& TexelBuffer::operator=(TexelBuffer&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(view_, other.view_);
   return *this;
 }
 

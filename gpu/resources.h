@@ -63,6 +63,23 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
+/// A buffer in device memory read through the texture units, R32G32B32A32_UINT: one fetch gives four words.
+class TexelBuffer {
+ public:
+  TexelBuffer() = default;
+  /// `words` holds whole texels. Throws UserError if the device has no room for so many.
+  TexelBuffer(Device& device, std::span<const uint32_t> words, std::string_view name);
+  ~TexelBuffer();
+  TexelBuffer(TexelBuffer&& other) noexcept;
+  TexelBuffer& operator=(TexelBuffer&& other) noexcept;
+  VkBufferView view() const { return view_; }
+
+ private:
+  Device* device_ = nullptr;
+  Buffer buffer_;
+  VkBufferView view_ = VK_NULL_HANDLE;
+};
+
 /// What an image is used for next; layout, stage and access follow from it.
 enum class ImageUse {
   undefined,

@@ -121,6 +121,7 @@ void CameraPass::build_pipelines() {
   shade.shader = desc_.msaa > 1 ? "camera/shade_multisampled.comp" : "camera/shade.comp";
   shade.bindings = scene::GpuScene::bindings(false);
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::visibility_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::shade_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
@@ -262,6 +263,8 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   cmd.transition(seen_, gpu::ImageUse::storage, true);
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
+  for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
+    descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lights(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color_));

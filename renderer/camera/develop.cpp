@@ -63,8 +63,8 @@ void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& see
   std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
   descriptors.push_back(gpu::Descriptor::storage(shared::develop_color_binding, color));
   descriptors.push_back(gpu::Descriptor::storage(shared::develop_seen_binding, seen));
-  descriptors.push_back(
-      gpu::Descriptor::buffer(shared::develop_triangle_primitives_binding, lighting_->triangle_primitives()));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::develop_triangle_primitives_binding,
+                                                lighting_->surfaces().triangle_primitives()));
   cmd.push(descriptors);
   shared::DevelopConstants constants{};
   constants.rgb = readback.rgb.address;

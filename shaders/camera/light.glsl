@@ -104,6 +104,13 @@ vec3 reflect_light(Reflectance r, vec3 n, vec3 v, vec3 l, vec3 illuminance) {
   return f * illuminance * n_dot_l;
 }
 
+/// Radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by the roughness.
+vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness) {
+  vec3 radiance = r.diffuse * sky_irradiance_over_pi(n);
+  if (specular_on) radiance += r.albedo * environment_radiance(reflect(-v, n), roughness);
+  return radiance;
+}
+
 /// Radiance towards the eye by every lamp within its range (KHR_lights_punctual's attenuation).
 vec3 reflect_lights(Reflectance r, vec3 n, vec3 v, vec3 p_eye) {
   vec3 sum = vec3(0.0);

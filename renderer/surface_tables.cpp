@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/surface_tables.h"
+
+#include <bit>
+#include <cmath>
+
+#include "core/error.h"
+#include "shaders/shared/camera.h"
+
+namespace greatx::render {
+
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+void put(Words& words, float value) { words.push_back(std::bit_cast<uint32_t>(value)); }
+void put(Words& words, const vec3& value) {
+  for (int i = 0; i < 3; ++i) put(words, value[i]);
+}
+void put(Words& words, const vec2& value) {
+  put(words, value.x);
+  put(words, value.y);
+}
+
+/// Octahedral, two signed 16-bit fractions (Cigolle et al., JCGT 3(2), 2014). Zero stands for +z.
+uint32_t octahedral(const vec3& direction) {
+  const float norm = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+  vec2 p(0.0f);
+  if (norm > 0.0f) {
+    p = vec2(direction.x, direction.y) / norm;
+    if (direction.z < 0.0f)
+      p = (1.0f - glm::abs(vec2(p.y, p.x))) * vec2(p.x >= 0.0f ? 1.0f : -1.0f, p.y >= 0.0f ? 1.0f : -1.0f);
+  }
+  const auto fraction = [](float x) {
+    return static_cast<uint32_t>(static_cast<uint16_t>(static_cast<int16_t>(std::lround(x * 32767.0f))));
+  };
+  return fraction(p.x) | fraction(p.y) << 16;
+}
+
+void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material) {
+  const uint32_t* corner = &scene.indices[size_t{3} * triangle];
+  const vec3 a = scene.positions[corner[0]];
+  const vec2 uv = scene.uvs[corner[0]];
+  put(words, a);
+  words.push_back(body_and_material);
+  put(words, scene.positions[corner[1]] - a);
+  words.push_back(octahedral(scene.normals[corner[0]]));
+  put(words, scene.positions[corner[2]] - a);
+  words.push_back(octahedral(scene.normals[corner[1]]));
+  put(words, uv);
+  put(words, scene.uvs[corner[1]] - uv);
+  put(words, scene.uvs[corner[2]] - uv);
+  words.push_back(octahedral(scene.normals[corner[2]]));
+  words.push_back(scene.tangents[corner[0]].w < 0.0f ? 1u : 0u);
+  for (int i = 0; i < 3; ++i) words.push_back(octahedral(vec3(scene.tangents[corner[i]])));
+  words.push_back(0u);
+}
+
+void put_material(Words& words, const scene::PbrMaterial& pbr) {
+  const auto pair = [](int32_t low, int32_t high) {
+    return static_cast<uint32_t>(low + 1) | static_cast<uint32_t>(high + 1) << 16;
+  };
+  put(words, vec3(pbr.base_color));
+  put(words, pbr.metallic);
+  put(words, pbr.emissive);
+  put(words, pbr.roughness);
+  put(words, pbr.normal_scale);
+  words.push_back(pair(pbr.base_color_texture, pbr.metallic_roughness_texture));
+  words.push_back(pair(pbr.normal_texture, pbr.emissive_texture));
+  words.push_back(0u);
+}
+
+void require_16_bits(const char* what, size_t count) {
+  constexpr size_t most = 65535;
+  if (count > most)
+    throw_user_error("scene: {}: expected at most {} for a camera, found {}", what, most, count);
+}
+
+}  // namespace
+
+SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
+  const scene::Scene& scene = gpu_scene.scene();
+  require_16_bits("bodies", scene.bodies.size());
+  require_16_bits("materials", scene.materials.size());
+  require_16_bits("textures", scene.textures.size());
+  Words triangles, materials;
+  std::vector<uint32_t> primitives(scene.triangle_count());
+  triangles.reserve(4 * shared::triangle_record_texels * (scene.triangle_count() + 1));
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
+    const scene::Primitive& primitive = scene.primitives[i];
+    const uint32_t body = scene.instances[primitive.instance].body;
+    GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_texels * (primitive.first_index / 3),
+                 "primitive {} does not follow the one before", i);
+    for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
+      primitives[primitive.first_index / 3 + t] = i;
+      put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
+    }
+  }
+  for (const scene::Material& material : scene.materials) put_material(materials, material.pbr);
+  // An empty scene still has something to bind.
+  if (triangles.empty()) triangles.resize(4 * shared::triangle_record_texels);
+  if (materials.empty()) materials.resize(4 * shared::material_record_texels);
+  triangles_ = gpu::TexelBuffer(gpu_scene.device(), triangles, "triangle records");
+  materials_ = gpu::TexelBuffer(gpu_scene.device(), materials, "material records");
+  triangle_primitives_ =
+      gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(primitives)), "primitives of triangles");
+}
+
+std::vector<gpu::Binding> SurfaceTables::bindings() {
+  return {{shared::triangle_records_binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
+          {shared::material_records_binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER}};
+}
+
+std::vector<gpu::Descriptor> SurfaceTables::descriptors() const {
+  return {gpu::Descriptor::texels(shared::triangle_records_binding, triangles_),
+          gpu::Descriptor::texels(shared::material_records_binding, materials_)};
+}
+
+}  // namespace greatx::render

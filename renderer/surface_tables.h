@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What shading a pixel needs of its triangle and material, packed for few wide fetches: on a CPU driver the gathers are
+// what a pixel costs (docs/camera.md has the figures).
+#pragma once
+
+#include <vector>
+
+#include "gpu/cmd.h"
+#include "scene/gpu_scene.h"
+
+namespace greatx::render {
+
+class SurfaceTables {
+ public:
+  /// Throws UserError if the scene has 65536 bodies, materials or textures, or more.
+  explicit SurfaceTables(const scene::GpuScene& scene);
+
+  static std::vector<gpu::Binding> bindings();
+  std::vector<gpu::Descriptor> descriptors() const;
+  /// uint [triangles]: the primitive of each.
+  const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
+
+ private:
+  gpu::TexelBuffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_texels
+  gpu::Buffer triangle_primitives_;
+};
+
+}  // namespace greatx::render
