@@ -6,18 +6,31 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "renderer/light/spectrum.h"
 
 namespace greatx::render {
 
 namespace {
 
 constexpr double earth_radius = 6360e3, thickness = 100e3;
-constexpr double air_scale = 8e3, aerosol_scale = 1.2e3, asymmetry = 0.8;
-constexpr double aerosol_albedo = 0.9;
-const dvec3 air_scattering(5.802e-6, 13.558e-6, 33.1e-6);  // 1/m at sea level
-const dvec3 ozone_absorption(0.650e-6, 1.881e-6, 0.085e-6);
-/// The sun above the air in linear Rec. 709, relative to D65: a black body of 5800 K.
-const dvec3 sun_above(1.0, 0.97, 0.93);
+constexpr double air_scale = 8e3, aerosol_scale = 1.2e3, asymmetry = 0.8, aerosol_albedo = 0.9;
+constexpr double air_at_550 = 1.3558e-5;  // Rayleigh's scattering at sea level, 1/m
+constexpr double disc_sine = 0.00465;     // half of the disc, for the edge of the Earth's shadow
+constexpr double lowest = -11.0;          // degrees
+
+/// Shares of the densities at sea level (ozone: at its peak).
+struct Densities {
+  double air = 0.0, aerosol = 0.0, ozone = 0.0;
+  static Densities at(double height) {
+    return {std::exp(-height / air_scale), std::exp(-height / aerosol_scale),
+            std::max(0.0, 1.0 - std::abs(height - 25e3) / 15e3)};
+  }
+  void add(const Densities& d, double length) {
+    air += d.air * length;
+    aerosol += d.aerosol * length;
+    ozone += d.ozone * length;
+  }
+};
 
 double height_at(double height, double sine, double distance) {
   const double r = earth_radius + height;
@@ -46,100 +59,196 @@ void along(double length, int steps, F&& visit) {
   }
 }
 
+/// Sine of the elevation at which the horizon lies, seen from a height.
+double horizon_sine(double height) {
+  const double ratio = earth_radius / (earth_radius + height);
+  return -std::sqrt(std::max(0.0, 1.0 - ratio * ratio));
+}
+
+struct Blend {
+  int i;
+  double share;
+  Blend(double x, int count)
+      : i(std::clamp(static_cast<int>(x), 0, count - 2)), share(std::clamp(x - i, 0.0, 1.0)) {}
+};
+
+/// The air, and how its light comes about.
+class Air {
+ public:
+  Air(double turbidity, double elevation) : elevation_(elevation) {
+    air_ = Spectrum::of_wavelength([](double nm) { return air_at_550 * std::pow(550.0 / nm, 4.0); });
+    // Angstrom's exponent 1.3: A. Angstrom, Geografiska Annaler 11 (1929).
+    aerosol_ = Spectrum::of_wavelength([&](double nm) {
+      return (turbidity - 1.0) * air_at_550 * air_scale / aerosol_scale * std::pow(550.0 / nm, 1.3);
+    });
+    // Ozone: 300 Dobson units, cross sections of K. Bogumil et al., J. Photochem. Photobiol. A 157 (2003), at 400, 440,
+    // ... 680 nm, as a density that peaks at 25 km: 1/m there.
+    ozone_.v = {8.2e-9, 8.5e-8, 4.16e-7, 1.149e-6, 2.291e-6, 2.695e-6, 1.430e-6, 6.49e-7};
+    for (int i = 0; i < heights; ++i)
+      for (int k = 0; k < sines; ++k) {
+        const double height = node_height(i, heights), low = horizon_sine(height),
+                     t = double(k) / (sines - 1);
+        const double sine = low + (1.0 - low) * t * t;
+        Densities& column = columns_[i * sines + k];
+        // A ray that grazes the ground passes it: its start at height 0 is lifted by a hair.
+        along(path_length(std::max(height, 1.0), sine), 40, [&](double s, double ds) {
+          column.add(Densities::at(std::max(0.0, height_at(std::max(height, 1.0), sine, s))), ds);
+        });
+      }
+  }
+
+  Spectrum scattering_air(const Densities& d) const { return air_ * d.air; }
+  Spectrum scattering_aerosol(const Densities& d) const { return aerosol_ * (aerosol_albedo * d.aerosol); }
+  Spectrum extinction(const Densities& d) const {
+    return air_ * d.air + aerosol_ * d.aerosol + ozone_ * d.ozone;
+  }
+
+  /// What reaches a height of a light whose elevation there has the given sine; nothing in the Earth's shadow.
+  Spectrum light(double height, double sine) const {
+    const double low = horizon_sine(height), visible = (sine - low) / (2.0 * disc_sine) + 0.5;
+    if (visible <= 0.0) return {};
+    const Blend h(std::sqrt(std::clamp(height / thickness, 0.0, 1.0)) * (heights - 1), heights);
+    const Blend s(std::sqrt(std::clamp((sine - low) / (1.0 - low), 0.0, 1.0)) * (sines - 1), sines);
+    Densities column;
+    column.add(columns_[h.i * sines + s.i], (1.0 - h.share) * (1.0 - s.share));
+    column.add(columns_[h.i * sines + s.i + 1], (1.0 - h.share) * s.share);
+    column.add(columns_[(h.i + 1) * sines + s.i], h.share * (1.0 - s.share));
+    column.add(columns_[(h.i + 1) * sines + s.i + 1], h.share * s.share);
+    return exp_of(extinction(column) * -1.0) * std::min(visible, 1.0);
+  }
+
+  /// Visits the air along a view from `height` above the axes' origin: visit(height, sine of the light's elevation
+  /// there, densities, what a unit of source per metre adds to the radiance); returns what the whole way lets through.
+  template <typename F>
+  Spectrum look(double height, const dvec3& direction, const dvec3& to_light, double length, int steps,
+                F&& visit) const {
+    Spectrum transmittance = Spectrum::all(1.0);
+    along(length, steps, [&](double s, double ds) {
+      const dvec3 p = direction * s + dvec3(0.0, 0.0, earth_radius + height);
+      const double r = glm::length(p), h = std::max(0.0, r - earth_radius);
+      const Densities d = Densities::at(h);
+      const Spectrum e = extinction(d);
+      Spectrum passed = exp_of(e * -ds), weight = transmittance;
+      for (int i = 0; i < bands; ++i) weight.v[i] *= e.v[i] * ds > 1e-6 ? (1.0 - passed.v[i]) / e.v[i] : ds;
+      visit(h, glm::dot(p, to_light) / r, d, weight);
+      transmittance *= passed;
+    });
+    return transmittance;
+  }
+
+  /// Hillaire's second order and its series, averaged over the sphere, by height and by the light's elevation.
+  void scatter_many_times(double ground_albedo) {
+    for (int i = 0; i < many_heights; ++i)
+      for (int k = 0; k < many_sines; ++k) {
+        const double elevation = many_elevation(k);
+        many_[i * many_sines + k] =
+            scattered_at(std::max(1.0, node_height(i, many_heights)),
+                         {std::cos(elevation), 0.0, std::sin(elevation)}, ground_albedo);
+      }
+  }
+
+  /// Mean radiance of the light scattered twice and more.
+  Spectrum many(double height, double sine) const {
+    const Blend h(std::sqrt(std::clamp(height / thickness, 0.0, 1.0)) * (many_heights - 1), many_heights);
+    const double elevation = std::asin(std::clamp(sine, -1.0, 1.0));
+    const Blend s((elevation - elevation_ + many_range) / (2.0 * many_range) * (many_sines - 1), many_sines);
+    const auto at = [&](int i, int k) { return many_[(h.i + i) * many_sines + s.i + k]; };
+    return (at(0, 0) * (1.0 - s.share) + at(0, 1) * s.share) * (1.0 - h.share) +
+           (at(1, 0) * (1.0 - s.share) + at(1, 1) * s.share) * h.share;
+  }
+
+ private:
+  static constexpr int heights = 32, sines = 48, many_heights = 9, many_sines = 7;
+  static constexpr double many_range =
+      radians(10.0);  ///< the light's elevation changes by that within a view
+  static double node_height(int i, int count) { return thickness * i * i / ((count - 1.0) * (count - 1.0)); }
+  double many_elevation(int k) const {
+    return std::clamp(elevation_ + many_range * (2.0 * k / (many_sines - 1) - 1.0), -0.5 * pi, 0.5 * pi);
+  }
+
+  Spectrum scattered_at(double height, const dvec3& to_light, double ground_albedo) const {
+    constexpr int rings = 8, sectors = 4;  // half of the sphere: the other is its mirror image
+    Spectrum second, share;
+    for (int i = 0; i < rings; ++i)
+      for (int k = 0; k < sectors; ++k) {
+        const double z = -1.0 + (2.0 * i + 1.0) / rings, phi = pi * (k + 0.5) / sectors;
+        const double level = std::sqrt(1.0 - z * z);
+        const dvec3 direction(level * std::cos(phi), level * std::sin(phi), z);
+        bool ground = false;
+        const double length = path_length(height, z, &ground);
+        const Spectrum passed = look(height, direction, to_light, length, 12,
+                                     [&](double h, double sine, const Densities& d, const Spectrum& weight) {
+                                       const Spectrum scattered =
+                                           weight * (scattering_air(d) + scattering_aerosol(d));
+                                       second += scattered * light(h, sine) * (1.0 / (4.0 * pi));
+                                       share += scattered;
+                                     });
+        if (!ground) continue;
+        const dvec3 foot = direction * length + dvec3(0.0, 0.0, earth_radius + height);
+        const double sine = glm::dot(foot, to_light) / glm::length(foot);
+        if (sine > 0.0) second += passed * light(0.0, sine) * (ground_albedo / pi * sine);
+      }
+    for (int i = 0; i < bands; ++i)
+      second.v[i] = second.v[i] / (rings * sectors) / (1.0 - share.v[i] / (rings * sectors));
+    return second;
+  }
+
+  double elevation_;
+  Spectrum air_, aerosol_, ozone_;
+  std::vector<Densities> columns_ = std::vector<Densities>(heights * sines);
+  std::vector<Spectrum> many_ = std::vector<Spectrum>(many_heights * many_sines);
+};
+
+dvec3 displayable(const Spectrum& spectrum) { return glm::max(color_of(spectrum), dvec3(0.0)); }
+
 }  // namespace
 
-Atmosphere::Atmosphere(double turbidity, double sun_elevation, double ground_albedo)
-    : sun_sine_(std::sin(sun_elevation)) {
-  aerosol_extinction_ = (turbidity - 1.0) * air_scattering.y * air_scale / aerosol_scale;
-  aerosol_scattering_ = aerosol_albedo * aerosol_extinction_;
-  for (int i = 0; i < heights; ++i)
-    sun_[i] =
-        sun_above * transmittance_to_top(thickness * i * i / ((heights - 1.0) * (heights - 1.0)), sun_sine_);
-  sun_on_ground_ = sun_[0];
-  scatter_many_times(ground_albedo);
-  integrate_views();
-}
-
-Atmosphere::Density Atmosphere::density(double height) const {
-  return {std::exp(-height / air_scale), std::exp(-height / aerosol_scale),
-          std::max(0.0, 1.0 - std::abs(height - 25e3) / 15e3)};
-}
-
-dvec3 Atmosphere::extinction(const Density& d) const {
-  return air_scattering * d.air + dvec3(aerosol_extinction_ * d.aerosol) + ozone_absorption * d.ozone;
-}
-
-dvec3 Atmosphere::transmittance_to_top(double height, double sin_elevation) const {
-  dvec3 depth(0.0);
-  along(path_length(height, sin_elevation), 64,
-        [&](double s, double ds) { depth += extinction(density(height_at(height, sin_elevation, s))) * ds; });
-  return glm::exp(-depth);
-}
-
-dvec3 Atmosphere::at_height(const std::array<dvec3, heights>& table, double height) {
-  const double x = std::sqrt(std::clamp(height / thickness, 0.0, 1.0)) * (heights - 1);
-  const int i = std::min(static_cast<int>(x), heights - 2);
-  return glm::mix(table[i], table[i + 1], x - i);
-}
-
-void Atmosphere::scatter_many_times(double ground_albedo) {
-  constexpr int sines = 48;
-  std::array<dvec3, heights> result{};
-  for (int i = 0; i < heights; ++i) {
-    const double height = std::max(1.0, thickness * i * i / ((heights - 1.0) * (heights - 1.0)));
-    dvec3 second(0.0), share(0.0);  // Hillaire's L_2nd and f_ms, averaged over the sphere
-    for (int k = 0; k < sines; ++k) {
-      const double sine = -1.0 + (2.0 * k + 1.0) / sines;
-      bool ground = false;
-      const double length = path_length(height, sine, &ground);
-      dvec3 transmittance(1.0);
-      along(length, 24, [&](double s, double ds) {
-        const double h = std::max(0.0, height_at(height, sine, s));
-        const Density d = density(h);
-        const dvec3 scattering = air_scattering * d.air + dvec3(aerosol_scattering_ * d.aerosol);
-        const dvec3 e = extinction(d), step = glm::exp(-e * ds);
-        const dvec3 weight = transmittance * scattering * (dvec3(1.0) - step) / e;
-        second += weight * at_height(sun_, h) / (4.0 * pi);
-        share += weight;
-        transmittance *= step;
-      });
-      if (ground) second += transmittance * ground_albedo / pi * sun_[0] * std::max(sun_sine_, 0.0);
+Atmosphere::Atmosphere(double turbidity, double elevation, double ground_albedo)
+    : cells_(elevations * azimuths) {
+  const double used = std::max(elevation, radians(lowest));
+  light_ = {std::cos(used), 0.0, std::sin(used)};
+  Air air(turbidity, used);
+  air.scatter_many_times(ground_albedo);
+  direct_illuminance_ = displayable(air.light(0.0, std::max(light_.z, disc_sine)));
+  for (int i = 0; i < elevations; ++i)
+    for (int k = 0; k < azimuths; ++k) {
+      const double t = double(i) / (elevations - 1), sine = t * t, level = std::sqrt(1.0 - sine * sine);
+      const double phi = pi * k / (azimuths - 1);
+      Spectrum by_air, by_aerosol, rest;
+      air.look(0.0, {level * std::cos(phi), level * std::sin(phi), sine}, light_, path_length(0.0, sine), 36,
+               [&](double h, double light_sine, const Densities& d, const Spectrum& weight) {
+                 const Spectrum a = weight * air.scattering_air(d), b = weight * air.scattering_aerosol(d);
+                 const Spectrum light = air.light(h, light_sine);
+                 by_air += a * light;
+                 by_aerosol += b * light;
+                 rest += (a + b) * air.many(h, light_sine);
+               });
+      cells_[i * azimuths + k] = {displayable(by_air), displayable(by_aerosol), displayable(rest)};
     }
-    result[i] = second / double(sines) / (dvec3(1.0) - share / double(sines));
-  }
-  multiple_ = result;
+  constexpr int rings = 48, sectors = 64;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < sectors; ++k) {
+      const double z = (i + 0.5) / rings, level = std::sqrt(1.0 - z * z), phi = pi * (k + 0.5) / sectors;
+      sky_illuminance_ +=
+          radiance({level * std::cos(phi), level * std::sin(phi), z}) * (z * 2.0 * pi / (rings * sectors));
+    }
 }
 
-void Atmosphere::integrate_views() {
-  for (int i = 0; i < elevations; ++i) {
-    const double t = double(i) / (elevations - 1), sine = t * t;
-    dvec3 transmittance(1.0);
-    along(path_length(0.0, sine), 96, [&](double s, double ds) {
-      const double h = height_at(0.0, sine, s);
-      const Density d = density(h);
-      const dvec3 e = extinction(d), step = glm::exp(-e * ds);
-      const dvec3 weight = transmittance * (dvec3(1.0) - step) / e;
-      const dvec3 air = air_scattering * d.air, aerosol(aerosol_scattering_ * d.aerosol);
-      air_[i] += weight * air * at_height(sun_, h);
-      aerosol_[i] += weight * aerosol * at_height(sun_, h);
-      rest_[i] += weight * (air + aerosol) * at_height(multiple_, h);
-      transmittance *= step;
-    });
-  }
-}
-
-dvec3 Atmosphere::radiance(double sin_elevation, double cos_to_sun) const {
-  const double x = std::sqrt(std::clamp(sin_elevation, 0.0, 1.0)) * (elevations - 1);
-  const int i = std::min(static_cast<int>(x), elevations - 2);
-  const auto at = [&](const std::array<dvec3, elevations>& table) {
-    return glm::mix(table[i], table[i + 1], x - i);
+dvec3 Atmosphere::radiance(const dvec3& direction) const {
+  const Blend e(std::sqrt(std::clamp(direction.z, 0.0, 1.0)) * (elevations - 1), elevations);
+  const Blend a(std::abs(std::atan2(direction.y, direction.x)) / pi * (azimuths - 1), azimuths);
+  const Cell* row = &cells_[e.i * azimuths + a.i];
+  const auto at = [&](dvec3 Cell::*part) {
+    return glm::mix(glm::mix(row[0].*part, row[1].*part, a.share),
+                    glm::mix(row[azimuths].*part, row[azimuths + 1].*part, a.share), e.share);
   };
-  const double c2 = cos_to_sun * cos_to_sun, g2 = asymmetry * asymmetry;
+  const double cosine = glm::clamp(glm::dot(direction, light_), -1.0, 1.0), c2 = cosine * cosine,
+               g2 = asymmetry * asymmetry;
   const double rayleigh = 3.0 / (16.0 * pi) * (1.0 + c2);
   // Cornette and Shanks 1992.
-  const double mie = 3.0 / (8.0 * pi) * (1.0 - g2) * (1.0 + c2) /
-                     ((2.0 + g2) * std::pow(1.0 + g2 - 2.0 * asymmetry * cos_to_sun, 1.5));
-  return rayleigh * at(air_) + mie * at(aerosol_) + at(rest_);
+  const double base = 1.0 + g2 - 2.0 * asymmetry * cosine;
+  const double mie = 3.0 / (8.0 * pi) * (1.0 - g2) * (1.0 + c2) / ((2.0 + g2) * base * std::sqrt(base));
+  return rayleigh * at(&Cell::air) + mie * at(&Cell::aerosol) + at(&Cell::rest);
 }
 
 }  // namespace greatx::render

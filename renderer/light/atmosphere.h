@@ -1,47 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A clear sky seen from the ground: Rayleigh and aerosol scattering, ozone absorption, multiple scattering as an
-// isotropic source. Coefficients and the multiple-scattering term: S. Hillaire, "A Scalable and Production Ready Sky
-// and Atmosphere Rendering Technique", EGSR 2020, table 1 and section 5.5. The sun stands equally high over every
-// point of the view, so that everything but the phase functions depends on the elevation alone.
+// A clear sky seen from the ground, by day and in twilight: Rayleigh and aerosol scattering and ozone over a round Earth
+// whose shadow falls into its air; light scattered twice and more as an isotropic source. The multiple-scattering term:
+// S. Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", EGSR 2020, section 5.5. Eight
+// bands of the spectrum. Refraction is left out.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "core/vec.h"
 
 namespace greatx::render {
 
+/// For a light (sun, moon) of illuminance 1 and the sun's colour above the air. Colours are linear Rec. 709.
 class Atmosphere {
  public:
-  /// `turbidity`: vertical optical depth of air and aerosol over that of air alone, at 550 nm; `sun_elevation` rad, at
-  /// least a degree; `ground_albedo` for the light that the ground throws back.
-  Atmosphere(double turbidity, double sun_elevation, double ground_albedo);
-  /// Per channel (linear Rec. 709), for a sun of illuminance 1 above the air. `sin_elevation` >= 0, of the direction;
-  /// `cos_to_sun` of the angle between it and the sun.
-  dvec3 radiance(double sin_elevation, double cos_to_sun) const;
-  /// What the air leaves of the sun's light on the ground.
-  const dvec3& sun_transmittance() const { return sun_on_ground_; }
+  /// `turbidity`: vertical optical depth of air and aerosol over that of air alone, at 550 nm. `elevation` of the light,
+  /// rad; below -11 degrees, where the first order has all but left the sky, the sky keeps the look that it has there.
+  /// `ground_albedo`: for the light that the ground throws back into the air.
+  Atmosphere(double turbidity, double elevation, double ground_albedo);
+
+  /// Radiance from a unit direction with z >= 0, in axes with z up and the light above (or below) the positive x axis.
+  dvec3 radiance(const dvec3& direction) const;
+  /// Of all directions on level ground.
+  const dvec3& sky_illuminance() const { return sky_illuminance_; }
+  /// What reaches a surface on the ground that faces the light; of a light below the horizon, as if it were on it.
+  const dvec3& direct_illuminance() const { return direct_illuminance_; }
 
  private:
-  static constexpr int heights = 32, elevations = 96;
-  struct Density {
-    double air, aerosol, ozone;
+  static constexpr int elevations = 56, azimuths = 13;
+  struct Cell {
+    dvec3 air, aerosol, rest;  ///< integrals along the view; the first two without their phase functions
   };
-  Density density(double height) const;
-  dvec3 extinction(const Density& d) const;
-  dvec3 transmittance_to_top(double height, double sin_elevation) const;
-  static dvec3 at_height(const std::array<dvec3, heights>& table, double height);
-  void scatter_many_times(double ground_albedo);
-  void integrate_views();
-
-  double aerosol_scattering_, aerosol_extinction_, sun_sine_;
-  dvec3 sun_on_ground_{0.0};
-  std::array<dvec3, heights> sun_{};       ///< transmittance towards the sun, by height
-  std::array<dvec3, heights> multiple_{};  ///< radiance of the light scattered twice and more, by height
-  /// Integrals along the view by sqrt of the sine of its elevation: air, aerosol (each without its phase), multiple.
-  std::array<dvec3, elevations> air_{}, aerosol_{}, rest_{};
+  dvec3 light_;  ///< unit, to the light
+  std::vector<Cell>
+      cells_;  ///< [elevations, azimuths], by the square root of the sine, and from the light's azimuth
+  dvec3 sky_illuminance_{0.0}, direct_illuminance_{0.0};
 };
 
 }  // namespace greatx::render

@@ -7,6 +7,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "renderer/light/environment_map.h"
+#include "renderer/light/haze.h"
+#include "renderer/light/night_sky.h"
 #include "renderer/light/sky.h"
 
 namespace greatx::render {
@@ -20,6 +23,12 @@ void check(const Lighting& lighting) {
   };
   in_range("length of the sun's direction", glm::length(lighting.sun_direction), 1.0 - 1e-6, 1.0 + 1e-6);
   in_range("sun illuminance (lux)", lighting.sun_illuminance_lux, 0.0, 1e6);
+  in_range("length of the moon's direction", glm::length(lighting.moon_direction), 1.0 - 1e-6, 1.0 + 1e-6);
+  in_range("moon illuminance (lux)", lighting.moon_illuminance_lux, 0.0, 1e6);
+  in_range("moon phase angle (rad)", lighting.moon_phase_angle, 0.0, pi);
+  in_range("sky glow (cd/m^2)", lighting.sky_glow_cd_m2, 0.0, 1e3);
+  in_range("haze extinction (1/m)", lighting.haze_extinction_per_m, 0.0, 10.0);
+  in_range("haze depth", lighting.haze_depth, 0.0, 1e4);
   in_range("sky illuminance (lux)", lighting.sky_illuminance_lux, 0.0, 1e6);
   in_range("turbidity", lighting.turbidity, 1.1, 10.0);
   in_range("ground albedo", lighting.ground_albedo, 0.0, 1.0);
@@ -36,16 +45,18 @@ dvec3 Lighting::direction(double azimuth, double elevation) {
 
 SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& lighting,
                              const CameraEffects& effects)
-    : scene_(&scene), effects_(effects) {
+    : scene_(&scene), effects_(effects), surfaces_(scene) {
   check(lighting);
-  const bool sun_shines = lighting.sun_direction.z > 0.0 && lighting.sun_illuminance_lux > 0.0;
-  effects_.sun = effects.sun && sun_shines;
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
-  if (effects_.sun) ground_illuminance_lux_ += lighting.sun_illuminance_lux * lighting.sun_direction.z;
-  if (effects_.sky) ground_illuminance_lux_ += lighting.sky_illuminance_lux;
+  effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
+  const Sky sky(lighting, effects_.haze);
+  const KeyLight key = key_light(lighting);
+  effects_.sun = effects.sun && luminance(sky.key_illuminance()) > 0.0;
+  if (effects_.sun) ground_illuminance_lux_ += luminance(sky.key_illuminance()) * key.direction.z;
+  if (effects_.sky) ground_illuminance_lux_ += sky.illuminance();
   effects_.static_shadows = effects.static_shadows && effects_.sun;
   effects_.moving_shadows = effects.moving_shadows && effects_.sun;
-  shadows_ = ShadowMaps(scene, SunFrame::of(lighting.sun_direction),
+  shadows_ = ShadowMaps(scene, SunFrame::of(key.direction),
                         {.static_casters = effects_.static_shadows,
                          .moving_casters = effects_.moving_shadows,
                          .alpha_mask = effects_.alpha_mask,
@@ -53,19 +64,11 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
                          .moving_tile_texels = lighting.moving_shadow_texels});
   effects_.moving_shadows = effects_.moving_shadows && shadows_.tile_count() > 0;
   body_poses_.resize(scene.scene().bodies.size());
-  bake(lighting);
-  std::vector<uint32_t> triangle_primitives(scene.scene().triangle_count());
-  for (uint32_t i = 0; i < scene.scene().primitives.size(); ++i) {
-    const scene::Primitive& primitive = scene.scene().primitives[i];
-    std::fill_n(triangle_primitives.begin() + primitive.first_index / 3, primitive.index_count / 3, i);
-  }
-  triangle_primitives_ = gpu::upload_buffer(scene.device(), std::as_bytes(std::span(triangle_primitives)),
-                                            "primitives of triangles");
+  bake(lighting, sky);
 }
 
-void SceneLighting::bake(const Lighting& lighting) {
+void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   gpu::Device& device = scene_->device();
-  const Sky sky(lighting);
   EnvironmentMap map;
   if (effects_.sky) {
     map = bake_environment(sky, shared::environment_size, shared::environment_levels);
@@ -75,10 +78,27 @@ void SceneLighting::bake(const Lighting& lighting) {
 
   shared::GpuLighting block{};
   shadows_.describe(block);
-  block.sun_direction = vec3(lighting.sun_direction);
+  const KeyLight key = key_light(lighting);
+  block.sun_direction = vec3(key.direction);
   block.sun_cos_radius = float(std::cos(sun_radius));
-  block.sun_illuminance = vec3(sky.sun_illuminance());
-  block.sun_disc = vec3(sky.sun_illuminance() / (2.0 * pi * (1.0 - std::cos(sun_radius))));
+  block.sun_illuminance = vec3(sky.key_illuminance());
+  if (key.body == KeyLight::Body::sun)
+    block.sun_disc = vec3(sky.key_illuminance() / (2.0 * pi * (1.0 - std::cos(sun_radius))));
+  block.haze_extinction = float(lighting.haze_extinction_per_m);
+  block.haze_asymmetry = float(haze_asymmetry);
+  block.haze_ambient = vec3(sky.haze_ambient());
+  block.haze_directed = vec3(sky.haze_directed());
+  std::vector<shared::GpuStar> stars(1, shared::GpuStar{0, 0});
+  if (effects_.night_sky) {
+    const double depth = effects_.haze ? lighting.haze_depth : 0.0;
+    const double z = std::max(lighting.moon_direction.z, 1e-9);
+    describe_moon(block, lighting,
+                  key.body == KeyLight::Body::moon
+                      ? sky.key_illuminance()
+                      : dvec3(lighting.moon_illuminance_lux * std::exp(-depth / z)));
+    stars = gpu_stars(draw_stars(lighting.star_seed), depth);
+  }
+  stars_ = gpu::upload_buffer(device, std::as_bytes(std::span(stars)), "stars");
   block.environment_scale = float(map.scale);
   const auto irradiance = sky_irradiance(sky);
   for (size_t i = 0; i < irradiance.size(); ++i) block.irradiance[i] = vec4(vec3(irradiance[i]), 0.0f);
@@ -120,7 +140,7 @@ void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses
 std::vector<gpu::Binding> SceneLighting::bindings() {
   return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-          {shared::triangle_primitives_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
           {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::moving_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
@@ -130,7 +150,7 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   std::vector<gpu::Descriptor> all = shadows_.descriptors();
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-  all.push_back(gpu::Descriptor::buffer(shared::triangle_primitives_binding, triangle_primitives_));
+  all.push_back(gpu::Descriptor::buffer(shared::stars_binding, stars_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;
 }

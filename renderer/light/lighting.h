@@ -11,13 +11,15 @@
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
 #include "renderer/light/shadow.h"
+#include "renderer/surface_tables.h"
 #include "scene/gpu_scene.h"
 
 namespace greatx::render {
 
 enum class SkyModel {
-  clear,    ///< renderer/light/atmosphere.h
-  uniform,  ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
+  clear,     ///< renderer/light/sky.h: day, twilight and night
+  overcast,  ///< clouds from horizon to horizon, three times as bright at the zenith as at the horizon
+  uniform,   ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
 
 /// Light that reaches the scene from outside, photometric: lux. The sun's and the sky's colours are scaled so that
@@ -26,10 +28,17 @@ struct Lighting {
   dvec3 sun_direction{0.0, 0.0, 1.0};  ///< unit, local axes (x east, y north, z up), to the sun
   double sun_illuminance_lux =
       100000.0;  ///< on a surface facing the sun; no light while the sun is below the horizon
+  dvec3 moon_direction{0.0, 0.0, -1.0};
+  double moon_illuminance_lux = 0.0;     ///< on a surface facing the moon
+  double moon_phase_angle = 0.0;         ///< rad: 0 full, pi new; of the disc alone
   double sky_illuminance_lux = 15000.0;  ///< on level ground from the sky alone
+  double sky_glow_cd_m2 = 0.0;           ///< of a city, at the zenith: a night sky's colour and gradient
   SkyModel sky_model = SkyModel::clear;
-  double turbidity = 2.0;                ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
-  double ground_albedo = 0.15;           ///< of what lies below the horizon beyond the scene; clear sky only
+  double turbidity = 2.0;              ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
+  double ground_albedo = 0.15;         ///< of what lies below the horizon beyond the scene; clear sky only
+  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/light/haze.h
+  double haze_depth = 0.0;             ///< their optical depth between scene and sky, vertically
+  uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 512;   ///< edge of a moving body's tile, at most
 
@@ -37,13 +46,22 @@ struct Lighting {
   static dvec3 direction(double azimuth, double elevation);
 };
 
+/// The one light that casts shadows: the sun while it is up, else the moon.
+struct KeyLight {
+  enum class Body { none, sun, moon };
+  dvec3 direction{0.0, 0.0, 1.0};  ///< unit
+  double lux = 0.0;                ///< on a surface that faces it, above fog and rain
+  Body body = Body::none;
+};
+KeyLight key_light(const Lighting& lighting);
+
 /// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
 /// alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
-  bool sun = true;
+  bool sun = true;             ///< the key light, be it sun or moon
   bool sky = true;             ///< as background, ambient light and reflection
-  bool static_shadows = true;  ///< only with the sun
-  bool moving_shadows = true;  ///< only with the sun
+  bool static_shadows = true;  ///< only with the key light
+  bool moving_shadows = true;  ///< only with the key light
   bool textures = true;
   bool normal_maps = true;
   bool alpha_mask = true;
@@ -54,6 +72,8 @@ struct CameraEffects {
   bool ambient_occlusion = false;  ///< of the sky's light, by what never moves
   bool specular = true;            ///< off: every surface is Lambertian
 };
+
+class Sky;
 
 class SceneLighting {
  public:
@@ -72,14 +92,13 @@ class SceneLighting {
   const ShadowMaps& shadows() const { return shadows_; }
   /// On level ground from sun and sky, less what an effect leaves out.
   double ground_illuminance_lux() const { return ground_illuminance_lux_; }
-  /// uint [triangles]: the primitive of each.
-  const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
+  const SurfaceTables& surfaces() const { return surfaces_; }
   /// Bindings and descriptors that every camera's shading shares, without the lamps (each camera has its own).
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;
 
  private:
-  void bake(const Lighting& lighting);
+  void bake(const Lighting& lighting, const Sky& sky);
 
   const scene::GpuScene* scene_;
   CameraEffects effects_;  ///< what was asked, less what this light cannot cast
@@ -87,8 +106,9 @@ class SceneLighting {
   double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;
-  gpu::Buffer block_;                ///< GpuLighting
-  gpu::Buffer triangle_primitives_;  ///< uint [triangles]: the primitive of each
+  gpu::Buffer stars_;  ///< shared::GpuStar [star_cells^2]; one without night_sky
+  gpu::Buffer block_;  ///< GpuLighting
+  SurfaceTables surfaces_;
   std::vector<Pose> body_poses_;
 };
 

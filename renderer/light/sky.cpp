@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include <glm/gtc/packing.hpp>
-
 #include "core/units.h"
+#include "renderer/light/atmosphere.h"
+#include "renderer/light/haze.h"
+#include "renderer/light/twilight.h"
 
 namespace greatx::render {
 
@@ -15,7 +16,7 @@ namespace {
 /// Calls visit(direction, solid angle) over a product rule of the sphere that has the horizon on a cell border.
 template <typename F>
 void over_sphere(F&& visit) {
-  constexpr int rings = 128, sectors = 256;
+  constexpr int rings = 96, sectors = 128;
   for (int i = 0; i < rings; ++i) {
     // Equal steps of z: every cell has the same solid angle.
     const double z = 1.0 - (2.0 * i + 1.0) / rings, r = std::sqrt(1.0 - z * z);
@@ -26,124 +27,159 @@ void over_sphere(F&& visit) {
   }
 }
 
-dvec3 octahedral_direction(double u, double v) {
-  dvec2 p = 2.0 * dvec2(u, v) - 1.0;
-  const double z = 1.0 - std::abs(p.x) - std::abs(p.y);
-  if (z < 0.0)
-    p = dvec2((1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0),
-              (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
-  return glm::normalize(dvec3(p, z));
+dvec2 heading_of(const dvec3& direction) {
+  const dvec2 level(direction);
+  return glm::length(level) > 1e-9 ? glm::normalize(level) : dvec2(1.0, 0.0);
 }
 
-dvec2 octahedral_uv(const dvec3& d) {
-  dvec2 p = dvec2(d) / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-  if (d.z < 0.0)
-    p = dvec2((1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0),
-              (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
-  return p * 0.5 + 0.5;
-}
+double elevation_of(const dvec3& direction) { return std::asin(glm::clamp(direction.z, -1.0, 1.0)); }
 
-double radical_inverse(uint32_t bits) {
-  double value = 0.0, digit = 0.5;
-  for (; bits != 0; bits >>= 1, digit *= 0.5)
-    if (bits & 1u) value += digit;
-  return value;
-}
+dvec3 of_luminance(const dvec3& color, double value) { return color * (value / luminance(color)); }
 
-/// Radiance around `direction`, weighted as GGX reflects it when looked at head-on (Karis, "Real Shading in Unreal
-/// Engine 4", 2013: n = v = r).
-dvec3 blurred(const std::vector<dvec3>& base, uint32_t size, const dvec3& direction, double roughness,
-              uint32_t samples) {
-  const double alpha = roughness * roughness;
-  const dvec3 up = std::abs(direction.z) < 0.99 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
-  const dvec3 x = glm::normalize(glm::cross(up, direction)), y = glm::cross(direction, x);
-  dvec3 sum(0.0);
-  double weights = 0.0;
-  for (uint32_t i = 0; i < samples; ++i) {
-    const double u = (i + 0.5) / samples, phi = 2.0 * pi * radical_inverse(i);
-    const double cos_half = std::sqrt((1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u));
-    const double sin_half = std::sqrt(std::max(0.0, 1.0 - cos_half * cos_half));
-    const dvec3 half = x * (sin_half * std::cos(phi)) + y * (sin_half * std::sin(phi)) + direction * cos_half;
-    const dvec3 light = 2.0 * cos_half * half - direction;
-    const double weight = glm::dot(light, direction);
-    if (weight <= 0.0) continue;
-    const dvec2 uv = octahedral_uv(glm::normalize(light)) * double(size);
-    const auto column = std::min(static_cast<uint32_t>(uv.x), size - 1);
-    const auto row = std::min(static_cast<uint32_t>(uv.y), size - 1);
-    sum += weight * base[row * size + column];
-    weights += weight;
-  }
-  return sum / weights;
-}
+/// CIE standard overcast sky (P. Moon and D. Spencer, 1942): 7/9 pi times the zenith's luminance.
+double overcast_shape(double z) { return (1.0 + 2.0 * z) / 3.0; }
+constexpr double overcast_shape_lux = 7.0 / 9.0 * pi;
+
+/// Lunar soil is redder than sunlight: B - V 0.92 against 0.65 (Allen's Astrophysical Quantities, 4th ed., 2000), that
+/// is, 0.78 of the sun's blue for the same green; the red from the same slope.
+constexpr dvec3 moon_tint{1.14, 1.0, 0.78};
+const dvec3 airglow{1.0, 1.0, 0.85}, city_glow{1.35, 0.95, 0.45};
 
 }  // namespace
 
 double luminance(const dvec3& color) { return glm::dot(color, dvec3(0.2126, 0.7152, 0.0722)); }
 
-namespace {
-/// What the sky looks like when the sun is below a degree is outside the model: it keeps the colours of sunset.
-double modelled_elevation(const Lighting& lighting) {
-  return std::max(std::asin(glm::clamp(lighting.sun_direction.z, -1.0, 1.0)), radians(1.0));
+KeyLight key_light(const Lighting& lighting) {
+  if (lighting.sun_direction.z > 0.0 && lighting.sun_illuminance_lux > 0.0)
+    return {lighting.sun_direction, lighting.sun_illuminance_lux, KeyLight::Body::sun};
+  if (lighting.moon_direction.z > 0.0 && lighting.moon_illuminance_lux > 0.0)
+    return {lighting.moon_direction, lighting.moon_illuminance_lux, KeyLight::Body::moon};
+  return {lighting.sun_direction, 0.0, KeyLight::Body::none};
 }
 
-/// What the air scatters onto level ground, per channel, for a sun of illuminance 1 above it.
-dvec3 on_level_ground(const Atmosphere& air, const dvec3& to_sun) {
-  dvec3 sum(0.0);
+struct Sky::Lit {
+  Lit(const Lighting& lighting, const dvec3& to_light, const dvec3& tint_)
+      : air(lighting.turbidity, elevation_of(to_light), lighting.ground_albedo),
+        heading(heading_of(to_light)),
+        tint(tint_ / daylight_white) {}
+  Atmosphere air;
+  dvec2 heading;
+  dvec3 tint;
+  double scale = 0.0;  ///< illuminance of the body above the air that gives its share of the sky
+  dvec3 radiance(const dvec3& d) const {
+    const dvec3 turned(d.x * heading.x + d.y * heading.y, d.y * heading.x - d.x * heading.y, d.z);
+    return scale * tint * air.radiance(turned);
+  }
+  double sky_lux() const { return luminance(air.sky_illuminance() * tint); }
+};
+
+Sky::Sky(const Lighting& lighting, bool haze)
+    : model_(lighting.sky_model), illuminance_(lighting.sky_illuminance_lux) {
+  const KeyLight key = key_light(lighting);
+  key_direction_ = key.direction;
+  dvec3 key_color(1.0);
+  if (model_ == SkyModel::clear) {
+    const double elevation = elevation_of(lighting.sun_direction);
+    const bool day = elevation > radians(2.0);
+    double total = 0.0;
+    if (elevation > radians(-18.0)) {
+      auto sun = std::make_shared<Lit>(lighting, lighting.sun_direction, dvec3(1.0));
+      const double lux = std::max(sunlight_lux(elevation) - natural_night_lux, 1e-9);
+      sun->scale = lux / sun->sky_lux();
+      total += lux;
+      if (key.body == KeyLight::Body::sun) key_color = sun->air.direct_illuminance() * sun->tint;
+      sun_ = std::move(sun);
+    }
+    if (!day && lighting.moon_direction.z > 0.0 && lighting.moon_illuminance_lux > 0.0) {
+      auto moon = std::make_shared<Lit>(lighting, lighting.moon_direction, moon_tint);
+      const dvec3 direct = moon->air.direct_illuminance() * moon->tint;
+      moon->scale = lighting.moon_illuminance_lux / luminance(direct);
+      total += moon->scale * moon->sky_lux();
+      if (key.body == KeyLight::Body::moon) key_color = direct;
+      moon_ = std::move(moon);
+    }
+    if (!day) {
+      night_ = of_luminance(airglow, natural_night_lux / night_sky_lux(1.0)) +
+               of_luminance(city_glow, 1.0) * lighting.sky_glow_cd_m2;
+      total += night_sky_lux(luminance(night_));
+    }
+    scale_ = illuminance_ / total;
+  } else if (model_ == SkyModel::overcast) {
+    scale_ = illuminance_ / overcast_shape_lux;
+  }
+  if (key.lux > 0.0) key_illuminance_ = of_luminance(key_color, key.lux);
+  ground_ = model_ == SkyModel::uniform ? dvec3(illuminance_ / pi) : dvec3(0.0);
+  if (model_ != SkyModel::uniform) {
+    dvec3 on_ground = key_illuminance_ * std::max(key.direction.z, 0.0);
+    over_sphere([&](const dvec3& d, double solid_angle) {
+      if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
+    });
+    ground_ = lighting.ground_albedo / pi * on_ground;
+  }
+  if (haze) add_haze(lighting, key);
+}
+
+dvec3 Sky::clear(const dvec3& d) const {
+  if (model_ == SkyModel::uniform) return dvec3(illuminance_ / pi);
+  if (model_ == SkyModel::overcast) return dvec3(scale_ * overcast_shape(d.z));
+  dvec3 sum = night_ * night_shape(d.z);
+  if (sun_) sum += sun_->radiance(d);
+  if (moon_) sum += moon_->radiance(d);
+  return scale_ * sum;
+}
+
+double Sky::haze_share(double z) const {
+  return depth_ > 0.0 ? 1.0 - std::exp(-depth_ / std::max(z, 1e-9)) : 0.0;
+}
+
+dvec3 Sky::airlight(const dvec3& direction) const {
+  const double g = haze_asymmetry, base = 1.0 + g * g - 2.0 * g * glm::dot(direction, key_direction_);
+  return haze_ambient_ + haze_directed_ / (base * std::sqrt(base));
+}
+
+void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
+  // The air scatters what comes to it from everywhere: the mean over the sphere, and the key light by its phase function
+  // (Henyey and Greenstein 1941). The whole is scaled so that level ground gets what the layer lets through.
+  const bool uniform = model_ == SkyModel::uniform;
+  const double clear_lux = illuminance_;
+  const LayerLight below = through_layer(key.lux, key.direction.z, clear_lux, lighting.haze_depth,
+                                         uniform ? 1.0 : lighting.ground_albedo);
+  if (key.lux > 0.0) key_illuminance_ *= below.direct_lux / key.lux;
+  depth_ = lighting.haze_depth;
+  dvec3 mean(0.0);
   over_sphere([&](const dvec3& d, double solid_angle) {
-    if (d.z > 0.0) sum += air.radiance(d.z, glm::clamp(glm::dot(d, to_sun), -1.0, 1.0)) * (d.z * solid_angle);
+    mean += (d.z > 0.0 ? clear(d) : ground_) * (solid_angle / (4.0 * pi));
   });
-  return sum;
-}
-
-/// The colour that pictures show as white: of a white card on the ground under a clear sky, the sun 45 degrees high.
-/// Daylight thus looks neutral, evening warm and shade blue.
-dvec3 daylight() {
-  static const dvec3 white = [] {
-    const double sine = std::sqrt(0.5);
-    const Atmosphere air(2.0, 0.25 * pi, 0.15);
-    const dvec3 total = air.sun_transmittance() * sine + on_level_ground(air, {sine, 0.0, sine});
-    return total / luminance(total);
-  }();
-  return white;
-}
-}  // namespace
-
-Sky::Sky(const Lighting& lighting)
-    : model_(lighting.sky_model),
-      illuminance_(lighting.sky_illuminance_lux),
-      atmosphere_(lighting.turbidity, modelled_elevation(lighting), lighting.ground_albedo),
-      white_(daylight()) {
-  const double elevation = modelled_elevation(lighting);
-  const dvec2 ground(lighting.sun_direction);
-  const dvec2 heading = glm::length(ground) > 1e-9 ? glm::normalize(ground) : dvec2(1.0, 0.0);
-  sun_direction_ = dvec3(heading * std::cos(elevation), std::sin(elevation));
-  if (lighting.sun_direction.z > 0.0) {
-    const dvec3 color = model_ == SkyModel::clear ? atmosphere_.sun_transmittance() / white_ : dvec3(1.0);
-    sun_illuminance_ = lighting.sun_illuminance_lux / luminance(color) * color;
-  }
-  if (model_ == SkyModel::uniform) {
-    ground_ = dvec3(illuminance_ / pi);
-    return;
-  }
-  const dvec3 on_ground = on_level_ground(atmosphere_, sun_direction_) / white_;
-  scale_ = illuminance_ / luminance(on_ground);
-  ground_ = lighting.ground_albedo / pi *
-            (sun_illuminance_ * std::max(lighting.sun_direction.z, 0.0) + scale_ * on_ground);
-}
-
-dvec3 Sky::above(const dvec3& direction) const {
-  return atmosphere_.radiance(direction.z, glm::clamp(glm::dot(direction, sun_direction_), -1.0, 1.0)) /
-         white_;
+  haze_ambient_ = mean;
+  haze_directed_ = key_illuminance_ * ((1.0 - haze_asymmetry * haze_asymmetry) / (4.0 * pi));
+  if (depth_ <= 0.0) return;
+  double kept = 0.0, added = 0.0;
+  over_sphere([&](const dvec3& d, double solid_angle) {
+    if (d.z <= 0.0) return;
+    const double share = haze_share(d.z);
+    kept += luminance(clear(d)) * (1.0 - share) * d.z * solid_angle;
+    added += luminance(airlight(d)) * share * d.z * solid_angle;
+  });
+  const double scale = (below.sky_lux - kept) / added;
+  haze_ambient_ *= scale;
+  haze_directed_ *= scale;
+  illuminance_ = below.sky_lux;
+  if (!uniform)
+    ground_ *= (below.direct_lux * key.direction.z + below.sky_lux) /
+               (key.lux * std::max(key.direction.z, 0.0) + clear_lux);
 }
 
 dvec3 Sky::radiance(const dvec3& direction) const {
-  if (model_ == SkyModel::uniform) return ground_;
-  if (direction.z > 0.0) return scale_ * above(direction);
+  const bool up = direction.z > 0.0;
   // Haze over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
-  const double fade = glm::smoothstep(0.0, 0.2, -direction.z);
   const double level = std::hypot(direction.x, direction.y);
   const dvec3 horizon = level > 1e-6 ? dvec3(direction.x / level, direction.y / level, 0.0) : dvec3(1, 0, 0);
-  return glm::mix(scale_ * above(horizon), ground_, fade);
+  const dvec3 d = up ? direction : horizon;
+  dvec3 sky(0.0);
+  const double share = haze_share(d.z);
+  if (share < 1.0) sky += clear(d) * (1.0 - share);
+  if (share > 0.0) sky += airlight(d) * share;
+  return up ? sky : glm::mix(sky, ground_, glm::smoothstep(0.0, 0.2, -direction.z));
 }
 
 std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
@@ -188,31 +224,6 @@ std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
   if (upwards > 0.0)
     for (dvec3& coefficient : result) coefficient *= sky.illuminance() / pi / upwards;
   return result;
-}
-
-EnvironmentMap bake_environment(const Sky& sky, uint32_t size, uint32_t levels) {
-  EnvironmentMap map;
-  map.scale = sky.illuminance() > 0.0 ? sky.illuminance() : 1.0;
-  std::vector<dvec3> base(size_t(size) * size);
-  for (uint32_t row = 0; row < size; ++row)
-    for (uint32_t column = 0; column < size; ++column)
-      base[row * size + column] =
-          sky.radiance(octahedral_direction((column + 0.5) / size, (row + 0.5) / size)) / map.scale;
-  for (uint32_t level = 0; level < levels; ++level) {
-    const uint32_t edge = std::max(size >> level, 1u);
-    std::vector<uint16_t> texels;
-    texels.reserve(size_t(edge) * edge * 4);
-    for (uint32_t i = 0; i < edge * edge; ++i) {
-      const dvec3 direction = octahedral_direction((i % edge + 0.5) / edge, (i / edge + 0.5) / edge);
-      const dvec3 value =
-          level == 0 ? base[i]
-                     : blurred(base, size, direction, double(level) / (levels - 1), level == 1 ? 24 : 64);
-      for (int c = 0; c < 3; ++c) texels.push_back(glm::packHalf1x16(float(std::min(value[c], 65504.0))));
-      texels.push_back(glm::packHalf1x16(1.0f));
-    }
-    map.levels.push_back(std::move(texels));
-  }
-  return map;
 }
 
 }  // namespace greatx::render

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radiance of sky and sun as functions of direction, and what is baked from them. Colours are linear Rec. 709.
+// Radiance of sky and air as functions of direction, and the key light: docs/light.md. Colours are linear Rec. 709.
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "core/vec.h"
-#include "renderer/light/atmosphere.h"
 #include "renderer/light/lighting.h"
 
 namespace greatx::render {
@@ -17,41 +15,45 @@ namespace greatx::render {
 /// 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
 double luminance(const dvec3& color);
 
-/// Angular radius of the sun's disc, rad.
-inline constexpr double sun_radius = 0.004652;
+/// Angular radius of the sun's disc, rad, and of the moon's, at their mean distances.
+inline constexpr double sun_radius = 0.004652, moon_radius = 0.004520;
+
+/// The colour that pictures show as white: of a white card on the ground under a clear sky (turbidity 2, albedo 0.15),
+/// the sun 45 degrees high. Daylight thus looks neutral, evening warm and shade blue.
+inline constexpr dvec3 daylight_white{1.114952, 0.977658, 0.882825};
 
 class Sky {
  public:
-  explicit Sky(const Lighting& lighting);
-  /// cd/m^2 per channel from a unit direction, z up; without the sun's disc.
+  /// `haze`: whether fog and rain count.
+  Sky(const Lighting& lighting, bool haze);
+  /// cd/m^2 per channel from a unit direction, z up; without discs and stars.
   dvec3 radiance(const dvec3& direction) const;
-  /// lux per channel on a surface facing the sun; zero below the horizon.
-  const dvec3& sun_illuminance() const { return sun_illuminance_; }
+  /// lux per channel of the key light on a surface that faces it, below fog and rain; zero without one.
+  const dvec3& key_illuminance() const { return key_illuminance_; }
+  /// lux of all else on level ground, below fog and rain.
   double illuminance() const { return illuminance_; }
+  /// Radiance of endless haze: `ambient` + `directed` (1 + g^2 - 2 g cos)^-1.5, cos of the angle from the key light.
+  const dvec3& haze_ambient() const { return haze_ambient_; }
+  const dvec3& haze_directed() const { return haze_directed_; }
 
  private:
-  dvec3 above(const dvec3& direction) const;  ///< not yet scaled
+  /// A clear sky lit by one body.
+  struct Lit;
+  dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
+  void add_haze(const Lighting& lighting, const KeyLight& key);
+  dvec3 airlight(const dvec3& direction) const;
+  double haze_share(double z) const;  ///< of what is seen in a direction above the horizon
 
+  std::shared_ptr<const Lit> sun_, moon_;
   SkyModel model_;
-  double illuminance_;  ///< of the sky on level ground
-  Atmosphere atmosphere_;
-  dvec3 white_;  ///< what is shown as white
-  double scale_ = 1.0;
-  dvec3
-      sun_direction_;  ///< raised to the horizon if below: what the sky looks like then is outside the model
-  dvec3 sun_illuminance_{0.0};
-  dvec3 ground_{0.0};  ///< radiance below the horizon
+  dvec3 night_{0.0};  ///< zenith radiance of airglow and the glow of cities
+  double scale_ = 1.0, illuminance_ = 0.0, depth_ = 0.0;
+  dvec3 key_direction_{0.0, 0.0, 1.0}, key_illuminance_{0.0}, ground_{0.0};
+  dvec3 haze_ambient_{0.0}, haze_directed_{0.0};
 };
 
 /// Irradiance over pi in real spherical harmonics to order 2, with the basis' constants multiplied in, in the order of
 /// light.glsl; its luminance straight up is exactly the sky's illuminance over pi.
 std::array<dvec3, 9> sky_irradiance(const Sky& sky);
-
-/// Octahedral environment map, RGBA half floats, one vector a mip level. Texels hold radiance / scale.
-struct EnvironmentMap {
-  double scale = 1.0;
-  std::vector<std::vector<uint16_t>> levels;
-};
-EnvironmentMap bake_environment(const Sky& sky, uint32_t size, uint32_t levels);
 
 }  // namespace greatx::render

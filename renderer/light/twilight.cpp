@@ -55,6 +55,10 @@ double full_moonlight_lux(double elevation) {
   return lux_of(moon_pieces, h) * std::clamp((h + 2.0) / 1.2, 0.0, 1.0);
 }
 
+double night_sky_lux(double zenith_cd_m2) { return 4.0 / 3.0 * pi * zenith_cd_m2; }
+
+double night_shape(double z) { return 1.0 + 2.0 * (1.0 - z) * (1.0 - z); }
+
 double moon_phase_share(double phase_angle) {
   const double i = std::abs(degrees(phase_angle));
   return std::pow(10.0, -0.4 * (0.026 * i + 4e-9 * i * i * i * i));

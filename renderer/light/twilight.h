@@ -22,6 +22,13 @@ double sunlight_lux(double elevation);
 /// nothing from -0.8 to -2 degrees.
 double full_moonlight_lux(double elevation);
 
+/// Of a night sky whose zenith has the given luminance, on level ground: night_shape's integral, 4/3 pi.
+double night_sky_lux(double zenith_cd_m2);
+/// Luminance over the zenith's, by the sine of the elevation: 1 + 2 (1 - z)^2. Airglow is seen edge on near the horizon,
+/// and cities stand there: two to four times the zenith's (R. Garstang, "Night-Sky Brightness at Observatories and
+/// Sites", PASP 101 (1989)).
+double night_shape(double z);
+
 /// Share of the full moon's light: C. W. Allen, "Astrophysical Quantities", 3rd ed. (1973), section 66:
 /// 0.026 |i| + 4e-9 i^4 magnitudes at phase angle i in degrees. 0.09 at the quarters.
 double moon_phase_share(double phase_angle);
@@ -30,8 +37,5 @@ double moon_phase_share(double phase_angle);
 /// Practice for the Calculation of Daylight Availability", RP-21 (1984), table 1. Below, a fifth of the clear sky's, from
 /// which it takes over continuously between 0 and 2 degrees.
 double overcast_lux(double elevation);
-
-/// Luminance of a sky without moon or lamps at the zenith: natural_night_lux over pi, 21.8 mag/arcsec^2.
-inline constexpr double natural_night_cd_m2 = natural_night_lux / 3.14159265358979323846;
 
 }  // namespace greatx::render

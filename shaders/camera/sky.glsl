@@ -7,13 +7,87 @@
 #include "camera/haze.glsl"
 #include "camera/light.glsl"
 
+layout(set = 0, binding = stars_binding, scalar) readonly buffer StarsBlock { GpuStar stars[]; };
+
+/// How a picture samples directions around one: gradients of the unit direction by pixel coordinates.
+struct PixelSpan {
+  vec3 x, y;
+  float xx, xy, yy, determinant;  // of the gradients' products; the root of the determinant is a pixel's solid angle
+};
+
+PixelSpan pixel_span(vec3 direction, float inverse_length) {
+  PixelSpan s;
+  s.x = (camera.ray_x - direction * dot(direction, camera.ray_x)) * inverse_length;
+  s.y = (camera.ray_y - direction * dot(direction, camera.ray_y)) * inverse_length;
+  s.xx = dot(s.x, s.x);
+  s.xy = dot(s.x, s.y);
+  s.yy = dot(s.y, s.y);
+  s.determinant = s.xx * s.yy - s.xy * s.xy;
+  return s;
+}
+
+/// Share of a point's light that falls on the pixel, `away` from it: tents of two pixels add up to one over a picture.
+float pixel_share(PixelSpan s, vec3 away) {
+  float x = dot(away, s.x), y = dot(away, s.y);
+  vec2 pixels = vec2(x * s.yy - y * s.xy, y * s.xx - x * s.xy) / s.determinant;
+  vec2 tent = max(1.0 - abs(pixels), 0.0);
+  return tent.x * tent.y;
+}
+
+/// Direction of octahedral coordinates in [0, 1].
+vec3 octahedral_direction(vec2 uv) {
+  vec2 p = 2.0 * uv - 1.0;
+  float z = 1.0 - abs(p.x) - abs(p.y);
+  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+  p = z < 0.0 ? (1.0 - abs(p.yx)) * signs : p;
+  return normalize(vec3(p, z));
+}
+
+/// Radiance of the stars of the four cells that are nearest to a direction, each spread over a pixel.
+vec3 starlight(vec3 direction, PixelSpan span) {
+  vec2 at = octahedral_uv(direction) * float(star_cells);
+  ivec2 first = ivec2(floor(at - 0.5));
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 cell = clamp(first + ivec2(i & 1, i >> 1), ivec2(0), ivec2(int(star_cells) - 1));
+    GpuStar star = stars[uint(cell.y) * star_cells + uint(cell.x)];
+    vec2 light = unpackHalf2x16(star.light);
+    vec3 to_star = octahedral_direction((vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells));
+    // Luminance 1 from bluish white to orange.
+    vec3 color = mix(vec3(0.88, 0.99, 1.45), vec3(1.42, 0.93, 0.45), light.y);
+    sum += color * (light.x * 1e-6 * pixel_share(span, to_star - direction));
+  }
+  return sum * inversesqrt(span.determinant);
+}
+
+/// Radiance of the moon's disc, its edges as soft as a pixel is wide.
+vec3 moonlight(vec3 direction, PixelSpan span) {
+  vec3 away = (direction - lighting.moon_direction) / lighting.moon_radius;
+  float pixel = sqrt(sqrt(span.determinant)) / lighting.moon_radius;  // in radii
+  if (dot(away, away) > (1.0 + 2.0 * pixel) * (1.0 + 2.0 * pixel)) return vec3(0.0);
+  float lit_share = 0.5 + 0.5 * lighting.moon_cos_phase;
+  // Smaller than a pixel: a star.
+  if (pixel > 1.0)
+    return lighting.moon_disc * (3.14159265 * lit_share / (pixel * pixel) *
+                                 pixel_share(span, lighting.moon_direction - direction));
+  float x = dot(away, lighting.moon_bright), y2 = max(dot(away, away) - x * x, 0.0);
+  float rim = clamp((1.0 - length(away)) / pixel + 0.5, 0.0, 1.0);
+  float terminator = x + lighting.moon_cos_phase * sqrt(max(1.0 - y2, 0.0));
+  return lighting.moon_disc * (rim * clamp(terminator / pixel + 0.5, 0.0, 1.0));
+}
+
 /// Radiance along a ray (any length) that meets nothing.
 vec3 sky_radiance(vec3 ray) {
   if (!sky_on) return vec3(0.0);
-  vec3 direction = normalize(ray);
-  vec3 radiance = environment_radiance(direction, 0.0);
+  float inverse_length = inversesqrt(dot(ray, ray));
+  vec3 direction = ray * inverse_length;
+  // The map has the haze above the horizon in it. What lies below and beyond the scene drowns in haze.
+  vec3 radiance = haze_on && direction.z <= 0.0 ? airlight(direction) : environment_radiance(direction, 0.0);
   if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius) radiance += lighting.sun_disc;
-  if (haze_on) radiance = through_haze(radiance, direction, 1e9);
+  if (night_sky_on && direction.z > 0.0) {
+    PixelSpan span = pixel_span(direction, inverse_length);
+    radiance += starlight(direction, span) + moonlight(direction, span);
+  }
   return min(radiance, vec3(65504.0) / camera.exposure);
 }
 #endif

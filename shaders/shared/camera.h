@@ -9,21 +9,23 @@
 GREATX_SHARED_BEGIN
 
 // Set 0, beside the scene's own bindings.
-const uint lighting_binding = 4u;       // uniform: GpuLighting
-const uint shadow_tiles_binding = 5u;   // storage: GpuShadowTiles, this tick's
-const uint lights_binding = 6u;         // storage: GpuLights, this tick's
-const uint environment_binding = 7u;    // sampled: octahedral map of the sky, a roughness per mip level
-const uint static_shadow_binding = 8u;  // sampled with comparison
-const uint moving_shadow_binding = 9u;  // sampled with comparison
-const uint visibility_binding = 10u;    // sampled, unsigned, multisampled or not: triangle + 1
-const uint triangle_primitives_binding = 11u;  // storage: the primitive of each triangle
-const uint shade_color_binding = 12u;          // storage image rgba16f
-const uint shade_luminance_binding = 14u;      // storage image r32f, cd/m^2
-const uint shade_seen_binding = 13u;           // storage image rg32ui: planar depth's bits, triangle + 1
+const uint lighting_binding = 4u;           // uniform: GpuLighting
+const uint shadow_tiles_binding = 5u;       // storage: GpuShadowTiles, this tick's
+const uint lights_binding = 6u;             // storage: GpuLights, this tick's
+const uint environment_binding = 7u;        // sampled: octahedral map of the sky, a roughness per mip level
+const uint static_shadow_binding = 8u;      // sampled with comparison
+const uint moving_shadow_binding = 9u;      // sampled with comparison
+const uint visibility_binding = 10u;        // sampled, unsigned, multisampled or not: triangle + 1
+const uint triangle_records_binding = 11u;  // texels: what shading needs of each triangle
+const uint material_records_binding = 15u;  // texels: what it needs of each material
+const uint shade_color_binding = 12u;       // storage image rgba16f
+const uint shade_luminance_binding = 14u;   // storage image r32f, cd/m^2
+const uint shade_seen_binding = 13u;        // storage image rg32ui: planar depth's bits, triangle + 1
 // The developing pass.
-const uint develop_color_binding = 4u;                  // storage image rgba16f
-const uint develop_seen_binding = 5u;                   // storage image rg32ui
+const uint develop_color_binding = 4u;                // storage image rgba16f
+const uint develop_seen_binding = 5u;                 // storage image rg32ui
 const uint develop_triangle_primitives_binding = 6u;  // storage: the primitive of each triangle
+const uint stars_binding = 20u;                       // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
 const uint spec_color = 0u;
@@ -51,6 +53,19 @@ const uint develop_spec_semantic = 4u;
 const uint develop_spec_material = 5u;
 const uint develop_spec_count = 6u;
 
+/// Texels of four words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
+///   0  first corner; body << 16 | material
+///   1  edge to the second corner; normal at the first
+///   2  edge to the third corner; normal at the second
+///   3  texture coordinates at the first corner, then their change to the second
+///   4  ... and to the third; normal at the third; 1 where the normal map is mirrored
+///   5  tangents at the three corners
+/// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
+const uint triangle_record_texels = 6u;
+/// Of a material's record: base colour, metallic; emission, roughness; normal scale, textures as (index + 1) of base
+/// colour | metallic-roughness << 16, normal | emissive << 16.
+const uint material_record_texels = 3u;
+
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
 const uint develop_group_size = 64u;
@@ -60,6 +75,9 @@ const uint develop_pixels = 4u;
 /// Mip levels of the environment map: level l is blurred for roughness l / (levels - 1).
 const uint environment_size = 256u;
 const uint environment_levels = 6u;
+
+/// Edge of the octahedral map of stars: at most one star a cell.
+const uint star_cells = 128u;
 
 /// Radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
 const float emissive_nits = 1000.0f;
@@ -80,14 +98,14 @@ struct CameraConstants {
   float exposure;  ///< times radiance in cd/m^2 gives what is stored
 };
 
-/// Set at construction: sun, sky, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
+/// Set at construction: key light (sun or moon), sky, haze, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
 /// linear Rec. 709 channel, such that 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance.
 struct GpuLighting {
-  vec3 sun_direction;         ///< unit, to the sun, local frame; also the third axis of the sun's frame
+  vec3 sun_direction;         ///< unit, to the key light, local frame; also the third axis of its frame
   float sun_cos_radius;       ///< of the disc, cosine
   vec3 sun_illuminance;       ///< on a surface facing the sun
   float static_texel_m;       ///< edge of a texel of the static shadow map
-  vec3 sun_disc;              ///< radiance of the disc
+  vec3 sun_disc;              ///< radiance of the disc; 0 if the key light is the moon
   float environment_scale;    ///< radiance = texel of the environment map times this
   vec3 light_x;               ///< the sun's frame: unit, right-handed with light_y and sun_direction
   float static_depth_offset;  ///< depth = z static_depth_scale + static_depth_offset
@@ -99,7 +117,23 @@ struct GpuLighting {
   float moving_map_size;
   float pad1;
   float pad2;
+  vec3 haze_ambient;  ///< radiance of endless haze: haze_ambient + haze_directed (1 + g^2 - 2 g cos)^-1.5,
+  float haze_extinction;  ///< 1/m
+  vec3 haze_directed;     ///< cos of the angle from the key light
+  float haze_asymmetry;   ///< g
+  vec3 moon_direction;    ///< unit
+  float moon_radius;      ///< rad
+  vec3 moon_bright;       ///< unit, across moon_direction: from the disc's middle to its bright limb
+  float moon_cos_phase;
+  vec3 moon_disc;  ///< radiance of its bright part
+  float pad3;
   vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
+};
+
+/// One cell of the map of stars.
+struct GpuStar {
+  uint place;  ///< octahedral coordinates within the cell, 16 bits each
+  uint light;  ///< halves: illuminance / 1e-6 lux, 0 where there is none; warmth from 0 (blue) to 1
 };
 
 /// Shadow of one moving body: a square of the sun's frame around it, and where that lies in the atlas.
@@ -147,7 +181,7 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::CameraConstants) == 116);
-static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 144);
+static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 144);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);
 static_assert(sizeof(greatx::shared::GpuLight) == 52);
 static_assert(sizeof(greatx::shared::DevelopConstants) == 64);
