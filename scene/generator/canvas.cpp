@@ -3,6 +3,7 @@
 #include "scene/generator/canvas.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace greatx::scene::generator {
 
@@ -79,17 +80,66 @@ void Canvas::metal_everywhere(int metallic) {
   for (Rgb& s : surface_) s.b = metallic;
 }
 
+void Canvas::crack(int x, int y, int length, int change, uint32_t seed) {
+  for (int i = 0; i < length; ++i) {
+    shade(x, y + i, x + 1, y + i + 1, change);
+    const uint32_t step = hash(i, length, seed) % 5;
+    if (step == 0) --x;
+    if (step == 1) ++x;
+  }
+}
+
+void Canvas::light(int layer, int x0, int y0, int x1, int y1, const Rgb& color) {
+  std::vector<Rgb>& lit = lit_[static_cast<size_t>(layer)];
+  if (lit.empty()) lit.assign(colors_.size(), {});
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) lit[index(x, y)] = color;
+}
+
+void Canvas::raise(int x0, int y0, int x1, int y1, int height) {
+  if (relief_.empty()) relief_.assign(colors_.size(), 0);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) relief_[index(x, y)] = height;
+}
+
+Raster Canvas::halved(const std::vector<Rgb>& pixels) const {
+  if (pixels.empty()) return {};
+  Raster result{static_cast<uint32_t>(width_ / 2), static_cast<uint32_t>(height_ / 2), {}};
+  for (int y = 0; y + 1 < height_; y += 2)
+    for (int x = 0; x + 1 < width_; x += 2) {
+      const Rgb &a = pixels[index(x, y)], &b = pixels[index(x + 1, y)], &c = pixels[index(x, y + 1)],
+                &d = pixels[index(x + 1, y + 1)];
+      for (const int sum : {a.r + b.r + c.r + d.r, a.g + b.g + c.g + d.g, a.b + b.b + c.b + d.b})
+        result.rgb.push_back(static_cast<uint8_t>(std::clamp(sum / 4, 0, 255)));
+    }
+  return result;
+}
+
+Raster Canvas::normals() const {
+  if (relief_.empty()) return {};
+  Raster result{static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const int dx = relief_[index(x + 1, y)] - relief_[index(x - 1, y)];
+      const int up = relief_[index(x, y - 1)] - relief_[index(x, y + 1)];
+      // Over two pixels of 16 units; the root of an integer is the same everywhere.
+      const double length = std::sqrt(static_cast<double>(dx * dx + up * up + 32 * 32));
+      for (const int part : {-dx, -up, 32})
+        result.rgb.push_back(static_cast<uint8_t>(std::lround(127.5 + 127.5 * part / length)));
+    }
+  return result;
+}
+
 Picture Canvas::picture() const {
-  Picture result{static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}, {}};
-  const auto flatten = [](const std::vector<Rgb>& pixels) {
-    std::vector<uint8_t> bytes;
-    bytes.reserve(3 * pixels.size());
-    for (const Rgb& p : pixels)
-      for (const int c : {p.r, p.g, p.b}) bytes.push_back(static_cast<uint8_t>(std::clamp(c, 0, 255)));
-    return bytes;
-  };
-  result.rgb = flatten(colors_);
-  if (!surface_.empty()) result.metallic_roughness = flatten(surface_);
+  Picture result;
+  result.color = {static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
+  result.color.rgb.reserve(3 * colors_.size());
+  for (const Rgb& p : colors_)
+    for (const int c : {p.r, p.g, p.b})
+      result.color.rgb.push_back(static_cast<uint8_t>(std::clamp(c, 0, 255)));
+  result.metallic_roughness = halved(surface_);
+  result.normal = normals();
+  for (size_t layer = 0; layer < lit_.size(); ++layer) result.lit[layer] = halved(lit_[layer]);
   return result;
 }
 

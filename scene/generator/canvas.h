@@ -4,6 +4,7 @@
 // A picture that repeats in both directions, painted in integers only, so that it is the same on every machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "scene/generator/textures.h"
@@ -35,17 +36,28 @@ class Canvas {
   void speckle(int amount, uint32_t seed);
   /// Smooth noise: values within +-amount on a lattice of `cell` pixels (which divides width and height).
   void blotches(int cell, int amount, uint32_t seed);
+  /// A wandering line of `length` pixels, mostly along y, darker by `change`: a crack.
+  void crack(int x, int y, int length, int change, uint32_t seed);
   /// Starts a metallic-roughness picture.
   void use_roughness(int roughness);
   void metal_everywhere(int metallic);
+  /// Light that comes out by night, picture `layer` of lit_pictures; starts that picture, dark.
+  void light(int layer, int x0, int y0, int x1, int y1, const Rgb& color);
+  /// Height over the plane, in pixels/16; starts a normal picture.
+  void raise(int x0, int y0, int x1, int y1, int height);
+  /// What is lit, and roughness, at half the resolution: nobody sees the difference.
   Picture picture() const;
 
  private:
   size_t index(int x, int y) const;
+  Raster halved(const std::vector<Rgb>& pixels) const;
+  Raster normals() const;
 
   int width_, height_;
   std::vector<Rgb> colors_;
   std::vector<Rgb> surface_;  ///< (unused, roughness, metallic); empty: not wanted
+  std::array<std::vector<Rgb>, lit_pictures> lit_;
+  std::vector<int> relief_;
 };
 
 }  // namespace greatx::scene::generator

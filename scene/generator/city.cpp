@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -9,11 +10,15 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "scene/generator/canvas.h"
 #include "scene/generator/city_buildings.h"
 #include "scene/generator/city_ground.h"
 #include "scene/generator/kinds.h"
 #include "scene/generator/materials.h"
 #include "scene/generator/objects.h"
+#include "scene/generator/street_furniture.h"
+#include "scene/generator/trees.h"
+#include "scene/generator/vehicles.h"
 
 namespace greatx::scene::generator {
 
@@ -22,50 +27,64 @@ namespace {
 /// Meshes that many nodes share, and running numbers for the nodes' names.
 class CityFurniture {
  public:
-  explicit CityFurniture(GlbWriter& writer) : writer_(writer) {
-    light_ = writer.add_point_light("lamp_light", vec3(1.0f, 0.86f, 0.66f), 900.0, 40.0);
-  }
+  explicit CityFurniture(GlbWriter& writer) : writer_(writer) {}
 
-  void tree(const dvec2& where, double z, RandomStream& random) {
-    const int shape = static_cast<int>(random.below(4));
-    const int mesh = shared(fmt::format("tree_shape_{}", shape), [&] { return make_tree(shape); });
+  /// `kind` of make_tree.
+  void tree(const dvec2& where, double z, int kind, RandomStream& random) {
+    const int shape = static_cast<int>(random.below(4)) % 2;
+    const int mesh = shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
     const double scale = random.uniform(0.85, 1.3), yaw = random.uniform(0.0, 2.0 * pi);
-    writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
+    writer_.add_node({.name = number("tree"),
                       .mesh = mesh,
                       .position = dvec3(where, z),
                       .yaw = yaw,
                       .scale = scale,
                       .semantic_class = SemanticClass::vegetation});
   }
-  void lamp(const dvec2& where, double z, double yaw) {
-    const std::string name = fmt::format("lamp_{:03}", lamp_count_++);
-    const int node = writer_.add_node({.name = name,
-                                       .mesh = shared("street_lamp", make_lamp),
-                                       .position = dvec3(where, z),
-                                       .yaw = yaw,
-                                       .semantic_class = SemanticClass::street_lamp});
-    writer_.add_node(
-        {.name = name + "_light", .position = lamp_light_position, .parent = node, .light = light_});
+  void lamp(LampKind kind, const dvec2& where, double z, double yaw) {
+    const Lamp lamp = make_lamp(kind);
+    const auto key = static_cast<size_t>(kind);
+    if (lights_[key] < 0) lights_[key] = writer_.add_light(lamp.light);
+    const std::string name = number("lamp");
+    const int node =
+        writer_.add_node({.name = name,
+                          .mesh = shared(fmt::format("street_lamp_{}", key), [&] { return lamp.mesh; }),
+                          .position = dvec3(where, z),
+                          .yaw = yaw,
+                          .semantic_class = SemanticClass::street_lamp});
+    writer_.add_node({.name = name + "_light",
+                      .position = lamp.light_position,
+                      .parent = node,
+                      .light = lights_[key],
+                      .shine = {0.0, 0.0, -1.0}});
   }
   void car(const dvec2& where, double yaw, RandomStream& random) {
-    static constexpr std::array<const char*, 6> paints{"white", "silver", "red", "blue", "black", "silver"};
-    const size_t pick = random.below(7);
-    const std::string variant = pick < 6 ? "hatchback" : "van";
-    const std::string paint = pick < 6 ? paints[pick] : "white";
-    const int mesh = shared(fmt::format("parked_{}_{}", variant, paint),
-                            [&] { return make_car(variant, "car_paint_" + paint, false); });
-    writer_.add_node({.name = fmt::format("car_{:03}", car_count_++),
-                      .mesh = mesh,
-                      .position = dvec3(where, 0.0),
-                      .yaw = yaw,
-                      .semantic_class = SemanticClass::vehicle});
+    static constexpr std::array<const char*, 10> paints{"white", "silver", "red",    "blue", "black",
+                                                        "grey",  "green",  "silver", "sand", "grey"};
+    const size_t pick = random.below(13);
+    const std::string variant = pick < 10 ? "hatchback" : "van";
+    const std::string paint = pick < 10 ? paints[pick] : pick == 10 ? "yellow" : "white";
+    place(
+        "car", fmt::format("parked_{}_{}", variant, paint),
+        [&] { return make_car(variant, "car_paint_" + paint, false); }, dvec3(where, 0.0), yaw,
+        SemanticClass::vehicle);
   }
   void bench(const dvec2& where, double z, double yaw) {
-    writer_.add_node({.name = fmt::format("bench_{:03}", bench_count_++),
-                      .mesh = shared("bench", make_bench),
-                      .position = dvec3(where, z),
-                      .yaw = yaw,
-                      .semantic_class = SemanticClass::furniture});
+    place("bench", "bench", make_bench, dvec3(where, z), yaw, SemanticClass::furniture);
+  }
+  void signal(const dvec2& where, double yaw, bool green) {
+    place(
+        "signal", green ? "signal_green" : "signal_red", [&] { return make_signal(green); },
+        dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  }
+  void sign(const dvec2& where, double yaw) {
+    place("sign", "sign", make_sign, dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  }
+  void shelter(const dvec2& where, double yaw) {
+    place("shelter", "shelter", make_shelter, dvec3(where, pavement_height_m), yaw, SemanticClass::furniture);
+  }
+  void bin(const dvec2& where) {
+    place("bin", "bin", make_bin, dvec3(where, pavement_height_m), 0.0, SemanticClass::furniture);
   }
 
  private:
@@ -74,31 +93,68 @@ class CityFurniture {
     if (found != meshes_.end()) return found->second;
     return meshes_[name] = writer_.add_mesh(name, make());
   }
+  std::string number(const std::string& name) { return fmt::format("{}_{:03}", name, counts_[name]++); }
+  void place(const std::string& name, const std::string& mesh, const std::function<MeshBuilder()>& make,
+             const dvec3& where, double yaw, SemanticClass semantic_class) {
+    writer_.add_node({.name = number(name),
+                      .mesh = shared(mesh, make),
+                      .position = where,
+                      .yaw = yaw,
+                      .semantic_class = semantic_class});
+  }
 
   GlbWriter& writer_;
-  std::map<std::string, int> meshes_;
-  int light_ = 0;
-  int tree_count_ = 0, lamp_count_ = 0, car_count_ = 0, bench_count_ = 0;
+  std::map<std::string, int> meshes_, counts_;
+  std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
 };
 
 double heading(const dvec2& direction) { return std::atan2(direction.y, direction.x); }
 
-/// Lamps along the south and west edges of a block (so that each street has one row), trees along avenues.
-void furnish_pavement(const Block& block, CityFurniture& furniture, RandomStream& random) {
+/// Lamps every 28 m or so: along both sides of an avenue, staggered; along the south and west edges of other blocks, so
+/// that each street has one row. Trees along avenues, of one species; signals, signs, shelters, bins.
+void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, RandomStream& random) {
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
     const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
     const double length = glm::length(b - a);
     const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
     const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
-    const bool lamps = edge == 0 || edge == 3;
-    const int slots = std::max(2, static_cast<int>(length / (avenue ? 12.0 : 16.0)));
-    for (int i = 0; i < slots; ++i) {
-      const dvec2 spot = a + along * (length * (i + 0.5) / slots) + inwards * 0.7;
-      if (lamps && i % 3 == 1)
-        furniture.lamp(spot, pavement_height_m, heading(-inwards));
-      else if (avenue && i % 3 != 1)
-        furniture.tree(spot + inwards * 0.5, pavement_height_m, random);
+    std::vector<double> taken;  // m along the edge
+    const auto free = [&](double at, double room) {
+      return std::all_of(taken.begin(), taken.end(), [&](double t) { return std::abs(t - at) > room; });
+    };
+    const auto spot = [&](double at, double depth) { return a + along * at + inwards * depth; };
+    if (avenue || edge == 0 || edge == 3) {
+      const int lamps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 34.0 : 30.0))));
+      const double phase = avenue && (edge == 1 || edge == 2) ? 0.85 : 0.35;
+      for (int i = 0; i < lamps; ++i) {
+        const double at = std::clamp(length * (i + phase) / lamps, 1.2, length - 1.2);
+        furniture.lamp(avenue ? LampKind::avenue : LampKind::street, spot(at, 0.7), pavement_height_m,
+                       heading(-inwards));
+        taken.push_back(at);
+      }
+    }
+    // Drivers beside this pavement come from b: what speaks to them stands near a and looks along the edge.
+    const bool crossing = block.street[static_cast<size_t>((edge + 3) % 4)];
+    if (avenue && crossing && free(2.2, 0.8)) {
+      furniture.signal(spot(2.2, 0.45), heading(along), edge % 2 == 0);
+      taken.push_back(2.2);
+    } else if (crossing && edge % 2 == 0 && free(4.4, 0.8)) {
+      furniture.sign(spot(4.4, 0.45), heading(along));
+    }
+    const uint32_t dice = hash(block.column * 4 + edge, block.row, static_cast<uint32_t>(seed));
+    if (avenue && length > 40.0 && dice % 3 == 0) {
+      const double at = 0.62 * length;
+      furniture.shelter(spot(at, 2.4), heading(-inwards));
+      for (const double side : {-4.0, -2.0, 0.0, 2.0, 4.0}) taken.push_back(at + side);
+      furniture.bin(spot(at + 3.2, 2.2));
+    }
+    const int slots = std::max(2, static_cast<int>(length / 10.5));
+    const int kind =
+        static_cast<int>(hash(edge % 2, 7, static_cast<uint32_t>(seed)) % 2) * 3;  // linden or plane
+    for (int i = 0; avenue && i < slots; ++i) {
+      const double at = length * (i + 0.5) / slots;
+      if (free(at, 2.6) && at > 5.0) furniture.tree(spot(at, 1.2), pavement_height_m, kind, random);
     }
   }
 }
@@ -110,7 +166,7 @@ void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& ran
     const dvec2 along = (street.right[1] - street.right[0]) / length, left(-along.y, along.x);
     const int slots = static_cast<int>((length - 16.0) / 6.2);
     for (int i = 0; i < slots; ++i) {
-      if (random.uniform() > 0.13) continue;
+      if (random.uniform() > 0.2) continue;
       const dvec2 spot = street.right[0] + along * (9.0 + 6.2 * i + random.uniform(-0.3, 0.3)) + left * 1.25;
       furniture.car(spot, heading(along), random);
     }
@@ -158,8 +214,16 @@ void add_park(GlbWriter& writer, const Block& block, CityFurniture& furniture, R
       if (i == 2 || j == 2) continue;
       const double u = 0.1 + 0.2 * i + random.uniform(-0.045, 0.045);
       const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
-      furniture.tree(at(u, v), z, random);
+      const int kind = static_cast<int>(hash(i, j, 77) % tree_species);
+      furniture.tree(at(u, v), z, kind, random);
     }
+  for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
+    const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
+    const double reach = glm::length(end - center);
+    for (const double distance : {9.5, 0.5 * (9.5 + reach) + 3.0})
+      if (distance < reach - 4.0)
+        furniture.lamp(LampKind::park, snap(center + along * distance + side * 1.9), z, heading(-side));
+  }
   for (int i = 0; i < 4; ++i) {
     const double angle = pi / 4 + pi / 2 * i;
     const dvec2 out(std::cos(angle), std::sin(angle));
@@ -192,16 +256,17 @@ void write_city(GlbWriter& writer, double size_m, uint64_t seed) {
     add_block_ground(block, material(park ? "grass" : surfaces[details.below(4)]), pavement, courtyard);
     add(fmt::format("pavement_{:03}", i), pavement, SemanticClass::pavement);
     add(fmt::format("{}_{:03}", park ? "park" : "courtyard", i), courtyard, SemanticClass::ground);
-    furnish_pavement(block, furniture, details);
+    furnish_pavement(block, seed, furniture, details);
     if (park) {
       add_park(writer, block, furniture, details);
       continue;
     }
-    for (const Building& b : make_buildings(plan, block, random)) {
+    for (const Building& b : make_buildings(plan, block, seed, building, random)) {
       const std::string name = fmt::format("building_{:03}", building++);
       writer.add_node({.name = name,
                        .mesh = writer.add_mesh(name, b.mesh),
                        .position = b.position,
+                       .yaw = b.yaw,
                        .semantic_class = SemanticClass::building});
     }
   }

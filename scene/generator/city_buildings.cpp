@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "scene/generator/city_roofs.h"
 #include "scene/generator/materials.h"
 
 namespace greatx::scene::generator {
@@ -132,18 +133,11 @@ Style make_style(int floors, RandomStream& random) {
   return style;
 }
 
-bool inside(const std::vector<dvec2>& polygon, const dvec2& p) {
-  bool odd = false;
-  for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const dvec2 a = polygon[i], b = polygon[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) odd = !odd;
-  }
-  return odd;
-}
-
 /// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and apart.
-void add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof, const std::vector<dvec2>& spots,
-                   const dvec2& along, double roof_z, RandomStream& random) {
+/// Returns their middles.
+std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof,
+                                 const std::vector<dvec2>& spots, const dvec2& along, double roof_z,
+                                 RandomStream& random) {
   const int sheet = material("roof_equipment"), concrete = material("concrete");
   const dvec2 across(-along.y, along.x);
   const size_t count = 1 + random.below(static_cast<uint32_t>(spots.size()));
@@ -163,6 +157,24 @@ void add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof, const std:
     const int side = i == 0 ? concrete : sheet;
     mesh.prism(side, side, corners, roof_z - 0.2, roof_z + height);
   }
+  return taken;
+}
+
+/// More faces than the choice of a style has: others of the same kind of wall.
+void vary(Style& style, RandomStream& looks) {
+  const double pick = looks.uniform();
+  if (style.facade == "facade_concrete_grey" && pick < 0.55)
+    style.facade = pick < 0.3 ? "facade_balcony_white" : "facade_balcony_sand";
+  if (style.facade == "facade_concrete_light" && pick < 0.2) style.facade = "facade_balcony_white";
+  if (style.facade == "facade_plaster_cream" && pick < 0.5)
+    style.facade = pick < 0.25 ? "facade_stone_light" : "facade_plaster_rose";
+  if (style.facade == "facade_plaster_ochre" && pick < 0.4) style.facade = "facade_stone_grey";
+  if (style.facade == "facade_brick_brown" && pick < 0.3) style.facade = "facade_stone_light";
+}
+
+bool old_town(const Style& style) {
+  return style.facade.find("brick") != std::string::npos ||
+         style.facade.find("plaster") != std::string::npos || style.facade.find("stone") != std::string::npos;
 }
 
 struct Site {
@@ -172,49 +184,129 @@ struct Site {
   dvec2 along;
 };
 
-MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream& random) {
-  const Style style = make_style(floors, random);
-  const int facade = material(style.facade), roof = material(style.roof), stone = material("concrete");
-  const bool shops = style.shops;
+/// Rings of a façade from `bottom` to `top`, one for every two floors, so that each starts with a bay of its own: no
+/// two walls show the same windows lit.
+void add_facade(RingSolid& solid, double inset, double bottom, double base, double top, int facade,
+                RandomStream& looks) {
+  for (double z = base; z < top - 0.01; z += 2.0 * floor_height)
+    solid.rings.push_back({inset, z == base ? bottom : z, facade, true, z, 1u + looks.below(0x7fffffffu)});
+}
+
+/// A sign that sticks out of the wall from a to b at height z, lit by night.
+void add_neon(MeshBuilder& mesh, const dvec2& a, const dvec2& b, double z, RandomStream& looks) {
+  static constexpr std::array<const char*, 4> colors{"neon_red", "neon_blue", "neon_green", "neon_amber"};
+  const double length = glm::length(b - a);
+  if (length < 9.0) return;
+  const dvec2 along = (b - a) / length, out(along.y, -along.x);
+  const dvec2 foot = glm::mix(a, b, looks.uniform(0.25, 0.75));
+  const double half = 0.09, reach = looks.uniform(0.7, 1.0), height = looks.uniform(1.4, 3.6);
+  const std::vector<dvec2> corners{
+      snap(foot - half * along - 0.1 * out), snap(foot - half * along + reach * out),
+      snap(foot + half * along + reach * out), snap(foot + half * along - 0.1 * out)};
+  std::vector<dvec2> ccw(corners.rbegin(), corners.rend());
+  const double area = (corners[1].x - corners[0].x) * (corners[2].y - corners[0].y) -
+                      (corners[1].y - corners[0].y) * (corners[2].x - corners[0].x);
+  const int glow = material(colors[looks.below(4)]);
+  mesh.prism(glow, glow, area > 0.0 ? corners : ccw, z, z + height);
+}
+
+MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream& random, RandomStream& looks,
+                          double* yaw) {
+  Style style = make_style(floors, random);
   const bool blind_alleys = !style.blind.empty() && random.uniform() < 0.7;
+  vary(style, looks);
+  const int facade = material(style.facade), roof = material(style.roof), stone = material("concrete");
+  const int shop = material(looks.uniform() < 0.6 ? "shopfront" : "shopfront_late");
+  const bool shops = style.shops;
   const int blind = blind_alleys ? material(style.blind) : 0;
+  const double street_level = shops ? shop_height : 0.0,
+               setback = parapet_width + (tower ? random.uniform(2.2, 3.6) : 0.0);
+  const double lower = tower ? 2 : floors;
+  const bool pitched =
+      !tower && floors <= 6 && site.footprint.size() == 4 && old_town(style) && looks.uniform() < 0.8;
+  double top = street_level + floor_height * lower;
+
+  // A pitched roof wants right angles: the largest rectangle along the street, in axes of its own.
+  std::vector<dvec2> footprint = site.footprint;
+  std::vector<bool> alley = site.alley;
+  dvec2 half(0.0);
+  if (pitched) {
+    const dvec2 across(-site.along.y, site.along.x);
+    dvec2 low(-1e9), high(1e9);
+    for (const dvec2& p : footprint) {
+      const dvec2 q(glm::dot(p, site.along), glm::dot(p, across));
+      for (int k = 0; k < 2; ++k)
+        (q[k] < 0.0 ? low[k] = std::max(low[k], q[k]) : high[k] = std::min(high[k], q[k]));
+    }
+    for (int k = 0; k < 2; ++k) half[k] = std::floor(100.0 * std::min(-low[k], high[k])) / 100.0;
+    footprint = {-half, dvec2(half.x, -half.y), half, dvec2(-half.x, half.y)};
+    *yaw = std::atan2(site.along.y, site.along.x);
+    // Its edges look south, east, north and west; whoever looked that way before knows of the neighbour.
+    const std::array<dvec2, 4> outwards{-across, site.along, across, -site.along};
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t k = 0; k < 4; ++k)
+        if (glm::dot(glm::normalize(site.footprint[k] + site.footprint[(k + 1) % 4]), outwards[i]) > 0.8)
+          alley[i] = site.alley[k];
+  }
 
   RingSolid solid;
-  solid.footprint = site.footprint;
+  solid.footprint = footprint;
   solid.bottom = stone;
-  const double street_level = shops ? shop_height : 0.0;
-  if (shops) solid.rings.push_back({0.0, foundation, material("shopfront"), true, 0.0});
-  const double lower = tower ? 2 : floors;
-  double top = street_level + floor_height * lower;
-  solid.rings.push_back({0.0, shops ? street_level : foundation, facade, true, street_level});
-  solid.rings.push_back({0.0, top + parapet_height, stone});
-  solid.rings.push_back({parapet_width, top + parapet_height, stone});
-  if (tower) {
-    const double setback = parapet_width + random.uniform(2.2, 3.6);
-    solid.rings.push_back({parapet_width, top, roof});
-    solid.rings.push_back({setback, top, facade, true, top});
-    top += floor_height * (floors - lower);
-    solid.rings.push_back({setback, top + parapet_height, stone});
-    solid.rings.push_back({setback + parapet_width, top + parapet_height, stone});
-  }
-  // Parapets are as wide as the wall is thick: fall back to the roof inside them.
-  solid.rings.push_back({solid.rings.back().inset_m, top, roof});
-  solid.override_wall = [&](size_t ring, size_t edge, int usual) {
-    return blind_alleys && !tower && ring <= (shops ? 1u : 0u) && site.alley[edge] ? blind : usual;
-  };
+  if (shops) solid.rings.push_back({0.0, foundation, shop, true, 0.0, 1u + looks.below(0x7fffffffu)});
+  add_facade(solid, 0.0, shops ? street_level : foundation, street_level, top, facade, looks);
+  const size_t wall_rings = solid.rings.size();
   MeshBuilder mesh;
-  add_ring_solid(mesh, solid);
+  solid.override_wall = [&](size_t ring, size_t edge, int usual) {
+    return blind_alleys && !tower && ring < wall_rings && alley[edge] ? blind : usual;
+  };
   std::vector<dvec2> spots = site.spots;
-  if (tower)
-    for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of its smaller roof
-  const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
-  add_equipment(mesh, roof_edge, spots, site.along, top, random);
+  if (pitched) {
+    solid.rings.push_back({0.0, top, stone});
+    add_ring_solid(mesh, solid);
+    const bool mansard = floors >= 3 && looks.uniform() < 0.5;
+    const char* const tiles = looks.uniform() < 0.6   ? "roof_tiles"
+                              : looks.uniform() < 0.5 ? "roof_tiles_old"
+                                                      : "roof_slate";
+    const double ridge =
+        mansard ? add_mansard(mesh, half, top, looks) : add_hip_roof(mesh, half, top, material(tiles));
+    const double x = snap(0.4 * half.x), y = snap(0.15 * half.y);
+    for (const double side : {-1.0, 1.0})
+      mesh.box(material("blind_brick"), {side * x - 0.35, side * y - 0.5, top + 0.1},
+               {side * x + 0.35, side * y + 0.5, ridge + 0.8});
+    MeshBuilder unused;  // what a flat roof would have drawn: the next building does not change
+    add_equipment(unused, inset(site.footprint, parapet_width + 0.3), spots, site.along, top, random);
+  } else {
+    solid.rings.push_back({0.0, top + parapet_height, stone});
+    solid.rings.push_back({parapet_width, top + parapet_height, stone});
+    if (tower) {
+      solid.rings.push_back({parapet_width, top, roof});
+      const double base = top;
+      top += floor_height * (floors - lower);
+      add_facade(solid, setback, base, base, top, facade, looks);
+      solid.rings.push_back({setback, top + parapet_height, stone});
+      solid.rings.push_back({setback + parapet_width, top + parapet_height, stone});
+    }
+    // Parapets are as wide as the wall is thick: fall back to the roof inside them.
+    solid.rings.push_back({solid.rings.back().inset_m, top, roof});
+    add_ring_solid(mesh, solid);
+    if (tower)
+      for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of its smaller roof
+    const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
+    const std::vector<dvec2> taken = add_equipment(mesh, roof_edge, spots, site.along, top, random);
+    add_roof_details(mesh, roof_edge, taken, site.along, top, looks);
+  }
+  if (shops) {
+    const size_t edge = looks.below(static_cast<uint32_t>(footprint.size()));
+    if (!alley[edge])
+      add_neon(mesh, footprint[edge], footprint[(edge + 1) % footprint.size()], street_level + 0.3, looks);
+  }
   return mesh;
 }
 
 }  // namespace
 
-std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, RandomStream& random) {
+std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
+                                     RandomStream& random) {
   // The block inside its pavements and a strip in front of the walls.
   std::array<double, 4> insets{};
   for (size_t i = 0; i < 4; ++i) insets[i] = block.pavement_m[i] + 0.9;
@@ -250,7 +342,11 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, R
     const bool tower = roomy && shape.convex && random.uniform() < 0.2 + 0.45 * nearness;
     const int floors = tower ? 8 + static_cast<int>(random.below(5))
                              : std::clamp(static_cast<int>(random.uniform(2.6, 6.5) + 3.0 * nearness), 2, 9);
-    buildings.push_back({make_building(site, floors, tower, random), dvec3(center, 0.15)});
+    // Looks have a stream of their own: what a building wears moves no other one.
+    RandomStream looks(seed, 64, static_cast<uint32_t>(first + static_cast<int>(buildings.size())));
+    double yaw = 0.0;
+    MeshBuilder mesh = make_building(site, floors, tower, random, looks, &yaw);
+    buildings.push_back({std::move(mesh), dvec3(center, 0.15), yaw});
   }
   return buildings;
 }

@@ -14,9 +14,12 @@ namespace greatx::scene::generator {
 struct Building {
   MeshBuilder mesh;
   dvec3 position{0.0};
+  double yaw = 0.0;
 };
 
 /// The buildings of a block: footprints of several shapes on its lots, 8 to 45 m high, taller towards the centre.
-std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, RandomStream& random);
+/// `first` is the number of the first of them in the city.
+std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
+                                     RandomStream& random);
 
 }  // namespace greatx::scene::generator

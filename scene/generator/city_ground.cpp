@@ -56,9 +56,14 @@ std::vector<Row> make_rows(const Street& street, double length, double width, Ra
   const Row plain = make_row(1.5, width, {});
   const auto crossing = [&](bool junction) { return junction && (street.avenue || random.uniform() >= 0.5); };
   const bool head = crossing(street.junction[0]), tail = crossing(street.junction[1]);
+  // Traffic keeps to the right: it stops before the crossing at the far end on the right half, at the near end on the
+  // left half.
+  const double rim = 0.35 / width, middle = 0.2 / width;
+  const Row stop_left = make_row(0.4, width, {{rim, 0.5 - middle}}),
+            stop_right = make_row(0.4, width, {{0.5 + middle, 1.0 - rim}});
   std::vector<Row> rows;
-  if (head) rows = {zebra_row(width), plain};
-  const double used = (head ? 4.5 : 0.0) + (tail ? 4.5 : 0.0);
+  if (head) rows = {zebra_row(width), plain, stop_left, plain};
+  const double used = (head ? 6.4 : 0.0) + (tail ? 6.4 : 0.0);
   // Dashes of 3 m every 9 m, stretched to fit; an avenue has a solid line in the middle and two dashed ones.
   const int dashes = std::max(1, static_cast<int>((length - used + 6.0) / 9.0));
   const double unit = (length - used) / (3.0 * dashes - 2.0);
@@ -67,19 +72,26 @@ std::vector<Row> make_rows(const Street& street, double length, double width, Ra
       rows.push_back(street.avenue ? line_row(2 * unit, width, {0.5}) : make_row(2 * unit, width, {}));
     rows.push_back(line_row(unit, width, street.avenue ? std::vector{0.27, 0.5, 0.73} : std::vector{0.5}));
   }
-  if (tail) rows.insert(rows.end(), {plain, zebra_row(width)});
+  if (tail) rows.insert(rows.end(), {plain, stop_right, plain, zebra_row(width)});
   return rows;
 }
 
 using Chain = std::vector<dvec2>;
 
+/// Texture coordinates along a street: its wheel tracks follow the lanes.
+struct Lane {
+  dvec2 middle{0.0}, along{0.0, 1.0};
+  dvec2 uv(int material, const dvec2& p) const {
+    const dvec2 tile = material_library()[static_cast<size_t>(material)].tile_m, d = p - middle;
+    return {0.5 + (d.x * along.y - d.y * along.x) / tile.x, -glm::dot(d, along) / tile.y};
+  }
+};
+
 /// Fills the cell between two chains of points (each from left to right) with triangles.
-void zip(MeshBuilder& mesh, int material, const Chain& low, const Chain& high) {
+void zip(MeshBuilder& mesh, int material, const Lane& lane, const Chain& low, const Chain& high) {
   const auto triangle = [&](const dvec2& a, const dvec2& b, const dvec2& c) {
-    const dvec3 up(0, 0, 1);
-    const dvec3 pa(a, 0.0), pb(b, 0.0), pc(c, 0.0);
-    mesh.triangle(material, {pa, pb, pc},
-                  {planar_uv(material, pa, up), planar_uv(material, pb, up), planar_uv(material, pc, up)});
+    mesh.triangle(material, {dvec3(a, 0.0), dvec3(b, 0.0), dvec3(c, 0.0)},
+                  {lane.uv(material, a), lane.uv(material, b), lane.uv(material, c)});
   };
   size_t i = 0, j = 0;
   while (i + 1 < low.size() || j + 1 < high.size()) {
@@ -106,6 +118,9 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
   const std::vector<Row> rows = make_rows(street, length - 2.0 * frame_end_m, width, random);
   const int asphalt = material("asphalt"), paint = material("road_marking");
 
+  const dvec2 start_middle = 0.5 * (street.left[0] + street.right[0]);
+  const Lane lane{start_middle, glm::normalize(0.5 * (street.left[1] + street.right[1]) - start_middle)};
+
   // The points on the boundary below row i: the cuts of both rows that meet there.
   std::vector<std::vector<double>> cuts(rows.size() + 1);
   for (size_t i = 0; i < rows.size(); ++i)
@@ -128,22 +143,22 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
   };
   double start = frame_end_m / length;
   Chain inner_left{point(start, cuts[0].front())}, inner_right{point(start, cuts[0].back())};
-  zip(road, asphalt, {street.left[0], street.right[0]}, chain(0, start, 0.0, 1.0));
+  zip(road, asphalt, lane, {street.left[0], street.right[0]}, chain(0, start, 0.0, 1.0));
   for (size_t i = 0; i < rows.size(); ++i) {
     const double end = start + rows[i].length_m / length;
     for (size_t cell = 0; cell + 1 < rows[i].cuts.size(); ++cell) {
       const double from = rows[i].cuts[cell], to = rows[i].cuts[cell + 1];
       const bool marked = rows[i].marked[cell];
-      zip(marked ? markings : road, marked ? paint : asphalt, chain(i, start, from, to),
+      zip(marked ? markings : road, marked ? paint : asphalt, lane, chain(i, start, from, to),
           chain(i + 1, end, from, to));
     }
     start = end;
     inner_left.push_back(point(start, cuts[i + 1].front()));
     inner_right.push_back(point(start, cuts[i + 1].back()));
   }
-  zip(road, asphalt, chain(rows.size(), start, 0.0, 1.0), {street.left[1], street.right[1]});
-  zip(road, asphalt, inner_left, {street.left[0], street.left[1]});
-  zip(road, asphalt, {street.right[0], street.right[1]}, inner_right);
+  zip(road, asphalt, lane, chain(rows.size(), start, 0.0, 1.0), {street.left[1], street.right[1]});
+  zip(road, asphalt, lane, inner_left, {street.left[0], street.left[1]});
+  zip(road, asphalt, lane, {street.right[0], street.right[1]}, inner_right);
 }
 
 }  // namespace

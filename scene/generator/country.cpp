@@ -15,6 +15,8 @@
 #include "scene/generator/materials.h"
 #include "scene/generator/objects.h"
 #include "scene/generator/terrain.h"
+#include "scene/generator/trees.h"
+#include "scene/generator/vehicles.h"
 
 namespace greatx::scene::generator {
 
@@ -265,7 +267,7 @@ void Country::add_tree(const dvec2& where, bool conifer) {
   if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
   const int shape = static_cast<int>(random_.below(4));
   const int mesh = conifer ? shared("conifer", make_conifer)
-                           : shared(fmt::format("tree_shape_{}", shape), [&] { return make_tree(shape); });
+                           : shared(fmt::format("tree_shape_{}", shape), [&] { return make_tree(shape, 0); });
   writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
                     .mesh = mesh,
                     .position = dvec3(at, terrain_.height(at) - 0.1),

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "scene/generator/kinds.h"
 #include "scene/generator/objects.h"
+#include "scene/generator/vehicles.h"
 
 namespace greatx::scene {
 
@@ -96,10 +97,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
   } else if (options.kind == "quadrotor") {
     write_quadrotor(writer, variant);
   } else if (options.kind == "car") {
-    const char* const paint = variant == "van" ? "car_paint_white" : "car_paint_red";
-    writer.add_node({.name = "car",
-                     .mesh = writer.add_mesh(variant, make_car(variant, paint, true)),
-                     .semantic_class = SemanticClass::vehicle});
+    write_car(writer, variant);
   } else {
     writer.add_node({.name = "mast",
                      .mesh = writer.add_mesh("mast", make_mast()),

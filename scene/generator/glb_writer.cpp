@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
+#include "core/units.h"
 #include "scene/generator/materials.h"
 #include "scene/generator/png_encoder.h"
 #include "scene/generator/textures.h"
@@ -90,7 +93,15 @@ int GlbWriter::add_node(const NodeSpec& node) {
   if (p != dvec3(0.0)) json["translation"] = {p.x, p.z, -p.y + 0.0};
   // Rounded to float, so that the last bit of a sine does not show.
   const auto narrow = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  if (node.yaw != 0.0)
+  if (node.shine != dvec3(0.0)) {
+    // The rotation that takes -z, where a light looks (KHR_lights_punctual), to `shine` by the shortest way.
+    const dvec3 d = glm::normalize(dvec3(node.shine.x, node.shine.z, -node.shine.y));
+    const dvec3 axis = glm::cross(dvec3(0.0, 0.0, -1.0), d);
+    const double w = 1.0 - d.z, length = std::sqrt(w * w + glm::dot(axis, axis));
+    GREATX_CHECK(length > 1e-6, "node \"{}\" shines straight back", node.name);
+    json["rotation"] = {narrow(axis.x / length), narrow(axis.y / length), narrow(axis.z / length),
+                        narrow(w / length)};
+  } else if (node.yaw != 0.0)
     json["rotation"] = {0.0, narrow(std::sin(node.yaw / 2)), 0.0, narrow(std::cos(node.yaw / 2))};
   if (node.scale != 1.0) json["scale"] = std::vector<double>(3, snap(node.scale));
   if (node.semantic_class != SemanticClass::unlabeled)
@@ -105,37 +116,40 @@ int GlbWriter::add_node(const NodeSpec& node) {
   return index;
 }
 
-int GlbWriter::add_point_light(const std::string& name, const vec3& color, double intensity_cd,
-                               double range_m) {
+double LightSpec::flux_lm() const {
+  if (outer_cone == 0.0) return 4.0 * pi * intensity_cd;
+  const double inner = std::cos(inner_cone), outer = std::cos(outer_cone);
+  return 2.0 * pi * intensity_cd * (1.0 - inner + (inner - outer) / 3.0);
+}
+
+int GlbWriter::add_light(const LightSpec& light) {
   Json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
-  lights.push_back({{"name", name},
-                    {"type", "point"},
-                    {"color", json_of(color)},
-                    {"intensity", intensity_cd},
-                    {"range", range_m}});
+  const bool spot = light.outer_cone > 0.0;
+  Json json{
+      {"type", spot ? "spot" : "point"},
+      {"color", json_of(light.color / std::max({light.color.x, light.color.y, light.color.z}))},
+      {"intensity", micro(light.intensity_cd * std::max({light.color.x, light.color.y, light.color.z}))},
+      {"range", light.range_m}};
+  if (spot)
+    json["spot"] = {{"innerConeAngle", micro(light.inner_cone)}, {"outerConeAngle", micro(light.outer_cone)}};
+  lights.push_back(json);
   return static_cast<int>(lights.size()) - 1;
 }
 
-int GlbWriter::add_texture(const std::string& name, uint32_t width, uint32_t height,
-                           const std::vector<uint8_t>& rgb) {
-  const std::vector<std::byte> png = encode_png(width, height, rgb);
+GlbWriter::Textures& GlbWriter::textures_of(const std::string& name) { return textures_[name]; }
+
+const Picture& GlbWriter::picture(const std::string& name) {
+  const auto found = pictures_.find(name);
+  return found != pictures_.end() ? found->second : pictures_[name] = make_texture(name);
+}
+
+int GlbWriter::texture(int& index, const std::string& name, const Raster& raster, bool exact) {
+  if (index >= 0 || raster.empty()) return index;
+  const std::vector<std::byte> png = encode_png(raster.width, raster.height, raster.rgb, exact);
   root_["images"].push_back(
       {{"name", name}, {"mimeType", "image/png"}, {"bufferView", view(png.data(), png.size(), 0)}});
   root_["textures"].push_back({{"sampler", 0}, {"source", root_["images"].size() - 1}});
-  return static_cast<int>(root_["textures"].size()) - 1;
-}
-
-int GlbWriter::texture(const std::string& name, bool metallic_roughness) {
-  const auto found = textures_.find(name);
-  if (found != textures_.end()) return metallic_roughness ? found->second.second : found->second.first;
-  const Picture picture = make_texture(name);
-  const int color = add_texture(name, picture.width, picture.height, picture.rgb);
-  const int surface =
-      picture.metallic_roughness.empty()
-          ? -1
-          : add_texture(name + "_surface", picture.width, picture.height, picture.metallic_roughness);
-  textures_[name] = {color, surface};
-  return metallic_roughness ? surface : color;
+  return index = static_cast<int>(root_["textures"].size()) - 1;
 }
 
 int GlbWriter::gltf_material(int library_index) {
@@ -146,12 +160,23 @@ int GlbWriter::gltf_material(int library_index) {
   Json pbr{{"baseColorFactor", {base[0], base[1], base[2], 1.0}},
            {"metallicFactor", micro(spec.metallic)},
            {"roughnessFactor", micro(spec.roughness)}};
+  Json json{{"name", spec.name}};
   if (!spec.texture.empty()) {
-    pbr["baseColorTexture"] = {{"index", texture(spec.texture, false)}};
-    const int surface = texture(spec.texture, true);
+    const Picture& painted = picture(spec.texture);
+    Textures& known = textures_of(spec.texture);
+    pbr["baseColorTexture"] = {{"index", texture(known.color, spec.texture, painted.color)}};
+    const int surface = texture(known.surface, spec.texture + "_surface", painted.metallic_roughness);
     if (surface >= 0) pbr["metallicRoughnessTexture"] = {{"index", surface}};
+    if (spec.relief)
+      json["normalTexture"] = {
+          {"index", texture(known.normal, spec.texture + "_normal", painted.normal, true)}};
+    if (spec.lit >= 0) {
+      const size_t evening = static_cast<size_t>(spec.lit);
+      const std::string name = fmt::format("{}_lit_{}", spec.texture, spec.lit);
+      json["emissiveTexture"] = {{"index", texture(known.lit[evening], name, painted.lit[evening], true)}};
+    }
   }
-  Json json{{"name", spec.name}, {"pbrMetallicRoughness", pbr}};
+  json["pbrMetallicRoughness"] = pbr;
   json["extensions"]["GREATX_radio_material"] = Json::parse(spec.radio);
   const float strength = std::max({spec.emissive.x, spec.emissive.y, spec.emissive.z, 1.0f});
   if (spec.emissive != vec3(0.0f)) json["emissiveFactor"] = json_of(spec.emissive / strength);

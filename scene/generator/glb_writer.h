@@ -4,6 +4,7 @@
 // glTF 2.0 binary (Khronos glTF 2.0.1, chapter 4) from meshes with z up.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/generator/mesh_builder.h"
+#include "scene/generator/textures.h"
 #include "scene/scene.h"
 
 namespace greatx::scene::generator {
@@ -22,8 +24,19 @@ struct NodeSpec {
   double yaw = 0.0;     ///< rad about z
   double scale = 1.0;
   SemanticClass semantic_class = SemanticClass::unlabeled;
-  int parent = -1;  ///< of add_node; -1: the scene
-  int light = -1;   ///< of add_point_light
+  int parent = -1;   ///< of add_node; -1: the scene
+  int light = -1;    ///< of add_light
+  dvec3 shine{0.0};  ///< where the light looks, in the parent's frame; 0: as `yaw` says
+};
+
+/// KHR_lights_punctual. Lights have no name of their own: readers take the node's.
+struct LightSpec {
+  vec3 color{1.0f};  ///< linear, of luminance 1
+  double intensity_cd = 0.0;
+  double range_m = 0.0;
+  double inner_cone = 0.0, outer_cone = 0.0;  ///< rad from the axis; 0: a point light
+  /// What it gives off, lm, by KHR_lights_punctual's fall-off between the cones, the square of a ramp in the cosine.
+  double flux_lm() const;
 };
 
 class GlbWriter {
@@ -31,8 +44,7 @@ class GlbWriter {
   /// Takes the mesh; the number to name it by.
   int add_mesh(const std::string& name, const MeshBuilder& mesh);
   int add_node(const NodeSpec& node);
-  /// KHR_lights_punctual: intensity in cd.
-  int add_point_light(const std::string& name, const vec3& color, double intensity_cd, double range_m);
+  int add_light(const LightSpec& light);
   /// The whole file.
   std::vector<std::byte> finish(const std::string& scene_name);
 
@@ -40,13 +52,21 @@ class GlbWriter {
   int view(const void* data, size_t bytes, int target);
   int accessor(int buffer_view, int component_type, size_t count, const char* type);
   int gltf_material(int library_index);
-  int texture(const std::string& name, bool metallic_roughness);
-  int add_texture(const std::string& name, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb);
+  /// glTF textures of one picture; -1 where it has none.
+  struct Textures {
+    int color = -1, surface = -1, normal = -1;
+    std::array<int, lit_pictures> lit{-1, -1};
+  };
+  Textures& textures_of(const std::string& name);
+  /// Adds the raster when it is first asked for; -1 if it is empty.
+  int texture(int& index, const std::string& name, const Raster& raster, bool exact = false);
+  const Picture& picture(const std::string& name);
 
   nlohmann::ordered_json root_;
   std::vector<std::byte> binary_;
-  std::map<int, int> materials_;                         ///< library index -> glTF material
-  std::map<std::string, std::pair<int, int>> textures_;  ///< name -> base colour, metallic-roughness (or -1)
+  std::map<int, int> materials_;  ///< library index -> glTF material
+  std::map<std::string, Picture> pictures_;
+  std::map<std::string, Textures> textures_;
 };
 
 }  // namespace greatx::scene::generator

@@ -89,13 +89,15 @@ std::vector<dvec2> inset(std::span<const dvec2> corners, double distance);
 /// Triangles of a simple polygon that is counter-clockwise, by ear clipping in exact integer millimetres.
 std::vector<std::array<uint32_t, 3>> triangulate(std::span<const dvec2> corners);
 
-/// A closed solid made of rings: each is the footprint moved inwards by `inset_m` at height `z`, joined to the next.
+/// A closed solid made of rings: each is the footprint moved inwards by `inset_m` at height `z`, joined to the next by
+/// walls (same inset) or a strip, level or (over rectangles only) sloping.
 struct Ring {
   double inset_m = 0.0;
   double z = 0.0;
   int material = 0;         ///< of the strip up to the next ring; of the cap for the last
   bool whole_bays = false;  ///< fit a whole number of texture bays to each wall
   double base_z = 0.0;      ///< with whole_bays: the height at which the texture starts
+  uint32_t shift = 0;       ///< with whole_bays: seeds the bay with which each wall starts; 0: the first
 };
 struct RingSolid {
   std::vector<dvec2> footprint;  ///< counter-clockwise from above

@@ -44,12 +44,12 @@ bool quantise(std::span<const uint8_t> rgb, int bits, Palette& palette) {
 
 }  // namespace
 
-std::vector<std::byte> encode_png(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
+std::vector<std::byte> encode_png(uint32_t width, uint32_t height, std::span<const uint8_t> rgb, bool exact) {
   GREATX_CHECK(rgb.size() == 3ull * width * height, "{} bytes for {} x {} RGB pixels", rgb.size(), width,
                height);
   Palette palette;
   bool indexed = false;
-  for (int bits = 0; bits <= 3 && !indexed; ++bits) indexed = quantise(rgb, bits, palette);
+  for (int bits = 0; bits <= (exact ? 0 : 3) && !indexed; ++bits) indexed = quantise(rgb, bits, palette);
 
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "scene/generator/canvas.h"
 #include "scene/generator/materials.h"
 #include "scene/generator/mesh_builder.h"
 
@@ -121,7 +122,13 @@ void add_walls(MeshBuilder& mesh, const RingSolid& solid, size_t r, const std::v
     const double bay = spec.tile_m.x / spec.bays;
     const double u = std::max(1.0, std::round(glm::length(b - a) / bay)) / spec.bays;
     const double v0 = -(low.z - low.base_z) / spec.tile_m.y, v1 = -(high.z - low.base_z) / spec.tile_m.y;
-    mesh.quad(material, quad, {dvec2(0.0, v0), dvec2(u, v0), dvec2(u, v1), dvec2(0.0, v1)});
+    // By whole pairs of bays, so that what alternates from bay to bay stays in line from floor to floor.
+    const uint32_t pairs = static_cast<uint32_t>(std::max(1, spec.bays / 2));
+    const double u0 = low.shift == 0
+                          ? 0.0
+                          : 2.0 * static_cast<double>(hash(static_cast<int>(i), 0, low.shift) % pairs) /
+                                std::max(2, spec.bays);
+    mesh.quad(material, quad, {dvec2(u0, v0), dvec2(u0 + u, v0), dvec2(u0 + u, v1), dvec2(u0, v1)});
   }
 }
 
@@ -137,12 +144,12 @@ void add_ring_solid(MeshBuilder& mesh, const RingSolid& solid) {
       add_walls(mesh, solid, r, corners);
       continue;
     }
-    GREATX_CHECK(low.z == high.z, "ring {}: sloping strips are not supported ({} to {} m)", r, low.z, high.z);
+    // A sloping strip is planar where opposite edges are parallel to the millimetre: over rectangles.
     const std::vector<dvec2> inner = inset(solid.footprint, high.inset_m);
     for (size_t i = 0; i < corners.size(); ++i) {
       const size_t j = (i + 1) % corners.size();
-      mesh.quad(low.material, dvec3(corners[i], low.z), dvec3(corners[j], low.z), dvec3(inner[j], low.z),
-                dvec3(inner[i], low.z));
+      mesh.quad(low.material, dvec3(corners[i], low.z), dvec3(corners[j], low.z), dvec3(inner[j], high.z),
+                dvec3(inner[i], high.z));
     }
     corners = inner;
   }

@@ -73,7 +73,8 @@ Quadrotor make_quadrotor(double d) {
     const double motor_radius = std::max(0.01, 0.036 * d);
     body.prism(material("motor_metal"), dark, regular_polygon(10, motor_radius, dvec2(motor)), -0.035 * d,
                0.035 * d);
-    body.prism(i < 2 ? material("aviation_light") : dark, dark,
+    // Navigation lights: red to the left (port), green to the right.
+    body.prism(material(i == 0 || i == 3 ? "navigation_red" : "navigation_green"), dark,
                regular_polygon(6, 0.7 * motor_radius, dvec2(motor)), -0.046 * d, -0.03 * d);
     result.rotor_centers.push_back(snap(motor + dvec3(0.0, 0.0, 0.044 * d)));
   }

@@ -3,6 +3,7 @@
 #include "scene/generator/textures.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "core/error.h"
@@ -12,11 +13,75 @@ namespace greatx::scene::generator {
 
 namespace {
 
+/// 16 m across x 32 m along a street, its middle at x = 256: wheel tracks of the lanes, oil between them, patches,
+/// cracks and a few covers.
 Picture asphalt() {
-  Canvas canvas(256, 256, {78, 78, 80});
-  canvas.blotches(64, 7, 11);
-  canvas.blotches(16, 4, 12);
-  canvas.speckle(9, 13);
+  Canvas canvas(512, 1024, {80, 80, 82});
+  canvas.blotches(256, 7, 11);
+  canvas.blotches(32, 4, 12);
+  const auto track = [&](double center_m, double half_m, int change) {
+    for (const int side : {-1, 1}) {
+      const int middle = 256 + static_cast<int>(32 * side * center_m), half = static_cast<int>(32 * half_m);
+      for (int x = middle - half; x < middle + half; ++x) {
+        const int fall = change * (half - std::abs(x - middle)) / half;
+        canvas.shade(x, 0, x + 1, 1024, fall);
+      }
+    }
+  };
+  for (const double lane : {1.65, 5.1}) {
+    track(lane - 0.75, 0.35, 8);  // polished by tyres
+    track(lane + 0.75, 0.35, 8);
+    track(lane, 0.45, -9);  // oil
+  }
+  track(7.6, 0.7, -12);          // gutters
+  for (int i = 0; i < 9; ++i) {  // trenches, dug and filled
+    const int x = static_cast<int>(hash(i, 0, 14) % 512), y = static_cast<int>(hash(i, 1, 14) % 1024);
+    const int w = 24 + static_cast<int>(hash(i, 2, 14) % 70), h = 30 + static_cast<int>(hash(i, 3, 14) % 130);
+    const int tone = i % 3 == 0 ? 9 : -13;
+    canvas.shade(x, y, x + w, y + h, tone);
+    for (const int edge : {0, w - 2}) canvas.shade(x + edge, y, x + edge + 2, y + h, -10);
+    for (const int edge : {0, h - 2}) canvas.shade(x, y + edge, x + w, y + edge + 2, -10);
+  }
+  canvas.shade(255, 0, 257, 1024, -16);  // the seam between two lanes of the paver
+  for (int i = 0; i < 26; ++i)
+    canvas.crack(static_cast<int>(hash(i, 4, 14) % 512), static_cast<int>(hash(i, 5, 14) % 1024),
+                 40 + static_cast<int>(hash(i, 6, 14) % 150), -22, 15 + static_cast<uint32_t>(i));
+  canvas.speckle(8, 13);
+  for (int i = 0; i < 5; ++i) {  // covers of 0.6 m and gullies
+    const int x = i < 3 ? 256 + (i - 1) * 62 : 256 + (i == 3 ? -1 : 1) * 110, y = 120 + 190 * i;
+    for (int dy = -10; dy <= 10; ++dy)
+      for (int dx = -10; dx <= 10; ++dx) {
+        const int r2 = dx * dx + dy * dy;
+        if (r2 > 100) continue;
+        const int tone = r2 > 72 ? 40 : (dx / 3 + dy / 3) % 2 == 0 ? 62 : 52;
+        canvas.rect(x + dx, y + dy, x + dx + 1, y + dy + 1, {tone, tone - 1, tone - 3});
+      }
+  }
+  return canvas.picture();
+}
+
+/// 6 m across x 24 m along: worn edges, a broken line in the middle, solid ones along the sides.
+Picture country_road() {
+  Canvas canvas(128, 512, {88, 86, 84});
+  canvas.blotches(64, 8, 16);
+  canvas.blotches(16, 4, 17);
+  for (const int middle : {18, 46, 82, 110})
+    for (int x = middle - 7; x <= middle + 7; ++x) canvas.shade(x, 0, x + 1, 512, 7 - std::abs(x - middle));
+  for (int i = 0; i < 8; ++i)
+    canvas.crack(static_cast<int>(hash(i, 0, 18) % 128), static_cast<int>(hash(i, 1, 18) % 512), 70, -20,
+                 19 + static_cast<uint32_t>(i));
+  canvas.speckle(8, 20);
+  const auto worn = [&](int x, int y) { return hash(x / 2, y / 3, 23) % 9 != 0; };
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 62; x < 65; ++x)
+      if (y % 256 < 85 && worn(x, y)) canvas.rect(x, y, x + 1, y + 1, {206, 206, 200});
+    for (const int edge : {5, 120})
+      for (int x = edge; x < edge + 3; ++x)
+        if (worn(x, y)) canvas.rect(x, y, x + 1, y + 1, {196, 196, 190});
+    const int grass = static_cast<int>(hash(y / 4, 0, 24) % 3);
+    canvas.rect(0, y, 1 + grass, y + 1, {92, 96, 66});
+    canvas.rect(127 - grass, y, 128, y + 1, {92, 96, 66});
+  }
   return canvas.picture();
 }
 
@@ -44,40 +109,88 @@ Picture concrete() {
 }
 
 Picture grass() {
-  Canvas canvas(256, 256, {86, 108, 52});
-  canvas.blotches(64, 10, 41);
-  canvas.blotches(8, 7, 42);
+  Canvas canvas(256, 256, {84, 104, 50});
+  canvas.blotches(128, 5, 40);
+  canvas.blotches(16, 7, 41);
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 256; ++x) {
       const int blade = static_cast<int>(hash(x, y / 2, 43) % 5);
-      canvas.add(x, y, {6 * blade - 12, 7 * blade - 14, 3 * blade - 6});
+      canvas.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
     }
+  for (int i = 0; i < 240; ++i) {  // weeds and dry tufts
+    const int x = static_cast<int>(hash(i, 0, 44) % 256), y = static_cast<int>(hash(i, 1, 44) % 256);
+    const bool dry = hash(i, 2, 44) % 3 == 0;
+    for (int dy = 0; dy < 3; ++dy)
+      for (int dx = 0; dx < 3; ++dx) canvas.add(x + dx, y + dy, dry ? Rgb{22, 12, 0} : Rgb{-14, -8, -8});
+  }
   return canvas.picture();
 }
 
-/// Rows along x; light grey, coloured by the material.
+/// 40 m x 40 m of pasture: softer and larger than a lawn.
+Picture pasture() {
+  Canvas canvas(512, 512, {92, 108, 56});
+  canvas.blotches(256, 8, 45);
+  canvas.blotches(64, 9, 46);
+  canvas.blotches(8, 6, 47);
+  for (int y = 0; y < 512; ++y)
+    for (int x = 0; x < 512; ++x) {
+      const int blade = static_cast<int>(hash(x, y, 48) % 3);
+      canvas.add(x, y, {5 * blade - 5, 6 * blade - 6, 3 * blade - 3});
+    }
+  for (int i = 0; i < 420; ++i) {  // thistles, flowers, dung
+    const int x = static_cast<int>(hash(i, 0, 49) % 512), y = static_cast<int>(hash(i, 1, 49) % 512);
+    const uint32_t kind = hash(i, 2, 49) % 6;
+    canvas.add(x, y, kind == 0 ? Rgb{70, 66, 30} : kind == 1 ? Rgb{60, 60, 60} : Rgb{-22, -16, -14});
+    canvas.add(x + 1, y, kind < 2 ? Rgb{20, 20, 10} : Rgb{-16, -10, -10});
+    canvas.add(x, y + 1, Rgb{-14, -9, -9});
+  }
+  return canvas.picture();
+}
+
+/// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of a sprayer
+/// every 24 m, patches that grew better or worse.
 Picture crop() {
-  Canvas canvas(128, 128, {205, 205, 200});
-  for (int y = 0; y < 128; ++y) {
-    const int phase = y % 16;
-    canvas.shade(0, y, 128, y + 1, phase < 8 ? -4 * phase : -4 * (16 - phase));
-  }
-  canvas.blotches(32, 12, 51);
-  canvas.speckle(14, 52);
+  Canvas canvas(512, 512, {204, 204, 198});
+  canvas.blotches(256, 14, 51);
+  canvas.blotches(64, 12, 52);
+  canvas.blotches(16, 6, 53);
+  for (int y = 0; y < 512; ++y)
+    for (int x = 0; x < 512; ++x) {
+      const int phase = y % 8, row = phase < 4 ? 5 * phase : 5 * (8 - phase);
+      const int wobble = static_cast<int>(hash(x / 2, y, 54) % 5) * 4 - 8;
+      canvas.add(x, y, {wobble - row, wobble - row, wobble - row});
+    }
+  for (int y = 40; y < 512; y += 256)
+    for (const int track : {0, 19})
+      for (int x = 0; x < 512; ++x) {
+        const int deep = -46 + static_cast<int>(hash(x / 3, y, 55) % 5) * 5;
+        canvas.add(x, y + track, {deep + 6, deep, deep});
+        canvas.add(x, y + track + 1, {deep + 6, deep, deep});
+        canvas.add(x, y + track + 2, {deep / 2, deep / 2, deep / 2});
+      }
   return canvas.picture();
 }
 
+/// 3 m x 3 m of foliage: clumps of leaves in the light before dark gaps.
 Picture leaves() {
-  Canvas canvas(128, 128, {66, 92, 38});
-  canvas.blotches(16, 16, 61);
-  for (int i = 0; i < 620; ++i) {
-    const int x = static_cast<int>(hash(i, 0, 62) % 128), y = static_cast<int>(hash(i, 1, 62) % 128);
-    const int light = static_cast<int>(hash(i, 2, 62) % 7) * 9 - 30;
-    for (int dy = 0; dy < 4; ++dy)
-      for (int dx = 0; dx < 4; ++dx)
-        if ((dx != 0 && dx != 3) || (dy != 0 && dy != 3))
-          canvas.add(x + dx, y + dy, {light, light + 3, light / 2});
-  }
+  Canvas canvas(128, 128, {40, 58, 24});
+  canvas.blotches(32, 10, 61);
+  for (int pass = 0; pass < 3; ++pass)
+    for (int i = 0; i < 420; ++i) {
+      const int x = static_cast<int>(hash(i, 3 * pass, 62) % 128),
+                y = static_cast<int>(hash(i, 3 * pass + 1, 62) % 128);
+      // Leaves gather where the coarse noise says so: gaps stay dark.
+      const uint32_t clump = hash(x / 16, y / 16, 63) % 4;
+      if (clump == 0 && pass > 0) continue;
+      const int tone =
+          52 + 17 * pass + static_cast<int>(hash(i, 3 * pass + 2, 62) % 22) + 4 * static_cast<int>(clump);
+      const Rgb leaf{tone * 9 / 10, tone * 13 / 10, tone * 5 / 10};
+      const bool tall = hash(i, pass, 64) % 2 == 0;
+      const int w = tall ? 3 : 5, h = tall ? 5 : 3;
+      canvas.rect(x, y, x + w, y + h, leaf);
+      canvas.shade(x, y + h, x + w, y + h + 1, -18);
+      canvas.shade(x, y, x + w - 1, y + 1, 10);
+    }
   return canvas.picture();
 }
 
@@ -89,10 +202,50 @@ Picture bark() {
   return canvas.picture();
 }
 
+/// 18 m x 18 m of a flat roof: sheets of bitumen or gravel, puddles dried up, moss.
 Picture roof() {
-  Canvas canvas(128, 128, {139, 135, 129});
-  canvas.blotches(32, 9, 81);
-  canvas.speckle(14, 82);
+  Canvas canvas(256, 256, {140, 136, 130});
+  canvas.blotches(128, 10, 81);
+  canvas.blotches(32, 9, 82);
+  canvas.blotches(8, 5, 83);
+  for (int i = 0; i < 256; i += 32) {
+    canvas.shade(i, 0, i + 1, 256, -14);
+    canvas.shade(i + 1, 0, i + 2, 256, 6);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 84) % 256), y = static_cast<int>(hash(i, 1, 84) % 256);
+    const int r = 8 + static_cast<int>(hash(i, 2, 84) % 18);
+    for (int dy = -r; dy <= r; ++dy)
+      for (int dx = -r; dx <= r; ++dx)
+        if (dx * dx + 2 * dy * dy < r * r) canvas.add(x + dx, y + dy, {-16, -14, -13});
+  }
+  canvas.speckle(12, 85);
+  return canvas.picture();
+}
+
+/// 3.2 m: slates in courses of 0.2 m.
+Picture slate() {
+  Canvas canvas(128, 128, {92, 98, 108});
+  for (int row = 0; row < 16; ++row)
+    for (int i = 0; i < 16; ++i) {
+      const int x = 8 * i + (row % 2) * 4, y = 8 * row;
+      canvas.shade(x, y, x + 8, y + 8, static_cast<int>(hash(i, row, 86) % 6) * 5 - 13);
+      canvas.shade(x, y, x + 1, y + 8, -18);
+      canvas.shade(x, y + 7, x + 8, y + 8, -24);
+    }
+  canvas.blotches(64, 6, 87);
+  return canvas.picture();
+}
+
+/// 1.6 m x 1.0 m photovoltaic modules.
+Picture solar() {
+  Canvas canvas(64, 64, {26, 34, 58});
+  for (int i = 0; i < 64; i += 8) {
+    canvas.shade(i, 0, i + 1, 64, 20);
+    canvas.shade(0, i, 64, i + 1, 14);
+  }
+  canvas.rect(0, 0, 64, 2, {150, 154, 158});
+  canvas.rect(0, 0, 2, 64, {150, 154, 158});
   return canvas.picture();
 }
 
@@ -128,210 +281,23 @@ Picture roof_tiles() {
       canvas.shade(x, y, x + 1, y + 16, -34);
       canvas.shade(x, y + 13, x + 8, y + 16, -30);
       canvas.shade(x, y, x + 8, y + 3, 10);
+      for (int k = 0; k < 8; ++k) canvas.raise(x + k, y, x + k + 1, y + 16, k < 4 ? 9 * k : 9 * (7 - k));
     }
+  canvas.blotches(64, 9, 113);
+  canvas.blotches(16, 7, 114);  // lichen
   canvas.speckle(6, 112);
   return canvas.picture();
 }
 
-void bricks(Canvas& canvas, const Rgb& brick, const Rgb& mortar, uint32_t seed) {
-  canvas.fill(mortar);
-  for (int row = 0; row < canvas.height() / 4; ++row)
-    for (int i = 0; i < canvas.width() / 8; ++i) {
-      const int shade = static_cast<int>(hash(i, row, seed) % 6) * 7 - 18;
-      canvas.rect(8 * i + (row % 2) * 4, 4 * row, 8 * i + (row % 2) * 4 + 7, 4 * row + 3,
-                  {brick.r + shade, brick.g + shade, brick.b + shade});
-    }
-}
-
+/// 2.56 m: stretchers of 0.16 m by 0.08 m.
 Picture brick() {
-  Canvas canvas(128, 128, {0, 0, 0});
-  bricks(canvas, {146, 82, 64}, {164, 154, 142}, 121);
+  Canvas canvas(128, 128, {164, 154, 142});
+  for (int row = 0; row < 32; ++row)
+    for (int i = 0; i < 16; ++i) {
+      const int shade = static_cast<int>(hash(i, row, 121) % 6) * 7 - 18, x = 8 * i + (row % 2) * 4;
+      canvas.rect(x, 4 * row, x + 7, 4 * row + 3, {146 + shade, 82 + shade, 64 + shade});
+    }
   canvas.blotches(64, 8, 122);
-  return canvas.picture();
-}
-
-struct WindowStyle {
-  Rgb frame{226, 224, 218};
-  int columns = 2, rows = 1;
-  int frame_px = 3;
-};
-
-/// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the top,
-/// perhaps a curtain or a blind.
-void window(Canvas& canvas, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed) {
-  canvas.rect(x0, y0, x1, y1, style.frame, 120);
-  const int w = (x1 - x0 - style.frame_px * (style.columns + 1)) / style.columns;
-  const int h = (y1 - y0 - style.frame_px * (style.rows + 1)) / style.rows;
-  for (int c = 0; c < style.columns; ++c)
-    for (int r = 0; r < style.rows; ++r) {
-      const int px = x0 + style.frame_px + c * (w + style.frame_px),
-                py = y0 + style.frame_px + r * (h + style.frame_px);
-      const int tint = static_cast<int>(hash(c, r, seed) % 5) * 4 - 8;
-      for (int y = 0; y < h; ++y) {
-        const int sky = 34 * (h - y) / h;
-        canvas.rect(px, py + y, px + w, py + y + 1, {44 + sky + tint, 56 + sky + tint, 68 + sky + tint}, 28);
-      }
-      const uint32_t kind = hash(c, r, seed + 1) % 6;
-      if (kind == 0) canvas.rect(px, py, px + w, py + h / 3, {176, 170, 156}, 60);  // blind
-      if (kind == 1) canvas.rect(px, py, px + w / 3, py + h, {150, 142, 132}, 60);  // curtain
-      if (kind == 2) canvas.rect(px + 2 * w / 3, py, px + w, py + h, {150, 142, 132}, 60);
-    }
-  canvas.shade(x0, y0, x1, y0 + 5, -45);
-  canvas.shade(x0, y0, x0 + 3, y1, -30);
-}
-
-// Façades: 256 x 256 pixels for two bays of 3.0 m by two floors of 3.2 m. In each floor the lowest 0.85 m (34 pixels)
-// is plain wall, so that a parapet may end there.
-
-Picture facade_brick() {
-  Canvas canvas(256, 256, {0, 0, 0});
-  canvas.use_roughness(240);
-  bricks(canvas, {146, 80, 62}, {166, 156, 144}, 131);
-  canvas.blotches(64, 6, 132);
-  for (int floor = 0; floor < 2; ++floor)
-    for (int bay = 0; bay < 2; ++bay) {
-      const int x = 128 * bay + 34, y = 128 * floor + 24;
-      canvas.rect(x - 5, y - 9, x + 65, y, {184, 176, 162}, 230);        // lintel
-      canvas.rect(x - 6, y + 70, x + 66, y + 75, {190, 182, 168}, 230);  // sill
-      canvas.shade(x - 6, y + 75, x + 66, y + 78, -34);
-      window(canvas, x, y, x + 60, y + 70, {.columns = 2, .rows = 2},
-             static_cast<uint32_t>(140 + 2 * floor + bay));
-    }
-  canvas.rect(0, 252, 256, 256, {176, 168, 154}, 230);  // string course at every second floor
-  return canvas.picture();
-}
-
-Picture facade_plaster() {
-  Canvas canvas(256, 256, {218, 212, 200});
-  canvas.use_roughness(240);
-  canvas.blotches(64, 5, 151);
-  canvas.speckle(3, 152);
-  for (int floor = 0; floor < 2; ++floor)
-    for (int bay = 0; bay < 2; ++bay) {
-      const int x = 128 * bay + 40, y = 128 * floor + 22;
-      canvas.rect(x - 5, y - 5, x + 53, y + 77, {236, 232, 222}, 230);
-      window(canvas, x, y, x + 48, y + 72, {.frame = {240, 238, 232}, .columns = 2, .rows = 1},
-             static_cast<uint32_t>(160 + 2 * floor + bay));
-      if (bay == 0) {  // shutters
-        canvas.rect(x - 24, y, x - 3, y + 72, {92, 104, 98}, 200);
-        canvas.rect(x + 51, y, x + 72, y + 72, {92, 104, 98}, 200);
-        for (int slat = 2; slat < 72; slat += 5) {
-          canvas.shade(x - 22, y + slat, x - 5, y + slat + 1, -26);
-          canvas.shade(x + 53, y + slat, x + 70, y + slat + 1, -26);
-        }
-      } else {  // a French balcony's railing
-        for (int bar = -8; bar < 58; bar += 6)
-          canvas.rect(x + bar, y + 40, x + bar + 2, y + 76, {48, 48, 50}, 120);
-        canvas.rect(x - 10, y + 38, x + 60, y + 41, {48, 48, 50}, 120);
-        canvas.rect(x - 10, y + 76, x + 60, y + 82, {196, 190, 178}, 230);
-        canvas.shade(x - 10, y + 82, x + 60, y + 85, -40);
-      }
-    }
-  return canvas.picture();
-}
-
-Picture facade_concrete() {
-  Canvas canvas(256, 256, {168, 165, 158});
-  canvas.use_roughness(235);
-  canvas.blotches(64, 7, 171);
-  canvas.speckle(4, 172);
-  for (int floor = 0; floor < 2; ++floor) {
-    canvas.shade(0, 128 * floor, 256, 128 * floor + 2, -44);
-    for (int bay = 0; bay < 2; ++bay) {
-      canvas.shade(128 * bay, 128 * floor, 128 * bay + 2, 128 * floor + 128, -40);
-      const int x = 128 * bay + 18, y = 128 * floor + 26;
-      canvas.shade(x - 3, y - 3, x + 95, y + 71, -22);
-      window(canvas, x, y, x + 92, y + 68, {.frame = {70, 72, 76}, .columns = 3, .rows = 1},
-             static_cast<uint32_t>(180 + 2 * floor + bay));
-    }
-  }
-  return canvas.picture();
-}
-
-Picture facade_ribbon() {
-  Canvas canvas(256, 256, {206, 203, 196});
-  canvas.use_roughness(235);
-  canvas.blotches(64, 4, 191);
-  canvas.speckle(3, 192);
-  for (int floor = 0; floor < 2; ++floor) {
-    const int y = 128 * floor;
-    window(canvas, 0, y + 22, 256, y + 92, {.frame = {84, 86, 90}, .columns = 6, .rows = 1},
-           static_cast<uint32_t>(200 + floor));
-    canvas.shade(0, y + 120, 256, y + 122, -26);
-  }
-  return canvas.picture();
-}
-
-Picture facade_glass() {
-  Canvas canvas(256, 256, {96, 126, 142});
-  canvas.use_roughness(26);
-  for (int floor = 0; floor < 2; ++floor)
-    for (int column = 0; column < 4; ++column) {
-      const int x = 64 * column, y = 128 * floor;
-      const int tint = static_cast<int>(hash(column, floor, 211) % 6) * 7 - 17;
-      for (int row = 0; row < 94; ++row) {
-        const int sky = (94 - row) / 3;
-        canvas.rect(x, y + row, x + 64, y + row + 1, {80 + sky + tint, 112 + sky + tint, 132 + sky + tint},
-                    22);
-      }
-      canvas.rect(x, y + 94, x + 64, y + 128, {62 + tint / 2, 84 + tint / 2, 98 + tint / 2}, 50);  // spandrel
-      canvas.rect(x, y, x + 3, y + 128, {176, 180, 184}, 110);
-      canvas.shade(x + 3, y, x + 5, y + 128, -20);
-    }
-  for (int floor = 0; floor < 2; ++floor) {
-    canvas.rect(0, 128 * floor + 94, 256, 128 * floor + 97, {176, 180, 184}, 110);
-    canvas.rect(0, 128 * floor, 256, 128 * floor + 3, {176, 180, 184}, 110);
-  }
-  return canvas.picture();
-}
-
-Picture facade_metal() {
-  Canvas canvas(256, 256, {176, 180, 184});
-  canvas.use_roughness(110);
-  for (int x = 0; x < 256; ++x) {
-    const int phase = x % 16;
-    canvas.shade(x, 0, x + 1, 256, phase < 2 ? -34 : phase < 4 ? 12 : 0);
-  }
-  canvas.blotches(64, 4, 221);
-  canvas.metal_everywhere(140);
-  for (int floor = 0; floor < 2; ++floor) {
-    const int y = 128 * floor;
-    canvas.shade(0, y + 126, 256, y + 128, -40);
-    for (int bay = 0; bay < 2; ++bay)
-      window(canvas, 128 * bay + 14, y + 34, 128 * bay + 114, y + 84,
-             {.frame = {60, 62, 66}, .columns = 3, .rows = 1}, static_cast<uint32_t>(230 + 2 * floor + bay));
-  }
-  return canvas.picture();
-}
-
-/// 6.0 m x 4.2 m: piers, a fascia with a sign, display windows and a door.
-Picture shopfront() {
-  Canvas canvas(256, 180, {132, 126, 118});
-  canvas.use_roughness(220);
-  canvas.speckle(4, 241);
-  canvas.rect(10, 12, 246, 44, {54, 66, 78}, 150);
-  for (int letter = 0; letter < 11; ++letter) {
-    const int w = 6 + static_cast<int>(hash(letter, 0, 242) % 6);
-    if (letter != 5) canvas.rect(64 + 12 * letter, 21, 64 + 12 * letter + w, 35, {224, 214, 186}, 150);
-  }
-  window(canvas, 12, 48, 96, 160, {.frame = {48, 48, 50}, .columns = 2, .rows = 1, .frame_px = 4}, 243);
-  window(canvas, 160, 48, 244, 160, {.frame = {48, 48, 50}, .columns = 2, .rows = 1, .frame_px = 4}, 245);
-  window(canvas, 104, 48, 152, 178, {.frame = {60, 58, 56}, .columns = 2, .rows = 1, .frame_px = 5}, 247);
-  canvas.rect(12, 160, 96, 176, {96, 90, 84}, 210);
-  canvas.rect(160, 160, 244, 176, {96, 90, 84}, 210);
-  canvas.shade(10, 44, 246, 50, -40);
-  return canvas.picture();
-}
-
-/// 4.0 m x 3.0 m of a farmhouse: whitewash, one window.
-Picture farm_wall() {
-  Canvas canvas(160, 120, {216, 208, 190});
-  canvas.use_roughness(240);
-  canvas.blotches(40, 8, 251);
-  canvas.speckle(5, 252);
-  canvas.rect(54, 28, 106, 84, {120, 78, 52}, 220);
-  window(canvas, 57, 31, 103, 81, {.frame = {228, 224, 214}, .columns = 2, .rows = 2}, 253);
-  canvas.rect(52, 84, 108, 88, {170, 162, 148}, 230);
   return canvas.picture();
 }
 
@@ -345,6 +311,10 @@ Picture make_texture(const std::string& name) {
       {"grass", grass},
       {"crop", crop},
       {"leaves", leaves},
+      {"solar", solar},
+      {"slate", slate},
+      {"country_road", country_road},
+      {"pasture", pasture},
       {"bark", bark},
       {"roof", roof},
       {"corrugated", corrugated},
@@ -359,6 +329,10 @@ Picture make_texture(const std::string& name) {
       {"facade_metal", facade_metal},
       {"shopfront", shopfront},
       {"farm_wall", farm_wall},
+      {"facade_stone", facade_stone},
+      {"facade_balcony", facade_balcony},
+      {"dormer", dormer},
+      {"poster", poster},
   };
   const auto found = painters.find(name);
   GREATX_CHECK(found != painters.end(), "no texture called \"{}\"", name);
