@@ -14,9 +14,9 @@ struct DTypeRow {
   std::string_view numpy;
 };
 constexpr DTypeRow dtype_rows[] = {
-    {DType::u8, 1, "|u1"},  {DType::u16, 2, "<u2"}, {DType::u32, 4, "<u4"},
-    {DType::u64, 8, "<u8"}, {DType::i32, 4, "<i4"}, {DType::i64, 8, "<i8"},
-    {DType::f32, 4, "<f4"}, {DType::f64, 8, "<f8"}, {DType::complex64, 8, "<c8"},
+    {DType::u8, 1, "|u1"},  {DType::u16, 2, "<u2"},       {DType::u32, 4, "<u4"}, {DType::u64, 8, "<u8"},
+    {DType::i8, 1, "|i1"},  {DType::i32, 4, "<i4"},       {DType::i64, 8, "<i8"}, {DType::f32, 4, "<f4"},
+    {DType::f64, 8, "<f8"}, {DType::complex64, 8, "<c8"},
 };
 const DTypeRow& row_of(DType dtype) { return dtype_rows[static_cast<size_t>(dtype)]; }
 }  // namespace

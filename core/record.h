@@ -20,7 +20,7 @@
 
 namespace greatx {
 
-enum class DType { u8, u16, u32, u64, i32, i64, f32, f64, complex64 };
+enum class DType { u8, u16, u32, u64, i8, i32, i64, f32, f64, complex64 };
 
 size_t size_of(DType dtype);
 /// NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
@@ -43,6 +43,10 @@ struct DTypeOf<uint32_t> {
 template <>
 struct DTypeOf<uint64_t> {
   static constexpr DType value = DType::u64;
+};
+template <>
+struct DTypeOf<int8_t> {
+  static constexpr DType value = DType::i8;
 };
 template <>
 struct DTypeOf<int32_t> {
@@ -115,13 +119,17 @@ enum class FileFormat {
   exr,          ///< f32 [h, w] as one channel "Z", [h, w, 3] as R, G, B
   ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n]
                 ///< properties
+  // Files of a sequence made from its npy_ragged arrays when it ends (docs/events.md).
+  hdf5_events,  ///< DSEC's HDF5; arrays: t i64 ns, x u16, y u16, p u8
+  text_events,  ///< lines "t x y p", t in seconds; the same arrays
 };
 
 /// One file series of a sensor.
 struct OutputSpec {
   std::string name;  ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
   FileFormat format = FileFormat::npy_stack;
-  std::vector<std::string> arrays;  ///< names of the ArraySpecs that it holds; all formats but ply hold one
+  std::vector<std::string>
+      arrays;  ///< names of the ArraySpecs that it holds; ply and the formats of events hold several, all others one
 };
 
 /// What a sensor will deliver, declared before the run.

@@ -32,10 +32,12 @@ constexpr FormatName format_names[] = {
     {FileFormat::png_depth24, "png_depth24", ".png"},
     {FileFormat::exr, "exr", ".exr"},
     {FileFormat::ply, "ply", ".ply"},
+    {FileFormat::hdf5_events, "hdf5_events", ".h5"},
+    {FileFormat::text_events, "text_events", ".txt"},
 };
 const FormatName& row_of(FileFormat format) { return format_names[static_cast<size_t>(format)]; }
 
-constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i32,
+constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i8,  DType::i32,
                                 DType::i64, DType::u64, DType::f32, DType::f64, DType::complex64};
 
 void check_path(const std::string& name, const std::string& what) {
@@ -51,10 +53,13 @@ void check_path(const std::string& name, const std::string& what) {
   }
 }
 
+constexpr size_t event_array_count = 4;  // t, x, y, p
+
 void check_output(const SensorSpec& sensor, const OutputSpec& output) {
   GREATX_CHECK(!output.arrays.empty(), "{}/{} holds no array", sensor.name, output.name);
-  GREATX_CHECK(output.format == FileFormat::ply || output.arrays.size() == 1, "{}/{} holds {} arrays",
-               sensor.name, output.name, output.arrays.size());
+  const size_t most = output.format == FileFormat::ply ? output.arrays.size() : 1;
+  GREATX_CHECK(output.arrays.size() == (is_export(output.format) ? event_array_count : most),
+               "{}/{} holds {} arrays", sensor.name, output.name, output.arrays.size());
   for (const size_t i : arrays_of(sensor, output)) {
     const ArraySpec& array = sensor.arrays[i];
     const bool varies = !array.shape.empty() && array.shape[0] < 0;
@@ -64,6 +69,8 @@ void check_output(const SensorSpec& sensor, const OutputSpec& output) {
     GREATX_CHECK(!is_stack(output.format) || varies == (output.format == FileFormat::npy_ragged),
                  "{}: {} as {}: a first axis that varies is ragged, a fixed one is stacked", sensor.name,
                  array.name, name_of(output.format));
+    GREATX_CHECK(!is_export(output.format) || ragged_output(sensor, array.name) != nullptr,
+                 "{}/{}: {} is not kept as npy_ragged", sensor.name, output.name, array.name);
   }
 }
 
@@ -133,6 +140,16 @@ std::string_view name_of(FileFormat format) { return row_of(format).name; }
 bool is_stack(FileFormat format) {
   return format == FileFormat::npy_stack || format == FileFormat::npy_ragged;
 }
+bool is_export(FileFormat format) {
+  return format == FileFormat::hdf5_events || format == FileFormat::text_events;
+}
+bool is_frame(FileFormat format) { return !is_stack(format) && !is_export(format); }
+
+const OutputSpec* ragged_output(const SensorSpec& sensor, const std::string& array) {
+  for (const OutputSpec& output : sensor.outputs)
+    if (output.format == FileFormat::npy_ragged && output.arrays[0] == array) return &output;
+  return nullptr;
+}
 
 std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output) {
   std::vector<size_t> indices;
@@ -158,7 +175,9 @@ void check_sensors(const std::vector<SensorSpec>& sensors) {
       check_path(output.name, "output");
       check_output(sensor, output);
       kept.insert(output.arrays.begin(), output.arrays.end());
-      claim(is_stack(output.format) ? stack_path(0, sensor, output) : frame_folder(0, sensor, output));
+      claim(is_stack(output.format)    ? stack_path(0, sensor, output)
+            : is_export(output.format) ? export_path(0, sensor, output)
+                                       : frame_folder(0, sensor, output));
       if (output.format == FileFormat::npy_ragged) claim(offsets_path(0, sensor, output));
     }
     for (const ArraySpec& array : sensor.arrays)
@@ -172,6 +191,9 @@ std::string frame_folder(uint32_t sequence, const SensorSpec& sensor, const Outp
 }
 std::string stack_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
   return frame_folder(sequence, sensor, output) + ".npy";
+}
+std::string export_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
+  return frame_folder(sequence, sensor, output) + std::string(row_of(output.format).extension);
 }
 std::string offsets_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output) {
   return frame_folder(sequence, sensor, output) + "_offsets.npy";

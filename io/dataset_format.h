@@ -54,12 +54,18 @@ void check_sensors(const std::vector<SensorSpec>& sensors);
 /// The arrays of an output, as indices into SensorSpec::arrays.
 std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output);
 
+/// The npy_ragged output that keeps an array; null: none.
+const OutputSpec* ragged_output(const SensorSpec& sensor, const std::string& array);
+
 std::string_view name_of(FileFormat format);
-bool is_stack(FileFormat format);  ///< npy_stack or npy_ragged: one file a sequence
+bool is_stack(FileFormat format);   ///< npy_stack or npy_ragged: one file a sequence
+bool is_export(FileFormat format);  ///< one file a sequence, made from its stacks when it ends
+bool is_frame(FileFormat format);   ///< one file a record
 /// Paths relative to the data set's folder, with '/'.
 std::string sequence_folder(uint32_t sequence);
 std::string stack_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string offsets_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
+std::string export_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string frame_folder(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string frame_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output, int64_t sample);
 std::string index_path(uint32_t sequence, const char* extension);

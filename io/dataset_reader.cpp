@@ -88,6 +88,7 @@ Array DatasetReader::load(uint32_t sequence, const IndexRow& row, const std::str
   const SensorSpec& sensor = info_.sensors.at(static_cast<size_t>(row.sensor));
   const OutputSpec* choice = nullptr;
   for (const OutputSpec& output : sensor.outputs) {
+    if (is_export(output.format)) continue;
     if (std::find(output.arrays.begin(), output.arrays.end(), array) == output.arrays.end()) continue;
     if (choice == nullptr || choice->format == FileFormat::png_depth24) choice = &output;
   }

@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "io/dataset_writer_state.h"
 #include "io/journal.h"
+#include "io/sequence_exports.h"
 
 namespace greatx::io {
 
@@ -39,7 +40,10 @@ void DatasetWriter::State::end_sequence() {
   try {
     std::vector<FileEntry> entries(files_->file_count());
     workers_->for_each(entries.size(), [&](size_t i) { entries[i] = files_->seal(i); });
+    const std::vector<FileEntry> exports = export_sequence(folder_, info_, next_sequence_);
+    entries.insert(entries.end(), exports.begin(), exports.end());
     files_->publish();
+    for (const FileEntry& file : exports) rename_file(part_name(folder_ / file.path), folder_ / file.path);
     const Bytes npy = index_npy(rows_);
     const std::string csv = index_csv(info_, rows_);
     write_file_atomically(folder_ / index_path(next_sequence_, "npy"), npy);

@@ -100,7 +100,7 @@ void DatasetWriter::State::recover() {
       ++manifest_.records_per_sensor[record.sensor];
       const SensorSpec& sensor = info_.sensors[record.sensor];
       for (uint32_t o = 0; o < sensor.outputs.size(); ++o) {
-        if (is_stack(sensor.outputs[o].format)) continue;
+        if (!is_frame(sensor.outputs[o].format)) continue;
         const auto& file = packet.frames[frame++];
         manifest_.add_frame({sequence, record.sensor, o, record.sample, file.size}, file.sha256);
       }

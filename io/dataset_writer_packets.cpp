@@ -83,7 +83,7 @@ void DatasetWriter::State::write(Packet packet) {
   for (size_t r = 0; r < records.size(); ++r) {
     const std::vector<OutputSpec>& outputs = info_.sensors[records[r].sensor].outputs;
     for (size_t o = 0; o < outputs.size(); ++o)
-      if (!is_stack(outputs[o].format)) pending->frames.push_back({r, o, 0, {}});
+      if (is_frame(outputs[o].format)) pending->frames.push_back({r, o, 0, {}});
   }
   enqueue(pending);
 }

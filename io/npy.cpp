@@ -17,8 +17,8 @@ constexpr std::string_view magic = "\x93NUMPY\x01";  // then the minor version's
 constexpr uint64_t preamble = 10;                    // magic, version, u16 length of the text
 
 std::optional<DType> dtype_named(std::string_view name) {
-  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i32, DType::i64, DType::u64, DType::f32,
-                            DType::f64, DType::complex64})
+  for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i8, DType::i32, DType::i64, DType::u64,
+                            DType::f32, DType::f64, DType::complex64})
     if (numpy_name(dtype) == name) return dtype;
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ bool for_each_frame(const DatasetInfo& info, const JournalPacket& packet, Visit 
   for (const auto& record : packet.records) {
     const SensorSpec& sensor = info.sensors.at(record.sensor);
     for (const OutputSpec& output : sensor.outputs) {
-      if (is_stack(output.format)) continue;
+      if (!is_frame(output.format)) continue;
       const std::string path = frame_path(packet.sequence, sensor, output, record.sample);
       if (!visit(path, packet.frames.at(next++))) return false;
     }

@@ -53,6 +53,7 @@ SequenceFiles::SequenceFiles(const std::filesystem::path& folder, const DatasetI
     const SensorSpec& sensor = info.sensors[s];
     create_folders(folder / sequence_folder(sequence) / sensor.name);
     for (const OutputSpec& output : sensor.outputs) {
+      if (is_export(output.format)) continue;
       if (!is_stack(output.format)) {
         create_folders(folder / frame_folder(sequence, sensor, output));
         continue;

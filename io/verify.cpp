@@ -163,7 +163,7 @@ void Verifier::check_row(const DatasetReader& reader, uint32_t sequence, const I
   expect("time in ns", clock.time_ns(row.tick), row.time_ns);
   if (!sensor.rate.empty()) expect("tick of the sample", clock.tick_of(row.sample), row.tick);
   for (const OutputSpec& output : sensor.outputs) {
-    if (is_stack(output.format)) continue;
+    if (!is_frame(output.format)) continue;
     const std::string path = frame_path(sequence, sensor, output, row.sample);
     used_.insert(path);
     if (!listed_.contains(path)) report(path, "is in the index, but not in the manifest");
@@ -175,6 +175,11 @@ void Verifier::check_stacks(const DatasetReader& reader, uint32_t sequence,
   for (size_t s = 0; s < counts.size(); ++s) {
     const SensorSpec& sensor = reader.sensors()[s];
     for (const OutputSpec& output : sensor.outputs) {
+      if (is_export(output.format)) {
+        const std::string path = export_path(sequence, sensor, output);
+        used_.insert(path);
+        if (!listed_.contains(path)) report(path, "is not in the manifest");
+      }
       if (!is_stack(output.format)) continue;
       const ArraySpec& spec = sensor.arrays[arrays_of(sensor, output)[0]];
       std::vector<int64_t> shape = spec.shape;

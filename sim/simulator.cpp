@@ -11,6 +11,7 @@
 #include "sim/consistency.h"
 #include "sim/plan/plan_options.h"
 #include "sim/sensors/camera_sensor.h"
+#include "sim/sensors/event_sensor.h"
 #include "sim/sensors/lidar_sensor.h"
 #include "sim/sensors/pose_sensor.h"
 
@@ -71,6 +72,8 @@ void Simulator::add_sensors() {
       if (std::holds_alternative<CameraConfig>(configs[i].config))
         add(std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, i),
             configs[i].rate_hz);
+      else if (std::holds_alternative<EventCameraConfig>(configs[i].config))
+        add(std::make_unique<EventSensor>(*passes_->stage, scenario_, node, i), configs[i].rate_hz);
       else if (std::holds_alternative<LidarConfig>(configs[i].config))
         add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
     }
@@ -98,8 +101,24 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
        ++due_ticks_)
     next_tick_ = schedule_.next(next_tick_ + 1, scenario_.ticks);
   if (next_tick_ >= scenario_.ticks) return;
-  const Moment moment = moment_at(next_tick_);
-  for (const auto& sensor : sensors_) sensor->start(moment.context);
+  const Moment moment = moment_at(next_tick_), beginning = moment_at(0);
+  for (const auto& sensor : sensors_) sensor->start(sensor->remembers() ? beginning.context : moment.context);
+  replay(next_tick_);
+}
+
+/// Takes the sensors that remember through the ticks before `end`; nothing is written.
+void Simulator::replay(int64_t end) {
+  for (int64_t tick = schedule_.next(0, end); tick < end; tick = schedule_.next(tick + 1, end)) {
+    std::vector<Due> due;
+    for (const Due& sensor : schedule_.due(tick))
+      if (sensors_[sensor.sensor + 1]->remembers()) due.push_back({sensor.sensor + 1, sensor.sample});
+    if (due.empty()) continue;
+    gpu::TickSlot& slot = ring_.begin();
+    record(slot, moment_at(tick), due);
+    ring_.submit(slot, gpu::TickRing::Kind::setup);
+    ring_.wait(slot);
+    for (const Due& sensor : due) sensors_[sensor.sensor]->collect(slot);
+  }
 }
 
 Moment Simulator::moment_at(int64_t tick) const {
@@ -132,8 +151,8 @@ bool Simulator::step(RecordSink& sink) {
 
 void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due) {
   gpu_scene_.record_update(slot, moment.bodies);
-  const bool camera_due =
-      std::any_of(due.begin(), due.end(), [&](const Due& d) { return specs_[d.sensor].kind == "camera"; });
+  const bool camera_due = std::any_of(
+      due.begin(), due.end(), [&](const Due& d) { return specs_[d.sensor].kind.ends_with("camera"); });
   if (camera_due) passes_->lighting->record(slot, moment.bodies);
   for (const Due& sensor : due) sensors_[sensor.sensor]->record(slot, moment.context);
 }

@@ -68,6 +68,7 @@ class Simulator {
   Moment moment_at(int64_t tick) const;
   void add_sensors();
   void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
+  void replay(int64_t end);
   void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
   void record_ahead(gpu::TickSlot& slot);
   void collect(const InFlight& in_flight, RecordSink& sink);

@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "sim/plan/effect_planner.h"
+#include "sim/plan/light_plan.h"
 
 namespace greatx::sim {
 
@@ -27,6 +28,7 @@ struct Offers {
 /// What the scenario asks for.
 struct Asks {
   size_t cameras = 0, lidars = 0;
+  bool events = false;  ///< of brightness
   bool rgb = false, depth = false, ids = false, hdr = false;
   bool sweep = false;
 };
@@ -72,6 +74,9 @@ Asks asks_of(const Scenario& scenario) {
         asks.depth |= camera->depth;
         asks.ids |= camera->ids;
         asks.hdr |= camera->hdr;
+      } else if (std::holds_alternative<EventCameraConfig>(sensor.config)) {
+        ++asks.cameras;
+        asks.events = true;
       } else if (const auto* lidar = std::get_if<LidarConfig>(&sensor.config)) {
         ++asks.lidars;
         asks.sweep |= lidar->sweep_s > 0.0;
@@ -79,6 +84,11 @@ Asks asks_of(const Scenario& scenario) {
     }
   }
   return asks;
+}
+
+std::string haze_reason(const Environment& environment) {
+  return fmt::format("fog and rain leave {:.0f} m of visibility",
+                     render::visibility_m(haze_extinction(environment)));
 }
 
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
@@ -94,7 +104,7 @@ void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
 
 void plan_camera(EffectPlan& plan, Planner& planner, const Scenario& scenario, const Offers& offers,
                  const Asks& asks) {
-  const Environment& sky = scenario.environment;
+  const ResolvedLight light = resolve(scenario.environment);
   const bool camera = asks.cameras > 0;
   const std::string none = "no camera";
   const auto if_camera = [&](const std::string& reason) { return camera ? reason : none; };
@@ -106,19 +116,18 @@ void plan_camera(EffectPlan& plan, Planner& planner, const Scenario& scenario, c
   plan.hdr = planner.fixed("hdr", asks.hdr, if_camera(asks.hdr ? "asked for" : "no camera delivers it"));
 
   // Everything below shades pixels: without colour there is none of it.
-  const bool color = asks.rgb || asks.hdr;
+  const bool color = asks.rgb || asks.hdr || asks.events;
   const auto shading = [&](bool offered, const std::string& yes, const std::string& no) {
     return std::pair(color && offered, !color    ? std::string("no camera delivers colour")
                                        : offered ? yes
                                                  : no);
   };
-  const double sun_lux =
-      sky.sun_elevation > 0.0 ? sky.sun_illuminance_lux * std::sin(sky.sun_elevation) : 0.0;
-  const auto [sun, sun_why] = shading(sun_lux > 0.0, fmt::format("{:.0f} lux on the ground", sun_lux),
-                                      "the sun is below the horizon or dark");
+  const double sun_lux = light.below.direct_lux * std::max(0.0, light.key.direction.z);
+  const auto [sun, sun_why] =
+      shading(sun_lux > 0.0, fmt::format("{:.0f} lux on the ground", sun_lux), "neither sun nor moon shines");
   plan.sun = planner.decide("sun", sun, sun_why);
   const auto [sky_on, sky_why] =
-      shading(sky.sky_illuminance_lux > 0.0, fmt::format("{:.0f} lux on the ground", sky.sky_illuminance_lux),
+      shading(light.below.sky_lux > 0.0, fmt::format("{:.0f} lux on the ground", light.below.sky_lux),
               "its illuminance is 0");
   plan.sky = planner.decide("sky", sky_on, sky_why);
   const auto [still, still_why] =
@@ -144,7 +153,7 @@ void plan_camera(EffectPlan& plan, Planner& planner, const Scenario& scenario, c
 
   // Lamps matter once they add more than 1 % to what the sun and the sky give the ground.
   constexpr double lamp_tolerance = 0.01;
-  const double ambient = (plan.sun.on ? sun_lux : 0.0) + (plan.sky.on ? sky.sky_illuminance_lux : 0.0);
+  const double ambient = (plan.sun.on ? sun_lux : 0.0) + (plan.sky.on ? light.below.sky_lux : 0.0);
   const bool lamps_matter = offers.lights > 0 && offers.lamp_illuminance_lux > lamp_tolerance * ambient;
   const auto [lamps, lamps_why] = shading(
       lamps_matter,
@@ -156,9 +165,20 @@ void plan_camera(EffectPlan& plan, Planner& planner, const Scenario& scenario, c
           ? ""
           : fmt::format("at most {:.2f} % of the ground's {:.0f} lux, tolerance {:.0f} %",
                         100.0 * offers.lamp_illuminance_lux / ambient, ambient, 100.0 * lamp_tolerance));
+
+  const auto [haze, haze_why] =
+      shading(light.haze, haze_reason(scenario.environment), "neither fog nor rain");
+  plan.haze = planner.decide("haze", haze, haze_why);
+  const auto [night, night_why] =
+      shading(light.night_sky,
+              fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
+                          degrees(light.sun_elevation), degrees(light.moon_elevation)),
+              "by day or under clouds there are no stars, and no moon is up");
+  plan.night_sky = planner.decide("night_sky", night, night_why);
 }
 
-void plan_lidar(EffectPlan& plan, Planner& planner, const Offers& offers, const Asks& asks) {
+void plan_lidar(EffectPlan& plan, Planner& planner, const Environment& environment, const Offers& offers,
+                const Asks& asks) {
   const bool lidar = asks.lidars > 0;
   plan.lidar = planner.fixed("lidar", lidar, lidar ? fmt::format("{} of them", asks.lidars) : "no LiDAR");
   plan.lidar_alpha_mask = planner.decide("lidar_alpha_mask", lidar && offers.alpha_mask,
@@ -176,6 +196,11 @@ void plan_lidar(EffectPlan& plan, Planner& planner, const Offers& offers, const 
                      !lidar       ? "no LiDAR"
                      : asks.sweep ? "shots are spread over sweep_s: each from the pose at its own time"
                                   : "sweep_s is 0: every shot at the tick");
+  const bool haze = haze_extinction(environment) > 0.0;
+  plan.lidar_haze = planner.decide("lidar_haze", lidar && haze,
+                                   !lidar ? "no LiDAR"
+                                   : haze ? haze_reason(environment)
+                                          : "neither fog nor rain");
 }
 
 }  // namespace
@@ -197,10 +222,13 @@ std::vector<Effect*> EffectPlan::all() {
           &alpha_mask,
           &emissive,
           &punctual_lights,
+          &haze,
+          &night_sky,
           &lidar,
           &lidar_alpha_mask,
           &lidar_textures,
           &lidar_sweep_motion,
+          &lidar_haze,
           &channel,
           &line_of_sight,
           &reflection,
@@ -232,7 +260,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene)
   Planner planner(scenario);
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);
-  plan_lidar(plan, planner, offers, asks);
+  plan_lidar(plan, planner, scenario.environment, offers, asks);
   plan_radio(plan, planner, scenario, scene);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
   plan.consistency = planner.decide(

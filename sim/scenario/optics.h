@@ -23,17 +23,34 @@ struct PlaceAndTime {
   double unix_s = 0.0;                     ///< the same instant, UTC seconds since 1970
 };
 
+/// The moon, where no place and time give it.
+struct MoonConfig {
+  double azimuth = 0.0, elevation = 0.0;  ///< rad, as the sun's
+  std::optional<double> phase_angle;      ///< rad, 0 full, pi new; none: from the angle between sun and moon
+  std::optional<double> illuminance_lux;  ///< on a surface facing the moon; none: from phase and elevation
+};
+
+/// What is above the scene.
+enum class SkyKind { automatic, clear, overcast };
+
+/// Light from outside and the air between. What follows from it: sim/plan/light_plan.h.
 struct Environment {
-  std::optional<PlaceAndTime> place;      ///< given instead of the positions below
-  double sun_azimuth = -0.25 * pi;        ///< rad, from x (east) towards y (north): the direction to the sun
-  double sun_elevation = 0.25 * pi;       ///< rad above the horizon
-  double sun_illuminance_lux = 100000.0;  ///< on a surface facing the sun
-  double sky_illuminance_lux = 15000.0;   ///< on the ground from the sky alone
+  std::optional<PlaceAndTime> place;         ///< given instead of the positions below
+  double sun_azimuth = -0.25 * pi;           ///< rad, from x (east) towards y (north): the direction to the sun
+  double sun_elevation = 0.25 * pi;          ///< rad above the horizon
+  std::optional<double> sun_illuminance_lux;  ///< on a surface facing the sun
+  std::optional<MoonConfig> moon;
+  std::optional<double> moon_illuminance_lux;  ///< with a place: instead of the model's
+  std::optional<double> sky_illuminance_lux;   ///< on the ground from the sky alone
+  SkyKind sky = SkyKind::automatic;            ///< automatic: overcast where it rains, unless the sun's light is given
+  double sky_glow_cd_m2 = 0.0;                 ///< of a city's lamps in the night sky, at the zenith
+  double turbidity = 2.0;                      ///< of a clear sky, 1.1 (purest air) to 10
   double temperature_k = 288.15;
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
   double rain_mm_h = 0.0;
-  double fog_g_m3 = 0.0;  ///< liquid water
+  double fog_g_m3 = 0.0;         ///< liquid water
+  double fog_height_m = 100.0;   ///< of fog and rain above the scene, for light from above
 };
 
 /// Brown-Conrady distortion of normalised coordinates (D. Brown, "Decentering Distortion of Lenses", 1966; the order and
@@ -95,7 +112,7 @@ struct CameraConfig : PinholeConfig {
 
 /// An event camera (docs/events.md): brightness changes instead of pictures.
 struct EventCameraConfig : PinholeConfig {
-  uint32_t substeps = 4;  ///< pictures per interval; adaptive: at most
+  uint32_t substeps = 4;  ///< pictures an interval between two samples; adaptive: at most
   enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
   double max_flow_px = 0.5;  ///< of by_flow: motion from one picture to the next, at most
   double max_change = 0.5;   ///< of by_brightness: change of the logarithm over the threshold, at most
@@ -105,10 +122,12 @@ struct EventCameraConfig : PinholeConfig {
   double leak_rate_hz = 0.0, shot_rate_hz = 0.0;
   double cutoff_hz = 0.0;             ///< bandwidth of the photoreceptor in bright light; 0: unlimited
   double dark_cd_m2 = 1e-3;           ///< epsilon of log(epsilon + luminance)
-  uint32_t max_events_per_pixel = 0;  ///< of the buffer, on average a picture interval; 0: chosen
+  double bright_cd_m2 = 1000.0;       ///< light in which bandwidth is full and shot noise least
+  uint32_t max_events_per_pixel = 0;  ///< of the buffer, on average an interval; 0: chosen
   bool events = true, differences = false, instance = false;  ///< what to deliver
   bool hdf5 = false, text = false;                   ///< DSEC's HDF5, v2e's text beside the npy files
-  double difference_on = 0.1, difference_off = 0.1;  ///< thresholds of the difference image, see docs
+  double difference_on = 0.1, difference_off = 0.1;  ///< thresholds of the difference image, over L_max
+  double difference_ev100 = 15.0;                    ///< exposure whose L_max that is
   bool see_own_body = false;
 };
 

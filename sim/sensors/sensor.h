@@ -48,6 +48,9 @@ class Sensor {
   virtual const SensorSpec& spec() const = 0;
   /// Once before the first tick of a sequence (or of its rest): set-up that depends on where things are.
   virtual void start(const TickContext&) {}
+  /// Whether a record depends on records before it. start() is then called at the sequence's first tick, and a run that
+  /// goes on later first replays what was due before, without writing it.
+  virtual bool remembers() const { return false; }
   /// Adds the sensor's passes to the tick's command buffer.
   virtual void record(gpu::TickSlot& slot, const TickContext& context) = 0;
   /// Whether record() needs results of the submission before. record_ahead() is then called at the end of the command
