@@ -86,6 +86,7 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   require_16_bits("textures", scene.textures.size());
   Words triangles, materials;
   std::vector<uint32_t> primitives(scene.triangle_count());
+  std::vector<uvec2> ids(scene.triangle_count() + 1, uvec2(0u));
   triangles.reserve(4 * shared::triangle_record_texels * (scene.triangle_count() + 1));
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
@@ -94,6 +95,9 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
                  "primitive {} does not follow the one before", i);
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
+      ids[primitive.first_index / 3 + t + 1] = {
+          primitive.instance + 1,
+          static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) | (primitive.material + 1) << 16};
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
     }
   }
@@ -103,6 +107,7 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   if (materials.empty()) materials.resize(4 * shared::material_record_texels);
   triangles_ = gpu::TexelBuffer(gpu_scene.device(), triangles, "triangle records");
   materials_ = gpu::TexelBuffer(gpu_scene.device(), materials, "material records");
+  triangle_ids_ = gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(ids)), "ids of triangles");
   triangle_primitives_ =
       gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(primitives)), "primitives of triangles");
 }

@@ -21,10 +21,12 @@ class SurfaceTables {
   std::vector<gpu::Descriptor> descriptors() const;
   /// uint [triangles]: the primitive of each.
   const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
+  /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]: nothing.
+  const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
 
  private:
   gpu::TexelBuffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_texels
-  gpu::Buffer triangle_primitives_;
+  gpu::Buffer triangle_primitives_, triangle_ids_;
 };
 
 }  // namespace greatx::render

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/camera/develop.h"
 
+#include <cmath>
+#include <limits>
+
 #include "core/error.h"
-#include "shaders/shared/camera.h"
+#include "shaders/shared/film.h"
 
 namespace greatx::render {
 
@@ -16,17 +19,45 @@ std::vector<T> copied(const gpu::Slice& slice, size_t count) {
   return std::vector<T>(values.begin(), values.begin() + static_cast<ptrdiff_t>(count));
 }
 
+/// Invocations of the developing pass.
+uint32_t groups_of(const CameraDesc& desc) {
+  return (desc.width * desc.height + shared::develop_pixels - 1) / shared::develop_pixels;
+}
+
+LensGeometry lens_geometry(const CameraDesc& desc) {
+  return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion};
+}
+
 }  // namespace
+
+shared::SensorConstants sensor_constants(const SensorNoise& noise, const FrameNumber& frame) {
+  GREATX_CHECK(frame.tick >= 0 && frame.tick <= std::numeric_limits<uint32_t>::max(), "tick {}", frame.tick);
+  // A key of its own for each sensor and sequence, so that the counter is left for ticks and pixels.
+  const shared::uvec4 key = shared::philox4x32(
+      shared::uvec4(noise.stream, frame.sequence, 0x66696c6du, 0u),
+      shared::uvec2(static_cast<uint32_t>(noise.seed), static_cast<uint32_t>(noise.seed >> 32)));
+  return {static_cast<float>(noise.full_well_e), static_cast<float>(noise.read_noise_e),
+          static_cast<float>((1u << noise.bits) - 1), static_cast<uint32_t>(frame.tick),
+          shared::uvec2(key.x, key.y)};
+}
 
 DevelopPass::DevelopPass(const SceneLighting& lighting, const CameraDesc& desc)
     : lighting_(&lighting), desc_(desc), scope_(desc.name + " develop") {
+  check();
+  gpu::Device& device = lighting_->scene().device();
+  const bool rgb = desc_.outputs.rgb;
+  const bool vignetting = rgb && desc_.vignetting.any();
+  if (rgb && desc_.automatic_exposure) meter_.emplace(device, desc_, stored_luminance(desc_, lighting));
+  if (vignetting) {
+    std::vector<float> field = flat_field(desc_.vignetting, lens_geometry(desc_));
+    field.resize(size_t{groups_of(desc_)} * shared::develop_pixels, 1.0f);
+    flat_field_ = gpu::upload_buffer(device, std::as_bytes(std::span(field)), desc_.name + " flat field");
+  }
   gpu::ComputeDesc develop;
   develop.shader = "camera/develop.comp";
-  develop.bindings = scene::GpuScene::bindings(false);
-  develop.bindings.push_back({shared::develop_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  develop.bindings.push_back({shared::develop_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  develop.bindings.push_back(
-      {shared::develop_triangle_primitives_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  develop.bindings = {{shared::develop_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                      {shared::develop_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                      {shared::develop_triangle_ids_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
   develop.push_constant_bytes = sizeof(shared::DevelopConstants);
   develop.specialization.resize(shared::develop_spec_count);
   develop.specialization[shared::develop_spec_rgb] = desc_.outputs.rgb;
@@ -35,23 +66,45 @@ DevelopPass::DevelopPass(const SceneLighting& lighting, const CameraDesc& desc)
   develop.specialization[shared::develop_spec_instance] = desc_.outputs.instance;
   develop.specialization[shared::develop_spec_semantic] = desc_.outputs.semantic;
   develop.specialization[shared::develop_spec_material] = desc_.outputs.material;
-  pipeline_ = gpu::ComputePipeline(lighting_->scene().device(), develop, desc_.name + " develop");
+  develop.specialization[shared::develop_spec_metered] = meter_.has_value();
+  develop.specialization[shared::develop_spec_flat_field] = vignetting;
+  develop.specialization[shared::develop_spec_noise] = rgb && desc_.noise.has_value();
+  pipeline_ = gpu::ComputePipeline(device, develop, scope_);
 }
 
-void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen, const FrameNumber&) {
+void DevelopPass::check() const {
+  const auto require = [&](bool holds, const char* field, const char* expected, double found) {
+    if (!holds) throw_user_error("camera {}: {}: expected {}, found {}", desc_.name, field, expected, found);
+  };
+  require(std::abs(desc_.compensation_ev) <= 10.0, "compensation_ev", "-10 to 10", desc_.compensation_ev);
+  if (!desc_.noise) return;
+  const SensorNoise& noise = *desc_.noise;
+  require(noise.full_well_e >= 1.0 && noise.full_well_e <= 1e7, "noise.full_well_e", "1 to 1e7 electrons",
+          noise.full_well_e);
+  require(noise.read_noise_e >= 0.0 && noise.read_noise_e <= noise.full_well_e, "noise.read_noise_e",
+          "0 to the full well's electrons", noise.read_noise_e);
+  require(noise.bits >= 1 && noise.bits <= 16, "noise.bits", "1 to 16", noise.bits);
+}
+
+DevelopPass::Readback DevelopPass::allocate(gpu::TickSlot& slot) const {
   const CameraOutputs& outputs = desc_.outputs;
-  const size_t groups =
-      (size_t(desc_.width) * desc_.height + shared::develop_pixels - 1) / shared::develop_pixels;
-  const auto words = [&](bool wanted, size_t per_group) {
-    return wanted ? slot.readback.allocate(4 * per_group * groups) : gpu::Slice{};
+  const auto bytes = [&](bool wanted, size_t per_pixel) {
+    return wanted ? slot.readback.allocate(per_pixel * shared::develop_pixels * groups_of(desc_))
+                  : gpu::Slice{};
   };
   Readback readback;
-  readback.rgb = words(outputs.rgb, 3);
-  readback.hdr = words(outputs.hdr, 12);
-  readback.depth = words(outputs.depth, 4);
-  readback.instance = words(outputs.instance, 4);
-  readback.semantic = words(outputs.semantic, 1);
-  readback.material = words(outputs.material, 2);
+  readback.rgb = bytes(outputs.rgb, 3);
+  readback.hdr = bytes(outputs.hdr, 12);
+  readback.depth = bytes(outputs.depth, 4);
+  readback.instance = bytes(outputs.instance, 4);
+  readback.semantic = bytes(outputs.semantic, 1);
+  readback.material = bytes(outputs.material, 2);
+  return readback;
+}
+
+void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen, const FrameNumber& frame) {
+  Readback readback = allocate(slot);
+  if (meter_) readback.exposure = meter_->record(slot, color);
   if (readbacks_.size() <= slot.index) readbacks_.resize(slot.index + 1);
   readbacks_[slot.index] = readback;
 
@@ -60,12 +113,10 @@ void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& see
   cmd.transition(color, gpu::ImageUse::storage);
   cmd.transition(seen, gpu::ImageUse::storage);
   cmd.bind(pipeline_);
-  std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
-  descriptors.push_back(gpu::Descriptor::storage(shared::develop_color_binding, color));
-  descriptors.push_back(gpu::Descriptor::storage(shared::develop_seen_binding, seen));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::develop_triangle_primitives_binding,
-                                                lighting_->surfaces().triangle_primitives()));
-  cmd.push(descriptors);
+  cmd.push(
+      {gpu::Descriptor::storage(shared::develop_color_binding, color),
+       gpu::Descriptor::storage(shared::develop_seen_binding, seen),
+       gpu::Descriptor::buffer(shared::develop_triangle_ids_binding, lighting_->surfaces().triangle_ids())});
   shared::DevelopConstants constants{};
   constants.rgb = readback.rgb.address;
   constants.hdr = readback.hdr.address;
@@ -73,11 +124,14 @@ void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& see
   constants.instance = readback.instance.address;
   constants.semantic = readback.semantic.address;
   constants.material = readback.material.address;
+  constants.exposure = readback.exposure.address;
+  constants.flat_field = flat_field_.address();
   constants.width = desc_.width;
   constants.height = desc_.height;
-  constants.radiance_scale = float(stored_luminance(desc_, *lighting_));
+  constants.radiance_scale = static_cast<float>(stored_luminance(desc_, *lighting_));
+  if (desc_.noise) constants.sensor = sensor_constants(*desc_.noise, frame);
   cmd.constants(constants);
-  cmd.dispatch(static_cast<uint32_t>((groups + shared::develop_group_size - 1) / shared::develop_group_size));
+  cmd.dispatch((groups_of(desc_) + shared::develop_group_size - 1) / shared::develop_group_size);
 }
 
 CameraImages DevelopPass::collect(const gpu::TickSlot& slot) const {
@@ -88,7 +142,8 @@ CameraImages DevelopPass::collect(const gpu::TickSlot& slot) const {
   CameraImages images;
   images.width = desc_.width;
   images.height = desc_.height;
-  images.ev100 = float(desc_.exposure_ev100);
+  images.ev100 =
+      meter_ ? from.exposure.as<shared::MeterResult>()[0].ev100 : static_cast<float>(desc_.exposure_ev100);
   images.rgb = copied<uint8_t>(from.rgb, 3 * count);
   images.hdr = copied<float>(from.hdr, 3 * count);
   images.depth = copied<float>(from.depth, count);

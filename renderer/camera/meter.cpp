@@ -17,4 +17,54 @@ double anchor_luminance(double ground_illuminance_lux) {
   return saturation_luminance(metered_ev100(grey / pi * std::max(ground_illuminance_lux, least_lux)));
 }
 
+MeterPass::MeterPass(gpu::Device& device, const CameraDesc& desc, double stored_luminance)
+    : scope_(desc.name + " meter") {
+  gpu::ComputeDesc histogram;
+  histogram.shader = "camera/meter.comp";
+  histogram.bindings = {{shared::meter_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
+  histogram.push_constant_bytes = sizeof(shared::MeterConstants);
+  histogram_ = gpu::ComputePipeline(device, histogram, scope_);
+  gpu::ComputeDesc result;
+  result.shader = "camera/meter_result.comp";
+  result.push_constant_bytes = sizeof(shared::MeterConstants);
+  result_ = gpu::ComputePipeline(device, result, scope_ + " result");
+  bins_ = gpu::Buffer(device, shared::meter_bins * sizeof(shared::MeterBin), gpu::Memory::device, scope_);
+
+  uint32_t step = 1;
+  while (uint64_t{desc.width / step} * (desc.height / step) > shared::meter_most_samples &&
+         step < std::min(desc.width, desc.height))
+    ++step;
+  constants_.bins = bins_.address();
+  constants_.step = step;
+  constants_.columns = desc.width / step;
+  constants_.rows = desc.height / step;
+  constants_.stored_luminance = static_cast<float>(stored_luminance);
+  constants_.compensation_ev = static_cast<float>(desc.compensation_ev);
+}
+
+gpu::Slice MeterPass::record(gpu::TickSlot& slot, gpu::Image& color) {
+  const gpu::Slice result = slot.readback.allocate_for<shared::MeterResult>(1);
+  shared::MeterConstants constants = constants_;
+  constants.result = result.address;
+
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope(scope_);
+  cmd.barrier(gpu::sync::compute_read, gpu::sync::transfer_write);  // the picture before
+  cmd.fill(bins_.slice(), 0);
+  cmd.transition(color, gpu::ImageUse::storage);
+  cmd.barrier(gpu::sync::transfer_write, {gpu::sync::compute_read.stage,
+                                          gpu::sync::compute_read.access | gpu::sync::compute_write.access});
+  cmd.bind(histogram_);
+  cmd.push({gpu::Descriptor::storage(shared::meter_color_binding, color)});
+  cmd.constants(constants);
+  const uint32_t samples = constants.columns * constants.rows;
+  cmd.dispatch((samples + shared::meter_group_size - 1) / shared::meter_group_size);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
+  cmd.bind(result_);
+  cmd.constants(constants);
+  cmd.dispatch(1);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
+  return result;
+}
+
 }  // namespace greatx::render

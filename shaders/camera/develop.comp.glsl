@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Develops the picture and unpacks depth and ids into tightly packed arrays, four pixels an invocation, so that the
-// host only copies.
-#include "lib/scene.glsl"
-#include "shared/camera.h"
+// Develops the picture and unpacks depth and ids into tightly packed arrays, eight pixels an invocation and in words of
+// 64 bits, so that the host only copies: on a CPU driver each lane's access to memory costs, whatever its width.
 #include "shared/develop.h"
+#include "shared/film.h"
 
 layout(local_size_x = develop_group_size) in;
 layout(constant_id = develop_spec_rgb) const bool want_rgb = true;
@@ -16,62 +17,102 @@ layout(constant_id = develop_spec_depth) const bool want_depth = true;
 layout(constant_id = develop_spec_instance) const bool want_instance = true;
 layout(constant_id = develop_spec_semantic) const bool want_semantic = true;
 layout(constant_id = develop_spec_material) const bool want_material = true;
+layout(constant_id = develop_spec_metered) const bool metered = true;
+layout(constant_id = develop_spec_flat_field) const bool flat_field_on = true;
+layout(constant_id = develop_spec_noise) const bool noise_on = true;
 
 layout(set = 0, binding = develop_color_binding, rgba16f) uniform readonly image2D color_image;
 layout(set = 0, binding = develop_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
-layout(set = 0, binding = develop_triangle_primitives_binding, scalar) readonly buffer TrianglePrimitivesBlock {
-  uint triangle_primitives[];
+layout(set = 0, binding = develop_triangle_ids_binding, scalar) readonly buffer TriangleIdsBlock {
+  uint64_t triangle_ids[];
 };
 layout(push_constant, scalar) uniform Constants { DevelopConstants picture; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Floats { float v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer Words { uint64_t v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Pairs { uint64_t v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exposure { MeterResult v; };
+
+const uint pairs = develop_pixels / 2u;
+
+uint64_t pair(uint low, uint high) { return packUint2x32(uvec2(low, high)); }
+uint four_bytes(uint a, uint b, uint c, uint d) { return a | b << 8 | c << 16 | d << 24; }
 
 void main() {
   uint group = gl_GlobalInvocationID.x;
   uint first = group * develop_pixels;
-  uint count = picture.width * picture.height;
-  if (first >= count) return;
+  if (first >= picture.width * picture.height) return;
 
-  uint bytes[3 * develop_pixels];
-  uint semantic_word = 0u;
-  uvec2 material_words = uvec2(0u);
-  for (uint i = 0u; i < develop_pixels; ++i) {
-    uint pixel = min(first + i, count - 1u);  // the arrays are padded to whole invocations
-    ivec2 at = ivec2(pixel % picture.width, pixel / picture.width);
+  const bool want_ids = want_instance || want_semantic || want_material;
+  uint bytes[3u * develop_pixels];
+  uint radiance[3u * develop_pixels];
+  uint depths[develop_pixels];
+  uint instances[develop_pixels];
+  uint codes[develop_pixels];
+  float gain = 1.0;
+  if (want_rgb && metered) gain = Exposure(picture.exposure).v.gain;
+  vec2 field[pairs];
+  if (want_rgb && flat_field_on) {
+    [[unroll]] for (uint w = 0u; w < pairs; ++w)
+      field[w] = uintBitsToFloat(unpackUint2x32(Pairs(picture.flat_field).v[pairs * group + w]));
+  }
+
+  ivec2 at = ivec2(first % picture.width, first / picture.width);
+  [[unroll]] for (uint i = 0u; i < develop_pixels; ++i) {
     if (want_rgb || want_hdr) {
       vec3 color = imageLoad(color_image, at).rgb;
       if (want_hdr) {
-        for (uint c = 0u; c < 3u; ++c)
-          Floats(picture.hdr).v[3u * (first + i) + c] = color[c] * picture.radiance_scale;
+        [[unroll]] for (uint c = 0u; c < 3u; ++c)
+          radiance[3u * i + c] = floatBitsToUint(color[c] * picture.radiance_scale);
       }
       if (want_rgb) {
+        if (metered) color *= gain;
+        if (flat_field_on) color *= field[i >> 1][i & 1u];
+        if (noise_on) color = sensed_color(color, picture.sensor, first + i);
         vec3 mapped = tone_map(color);
-        for (uint c = 0u; c < 3u; ++c) bytes[3u * i + c] = srgb_byte(mapped[c]);
+        [[unroll]] for (uint c = 0u; c < 3u; ++c) bytes[3u * i + c] = srgb_byte(mapped[c]);
       }
     }
-    if (want_depth || want_instance || want_semantic || want_material) {
+    if (want_depth || want_ids) {
       uvec2 seen = imageLoad(seen_image, at).rg;
-      if (want_depth) Words(picture.depth).v[first + i] = seen.x;
-      if (want_instance || want_semantic || want_material) {
-        uvec3 found = uvec3(0u);
-        if (seen.y != 0u) {
-          GpuPrimitive primitive = scene_primitive(triangle_primitives[seen.y - 1u]);
-          found = uvec3(primitive.instance + 1u, primitive.semantic_class, primitive.material + 1u);
-        }
-        if (want_instance) Words(picture.instance).v[first + i] = found.x;
-        semantic_word |= found.y << (8u * i);
-        material_words[i >> 1] |= found.z << (16u * (i & 1u));
+      depths[i] = seen.x;
+      if (want_ids) {
+        uvec2 ids = unpackUint2x32(triangle_ids[seen.y]);
+        instances[i] = ids.x;
+        codes[i] = ids.y;
       }
     }
+    // The arrays are padded to whole invocations: what lies beyond the picture repeats its last pixel.
+    bool wraps = at.x + 1 == int(picture.width), last = wraps && at.y + 1 == int(picture.height);
+    at = last ? at : wraps ? ivec2(0, at.y + 1) : ivec2(at.x + 1, at.y);
   }
+
   if (want_rgb) {
-    for (uint w = 0u; w < 3u; ++w)
-      Words(picture.rgb).v[3u * group + w] =
-          bytes[4u * w] | bytes[4u * w + 1u] << 8 | bytes[4u * w + 2u] << 16 | bytes[4u * w + 3u] << 24;
+    [[unroll]] for (uint w = 0u; w < 3u; ++w) {
+      uint k = 8u * w;
+      Words(picture.rgb).v[3u * group + w] = pair(four_bytes(bytes[k], bytes[k + 1u], bytes[k + 2u], bytes[k + 3u]),
+                                                  four_bytes(bytes[k + 4u], bytes[k + 5u], bytes[k + 6u], bytes[k + 7u]));
+    }
   }
-  if (want_semantic) Words(picture.semantic).v[group] = semantic_word;
+  if (want_hdr) {
+    [[unroll]] for (uint w = 0u; w < 3u * pairs; ++w)
+      Words(picture.hdr).v[3u * pairs * group + w] = pair(radiance[2u * w], radiance[2u * w + 1u]);
+  }
+  if (want_depth) {
+    [[unroll]] for (uint w = 0u; w < pairs; ++w)
+      Words(picture.depth).v[pairs * group + w] = pair(depths[2u * w], depths[2u * w + 1u]);
+  }
+  if (want_instance) {
+    [[unroll]] for (uint w = 0u; w < pairs; ++w)
+      Words(picture.instance).v[pairs * group + w] = pair(instances[2u * w], instances[2u * w + 1u]);
+  }
+  if (want_semantic) {
+    uint c[develop_pixels];
+    [[unroll]] for (uint i = 0u; i < develop_pixels; ++i) c[i] = codes[i] & 255u;
+    Words(picture.semantic).v[group] = pair(four_bytes(c[0], c[1], c[2], c[3]), four_bytes(c[4], c[5], c[6], c[7]));
+  }
   if (want_material) {
-    Words(picture.material).v[2u * group] = material_words.x;
-    Words(picture.material).v[2u * group + 1u] = material_words.y;
+    uint c[pairs];
+    [[unroll]] for (uint w = 0u; w < pairs; ++w) c[w] = codes[2u * w] >> 16 | (codes[2u * w + 1u] & 0xffff0000u);
+    Words(picture.material).v[2u * group] = pair(c[0], c[1]);
+    Words(picture.material).v[2u * group + 1u] = pair(c[2], c[3]);
   }
 }

@@ -21,10 +21,6 @@ const uint material_records_binding = 15u;  // texels: what it needs of each mat
 const uint shade_color_binding = 12u;       // storage image rgba16f
 const uint shade_luminance_binding = 14u;   // storage image r32f, cd/m^2
 const uint shade_seen_binding = 13u;        // storage image rg32ui: planar depth's bits, triangle + 1
-// The developing pass.
-const uint develop_color_binding = 4u;                // storage image rgba16f
-const uint develop_seen_binding = 5u;                 // storage image rg32ui
-const uint develop_triangle_primitives_binding = 6u;  // storage: the primitive of each triangle
 const uint stars_binding = 20u;                       // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
@@ -44,14 +40,6 @@ const uint spec_haze = 12u;
 const uint spec_night_sky = 13u;
 const uint spec_ambient_occlusion = 14u;
 const uint shade_spec_count = 15u;
-// Of the developing pipeline.
-const uint develop_spec_rgb = 0u;
-const uint develop_spec_hdr = 1u;
-const uint develop_spec_depth = 2u;
-const uint develop_spec_instance = 3u;
-const uint develop_spec_semantic = 4u;
-const uint develop_spec_material = 5u;
-const uint develop_spec_count = 6u;
 
 /// Texels of four words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
 ///   0  first corner; body << 16 | material
@@ -68,9 +56,6 @@ const uint material_record_texels = 3u;
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
-const uint develop_group_size = 64u;
-/// Pixels that one invocation of the developing pass packs into whole words.
-const uint develop_pixels = 4u;
 
 /// Mip levels of the environment map: level l is blurred for roughness l / (levels - 1).
 const uint environment_size = 256u;
@@ -157,19 +142,6 @@ struct GpuLight {
   uint directional;
 };
 
-struct DevelopConstants {
-  uint64_t rgb;  ///< addresses of the packed outputs, 0 where not wanted
-  uint64_t hdr;
-  uint64_t depth;
-  uint64_t instance;
-  uint64_t semantic;
-  uint64_t material;
-  uint width;
-  uint height;
-  float radiance_scale;  ///< stored value to cd/m^2
-  uint pad0;
-};
-
 /// Push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
 struct ShadowConstants {
   vec4 row0;
@@ -184,6 +156,5 @@ static_assert(sizeof(greatx::shared::CameraConstants) == 116);
 static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 144);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);
 static_assert(sizeof(greatx::shared::GpuLight) == 52);
-static_assert(sizeof(greatx::shared::DevelopConstants) == 64);
 #endif
 #endif
