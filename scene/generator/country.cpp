@@ -14,6 +14,7 @@
 #include "scene/generator/kinds.h"
 #include "scene/generator/materials.h"
 #include "scene/generator/objects.h"
+#include "scene/generator/street_furniture.h"
 #include "scene/generator/terrain.h"
 #include "scene/generator/trees.h"
 #include "scene/generator/vehicles.h"
@@ -26,6 +27,8 @@ namespace {
 struct Field {
   int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
   int material;
+  double angle = 0.0;  ///< of its rows, rad
+  dvec2 offset{0.0};   ///< of its texture
 };
 
 class Country {
@@ -42,6 +45,7 @@ class Country {
     add_farms();
     add_woods();
     add_poles();
+    add_lamps();
   }
 
  private:
@@ -56,6 +60,7 @@ class Country {
   void add_farms();
   void add_woods();
   void add_poles();
+  void add_lamps();
   void add_tree(const dvec2& where, bool conifer);
   bool near_site(const dvec2& point, double margin) const;
   int shared(const std::string& name, const std::function<MeshBuilder()>& make);
@@ -162,7 +167,8 @@ std::vector<Field> Country::reserved(const std::array<int, 2>& band) const {
 }
 
 void Country::choose_fields() {
-  const std::array<const char*, 6> crops{"wheat", "crop", "ploughed_soil", "rapeseed", "crop", "wheat"};
+  const std::array<const char*, 10> crops{"wheat",      "crop",    "ploughed_soil", "rapeseed", "crop_young",
+                                          "wheat_pale", "stubble", "crop_dark",     "crop",     "wheat"};
   const int south = terrain_.road_south() - 1, north = terrain_.road_north() + 1,
             last = terrain_.columns() - 1;
   const std::array<std::array<int, 2>, 4> bands{
@@ -177,7 +183,8 @@ void Country::choose_fields() {
         size_t pick = random_.below(static_cast<uint32_t>(crops.size()));
         while (material(crops[pick]) == before) pick = (pick + 1) % crops.size();
         before = material(crops[pick]);
-        fields_.push_back({row, end, band[0], band[1], before});
+        fields_.push_back({row, end, band[0], band[1], before, random_.uniform(0.0, pi),
+                           dvec2(random_.uniform(), random_.uniform())});
         row = end;
       }
     };
@@ -197,15 +204,18 @@ void Country::add_ground() {
   const int south = terrain_.road_south(), north = terrain_.road_north();
   MeshBuilder land, road, water;
   terrain_.add_surface(land, [&](int row, int column) {
-    if (column == south) return -1;
-    if (column == south - 1 || column == north) return verge;
+    if (column == south) return Terrain::Cover{};
+    if (column == south - 1 || column == north) return Terrain::Cover{.material = verge};
     for (const Field& f : fields_)
-      if (row >= f.row0 && row < f.row1 && column >= f.column0 && column < f.column1) return f.material;
-    return meadow;
+      if (row >= f.row0 && row < f.row1 && column >= f.column0 && column < f.column1)
+        return Terrain::Cover{.material = f.material, .angle = f.angle, .offset = f.offset};
+    return Terrain::Cover{.material = meadow};
   });
   terrain_.add_base(land);
-  terrain_.add_surface(road,
-                       [&](int, int column) { return column == south ? material("country_road") : -1; });
+  terrain_.add_surface(road, [&](int, int column) {
+    return column == south ? Terrain::Cover{.material = material("country_road"), .along_road = true}
+                           : Terrain::Cover{};
+  });
   // A disc that reaches into the banks all round: the shore is where they meet.
   water.flat_polygon(material("water"), regular_polygon(20, 0.9 * pond_.outer_m, pond_.center),
                      pond_.level + 1.7, true);
@@ -238,7 +248,7 @@ MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
 void Country::add_hedges() {
   int count = 0;
   for (const Field& field : fields_) {
-    if (field.row0 == 0 || random_.uniform() < 0.25) continue;
+    if (field.row0 == 0 || random_.uniform() < 0.15) continue;
     std::vector<dvec3> chain;
     const auto flush = [&] {
       if (chain.size() > 2)
@@ -255,7 +265,7 @@ void Country::add_hedges() {
       }
       chain.push_back(
           column == to && to == field.column1 ? glm::mix(p, chain.empty() ? p : chain.back(), 0.25) : p);
-      if (column < to && random_.uniform() < 0.16)
+      if (column < to && random_.uniform() < 0.3)
         add_tree(dvec2(p) + dvec2(2.4, random_.uniform(-3.0, 3.0)), false);
     }
     flush();
@@ -265,9 +275,12 @@ void Country::add_hedges() {
 void Country::add_tree(const dvec2& where, bool conifer) {
   const dvec2 at = snap(where);
   if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
-  const int shape = static_cast<int>(random_.below(4));
-  const int mesh = conifer ? shared("conifer", make_conifer)
-                           : shared(fmt::format("tree_shape_{}", shape), [&] { return make_tree(shape, 0); });
+  // Mostly oaks, maples and lindens; few poplars and copper beeches.
+  static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
+  const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
+  const int mesh =
+      conifer ? shared("conifer", make_conifer)
+              : shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
   writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
                     .mesh = mesh,
                     .position = dvec3(at, terrain_.height(at) - 0.1),
@@ -320,7 +333,7 @@ void Country::add_farms() {
 void Country::add_woods() {
   for (size_t wood = 0; wood < woods_.size(); ++wood) {
     const dvec2 center = woods_[wood];
-    for (int i = 0; i < 22; ++i) {
+    for (int i = 0; i < 34; ++i) {
       const double angle = random_.uniform(0.0, 2.0 * pi), r = wood_radius() * std::sqrt(random_.uniform());
       add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)),
                (static_cast<size_t>(i) + wood) % 2 == 0);
@@ -333,15 +346,56 @@ void Country::add_woods() {
 }
 
 void Country::add_poles() {
+  std::vector<dvec3> tops;  // where the wires hang, to the left and right of each pole
   int count = 0;
   for (double x = -terrain_.half() + 15.0; x < terrain_.half() - 5.0; x += 38.0) {
     const dvec2 along = terrain_.road_direction(x), side(-along.y, along.x);
     const dvec2 at = snap(dvec2(x, terrain_.road_y(x)) + (road_half_width_m + verge_m - 0.4) * side);
+    const double z = terrain_.height(at);
     writer_.add_node({.name = fmt::format("pole_{:03}", count++),
                       .mesh = shared("telegraph_pole", make_pole),
-                      .position = dvec3(at, terrain_.height(at)),
+                      .position = dvec3(at, z),
                       .yaw = std::atan2(along.y, along.x),
                       .semantic_class = SemanticClass::pole});
+    for (const double arm : {-0.8, 0.8}) tops.emplace_back(at + arm * side, snap(z) + 6.78);
+  }
+  for (size_t i = 2; i < tops.size(); i += 2) {
+    MeshBuilder wires;
+    for (const size_t arm : {size_t{0}, size_t{1}}) add_wire(wires, tops[i - 2 + arm], tops[i + arm], 0.7);
+    add(fmt::format("wires_{:03}", i / 2 - 1), wires, SemanticClass::pole);
+  }
+}
+
+void Country::add_lamps() {
+  int light = -1, count = 0;
+  const auto lamp = [&](LampKind kind, const dvec2& where, double z, double yaw) {
+    const Lamp made = make_lamp(kind);
+    if (light < 0) light = writer_.add_light(made.light);
+    const std::string name = fmt::format("lamp_{:03}", count++);
+    const int node = writer_.add_node(
+        {.name = name,
+         .mesh = shared(fmt::format("lamp_{}", static_cast<int>(kind)), [&] { return made.mesh; }),
+         .position = dvec3(snap(where), z),
+         .yaw = yaw,
+         .semantic_class = SemanticClass::street_lamp});
+    writer_.add_node({.name = name + "_light",
+                      .position = made.light_position,
+                      .parent = node,
+                      .light = light,
+                      .shine = {0.0, 0.0, -1.0}});
+  };
+  for (const Site& farm : farms_) {
+    const double scale = farm.inner_m / 24.0;
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    for (const dvec2& at : {dvec2(-2.0, 1.0), dvec2(4.0, -9.0)})
+      lamp(LampKind::yard, farm.center + scale * (at.x * along + at.y * across), farm.level, 0.7);
+    // Along the lane past the yard, on the side without poles.
+    for (const double shift : {-30.0, 0.0, 30.0}) {
+      const double x = farm.center.x + scale * shift;
+      const dvec2 direction = terrain_.road_direction(x), side(-direction.y, direction.x);
+      const dvec2 at = dvec2(x, terrain_.road_y(x)) - (road_half_width_m + 0.9) * side;
+      lamp(LampKind::yard, at, terrain_.height(snap(at)) - 0.05, std::atan2(side.y, side.x));
+    }
   }
 }
 

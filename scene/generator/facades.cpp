@@ -37,7 +37,7 @@ Rgb night_light(Use use, int layer, int x, int y, uint32_t seed) {
   const uint32_t night = seed * 7u + static_cast<uint32_t>(layer) * 101u;
   switch (use) {
     case Use::home:
-      return hash(x, y, night) % 100 < (layer == 0 ? 40u : 26u) ? home_light(hash(y, x, night + 1)) : Rgb{};
+      return hash(x, y, night) % 100 < (layer == 0 ? 42u : 33u) ? home_light(hash(y, x, night + 1)) : Rgb{};
     case Use::office: {
       const int room = x / 3;
       if (hash(room, y, night) % 100 >= (layer == 0 ? 34u : 22u)) return {};
@@ -198,7 +198,7 @@ Picture facade_stone() {
     canvas.shade(x - 8, y + 78, x - 6, y + 84, -20);
     canvas.rect(x - 12, y - 10, x + 60, y - 4, {228, 220, 200}, 225);  // moulding
     canvas.shade(x - 12, y - 4, x + 60, y - 1, -38);
-    window(canvas, x, y, x + 48, y + 82, {.frame = {232, 230, 224}, .columns = 2, .rows = 3}, 264);
+    window(canvas, x, y, x + 48, y + 82, {.frame = {232, 230, 224}, .columns = 2, .rows = 3}, 268);
     if (top == 0 || bay % 4 == 1) railing(canvas, x - 12, x + 62, y + 46, y + 84);
   });
   // A balcony's slab along the whole upper floor, and a cornice.
@@ -310,10 +310,12 @@ Picture facade_balcony() {
       for (int x = 8; x < 60; x += 3) {
         const int high = 4 + static_cast<int>(hash(x, bay + top, 276) % 9);
         canvas.rect(left + x, top + 62 - high, left + x + 3, top + 62, {70, 96 + high, 48}, 240);
+        for (int layer = 0; layer < lit_pictures; ++layer)
+          canvas.light(layer, left + x, top + 62 - high, left + x + 3, top + 62, {});
       }
     canvas.rect(left + 2, top + 60, left + 126, top + 98, {150, 166, 170}, 60);
     for (int layer = 0; layer < lit_pictures; ++layer)
-      canvas.light(layer, left + 2, top + 62, left + 126, top + 98, {});
+      canvas.light(layer, left, top + 58, left + 128, top + 108, {});
     canvas.rect(left + 2, top + 58, left + 126, top + 62, {70, 72, 74}, 110);
     for (int x = 2; x < 126; x += 31)
       canvas.rect(left + x, top + 60, left + x + 2, top + 98, {92, 94, 96}, 110);

@@ -42,12 +42,12 @@ Lamp make_lamp(LampKind kind) {
     case LampKind::avenue:
       lamp.mesh = arm_lamp(8.0, 1.9, "lamp_glass");
       lamp.light_position = {2.2, 0.0, 7.95};
-      lamp.light = downlight(lamp_color_4000k, 9000.0, 40.0, 78.0, 45.0);
+      lamp.light = downlight(lamp_color_4000k, 9000.0, 55.0, 83.0, 45.0);
       break;
     case LampKind::street:
       lamp.mesh = arm_lamp(6.25, 1.2, "lamp_glass_warm");
       lamp.light_position = {1.5, 0.0, 6.2};
-      lamp.light = downlight(lamp_color_3000k, 6000.0, 40.0, 78.0, 36.0);
+      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 36.0);
       break;
     case LampKind::park: {
       const int metal = material("painted_metal");
@@ -61,7 +61,7 @@ Lamp make_lamp(LampKind kind) {
     case LampKind::yard:
       lamp.mesh = arm_lamp(5.2, 0.7, "lamp_glass_warm");
       lamp.light_position = {1.0, 0.0, 5.15};
-      lamp.light = downlight(lamp_color_3000k, 6000.0, 40.0, 78.0, 36.0);
+      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 36.0);
   }
   return lamp;
 }

@@ -89,25 +89,44 @@ dvec3 Terrain::normal(int row, int column) const {
   return glm::normalize(glm::cross(along, across));
 }
 
+double Terrain::road_length(double x) const {
+  double length = 0.0;
+  constexpr double step = 2.0;
+  for (double at = -half_; at < x; at += step)
+    length += std::min(step, x - at) / road_direction(at + 0.5 * std::min(step, x - at)).x;
+  return length;
+}
+
+dvec2 Terrain::uv(const Cover& cover, int row, int column) const {
+  const dvec3& p = vertex(row, column);
+  if (cover.along_road) {
+    const dvec2 tile = material_library()[static_cast<size_t>(cover.material)].tile_m;
+    return {column == road_south() ? 0.0 : 1.0, road_length(p.x) / tile.y};
+  }
+  const double c = std::cos(cover.angle), s = std::sin(cover.angle);
+  return planar_uv(cover.material, dvec3(c * p.x + s * p.y, c * p.y - s * p.x, p.z), dvec3(0, 0, 1)) +
+         cover.offset;
+}
+
 void Terrain::add_surface(MeshBuilder& mesh,
-                          const std::function<int(int row, int column)>& material_of) const {
+                          const std::function<Cover(int row, int column)>& cover_of) const {
   for (int row = 0; row + 1 < rows_; ++row)
     for (int column = 0; column + 1 < columns_; ++column) {
-      const int material = material_of(row, column);
-      if (material < 0) continue;
+      const Cover cover = cover_of(row, column);
+      if (cover.material < 0) continue;
       const std::array<std::array<int, 2>, 4> corners{
           {{row, column}, {row + 1, column}, {row + 1, column + 1}, {row, column + 1}}};
       const auto face = [&](size_t a, size_t b, size_t c) {
         std::array<dvec3, 3> p, n;
-        std::array<dvec2, 3> uv;
+        std::array<dvec2, 3> uvs;
         size_t k = 0;
         for (const size_t i : {a, b, c}) {
           p[k] = vertex(corners[i][0], corners[i][1]);
           n[k] = normal(corners[i][0], corners[i][1]);
-          uv[k] = planar_uv(material, p[k], dvec3(0, 0, 1));
+          uvs[k] = uv(cover, corners[i][0], corners[i][1]);
           ++k;
         }
-        mesh.triangle(material, p, n, uv);
+        mesh.triangle(cover.material, p, n, uvs);
       };
       // Diagonals alternate, which hides the grid.
       if ((row + column) % 2 == 0) {

@@ -28,6 +28,8 @@ class Terrain {
   /// Middle of the road at x, and its direction there.
   double road_y(double x) const;
   dvec2 road_direction(double x) const;
+  /// Length of the road from the west edge to x, m.
+  double road_length(double x) const;
   /// Height of the formula behind the grid, m.
   double height(const dvec2& point) const;
 
@@ -44,14 +46,22 @@ class Terrain {
     return grid_[static_cast<size_t>(row * columns_ + column)];
   }
 
-  /// The surface; `material_of(row, column)` for the cell north-east of that vertex; -1 leaves it out. Smooth normals.
-  void add_surface(MeshBuilder& mesh, const std::function<int(int row, int column)>& material_of) const;
+  /// What a cell looks like: -1 leaves it out.
+  struct Cover {
+    int material = -1;
+    double angle = 0.0;       ///< of the texture's x axis against the world's, rad
+    dvec2 offset{0.0};        ///< of the texture, in tiles
+    bool along_road = false;  ///< the texture follows the road, one width of it across
+  };
+  /// The surface; `cover_of(row, column)` for the cell north-east of that vertex. Smooth normals.
+  void add_surface(MeshBuilder& mesh, const std::function<Cover(int row, int column)>& cover_of) const;
   /// Sides and underside.
   void add_base(MeshBuilder& mesh) const;
 
  private:
   double hills(const dvec2& point) const;
   dvec3 normal(int row, int column) const;
+  dvec2 uv(const Cover& cover, int row, int column) const;
 
   struct Wave {
     dvec2 k;

@@ -134,8 +134,8 @@ Picture pasture() {
   canvas.blotches(8, 6, 47);
   for (int y = 0; y < 512; ++y)
     for (int x = 0; x < 512; ++x) {
-      const int blade = static_cast<int>(hash(x, y, 48) % 3);
-      canvas.add(x, y, {5 * blade - 5, 6 * blade - 6, 3 * blade - 3});
+      const int blade = static_cast<int>(hash(x, y / 2, 48) % 5);
+      canvas.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
     }
   for (int i = 0; i < 420; ++i) {  // thistles, flowers, dung
     const int x = static_cast<int>(hash(i, 0, 49) % 512), y = static_cast<int>(hash(i, 1, 49) % 512);
