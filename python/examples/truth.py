@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""A camera's ground truth: optical flow in colours and as Middlebury's .flo, and boxes drawn into the
+picture.
+
+    greatx generate SCENARIO -o out/truth        (a camera with `outputs: [rgb, depth, ids, flow, boxes]`)
+    python3 python/examples/truth.py out/truth
+
+Writes flow.png, flow.flo, boxes.png for the middle frame of the first camera that has flow and boxes.
+"""
+import struct
+import sys
+import zlib
+
+import numpy as np
+
+import greatx
+
+
+def write_png(path, rgb):
+    """u8 [h, w, 3]"""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    h, w, _ = rgb.shape
+    rows = np.concatenate([np.zeros((h, 1), np.uint8), rgb.reshape(h, 3 * w)], axis=1).tobytes()
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+# %% The middle record of the first camera with flow and boxes
+ds = greatx.load(sys.argv[1])
+camera = next(s for s in ds.sequences[0].sensors.values() if "flow" in s and "box_amodal" in s)
+record = camera.record(len(camera) // 2)
+flow = record.flow  # [h, w, 2] pixels to the right and down; NaN: out of sight at the next picture
+speed = np.hypot(flow[..., 0], flow[..., 1])
+print(f"{camera.name}, tick {record.tick}: flow up to {np.nanmax(speed):.1f} pixels")
+
+# %% Flow as colours: direction is hue, length is strength; black where there is none
+strength = np.nan_to_num(np.clip(speed / max(np.nanpercentile(speed, 98), 1e-6), 0, 1))
+hue = np.nan_to_num(np.arctan2(flow[..., 1], flow[..., 0])) / (2 * np.pi) * 6
+wheel = np.clip(np.abs((hue[..., None] + [0, 4, 2]) % 6 - 3) - 1, 0, 1)
+color = np.where(np.isnan(speed)[..., None], 0, 1 - strength[..., None] * (1 - wheel))
+write_png("flow.png", (255 * color + 0.5).astype(np.uint8))
+
+# %% Middlebury's format: magic 202021.25, width, height, then u and v pixel by pixel; above 1e9: unknown
+with open("flow.flo", "wb") as file:
+    file.write(struct.pack("<fii", 202021.25, flow.shape[1], flow.shape[0]))
+    file.write(np.where(np.isnan(flow), np.float32(1e10), flow).astype("<f4").tobytes())
+
+# %% Boxes: amodal in yellow, of the visible pixels in green
+picture = record.rgb.copy()
+for amodal, modal, share in zip(record.box_amodal, record.box_modal, record.box_visibility):
+    for box, ink in ((amodal, (255, 220, 0)), (modal, (0, 255, 0)))[:2 if share > 0 else 1]:
+        u0, v0, u1, v1 = (int(x) for x in box)
+        u1, v1 = min(u1, picture.shape[1] - 1), min(v1, picture.shape[0] - 1)
+        picture[v0:v1 + 1, [u0, u1]] = picture[[v0, v1], u0:u1 + 1] = ink
+write_png("boxes.png", picture)
+for i in np.argsort(-record.box_visible_pixels)[:5]:
+    print(f"  {ds.semantic_classes[record.box_semantic[i]]:12} {np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
+          f"{record.box_visible_pixels[i]:6} pixels, visibility {record.box_visibility[i]:.2f}")

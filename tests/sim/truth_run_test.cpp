@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cameras' ground truth through the whole simulator: several cameras in one submission, each with the bytes that it has
+// alone; flow to the camera's own next sample; boxes that stand where the poses say.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "sim/simulator.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace greatx::sim {
+namespace {
+
+struct Keep : RecordSink {
+  std::vector<Packet> packets;
+  void write(Packet packet) override { packets.push_back(std::move(packet)); }
+};
+
+struct Outcome {
+  std::vector<SensorSpec> sensors;
+  std::vector<Packet> packets;
+  uint64_t submits = 0, ticks = 0;
+  std::vector<scene::Instance> instances;
+
+  const SensorSpec& spec(const std::string& name) const {
+    for (const SensorSpec& spec : sensors)
+      if (spec.name == name) return spec;
+    throw std::runtime_error("no sensor " + name);
+  }
+  /// Null if the sensor did not fire.
+  const Array* find(size_t packet, const std::string& sensor, const std::string& name) const {
+    for (const Record& record : packets.at(packet).records) {
+      const SensorSpec& spec = sensors[record.sensor];
+      if (spec.name != sensor) continue;
+      for (size_t i = 0; i < spec.arrays.size(); ++i)
+        if (spec.arrays[i].name == name) return &record.arrays[i];
+      throw std::runtime_error(sensor + " has no " + name);
+    }
+    return nullptr;
+  }
+  template <typename T>
+  std::span<const T> array(size_t packet, const std::string& sensor, const std::string& name) const {
+    return find(packet, sensor, name)->as<T>();
+  }
+};
+
+Outcome run(const std::string& yaml) {
+  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
+  const World world = load_world(scenario);
+  const EffectPlan plan = make_effect_plan(scenario, world.scene);
+  Outcome result;
+  Keep keep;
+  Simulator simulator(test::device(), scenario, world, plan);
+  result.sensors = simulator.sensors();
+  result.instances = world.scene.instances;
+  const uint64_t before = test::device().counters().submits;
+  simulator.start(0);
+  while (simulator.step(keep)) {
+  }
+  result.submits = test::device().counters().submits - before;
+  result.ticks = static_cast<uint64_t>(simulator.statistics().ticks);
+  result.packets = std::move(keep.packets);
+  return result;
+}
+
+const std::string all = "outputs: [rgb, depth, ids, depth_ray, normals, flow, boxes]";
+std::string camera(const std::string& name, const std::string& rate, const std::string& more) {
+  return "      - {name: " + name + ", type: camera, rate_hz: " + rate +
+         ", width: 48, height: 32, fov_deg: 90, " + all + ", " + more + "}\n";
+}
+const std::string left = camera("left", "10", "mount: {position_m: [1.2, 0.3, 1.4]}");
+const std::string right = camera("right", "10", "mount: {position_m: [1.2, -0.3, 1.4]}");
+const std::string side = camera("side", "5", "mount: {position_m: [0, 0, 1.4], rotation_deg: [90, 0, 0]}");
+
+std::string scenario(const std::string& cameras) {
+  return "greatx: 1\nname: test\nseed: 5\nticks: 4\ntick_rate_hz: 10\n"
+         "scene: {generate: {kind: canyon, seed: 9, size_m: 60}, optical_only: true}\n"
+         "nodes:\n"
+         "  - name: van\n"
+         "    trajectory: {type: waypoints, interpolation: linear, points: [{t_s: 0, position_m: [2.4, -20, "
+         "0]}, "
+         "{t_s: 2, position_m: [2.4, -10, 0]}]}\n"
+         "    model: {generate: {kind: car, variant: van}}\n"
+         "    sensors:\n" +
+         cameras +
+         "  - name: car\n"
+         "    trajectory: {type: waypoints, interpolation: linear, points: [{t_s: 0, position_m: [2, -8, "
+         "0]}, "
+         "{t_s: 2, position_m: [1, 4, 0]}]}\n"
+         "    model: {generate: {kind: car}}\n    class: vehicle\n";
+}
+
+TEST(Cameras, OfOneNodeHaveTheBytesThatEachHasAlone) {
+  const Outcome together = run(scenario(left + right + side));
+  EXPECT_EQ(together.submits, together.ticks);
+  EXPECT_EQ(together.ticks, 4u);
+  const std::pair<std::string, std::string> alone[] = {
+      {"van/left", left}, {"van/right", right}, {"van/side", side}};
+  for (const auto& [name, text] : alone) {
+    const Outcome one = run(scenario(text));
+    int compared = 0;
+    for (size_t i = 0; i < together.packets.size(); ++i)
+      for (const ArraySpec& array : together.spec(name).arrays) {
+        const Array* const a = together.find(i, name, array.name);
+        if (a == nullptr) continue;
+        const Array* const b = one.find(i / (name == "van/side" ? 2 : 1), name, array.name);
+        ASSERT_NE(b, nullptr);
+        EXPECT_EQ(a->shape, b->shape) << name << ' ' << array.name;
+        EXPECT_TRUE(a->bytes == b->bytes) << name << ' ' << array.name;
+        ++compared;
+      }
+    EXPECT_GT(compared, 40);
+  }
+}
+
+TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
+  const Outcome outcome = run(scenario(left + right));
+  const auto ids_left = outcome.array<uint16_t>(0, "van/left", "instance"),
+             ids_right = outcome.array<uint16_t>(0, "van/right", "instance");
+  const auto depth_left = outcome.array<float>(0, "van/left", "depth"),
+             depth_right = outcome.array<float>(0, "van/right", "depth");
+  int same = 0, compared = 0;
+  for (int row = 0; row < 32; ++row)
+    for (int column = 0; column < 48; ++column) {
+      const float z = depth_left[row * 48 + column];
+      const double u = column + 0.5 - 24.0 * 0.6 / z;  // fx b / z
+      if (!std::isfinite(z) || u < 0.0) continue;
+      const auto there = static_cast<size_t>(row * 48 + static_cast<int>(u));
+      ++compared;
+      // The same surface, up to half a pixel along it.
+      same += ids_right[there] == ids_left[row * 48 + column] && std::abs(depth_right[there] - z) < 0.1 * z
+                  ? 1
+                  : 0;
+    }
+  EXPECT_GT(compared, 500);
+  EXPECT_GT(same, 0.85 * compared);
+}
+
+TEST(Flow, IsToTheCamerasOwnNextSample) {
+  const Outcome outcome = run(scenario(left + side));
+  // 5 m/s along y; the side camera looks to -x, what never moves goes to its left or right by fx v dt / z.
+  int compared = 0;
+  for (const size_t packet : {size_t{0}, size_t{2}}) {  // its last one too: the trajectory goes on
+    const auto flow = outcome.array<float>(packet, "van/side", "flow");
+    const auto depth = outcome.array<float>(packet, "van/side", "depth");
+    const auto ids = outcome.array<uint16_t>(packet, "van/side", "instance");
+    for (size_t i = 0; i < depth.size(); ++i) {
+      if (ids[i] == 0 || outcome.instances[ids[i] - 1].body != 0) continue;
+      ASSERT_NEAR(flow[2 * i], -24.0 * 5.0 * 0.2 / depth[i], 1e-4);
+      ASSERT_NEAR(flow[2 * i + 1], 0.0, 1e-5);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_EQ(outcome.find(1, "van/side", "flow"), nullptr);
+  // The front camera, 10 Hz: towards what is ahead, away from the point at infinity by dz / (z - dz).
+  for (size_t packet = 0; packet < 4; ++packet) {
+    const auto flow = outcome.array<float>(packet, "van/left", "flow");
+    const auto depth = outcome.array<float>(packet, "van/left", "depth");
+    const auto ids = outcome.array<uint16_t>(packet, "van/left", "instance");
+    for (size_t i = 0; i < depth.size(); ++i) {
+      if (ids[i] == 0 || outcome.instances[ids[i] - 1].body != 0) continue;
+      if (depth[i] < 0.5 + 0.1) {
+        ASSERT_TRUE(std::isnan(flow[2 * i]));
+        continue;
+      }
+      const double grows = 0.5 / (depth[i] - 0.5);
+      ASSERT_NEAR(flow[2 * i], (static_cast<double>(i % 48) + 0.5 - 24.0) * grows, 1e-4);
+      ASSERT_NEAR(flow[2 * i + 1], (static_cast<double>(i / 48) + 0.5 - 16.0) * grows, 1e-4);
+    }
+  }
+}
+
+TEST(Boxes, OfARunStandWhereThePosesSay) {
+  const Outcome outcome = run(scenario(left));
+  for (size_t packet = 0; packet < 4; ++packet) {
+    const auto node = outcome.array<int32_t>(packet, "van/left", "box_node");
+    const auto instance = outcome.array<uint32_t>(packet, "van/left", "box_instance");
+    const auto center = outcome.array<double>(packet, "van/left", "box_center");
+    const auto size = outcome.array<float>(packet, "van/left", "box_size");
+    const auto visible = outcome.array<uint32_t>(packet, "van/left", "box_visible_pixels");
+    const auto amodal = outcome.array<float>(packet, "van/left", "box_amodal");
+    const auto modal = outcome.array<int32_t>(packet, "van/left", "box_modal");
+    const auto ids = outcome.array<uint16_t>(packet, "van/left", "instance");
+    const auto position = outcome.array<double>(packet, "poses", "position");
+    size_t cars = 0;
+    for (size_t i = 0; i < node.size(); ++i) {
+      EXPECT_NE(node[i], 0);  // the camera's own van
+      EXPECT_EQ(visible[i], std::ranges::count(ids, instance[i]));
+      if (visible[i] > 0) {
+        // The visible part lies within the projected vertices, but for a pixel's rim.
+        EXPECT_GE(modal[4 * i], amodal[4 * i] - 1.0f);
+        EXPECT_GE(modal[4 * i + 1], amodal[4 * i + 1] - 1.0f);
+        EXPECT_LE(modal[4 * i + 2], amodal[4 * i + 2] + 1.0f);
+        EXPECT_LE(modal[4 * i + 3], amodal[4 * i + 3] + 1.0f);
+      }
+      if (node[i] != 1) continue;
+      ++cars;
+      EXPECT_NEAR(center[3 * i], position[3], 0.3);
+      EXPECT_NEAR(center[3 * i + 1], position[4], 0.3);
+      EXPECT_NEAR(center[3 * i + 2], 0.5 * size[3 * i + 2], 0.1);
+      EXPECT_GT(size[3 * i], 3.0f);
+      EXPECT_GT(visible[i], 5u);
+    }
+    EXPECT_EQ(cars, 1u);
+  }
+}
+
+}  // namespace
+}  // namespace greatx::sim
