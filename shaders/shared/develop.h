@@ -26,9 +26,9 @@ GREATX_FUNCTION vec3 tone_map(vec3 color) {
   float peak = max(max(color.x, max(color.y, color.z)), 1e-9f);
   float new_peak = 1.0f - exp(-response * peak);
   // color new_peak / peak, mixed with white of that peak by 1 - 1 / fade.
-  float fade = desaturation * (peak - new_peak) + 1.0f;
+  float fade = desaturation * max(peak - new_peak, 0.0f) + 1.0f;
   float both = new_peak / (peak * fade);
-  return color * both + vec3(max(new_peak - peak * both, 0.0f));
+  return color * both + vec3(new_peak - peak * both);
 }
 
 /// IEC 61966-2-1, and rounding to nearest: a linear value in [0, 1] to its byte. The power 1/2.4 is a polynomial in the
