@@ -5,7 +5,10 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/gtc/packing.hpp>
+
 #include "core/error.h"
+#include "renderer/octahedral.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
@@ -23,21 +26,6 @@ void put(Words& words, const vec2& value) {
   put(words, value.y);
 }
 
-/// Octahedral, two signed 16-bit fractions (Cigolle et al., JCGT 3(2), 2014). Zero stands for +z.
-uint32_t octahedral(const vec3& direction) {
-  const float norm = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-  vec2 p(0.0f);
-  if (norm > 0.0f) {
-    p = vec2(direction.x, direction.y) / norm;
-    if (direction.z < 0.0f)
-      p = (1.0f - glm::abs(vec2(p.y, p.x))) * vec2(p.x >= 0.0f ? 1.0f : -1.0f, p.y >= 0.0f ? 1.0f : -1.0f);
-  }
-  const auto fraction = [](float x) {
-    return static_cast<uint32_t>(static_cast<uint16_t>(static_cast<int16_t>(std::lround(x * 32767.0f))));
-  };
-  return fraction(p.x) | fraction(p.y) << 16;
-}
-
 void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material) {
   const uint32_t* corner = &scene.indices[size_t{3} * triangle];
   const vec3 a = scene.positions[corner[0]];
@@ -45,30 +33,31 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   put(words, a);
   words.push_back(body_and_material);
   put(words, scene.positions[corner[1]] - a);
-  words.push_back(octahedral(scene.normals[corner[0]]));
+  words.push_back(octahedral_word(scene.normals[corner[0]]));
   put(words, scene.positions[corner[2]] - a);
-  words.push_back(octahedral(scene.normals[corner[1]]));
+  words.push_back(octahedral_word(scene.normals[corner[1]]));
   put(words, uv);
   put(words, scene.uvs[corner[1]] - uv);
   put(words, scene.uvs[corner[2]] - uv);
-  words.push_back(octahedral(scene.normals[corner[2]]));
+  words.push_back(octahedral_word(scene.normals[corner[2]]));
   words.push_back(scene.tangents[corner[0]].w < 0.0f ? 1u : 0u);
-  for (int i = 0; i < 3; ++i) words.push_back(octahedral(vec3(scene.tangents[corner[i]])));
+  for (int i = 0; i < 3; ++i) words.push_back(octahedral_word(vec3(scene.tangents[corner[i]])));
   words.push_back(0u);
 }
 
 void put_material(Words& words, const scene::PbrMaterial& pbr) {
-  const auto pair = [](int32_t low, int32_t high) {
-    return static_cast<uint32_t>(low + 1) | static_cast<uint32_t>(high + 1) << 16;
-  };
-  put(words, vec3(pbr.base_color));
-  put(words, pbr.metallic);
+  const auto pair = [](uint32_t low, uint32_t high) { return low | high << 16; };
+  const auto texture = [](int32_t index) { return static_cast<uint32_t>(index + 1); };
+  const auto fraction = [](float x) { return static_cast<uint32_t>(std::lround(x * 65535.0f)); };
+  const bool rare = pbr.metallic_roughness_texture >= 0;
+  words.push_back(glm::packHalf2x16(vec2(pbr.base_color)));
+  words.push_back(pair(glm::packHalf1x16(pbr.base_color.z), rare ? 1 : 0));
+  words.push_back(pair(fraction(pbr.metallic), fraction(pbr.roughness)));
+  words.push_back(pair(texture(pbr.base_color_texture), texture(pbr.normal_texture)));
   put(words, pbr.emissive);
-  put(words, pbr.roughness);
+  words.push_back(pair(texture(pbr.metallic_roughness_texture), texture(pbr.emissive_texture)));
   put(words, pbr.normal_scale);
-  words.push_back(pair(pbr.base_color_texture, pbr.metallic_roughness_texture));
-  words.push_back(pair(pbr.normal_texture, pbr.emissive_texture));
-  words.push_back(0u);
+  words.resize(words.size() + 3);
 }
 
 void require_16_bits(const char* what, size_t count) {
@@ -96,8 +85,8 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
       ids[primitive.first_index / 3 + t + 1] = {
-          primitive.instance + 1,
-          static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) | (primitive.material + 1) << 16};
+          primitive.instance + 1, static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) |
+                                      (primitive.material + 1) << 16};
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
     }
   }

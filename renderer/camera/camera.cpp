@@ -9,7 +9,9 @@
 #include "core/error.h"
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/develop.h"
+#include "renderer/camera/edges.h"
 #include "renderer/camera/meter.h"
+#include "renderer/light/lamps.h"
 
 namespace greatx::render {
 
@@ -38,10 +40,16 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
       visibility_scope_(desc.name + " visibility"),
       shade_scope_(desc.name + " shade") {
   check();
+  const bool shaded = desc_.outputs.color() || desc_.outputs.luminance;
+  desc_.smooth_edges = desc_.smooth_edges && shaded;
+  desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges;
+  pinhole_ = std::make_unique<PinholeView>(pinhole_of(desc_));
   bound_primitives();
   sort_primitives();
   build_pipelines();
   create_images();
+  upload_lens();
+  if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
 }
 
@@ -62,6 +70,7 @@ void CameraPass::check() const {
   require(std::isfinite(desc_.near_m) && desc_.near_m > 0.0, "near_m", "a positive number of metres",
           desc_.near_m);
   require(desc_.msaa == 1 || desc_.msaa == 4, "msaa", "1 or 4", desc_.msaa);
+  require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
   require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
           desc_.exposure_ev100);
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
@@ -89,7 +98,8 @@ void CameraPass::sort_primitives() {
     if (desc_.excluded_body && scene.instances[primitive.instance].body == *desc_.excluded_body) continue;
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
     const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
-    (masked ? masked_ : opaque_).push_back(i);
+    const bool moves = scene.instances[primitive.instance].body != 0;
+    (masked ? masked_ : moves ? moving_ : still_).push_back(i);
     textured_ |=
         pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
     normal_mapped_ |= pbr.normal_texture >= 0;
@@ -105,11 +115,13 @@ void CameraPass::build_pipelines() {
   draw.color_formats = {visibility_format};
   draw.depth_format = depth_format;
   draw.samples = static_cast<VkSampleCountFlagBits>(desc_.msaa);
-  if (!opaque_.empty()) {
-    draw.vertex_shader = "camera/visibility.vert";
-    draw.fragment_shader = "camera/visibility.frag";
-    visibility_opaque_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
-  }
+  draw.specialization.resize(shared::shade_spec_count);
+  draw.vertex_shader = "camera/visibility.vert";
+  draw.fragment_shader = "camera/visibility.frag";
+  if (!still_.empty()) visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
+  draw.specialization[shared::spec_moving_bodies] = 1;
+  if (!moving_.empty())
+    visibility_moving_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility of bodies");
   if (!masked_.empty()) {
     draw.vertex_shader = "camera/visibility_masked.vert";
     draw.fragment_shader = "camera/visibility_masked.frag";
@@ -123,6 +135,7 @@ void CameraPass::build_pipelines() {
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
   for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::visibility_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
   shade.bindings.push_back({shared::shade_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
   shade.bindings.push_back({shared::shade_luminance_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
@@ -145,17 +158,23 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_haze] = effects_.haze;
   shade.specialization[shared::spec_night_sky] = effects_.night_sky;
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
+  shade.specialization[shared::spec_distortion] = desc_.distortion.any();
+  shade.specialization[shared::spec_blend] = desc_.parts;
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
 }
 
 void CameraPass::create_images() {
   gpu::Device& device = scene_->device();
+  struct Size {
+    uint32_t width, height;
+  };
+  const Size none{1, 1}, picture{desc_.width, desc_.height}, pinhole{pinhole_->width, pinhole_->height};
   const auto image = [&](VkFormat format, uint32_t samples, VkImageUsageFlags usage, const char* what,
-                         bool wanted) {
+                         Size size) {
     return gpu::Image(device,
                       {.format = format,
-                       .width = wanted ? desc_.width : 1,
-                       .height = wanted ? desc_.height : 1,
+                       .width = size.width,
+                       .height = size.height,
                        .mip_levels = 1,
                        .samples = static_cast<VkSampleCountFlagBits>(samples),
                        .usage = usage},
@@ -163,13 +182,46 @@ void CameraPass::create_images() {
   };
   constexpr VkImageUsageFlags kept =
       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  visibility_ = image(visibility_format, desc_.msaa,
-                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, "visibility", true);
-  depth_ = image(depth_format, desc_.msaa, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth", true);
-  color_ = image(color_format, 1, kept, "radiance", desc_.outputs.color());
-  luminance_ = image(luminance_format, 1, kept, "luminance", desc_.outputs.luminance);
-  seen_ = image(seen_format, 1, kept, "seen", desc_.outputs.ids());
+  visibility_ =
+      image(visibility_format, desc_.msaa, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+            "visibility", pinhole);
+  depth_ = image(depth_format, desc_.msaa, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth", pinhole);
+  const Size color = desc_.outputs.color() ? picture : none,
+             luminance = desc_.outputs.luminance ? picture : none;
+  color_ = image(color_format, 1, kept, "radiance", color);
+  luminance_ = image(luminance_format, 1, kept, "luminance", luminance);
+  if (desc_.smooth_edges) {
+    shaded_color_ = image(color_format, 1, kept, "radiance with edges", color);
+    shaded_luminance_ = image(luminance_format, 1, kept, "luminance with edges", luminance);
+  }
+  seen_ = image(seen_format, 1, kept, "seen", picture);
   texel_sampler_ = gpu::Sampler(device, {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
+}
+
+void CameraPass::upload_lens() {
+  gpu::Device& device = scene_->device();
+  std::vector<vec2> places(1);
+  const bool distorts = desc_.distortion.any();
+  if (distorts) {
+    places = Lens({desc_.name, desc_.width, desc_.height, desc_.fx, desc_.fy, desc_.cx, desc_.cy,
+                   desc_.distortion})
+                 .table();
+    for (vec2& place : places)
+      place = vec2(dvec2(place) * dvec2(pinhole_->fx, pinhole_->fy) + dvec2(pinhole_->cx, pinhole_->cy));
+  }
+  lens_ = gpu::Image(device,
+                     {.format = VK_FORMAT_R32G32_SFLOAT,
+                      .width = distorts ? desc_.width : 1,
+                      .height = distorts ? desc_.height : 1,
+                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                     fmt::format("{} lens", desc_.name));
+  const gpu::Buffer staging(device, places.size() * sizeof(vec2), gpu::Memory::upload, "lens staging");
+  std::ranges::copy(places, staging.slice().as<vec2>().begin());
+  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
+    cmd.transition(lens_, gpu::ImageUse::transfer_target, true);
+    cmd.copy(staging.slice(), lens_);
+    cmd.transition(lens_, gpu::ImageUse::sampled);
+  });
 }
 
 std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {
@@ -198,32 +250,27 @@ std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, 
   return order;
 }
 
-gpu::Slice CameraPass::upload_lights(gpu::TickSlot& slot, const CameraView& view) const {
-  std::vector<shared::GpuLight> lights;
-  if (effects_.punctual_lights) {
-    for (const scene::PunctualLight& light : scene_->scene().lights) {
-      const Pose& pose = lighting_->body_poses()[light.body];
-      const dvec3 position = pose.apply(light.position) - view.eye;
-      const bool directional = light.type == scene::PunctualLight::Type::directional;
-      // A lamp whose range ends before the view begins lights nothing in it.
-      if (!directional && light.range_m > 0.0f && view.outside(position, light.range_m)) continue;
-      lights.push_back(light_block(light, position, pose.rotate(light.direction)));
-    }
-  }
-  const gpu::Slice slice =
-      slot.upload.allocate(4 + std::max<size_t>(lights.size(), 1) * sizeof(shared::GpuLight));
-  const auto count = static_cast<uint32_t>(lights.size());
-  std::memcpy(slice.mapped, &count, sizeof count);
-  // memcpy() takes no null pointer, even for nothing.
-  if (!lights.empty()) std::memcpy(slice.mapped + 4, lights.data(), lights.size() * sizeof(shared::GpuLight));
-  return slice;
+gpu::Slice CameraPass::upload_lamps(gpu::TickSlot& slot, const CameraView& view) {
+  std::vector<uint32_t> words(1);
+  lamps_ = {};
+  if (effects_.punctual_lights)
+    words = cluster_lamps(view, scene_->scene().lights, lighting_->body_poses(), lamps_);
+  return slot.upload.put(std::span<const uint32_t>(words));
 }
 
-void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame) {
-  const CameraView view(desc_, local_from_sensor, lighting_->shadows().frame(),
-                        1.0 / stored_luminance(desc_, *lighting_));
+void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame,
+                        const ExposurePart& part) {
+  GREATX_CHECK(desc_.parts || (part.first && part.last), "camera {}: built for whole exposures", desc_.name);
+  CameraView view(*pinhole_, desc_.near_m, local_from_sensor, lighting_->shadows().frame(),
+                  1.0 / stored_luminance(desc_, *lighting_));
+  view.constants.weight = part.weight;
+  view.constants.first = part.first;
   record_visibility(*slot.cmd, view);
   record_shading(slot, view);
+  if (!part.last) return;
+  if (edges_)
+    edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
+                   {seen_, shaded_color_, color_, shaded_luminance_, luminance_});
   if (develop_) develop_->record(slot, color_, seen_, frame);
 }
 
@@ -234,8 +281,8 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
   gpu::RenderTargets targets;
   targets.color.push_back({.image = &visibility_, .clear = {.uint32 = {0, 0, 0, 0}}});
   targets.depth = &depth_;
-  targets.width = desc_.width;
-  targets.height = desc_.height;
+  targets.width = pinhole_->width;
+  targets.height = pinhole_->height;
   drawn_ = culled_ = 0;
   cmd.begin_rendering(targets);
   const auto draw_all = [&](const gpu::GraphicsPipeline& with, std::span<const uint32_t> primitives) {
@@ -249,7 +296,8 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
       cmd.draw_range(primitive.first_index, primitive.index_count, i);
     }
   };
-  draw_all(visibility_opaque_, opaque_);
+  draw_all(visibility_still_, still_);
+  draw_all(visibility_moving_, moving_);
   draw_all(visibility_masked_, masked_);
   cmd.end_rendering();
 }
@@ -258,17 +306,21 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, gpu::ImageUse::sampled);
-  cmd.transition(color_, gpu::ImageUse::storage, true);
-  cmd.transition(luminance_, gpu::ImageUse::storage, true);
+  gpu::Image& color = edges_ ? shaded_color_ : color_;
+  gpu::Image& luminance = edges_ ? shaded_luminance_ : luminance_;
+  const bool fresh = view.constants.first != 0;
+  cmd.transition(color, gpu::ImageUse::storage, fresh);
+  cmd.transition(luminance, gpu::ImageUse::storage, fresh);
   cmd.transition(seen_, gpu::ImageUse::storage, true);
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
   for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
     descriptors.push_back(descriptor);
-  descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lights(slot, view)));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
+  descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
   descriptors.push_back(gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color_));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_luminance_binding, luminance_));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color));
+  descriptors.push_back(gpu::Descriptor::storage(shared::shade_luminance_binding, luminance));
   descriptors.push_back(gpu::Descriptor::storage(shared::shade_seen_binding, seen_));
   cmd.bind(shade_);
   cmd.push(descriptors);

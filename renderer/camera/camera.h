@@ -56,6 +56,8 @@ struct CameraDesc {
          cy = 0.0;  ///< principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5)
   double near_m = 0.1;              ///< planar depth of the nearest visible point; there is no far plane
   uint32_t msaa = 4;                ///< samples a pixel: 1 or 4
+  bool smooth_edges = false;        ///< of one sample a pixel: renderer/camera/edges.h
+  bool parts = false;               ///< exposures of several parts: ExposurePart
   double exposure_ev100 = 15.0;     ///< not of `automatic_exposure`
   bool automatic_exposure = false;  ///< each picture by its own meter (renderer/camera/meter.h)
   double compensation_ev = 0.0;     ///< of `automatic_exposure`: positive is brighter
@@ -64,6 +66,13 @@ struct CameraDesc {
   std::optional<SensorNoise> noise;  ///< of rgb
   CameraOutputs outputs;
   std::optional<uint32_t> excluded_body;  ///< the body that carries the camera, if it shall not see it
+};
+
+/// A part of the exposure time: pictures of several instants add up to one with motion blur.
+struct ExposurePart {
+  float weight = 1.0f;  ///< those of a picture sum to 1
+  bool first = true;
+  bool last = true;  ///< this one's depth and ids are the picture's; then it is developed
 };
 
 /// What a camera saw at one tick; arrays that were not asked for are empty. C order, row 0 on top.
@@ -86,8 +95,16 @@ double saturation_luminance(double ev100);
 /// of the scene, so that halves hold day and night (docs/film.md).
 double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting);
 
+/// Lamps of one picture (renderer/light/lamps.h).
+struct LampCounts {
+  uint32_t seen = 0;     ///< lamps in at least one cluster
+  uint32_t entries = 0;  ///< lamps summed over clusters
+};
+
 struct CameraView;
 class DevelopPass;
+class EdgePass;
+struct PinholeView;
 
 class CameraPass {
  public:
@@ -98,7 +115,8 @@ class CameraPass {
 
   /// Records one picture into the slot; after GpuScene::record_update and SceneLighting::record of the same tick.
   /// `local_from_sensor`: x forward, y left, z up, in local coordinates.
-  void record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame = {});
+  void record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame = {},
+              const ExposurePart& part = {});
   /// The picture that was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
 
@@ -113,6 +131,8 @@ class CameraPass {
   /// Primitives drawn, and left out because they lie outside the view, by the last record().
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
+  /// Lamps of the last record().
+  const LampCounts& lamps() const { return lamps_; }
 
  private:
   /// Bounding sphere of a primitive in its body's frame.
@@ -126,7 +146,8 @@ class CameraPass {
   void build_pipelines();
   void create_images();
   std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
-  gpu::Slice upload_lights(gpu::TickSlot& slot, const CameraView& view) const;
+  void upload_lens();
+  gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
   void record_visibility(gpu::Cmd& cmd, const CameraView& view);
   void record_shading(gpu::TickSlot& slot, const CameraView& view);
 
@@ -135,16 +156,21 @@ class CameraPass {
   CameraDesc desc_;
   CameraEffects effects_;
   std::vector<Sphere> spheres_;
-  std::vector<uint32_t> opaque_, masked_;                             ///< primitives
+  std::vector<uint32_t> still_, moving_, masked_;                     ///< primitives; the first two opaque
   bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< what their materials need
-  gpu::GraphicsPipeline visibility_opaque_, visibility_masked_;
+  gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_masked_;
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
+  std::unique_ptr<PinholeView> pinhole_;
+  gpu::Image lens_;  ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
+  gpu::Image shaded_color_, shaded_luminance_;  ///< before their edges are smoothed; 1 x 1 if they are not
   gpu::Image color_, luminance_, seen_;
+  std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;
   uint32_t drawn_ = 0, culled_ = 0;
+  LampCounts lamps_;
 };
 
 }  // namespace greatx::render

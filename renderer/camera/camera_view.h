@@ -14,12 +14,22 @@
 
 namespace greatx::render {
 
+/// The pinhole picture that the visibility pass draws: the camera's own, or, behind a lens that distorts, one that holds
+/// all that the lens sees.
+struct PinholeView {
+  uint32_t width = 0, height = 0;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+};
+PinholeView pinhole_of(const CameraDesc& desc);
+
 struct CameraView {
   /// `exposure`: times radiance in cd/m^2 gives what is stored.
-  CameraView(const CameraDesc& desc, const Pose& local_from_sensor, const SunFrame& sun, double exposure);
+  CameraView(const PinholeView& pinhole, double near_m, const Pose& local_from_sensor, const SunFrame& sun,
+             double exposure);
 
-  dvec3 eye;      ///< local coordinates
-  dvec3 forward;  ///< unit
+  PinholeView pinhole;
+  dvec3 eye;                   ///< local coordinates
+  dvec3 forward, right, down;  ///< unit, local axes
   shared::CameraConstants constants;
 
   /// Whether a sphere lies wholly outside the view; `center` in local axes, from the eye.
@@ -33,9 +43,5 @@ struct CameraView {
   };
   std::array<Plane, 5> planes_;
 };
-
-/// A lamp as light.glsl reads it; position from the eye and direction in local axes.
-shared::GpuLight light_block(const scene::PunctualLight& light, const dvec3& position,
-                             const dvec3& direction);
 
 }  // namespace greatx::render

@@ -11,10 +11,14 @@
 #include "renderer/light/haze.h"
 #include "renderer/light/night_sky.h"
 #include "renderer/light/sky.h"
+#include "renderer/light/sky_view.h"
 
 namespace greatx::render {
 
 namespace {
+
+/// Of the ground's radiance, what hides the sky sends on: an albedo of 0.2, seen half in the shade.
+constexpr float bounce_share = 0.1f;
 
 void check(const Lighting& lighting) {
   const auto in_range = [](const char* name, double value, double least, double most) {
@@ -48,6 +52,7 @@ SceneLighting::SceneLighting(const scene::GpuScene& scene, const Lighting& light
     : scene_(&scene), effects_(effects), surfaces_(scene) {
   check(lighting);
   effects_.sky = effects.sky && lighting.sky_illuminance_lux > 0.0;
+  effects_.ambient_occlusion = effects.ambient_occlusion && effects_.sky && !scene.scene().bounds.empty();
   effects_.haze = effects.haze && lighting.haze_extinction_per_m > 0.0;
   const Sky sky(lighting, effects_.haze);
   const KeyLight key = key_light(lighting);
@@ -99,6 +104,10 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
     stars = gpu_stars(draw_stars(lighting.star_seed), depth);
   }
   stars_ = gpu::upload_buffer(device, std::as_bytes(std::span(stars)), "stars");
+  const vec3 ground_light =
+      vec3((sky.key_illuminance() * (effects_.sun ? key.direction.z : 0.0) + sky.illuminance()) / pi);
+  block.bounce = bounce_share * ground_light;
+  bake_sky_view(block);
   block.environment_scale = float(map.scale);
   const auto irradiance = sky_irradiance(sky);
   for (size_t i = 0; i < irradiance.size(); ++i) block.irradiance[i] = vec4(vec3(irradiance[i]), 0.0f);
@@ -129,6 +138,33 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
   });
 }
 
+void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
+  HeightField field;
+  std::vector<uint16_t> texels(4);
+  if (effects_.ambient_occlusion) {
+    field = height_field(scene_->scene());
+    texels = sky_view_texels(field);
+    describe_sky_view(field, block);
+  }
+  gpu::Device& device = scene_->device();
+  sky_view_ = gpu::Image(device,
+                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                          .width = field.width,
+                          .height = field.height,
+                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                         "sky view");
+  sky_view_sampler_ =
+      gpu::Sampler(device, {.linear = true, .repeat_u = false, .repeat_v = false}, "sky view");
+  const gpu::Buffer staging(device, texels.size() * sizeof(uint16_t), gpu::Memory::upload,
+                            "sky view staging");
+  std::ranges::copy(texels, staging.slice().as<uint16_t>().begin());
+  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
+    cmd.transition(sky_view_, gpu::ImageUse::transfer_target, true);
+    cmd.copy(staging.slice(), sky_view_);
+    cmd.transition(sky_view_, gpu::ImageUse::sampled);
+  });
+}
+
 void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
   GREATX_CHECK(body_poses.size() == body_poses_.size(), "{} poses for {} bodies", body_poses.size(),
                body_poses_.size());
@@ -141,6 +177,7 @@ std::vector<gpu::Binding> SceneLighting::bindings() {
   return {{shared::lighting_binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
           {shared::shadow_tiles_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
           {shared::stars_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::sky_view_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::environment_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::static_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
           {shared::moving_shadow_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}};
@@ -151,6 +188,7 @@ std::vector<gpu::Descriptor> SceneLighting::descriptors() const {
   all.push_back(gpu::Descriptor::buffer(shared::lighting_binding, block_));
   all.back().type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   all.push_back(gpu::Descriptor::buffer(shared::stars_binding, stars_));
+  all.push_back(gpu::Descriptor::sampled(shared::sky_view_binding, sky_view_, sky_view_sampler_));
   all.push_back(gpu::Descriptor::sampled(shared::environment_binding, environment_, environment_sampler_));
   return all;
 }

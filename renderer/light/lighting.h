@@ -40,7 +40,7 @@ struct Lighting {
   double haze_depth = 0.0;             ///< their optical depth between scene and sky, vertically
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
-  uint32_t moving_shadow_texels = 512;   ///< edge of a moving body's tile, at most
+  uint32_t moving_shadow_texels = 128;   ///< edge of a moving body's tile, at most
 
   /// To the sun at `azimuth` from x towards y and `elevation` above the horizon, rad.
   static dvec3 direction(double azimuth, double elevation);
@@ -99,6 +99,7 @@ class SceneLighting {
 
  private:
   void bake(const Lighting& lighting, const Sky& sky);
+  void bake_sky_view(shared::GpuLighting& block);
 
   const scene::GpuScene* scene_;
   CameraEffects effects_;  ///< what was asked, less what this light cannot cast
@@ -106,6 +107,8 @@ class SceneLighting {
   double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;
   gpu::Sampler environment_sampler_;
+  gpu::Image sky_view_;  ///< renderer/light/sky_view.h; one texel without ambient_occlusion
+  gpu::Sampler sky_view_sampler_;
   gpu::Buffer stars_;  ///< shared::GpuStar [star_cells^2]; one without night_sky
   gpu::Buffer block_;  ///< GpuLighting
   SurfaceTables surfaces_;

@@ -51,8 +51,9 @@ ShadowMaps::ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, cons
       "shadow");
   build_static(options.alpha_mask);
   build_moving(options.alpha_mask);
-  no_tiles_ = gpu::upload_buffer(device, std::vector<std::byte>(4 + sizeof(shared::GpuShadowTile)),
-                                 "no shadow tiles");
+  no_tiles_ = gpu::upload_buffer(
+      device, std::vector<std::byte>(sizeof(shared::ShadowTilesHeader) + sizeof(shared::GpuShadowTile)),
+      "no shadow tiles");
   tiles_ = no_tiles_.slice();
 }
 
@@ -180,9 +181,9 @@ void ShadowMaps::record(gpu::TickSlot& slot, std::span<const Pose> body_poses, c
   if (casters_.empty()) return;
   const uint32_t map_size = moving_map_.desc().width;
   const double tile_uv = 1.0 / tiles_across_, texel_uv = 1.0 / map_size;
-  tiles_ = slot.upload.allocate(4 + casters_.size() * sizeof(shared::GpuShadowTile));
-  const auto count = static_cast<uint32_t>(casters_.size());
-  std::memcpy(tiles_.mapped, &count, sizeof count);
+  shared::ShadowTilesHeader header{static_cast<uint32_t>(casters_.size()), vec2(1e30f), vec2(-1e30f)};
+  const uint32_t count = header.count;
+  tiles_ = slot.upload.allocate(sizeof header + casters_.size() * sizeof(shared::GpuShadowTile));
   for (uint32_t i = 0; i < count; ++i) {
     const Caster& caster = casters_[i];
     shared::GpuShadowTile tile;
@@ -192,8 +193,11 @@ void ShadowMaps::record(gpu::TickSlot& slot, std::span<const Pose> body_poses, c
     // Three empty texels around each tile, so that filtering never reaches its neighbour.
     tile.uv_radius = float(0.5 * tile_uv - 3.0 * texel_uv);
     tile.texel_m = float(caster.radius * texel_uv / tile.uv_radius);
-    std::memcpy(tiles_.mapped + 4 + i * sizeof tile, &tile, sizeof tile);
+    header.min = glm::min(header.min, vec2(tile.center) - tile.radius);
+    header.max = glm::max(header.max, vec2(tile.center) + tile.radius);
+    std::memcpy(tiles_.mapped + sizeof header + i * sizeof tile, &tile, sizeof tile);
   }
+  std::memcpy(tiles_.mapped, &header, sizeof header);
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope("moving shadow");

@@ -21,4 +21,6 @@ layout(constant_id = spec_specular) const bool specular_on = true;
 layout(constant_id = spec_haze) const bool haze_on = false;
 layout(constant_id = spec_night_sky) const bool night_sky_on = false;
 layout(constant_id = spec_ambient_occlusion) const bool ambient_occlusion_on = false;
+layout(constant_id = spec_distortion) const bool distortion_on = false;
+layout(constant_id = spec_blend) const bool blend_on = false;
 #endif

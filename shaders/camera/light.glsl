@@ -10,16 +10,13 @@
 
 layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };
 layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTilesBlock {
-  uint shadow_tile_count;
+  ShadowTilesHeader shadow_tiles_header;
   GpuShadowTile shadow_tiles[];
-};
-layout(set = 0, binding = lights_binding, scalar) readonly buffer LightsBlock {
-  uint light_count;
-  GpuLight lights[];
 };
 layout(set = 0, binding = environment_binding) uniform sampler2D environment;
 layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_shadow;
 layout(set = 0, binding = moving_shadow_binding) uniform sampler2DShadow moving_shadow;
+layout(set = 0, binding = sky_view_binding) uniform sampler2D sky_view;
 
 /// The octahedral map's coordinates of a unit direction, z up (Cigolle et al., JCGT 3(2), 2014).
 vec2 octahedral_uv(vec3 d) {
@@ -46,14 +43,19 @@ vec3 sky_irradiance_over_pi(vec3 n) {
   return max(e, vec3(0.0));
 }
 
-/// Share of the light that passes a shadow map at uv: four bilinear comparisons, a 3 x 3 texel tent.
-float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv) {
-  const float r = 0.5;
+/// Share of the light that passes a shadow map at uv. `near`: four bilinear comparisons, a 3 x 3 texel tent; else one,
+/// where a pixel is no smaller than a texel.
+float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv, bool near) {
+  float r = near ? 0.5 : 0.0;
   float sum = texture(map, vec3(uv + texel_uv * vec2(-r, -r), depth));
-  sum += texture(map, vec3(uv + texel_uv * vec2(r, -r), depth));
-  sum += texture(map, vec3(uv + texel_uv * vec2(-r, r), depth));
-  sum += texture(map, vec3(uv + texel_uv * vec2(r, r), depth));
-  return 0.25 * sum;
+  while (near) {
+    sum += texture(map, vec3(uv + texel_uv * vec2(r, -r), depth));
+    sum += texture(map, vec3(uv + texel_uv * vec2(-r, r), depth));
+    sum += texture(map, vec3(uv + texel_uv * vec2(r, r), depth));
+    sum *= 0.25;
+    near = false;
+  }
+  return sum;
 }
 
 /// Moves the point off its surface by what a texel can hide: along the normal where the light grazes.
@@ -62,10 +64,27 @@ vec3 shadow_point(vec3 p, vec3 n_light, float texel_m) {
   return p + n_light * (texel_m * (0.25 + 1.75 * slope)) + vec3(0.0, 0.0, 0.25 * texel_m);
 }
 
+/// Share of the sun that passes one moving body's tile.
+float tile_visibility(uint i, vec3 p, vec3 n, float pixel_m) {
+  float visible = 1.0;
+  vec3 q = (p - shadow_tiles[i].center) / shadow_tiles[i].radius;
+  bool inside = max(abs(q.x), abs(q.y)) < 1.0 && q.z < 1.0;
+  while (inside) {
+    GpuShadowTile tile = shadow_tiles[i];
+    q = (shadow_point(p, n, tile.texel_m) - tile.center) / tile.radius;
+    float depth = clamp(0.5 * q.z + 0.5, 0.0, 1.0);
+    visible = shadow_filter(moving_shadow, tile.uv_center + q.xy * tile.uv_radius, depth,
+                            1.0 / lighting.moving_map_size, pixel_m < shadow_near * tile.texel_m);
+    inside = false;
+  }
+  return visible;
+}
+
 /// Share of the sun that reaches a point; geometric normal in the local frame, facing the sun.
 float sun_visibility(vec3 p_eye, vec3 normal) {
   float visible = 1.0;
   if (!static_shadows_on && !moving_shadows_on) return visible;
+  float pixel_m = dot(camera.forward, p_eye) * length(camera.ray_x);
   vec3 n = vec3(dot(lighting.light_x, normal), dot(lighting.light_y, normal), dot(lighting.sun_direction, normal));
   vec3 p = camera.light_eye +
            vec3(dot(lighting.light_x, p_eye), dot(lighting.light_y, p_eye), dot(lighting.sun_direction, p_eye));
@@ -73,20 +92,15 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
     vec3 q = shadow_point(p, n, lighting.static_texel_m);
     float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
     vec2 uv = q.xy * lighting.static_uv_scale + lighting.static_uv_offset;
-    visible = shadow_filter(static_shadow, uv, depth, 1.0 / lighting.static_map_size);
+    visible = shadow_filter(static_shadow, uv, depth, 1.0 / lighting.static_map_size,
+                            pixel_m < shadow_near * lighting.static_texel_m);
   }
   if (moving_shadows_on) {
-    for (uint i = 0u; i < shadow_tile_count; ++i) {
-      GpuShadowTile tile = shadow_tiles[i];
-      vec3 q = (shadow_point(p, n, tile.texel_m) - tile.center) / tile.radius;
-      // A loop, not a branch: a device that masks its lanes still skips the samples when none is inside.
-      bool inside = max(abs(q.x), abs(q.y)) < 1.0 && q.z < 1.0;
-      while (inside) {
-        float depth = clamp(0.5 * q.z + 0.5, 0.0, 1.0);
-        visible *= shadow_filter(moving_shadow, tile.uv_center + q.xy * tile.uv_radius, depth,
-                                 1.0 / lighting.moving_map_size);
-        inside = false;
-      }
+    // The tiles' common bounds stand at fixed places: one load for all lanes.
+    bool near = all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
+    while (near) {
+      for (uint i = 0u; i < shadow_tiles_header.count; ++i) visible *= tile_visibility(i, p, n, pixel_m);
+      near = false;
     }
   }
   return visible;
@@ -104,26 +118,35 @@ vec3 reflect_light(Reflectance r, vec3 n, vec3 v, vec3 l, vec3 illuminance) {
   return f * illuminance * n_dot_l;
 }
 
-/// Radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by the roughness.
-vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness) {
-  vec3 radiance = r.diffuse * sky_irradiance_over_pi(n);
-  if (specular_on) radiance += r.albedo * environment_radiance(reflect(-v, n), roughness);
-  return radiance;
+/// Share of the sky that the static world leaves free over a point (renderer/light/sky_view.h): over level ground as
+/// seen from a height above the floor, over a wall twice as much, since the wall itself hides the other half.
+float sky_share(vec3 p_eye, vec3 n) {
+  vec3 p = p_eye + camera.eye_high + n * lighting.sky_view_step;
+  vec4 view = textureLod(sky_view, p.xy * lighting.sky_view_uv.xy + lighting.sky_view_uv.zw, 0.0);
+  float height = max(p.z - lighting.sky_view_floor - view.x, 0.0);
+  float low = mix(view.y, view.z, min(height * (1.0 / sky_view_middle), 1.0));
+  float share = mix(low, view.w, clamp((height - sky_view_middle) * (1.0 / (sky_view_top - sky_view_middle)), 0.0, 1.0));
+  share = height >= sky_view_top ? mix(view.w, 1.0, min(height * (1.0 / sky_view_top) - 1.0, 1.0)) : share;
+  return min(share * mix(2.0, 1.0, abs(n.z)), 1.0);
 }
 
-/// Radiance towards the eye by every lamp within its range (KHR_lights_punctual's attenuation).
-vec3 reflect_lights(Reflectance r, vec3 n, vec3 v, vec3 p_eye) {
-  vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < light_count; ++i) {
-    GpuLight light = lights[i];
-    vec3 to_light = light.directional != 0u ? -light.direction : light.position - p_eye;
-    float d2 = max(dot(to_light, to_light), 1e-4);
-    vec3 l = to_light * inversesqrt(d2);
-    float cone = clamp(dot(-l, light.direction) * light.cone_scale + light.cone_offset, 0.0, 1.0);
-    float ratio = d2 * light.inverse_range_squared;
-    float attenuation = light.directional != 0u ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) / d2;
-    sum += reflect_light(r, n, v, l, light.intensity * attenuation);
+/// Radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by the roughness. What the
+/// world hides of the sky sends what the ground throws back instead.
+vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
+  float share = ambient_occlusion_on ? sky_share(p_eye, n) : 1.0;
+  vec3 hidden = ambient_occlusion_on ? (1.0 - share) * lighting.bounce : vec3(0.0);
+  vec3 radiance = r.diffuse * (sky_irradiance_over_pi(n) * share + hidden);
+  if (specular_on) {
+    vec3 direction = reflect(-v, n);
+    vec3 mirrored = sky_irradiance_over_pi(direction);
+    bool sharp = roughness < environment_most_roughness;
+    while (sharp) {
+      float rough = smoothstep(environment_most_roughness - 0.1, environment_most_roughness, roughness);
+      mirrored = mix(environment_radiance(direction, roughness), mirrored, rough);
+      sharp = false;
+    }
+    radiance += r.albedo * (mirrored * share + hidden);
   }
-  return sum;
+  return radiance;
 }
 #endif

@@ -9,7 +9,7 @@
 
 layout(set = 0, binding = lighting_binding, scalar) uniform LightingBlock { GpuLighting lighting; };
 layout(set = 0, binding = shadow_tiles_binding, scalar) readonly buffer ShadowTilesBlock {
-  uint shadow_tile_count;
+  ShadowTilesHeader shadow_tiles_header;
   GpuShadowTile shadow_tiles[];
 };
 layout(push_constant, scalar) uniform Constants { uint tile_index; };

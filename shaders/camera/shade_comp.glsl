@@ -4,6 +4,8 @@
 // Shades what the visibility pass found: each triangle that a pixel's samples saw once, weighed by its samples. Depth
 // and id are those of the triangle that the pixel's centre looks at. GREATX_MULTISAMPLED: four samples a pixel.
 #include "camera/haze.glsl"
+#include "camera/lamps.glsl"
+#include "camera/lens_ray.glsl"
 #include "camera/light.glsl"
 #include "camera/sky.glsl"
 #include "camera/surface.glsl"
@@ -11,16 +13,14 @@
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
 #ifdef GREATX_MULTISAMPLED
 layout(set = 0, binding = visibility_binding) uniform usampler2DMS visibility;
-ivec2 picture_size() { return textureSize(visibility); }
 const uint sample_count = 4u;
 #else
 layout(set = 0, binding = visibility_binding) uniform usampler2D visibility;
-ivec2 picture_size() { return textureSize(visibility, 0); }
 const uint sample_count = 1u;
 #endif
-layout(set = 0, binding = shade_color_binding, rgba16f) uniform writeonly image2D color_image;
+layout(set = 0, binding = shade_color_binding, rgba16f) uniform image2D color_image;
 layout(set = 0, binding = shade_seen_binding, rg32ui) uniform writeonly uimage2D seen_image;
-layout(set = 0, binding = shade_luminance_binding, r32f) uniform writeonly image2D luminance_image;
+layout(set = 0, binding = shade_luminance_binding, r32f) uniform image2D luminance_image;
 
 /// Radiance towards the eye of the triangle around the ray.
 vec3 surface_radiance(Seen seen, vec3 ray) {
@@ -34,8 +34,8 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     radiance += direct * sun_visibility(s.p, s.geometric);
     lit = false;
   }
-  if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness);
-  if (lights_on) radiance += reflect_lights(r, s.n, s.v, s.p);
+  if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
+  if (lights_on) radiance += reflect_lamps(r, s.n, s.v, s.p);
   if (haze_on) radiance = through_haze(radiance, -s.v, length(s.p));
   return radiance;
 }
@@ -62,15 +62,19 @@ Center rim_of(Seen seen, vec3 ray) {
   return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
 }
 
+/// Adds this part of the exposure to what the parts before it left.
+vec4 exposed(vec4 value, vec4 before) { return camera.weight < 1.0 && camera.first == 0u ? before + value : value; }
+
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, picture_size()))) return;
-  vec2 pixel = vec2(at) + 0.5;
-  vec3 ray = camera.ray_0 + camera.ray_x * pixel.x + camera.ray_y * pixel.y;
+  if (any(greaterThanEqual(at, imageSize(seen_image)))) return;
+  vec2 pixel = pinhole_place(at);
+  ivec2 in_pinhole = ivec2(pixel);
+  vec3 ray = pixel_ray(pixel);
   const float infinity = uintBitsToFloat(0x7f800000u);
 
   uint ids[sample_count];
-  for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, at, s).r;
+  for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, in_pinhole, s).r;
   vec3 radiance = vec3(0.0);
   Center center = Center(infinity, 0u), first = center;
   bool sky = false;
@@ -93,7 +97,16 @@ void main() {
   }
   // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
   if (center.id == 0u && !sky) center = first;
-  if (color_on) imageStore(color_image, at, vec4(min(radiance * camera.exposure, vec3(65504.0)), 1.0));
-  if (luminance_on) imageStore(luminance_image, at, vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722))));
+  radiance *= camera.weight;
+  if (color_on) {
+    vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), 1.0);
+    vec4 before = blend_on ? imageLoad(color_image, at) : vec4(0.0);
+    imageStore(color_image, at, blend_on ? exposed(stored, before) : stored);
+  }
+  if (luminance_on) {
+    vec4 stored = vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722)));
+    vec4 before = blend_on ? imageLoad(luminance_image, at) : vec4(0.0);
+    imageStore(luminance_image, at, blend_on ? exposed(stored, before) : stored);
+  }
   if (ids_on) imageStore(seen_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
 }

@@ -4,10 +4,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/visibility_view.glsl"
 
+layout(constant_id = spec_moving_bodies) const bool moving_bodies_on = true;
 layout(location = 0) flat out uint out_triangle;
 
 void main() {
-  uint body = scene_primitive(uint(gl_InstanceIndex)).body;
+  // Most of what is drawn never moves: it costs no look at its body.
+  uint body = moving_bodies_on ? scene_primitive(uint(gl_InstanceIndex)).body : 0u;
   uint vertex = scene_index(uint(gl_VertexIndex));
   gl_Position = clip_from_eye(from_eye(body, scene_position(vertex)));
   out_triangle = uint(gl_VertexIndex) / 3u + 1u;

@@ -11,7 +11,7 @@ GREATX_SHARED_BEGIN
 // Set 0, beside the scene's own bindings.
 const uint lighting_binding = 4u;           // uniform: GpuLighting
 const uint shadow_tiles_binding = 5u;       // storage: GpuShadowTiles, this tick's
-const uint lights_binding = 6u;             // storage: GpuLights, this tick's
+const uint lights_binding = 6u;             // storage: words of lamps and their clusters, this tick's
 const uint environment_binding = 7u;        // sampled: octahedral map of the sky, a roughness per mip level
 const uint static_shadow_binding = 8u;      // sampled with comparison
 const uint moving_shadow_binding = 9u;      // sampled with comparison
@@ -21,6 +21,14 @@ const uint material_records_binding = 15u;  // texels: what it needs of each mat
 const uint shade_color_binding = 12u;       // storage image rgba16f
 const uint shade_luminance_binding = 14u;   // storage image r32f, cd/m^2
 const uint shade_seen_binding = 13u;        // storage image rg32ui: planar depth's bits, triangle + 1
+const uint sky_view_binding = 16u;          // sampled: floor, then shares of the sky at three heights above it
+const uint lens_binding = 17u;              // sampled: where the pinhole picture has the pixels' centres
+// Smoothing edges.
+const uint edges_seen_binding = 4u;            // storage image rg32ui
+const uint edges_from_binding = 5u;            // storage image rgba16f
+const uint edges_to_binding = 6u;              // storage image rgba16f
+const uint edges_luminance_from_binding = 7u;  // storage image r32f
+const uint edges_luminance_to_binding = 8u;    // storage image r32f
 const uint stars_binding = 20u;                       // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
@@ -39,7 +47,34 @@ const uint spec_luminance = 11u;
 const uint spec_haze = 12u;
 const uint spec_night_sky = 13u;
 const uint spec_ambient_occlusion = 14u;
-const uint shade_spec_count = 15u;
+const uint spec_distortion = 15u;
+const uint spec_blend = 16u;
+const uint spec_moving_bodies = 17u;  // of the visibility pass: off, it draws what never moves
+const uint shade_spec_count = 18u;
+
+/// Pixels of the static or moving shadow map's texels below which a pixel looks at nine of them.
+const float shadow_near = 0.75f;
+/// Rougher than this a surface mirrors the sky's irradiance instead of the environment map.
+const float environment_most_roughness = 0.6f;
+/// Heights over the floor at which shares of the sky are known, m, beside 0.
+const float sky_view_middle = 8.0f;
+const float sky_view_top = 24.0f;
+
+/// Clusters of lamps: tiles of the pinhole picture times slices of planar depth. The words: a header, (first entry,
+/// count) of each cluster, the entries (words where lamps begin), the lamps.
+const uint lamp_tile_pixels = 32u;
+const uint lamp_slices = 20u;
+const float lamp_slices_per_octave = 2.0f;
+const float lamp_slice_of_1m = 1.0f;
+const uint lamps_columns_word = 0u;
+const uint lamps_rows_word = 1u;
+const uint lamps_across_word = 2u;  // tiles across the picture, a float
+const uint lamps_down_word = 3u;
+const uint lamps_header_words = 4u;
+/// Of a lamp: position from the eye; 1 / range^2, 0: unlimited; direction, octahedral; intensity over the unit in halves:
+/// red and green, blue and 1 if directional (lux then); scale and offset of the cone.
+const uint lamp_record_words = 9u;
+const float lamp_intensity_unit = 64.0f;
 
 /// Texels of four words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
 ///   0  first corner; body << 16 | material
@@ -50,8 +85,11 @@ const uint shade_spec_count = 15u;
 ///   5  tangents at the three corners
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_texels = 6u;
-/// Of a material's record: base colour, metallic; emission, roughness; normal scale, textures as (index + 1) of base
-/// colour | metallic-roughness << 16, normal | emissive << 16.
+/// Of a material's record, low half first:
+///   0  base colour in halves: red, green; blue, 1 if there is a metallic-roughness texture; metallic, roughness as
+///      fractions of 65535; base-colour texture + 1, normal texture + 1
+///   1  emission in floats; metallic-roughness texture + 1, emissive texture + 1
+///   2  scale of the normal map
 const uint material_record_texels = 3u;
 
 const uint shade_group_width = 8u;
@@ -81,6 +119,8 @@ struct CameraConstants {
   vec3 light_eye;  ///< the eye in the sun's frame (GpuLighting::light_x, light_y, sun_direction)
   float near_m;
   float exposure;  ///< times radiance in cd/m^2 gives what is stored
+  float weight;    ///< of this part of the exposure time; 1: the whole
+  uint first;      ///< whether it is the first part
 };
 
 /// Set at construction: key light (sun or moon), sky, haze, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
@@ -112,6 +152,11 @@ struct GpuLighting {
   float moon_cos_phase;
   vec3 moon_disc;  ///< radiance of its bright part
   float pad3;
+  vec4 sky_view_uv;       ///< scale and offset of local x, y
+  float sky_view_floor;   ///< local z that heights are over
+  float sky_view_step;    ///< m along the normal at which a point is looked up
+  vec3 bounce;            ///< radiance of what hides the sky
+  float pad4;
   vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
 };
 
@@ -121,6 +166,13 @@ struct GpuStar {
   uint light;  ///< halves: illuminance / 1e-6 lux, 0 where there is none; warmth from 0 (blue) to 1
 };
 
+/// Before the tiles: how many, and the bounds of all in the sun's x, y.
+struct ShadowTilesHeader {
+  uint count;
+  vec2 min;
+  vec2 max;
+};
+
 /// Shadow of one moving body: a square of the sun's frame around it, and where that lies in the atlas.
 struct GpuShadowTile {
   vec3 center;  ///< of the body's bounding sphere, the sun's frame
@@ -128,18 +180,6 @@ struct GpuShadowTile {
   vec2 uv_center;   ///< of the tile
   float uv_radius;  ///< half of its edge, without the margin
   float texel_m;
-};
-
-/// Range, cone and colour of a point or spot light at this tick (KHR_lights_punctual), axes of the local
-/// frame, positions from the eye.
-struct GpuLight {
-  vec3 position;
-  float inverse_range_squared;  ///< 0: unlimited
-  vec3 direction;               ///< unit, along the cone (or of a directional light)
-  float cone_scale;             ///< attenuation = clamp(cos * scale + offset)^2; 0 and 1: no cone
-  vec3 intensity;               ///< cd; lux if directional
-  float cone_offset;
-  uint directional;
 };
 
 /// Push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
@@ -152,9 +192,9 @@ struct ShadowConstants {
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::CameraConstants) == 116);
-static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 144);
+static_assert(sizeof(greatx::shared::CameraConstants) == 124);
+static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 40 + 144);
+static_assert(sizeof(greatx::shared::ShadowTilesHeader) == 20);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);
-static_assert(sizeof(greatx::shared::GpuLight) == 52);
 #endif
 #endif

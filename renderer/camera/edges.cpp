@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/camera/edges.h"
+
+#include "renderer/camera/camera_view.h"
+#include "shaders/shared/camera.h"
+
+namespace greatx::render {
+
+EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
+    : lighting_(&lighting), width_(desc.width), height_(desc.height), scope_(desc.name + " edges") {
+  gpu::ComputeDesc edges;
+  edges.shader = "camera/edges.comp";
+  edges.bindings = scene::GpuScene::bindings(false);
+  for (const gpu::Binding& binding : SurfaceTables::bindings()) edges.bindings.push_back(binding);
+  edges.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
+  for (const uint32_t slot :
+       {shared::edges_seen_binding, shared::edges_from_binding, shared::edges_to_binding,
+        shared::edges_luminance_from_binding, shared::edges_luminance_to_binding})
+    edges.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  edges.push_constant_bytes = sizeof(shared::CameraConstants);
+  edges.specialization.resize(shared::shade_spec_count);
+  edges.specialization[shared::spec_color] = desc.outputs.color();
+  edges.specialization[shared::spec_luminance] = desc.outputs.luminance;
+  edges.specialization[shared::spec_distortion] = desc.distortion.any();
+  pipeline_ = gpu::ComputePipeline(lighting.scene().device(), edges, scope_);
+}
+
+void EdgePass::record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
+                      const Images& images) {
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope(scope_);
+  cmd.transition(images.seen, gpu::ImageUse::storage);
+  cmd.transition(images.color, gpu::ImageUse::storage);
+  cmd.transition(images.luminance, gpu::ImageUse::storage);
+  cmd.transition(images.smooth_color, gpu::ImageUse::storage, true);
+  cmd.transition(images.smooth_luminance, gpu::ImageUse::storage, true);
+  std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
+  for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
+    descriptors.push_back(descriptor);
+  descriptors.push_back(lens);
+  descriptors.push_back(gpu::Descriptor::storage(shared::edges_seen_binding, images.seen));
+  descriptors.push_back(gpu::Descriptor::storage(shared::edges_from_binding, images.color));
+  descriptors.push_back(gpu::Descriptor::storage(shared::edges_to_binding, images.smooth_color));
+  descriptors.push_back(gpu::Descriptor::storage(shared::edges_luminance_from_binding, images.luminance));
+  descriptors.push_back(
+      gpu::Descriptor::storage(shared::edges_luminance_to_binding, images.smooth_luminance));
+  cmd.bind(pipeline_);
+  cmd.push(descriptors);
+  cmd.constants(view.constants);
+  cmd.dispatch((width_ + shared::shade_group_width - 1) / shared::shade_group_width,
+               (height_ + shared::shade_group_height - 1) / shared::shade_group_height);
+}
+
+}  // namespace greatx::render

@@ -1,0 +1,76 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Smooth edges from one sample a pixel: where neighbours see different triangles, the nearer one's outline is known
+// exactly, and how far it reaches between the two centres says what share of each pixel it covers (after E. Persson,
+// "Geometry Buffer Anti-Aliasing", 2011).
+#include "camera/effects.glsl"
+#include "camera/lens_ray.glsl"
+#include "camera/triangle.glsl"
+
+layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
+layout(set = 0, binding = edges_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
+layout(set = 0, binding = edges_from_binding, rgba16f) uniform readonly image2D from_color;
+layout(set = 0, binding = edges_to_binding, rgba16f) uniform writeonly image2D to_color;
+layout(set = 0, binding = edges_luminance_from_binding, r32f) uniform readonly image2D from_luminance;
+layout(set = 0, binding = edges_luminance_to_binding, r32f) uniform writeonly image2D to_luminance;
+
+vec4 shaded(ivec2 at) { return luminance_on ? imageLoad(from_luminance, at) : imageLoad(from_color, at); }
+
+/// How far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the first.
+float reach(Seen seen, vec3 ray, vec3 step) {
+  float side = dot(ray, seen.normal) < 0.0 ? -1.0 : 1.0;
+  vec3 here = side * vec3(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator), dot(ray, seen.normal));
+  vec3 change = side * vec3(dot(step, seen.u_numerator), dot(step, seen.v_numerator), dot(step, seen.normal));
+  here.z -= here.x + here.y;
+  change.z -= change.x + change.y;
+  float least = 2.0;
+  for (int i = 0; i < 3; ++i)
+    if (change[i] < 0.0) least = min(least, max(here[i], 0.0) / -change[i]);
+  return least;
+}
+
+ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }
+uvec2 neighbor(ivec2 at, int k, ivec2 size) {
+  return imageLoad(seen_image, clamp(at + step_to(k), ivec2(0), size - 1)).rg;
+}
+
+/// The pixel's colour when the triangles of those neighbours whose bits are set in `differing` have their share of it.
+vec4 smoothed(ivec2 at, ivec2 size, uvec2 mine, uint differing, vec4 color) {
+  vec3 ray = pixel_ray(pinhole_place(at));
+  vec4 across = vec4(0.0), down = vec4(0.0);
+  vec2 share = vec2(0.0);
+  while (differing != 0u) {
+    int k = findLSB(differing);
+    differing &= differing - 1u;
+    ivec2 there = at + step_to(k);
+    uvec2 other = neighbor(at, k, size);
+    vec3 other_ray = pixel_ray(pinhole_place(there));
+    bool nearer = uintBitsToFloat(mine.x) <= uintBitsToFloat(other.x);
+    Seen seen = see((nearer ? mine.y : other.y) - 1u);
+    float covered = nearer ? reach(seen, ray, other_ray - ray) : reach(seen, other_ray, ray - other_ray);
+    float weight = clamp(nearer ? 0.5 - covered : covered - 0.5, 0.0, 0.5);
+    // Triangles of one flat face have no edge between them.
+    if (mine.y != 0u && other.y != 0u && scene_facet(mine.y - 1u) == scene_facet(other.y - 1u)) weight = 0.0;
+    vec4 part = weight * shaded(there);
+    across += k < 2 ? part : vec4(0.0);
+    down += k < 2 ? vec4(0.0) : part;
+    share += k < 2 ? vec2(weight, 0.0) : vec2(0.0, weight);
+  }
+  // An edge crosses both ways: the axis that it is steeper to tells the share.
+  return share.y > share.x ? color * (1.0 - share.y) + down : color * (1.0 - share.x) + across;
+}
+
+void main() {
+  ivec2 size = imageSize(seen_image), at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, size))) return;
+  uvec2 mine = imageLoad(seen_image, at).rg;
+  uint differing = 0u;
+  for (int k = 0; k < 4; ++k) differing |= uint(neighbor(at, k, size).y != mine.y) << k;
+  vec4 color = shaded(at);
+  if (differing != 0u) color = smoothed(at, size, mine, differing, color);
+  if (color_on) imageStore(to_color, at, color);
+  if (luminance_on) imageStore(to_luminance, at, color);
+}
