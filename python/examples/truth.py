@@ -37,7 +37,7 @@ speed = np.hypot(flow[..., 0], flow[..., 1])
 print(f"{camera.name}, tick {record.tick}: flow up to {np.nanmax(speed):.1f} pixels")
 
 # %% Flow as colours: direction is hue, length is strength; black where there is none
-strength = np.nan_to_num(np.clip(speed / max(np.nanpercentile(speed, 98), 1e-6), 0, 1))
+strength = np.nan_to_num(np.clip(speed / max(np.nanpercentile(speed, 90), 1e-6), 0, 1))
 hue = np.nan_to_num(np.arctan2(flow[..., 1], flow[..., 0])) / (2 * np.pi) * 6
 wheel = np.clip(np.abs((hue[..., None] + [0, 4, 2]) % 6 - 3) - 1, 0, 1)
 color = np.where(np.isnan(speed)[..., None], 0, 1 - strength[..., None] * (1 - wheel))
@@ -48,14 +48,14 @@ with open("flow.flo", "wb") as file:
     file.write(struct.pack("<fii", 202021.25, flow.shape[1], flow.shape[0]))
     file.write(np.where(np.isnan(flow), np.float32(1e10), flow).astype("<f4").tobytes())
 
-# %% Boxes: amodal in yellow, of the visible pixels in green
+# %% Boxes of what is seen: amodal in yellow, of the visible pixels in green
 picture = record.rgb.copy()
-for amodal, modal, share in zip(record.box_amodal, record.box_modal, record.box_visibility):
-    for box, ink in ((amodal, (255, 220, 0)), (modal, (0, 255, 0)))[:2 if share > 0 else 1]:
+for i in np.flatnonzero(record.box_visible_pixels):
+    for box, ink in ((record.box_amodal[i], (255, 220, 0)), (record.box_modal[i], (0, 255, 0))):
         u0, v0, u1, v1 = (int(x) for x in box)
         u1, v1 = min(u1, picture.shape[1] - 1), min(v1, picture.shape[0] - 1)
         picture[v0:v1 + 1, [u0, u1]] = picture[[v0, v1], u0:u1 + 1] = ink
 write_png("boxes.png", picture)
-for i in np.argsort(-record.box_visible_pixels)[:5]:
+for i in np.argsort(record.box_visible_pixels)[:-6:-1]:
     print(f"  {ds.semantic_classes[record.box_semantic[i]]:12} {np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
           f"{record.box_visible_pixels[i]:6} pixels, visibility {record.box_visibility[i]:.2f}")

@@ -46,6 +46,26 @@ channels:
      bandwidth_hz: 100e6, subcarriers: 64, time_samples: 3, time_spacing_s: 1e-3, max_depth: 2}
 """
 
+# A van that follows a car, with every kind of a camera's ground truth.
+TRUTH = """
+greatx: 1
+name: truth
+ticks: 3
+tick_rate_hz: 10
+scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+nodes:
+  - name: van
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, {t_s: 1, position_m: [2.2, -20, 0]}]}
+    model: {generate: {kind: car, variant: van}}
+    sensors:
+      - {name: front, type: camera, rate_hz: 10, width: 62, height: 48, fov_deg: 80, mount: {position_m: [1.5, 0, 1.8]},
+         outputs: [rgb, depth, ids, depth_ray, normals, flow, boxes]}
+  - name: car
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -20, 0]}, {t_s: 1, position_m: [2, -9, 0]}]}
+    model: {generate: {kind: car}}
+    class: vehicle
+"""
+
 # Two antennas in free space, the second moving away: closed forms. Two runs of it.
 SPACE = """
 greatx: 1
@@ -88,6 +108,11 @@ def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
 def street() -> pathlib.Path:
     """The folder of a data set of STREET, which is not to be changed."""
     return _made("street", STREET)
+
+
+def truth() -> pathlib.Path:
+    """The folder of a data set of TRUTH, which is not to be changed."""
+    return _made("truth", TRUTH)
 
 
 def space() -> pathlib.Path:

@@ -34,6 +34,11 @@ class Examples(unittest.TestCase):
     def test_convert_deepmimo(self):
         self.assertIn("mean gain", self.run_example("convert_deepmimo.py", support.street()))
 
+    def test_truth(self):
+        out = self.run_example("truth.py", support.truth())
+        self.assertIn("van/front, tick 1: flow up to ", out)
+        self.assertIn("visibility", out)
+
     def test_each_fits_on_two_screens(self):
         for path in EXAMPLES.glob("*.py"):
             self.assertLess(len(path.read_text().splitlines()), 80, path)
