@@ -28,9 +28,9 @@ struct EffectPlan {
   Effect acceleration_structure, scene_motion;
   // Cameras.
   Effect camera, rgb, depth, ids, hdr, sun, sky, static_shadows, moving_shadows, textures, normal_maps,
-      alpha_mask, emissive, punctual_lights;
+      alpha_mask, emissive, punctual_lights, haze, night_sky;
   // LiDAR.
-  Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion;
+  Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion, lidar_haze;
   // Radio.
   Effect channel, line_of_sight, reflection, moving_reflectors, transmission, diffraction,
       diffraction_lit_region, free_edges, scattering, roughness, gas, rain, fog, foliage, dispersion, doppler,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plan/plan_options.h"
 
+#include "sim/plan/light_plan.h"
+
 namespace greatx::sim {
 
 scene::GpuSceneOptions gpu_scene_options(const EffectPlan& plan) {
@@ -20,15 +22,11 @@ render::CameraEffects camera_effects(const EffectPlan& plan) {
   effects.alpha_mask = plan.alpha_mask.on;
   effects.emissive = plan.emissive.on;
   effects.punctual_lights = plan.punctual_lights.on;
+  effects.haze = plan.haze.on;
+  effects.night_sky = plan.night_sky.on;
   return effects;
 }
 
-render::Lighting lighting_of(const Environment& environment) {
-  render::Lighting lighting;
-  lighting.sun_direction = render::Lighting::direction(environment.sun_azimuth, environment.sun_elevation);
-  lighting.sun_illuminance_lux = environment.sun_illuminance_lux;
-  lighting.sky_illuminance_lux = environment.sky_illuminance_lux;
-  return lighting;
-}
+render::Lighting lighting_of(const Environment& environment) { return resolve(environment).lighting; }
 
 }  // namespace greatx::sim

@@ -3,13 +3,15 @@
 #include "sim/sensors/lidar_sensor.h"
 
 #include "core/units.h"
+#include "sim/plan/light_plan.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
 
 namespace {
 
-render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan, uint32_t body) {
+render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan,
+                             const Environment& environment, uint32_t body) {
   const auto& config = std::get<LidarConfig>(sensor.config);
   render::LidarDesc desc;
   desc.elevations = config.elevations;
@@ -23,6 +25,7 @@ render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan,
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   desc.alpha_mask = plan.lidar_alpha_mask.on;
   desc.textured_reflectance = plan.lidar_textures.on;
+  if (plan.lidar_haze.on) desc.extinction_per_m = haze_extinction(environment);
   return desc;
 }
 
@@ -35,7 +38,9 @@ LidarSensor::LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, con
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       per_shot_(plan.lidar_sweep_motion.on &&
                 std::get<LidarConfig>(scenario.nodes[node].sensors[sensor].config).sweep_s > 0.0),
-      pass_(gpu_scene, lidar_desc(scenario.nodes[node].sensors[sensor], plan, world.body_of_node[node]),
+      pass_(gpu_scene,
+            lidar_desc(scenario.nodes[node].sensors[sensor], plan, scenario.environment,
+                       world.body_of_node[node]),
             scenario.nodes[node].name + "/" + scenario.nodes[node].sensors[sensor].name) {
   spec_.name = scenario.nodes[node].name + "/" + scenario.nodes[node].sensors[sensor].name;
   spec_.kind = "lidar";
@@ -71,6 +76,7 @@ void LidarSensor::describe() {
   metadata["min_range_m"] = desc.min_range_m;
   metadata["max_range_m"] = desc.max_range_m;
   metadata["wavelength_nm"] = desc.wavelength_nm;
+  metadata["extinction_per_m"] = desc.extinction_per_m;
   metadata["frame"] = "x forward, y left, z up";
   metadata["body_from_sensor"] = json_of(mount_);
   spec_.metadata_json = metadata.dump();

@@ -102,47 +102,5 @@ TEST(Develop, SrgbBytes) {
 
 TEST(Exposure, SaturationOfSunnySixteen) { EXPECT_DOUBLE_EQ(render::saturation_luminance(15.0), 39321.6); }
 
-TEST(Sky, LightsLevelGroundAsAsked) {
-  for (const double elevation : {-5.0, 3.0, 30.0, 90.0}) {
-    render::Lighting lighting;
-    lighting.sun_direction = render::Lighting::direction(0.3, radians(elevation));
-    lighting.sky_illuminance_lux = 12345.0;
-    const render::Sky sky(lighting);
-    double sum = 0.0;
-    constexpr int rings = 400, sectors = 200;
-    for (int i = 0; i < rings; ++i)
-      for (int k = 0; k < sectors; ++k) {
-        const double z = (i + 0.5) / rings, phi = 2.0 * pi * (k + 0.5) / sectors, r = std::sqrt(1.0 - z * z);
-        const dvec3 radiance = sky.radiance({r * std::cos(phi), r * std::sin(phi), z});
-        EXPECT_TRUE(radiance.x >= 0.0 && radiance.y >= 0.0 && radiance.z >= 0.0);
-        sum += render::luminance(radiance) * z * 2.0 * pi / (rings * sectors);
-      }
-    EXPECT_NEAR(sum / 12345.0, 1.0, 0.01) << elevation;
-    EXPECT_NEAR(render::luminance(sky.sun_illuminance()), elevation > 0.0 ? 100000.0 : 0.0, 1e-6);
-    const auto sh = render::sky_irradiance(sky);
-    EXPECT_NEAR(render::luminance(sh[0] + sh[2] + 2.0 * sh[6]) * pi, 12345.0, 1e-6);
-  }
-}
-
-TEST(Sky, BlueAboveWarmSunInTheEvening) {
-  render::Lighting lighting;
-  lighting.sun_direction = render::Lighting::direction(0.0, radians(50.0));
-  const dvec3 zenith = render::Sky(lighting).radiance({0, 0, 1});
-  EXPECT_GT(zenith.z, 1.5 * zenith.x);
-  lighting.sun_direction = render::Lighting::direction(0.0, radians(5.0));
-  const dvec3 evening = render::Sky(lighting).sun_illuminance();
-  EXPECT_GT(evening.x, 2.0 * evening.z);
-}
-
-TEST(Sky, UniformSkyIsUniform) {
-  render::Lighting lighting;
-  lighting.sky_model = render::SkyModel::uniform;
-  const render::Sky sky(lighting);
-  const auto sh = render::sky_irradiance(sky);
-  EXPECT_NEAR(sh[0].x, 15000.0 / pi, 1e-4 * 15000.0);
-  for (size_t i = 1; i < sh.size(); ++i) EXPECT_NEAR(sh[i].x, 0.0, 1e-4 * 15000.0);
-  EXPECT_NEAR(sky.radiance({0, 0, -1}).x, 15000.0 / pi, 1e-9);
-}
-
 }  // namespace
 }  // namespace greatx
