@@ -122,6 +122,7 @@ class CameraPass {
 
   const CameraDesc& desc() const { return desc_; }
   /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times stored_luminance() is cd/m^2.
+  /// Alpha: share of the pixel that shows the scene and not the sky.
   gpu::Image& hdr_image() { return color_; }
   /// Of `outputs.luminance`: cd/m^2, R32_SFLOAT, in ImageUse::storage after record().
   gpu::Image& luminance_image() { return luminance_; }

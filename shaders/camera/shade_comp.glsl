@@ -77,7 +77,7 @@ void main() {
   for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, in_pinhole, s).r;
   vec3 radiance = vec3(0.0);
   Center center = Center(infinity, 0u), first = center;
-  bool sky = false;
+  float sky = 0.0;  // share of the samples
   uint left = (1u << sample_count) - 1u;  // samples not yet accounted for
   while (left != 0u) {
     uint id = 0u, same = 0u;
@@ -86,7 +86,7 @@ void main() {
     left &= ~same;
     float weight = float(bitCount(same)) / float(sample_count);
     if (id == 0u) {
-      sky = true;
+      sky += weight;
       if (color_on || luminance_on) radiance += weight * sky_radiance(ray);
     } else {
       Seen seen = see(id - 1u);
@@ -96,10 +96,10 @@ void main() {
     }
   }
   // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
-  if (center.id == 0u && !sky) center = first;
+  if (center.id == 0u && sky == 0.0) center = first;
   radiance *= camera.weight;
   if (color_on) {
-    vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), 1.0);
+    vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
     vec4 before = blend_on ? imageLoad(color_image, at) : vec4(0.0);
     imageStore(color_image, at, blend_on ? exposed(stored, before) : stored);
   }

@@ -68,13 +68,14 @@ class CameraRig {
         camera_(lighting_, desc),
         ring_(device(), 2, 1 << 16, 1 << 20) {}
 
-  gpu::TickSlot& record(const Pose& sensor, std::vector<Pose> moving = {}) {
+  gpu::TickSlot& record(const Pose& sensor, std::vector<Pose> moving = {},
+                        const render::FrameNumber& frame = {}) {
     moving.insert(moving.begin(), Pose{});
     moving.resize(scene_->bodies.size());
     gpu::TickSlot& slot = ring_.begin();
     gpu_.record_update(slot, moving);
     lighting_.record(slot, moving);
-    camera_.record(slot, sensor);
+    camera_.record(slot, sensor, frame);
     ring_.submit(slot);
     return slot;
   }
