@@ -6,16 +6,22 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <png.h>
+#include <utility>
+
+#include <libdeflate.h>
 
 namespace greatx::io {
 
 namespace {
 
-constexpr int compression_level = 1;  // of zlib; 2 takes 12 % longer for 3 % less
-// In all lines: libpng's own choice takes 12 % (pictures) to 80 % (ids) longer for 2 % less at best.
-constexpr int filter = PNG_FILTER_UP;
-constexpr size_t idat_bytes = 1 << 16;
+// Of libdeflate. Against libpng with zlib's level 1, CPU time of a picture of 640x480: RGB 5.9 ms instead of 10.5 and 5 %
+// smaller; depth in 24 bits 3.2 instead of 5.2 and 14 % smaller; ids 1.3 instead of 1.4 and 30 % smaller. Level 2 takes
+// half as long again for RGB, level 1 is the slower one for ids.
+constexpr int color_level = 1, grey_level = 2;
+// In all lines: other filters are no faster and mostly larger.
+constexpr std::byte filter_up{2};
 constexpr uint32_t largest_side = (1 << 24) - 1;
 
 struct Layout {
@@ -28,45 +34,27 @@ struct Layout {
 
 /// What libpng's callbacks share. libpng leaves a failed call by longjmp, so the functions that call setjmp below own
 /// nothing that needs a destructor: whatever does lies here or with their callers.
-struct Session {
+struct ReadSession {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  Bytes out;                        ///< writing: the file so far
-  std::span<const std::byte> in;    ///< reading: what is left of the file
+  std::span<const std::byte> in;    ///< what is left of the file
   char message[128] = "no memory";  ///< of the error
 
-  Session() = default;
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  static Session& of(png_structp png) { return *static_cast<Session*>(png_get_error_ptr(png)); }
-};
-
-struct WriteSession : Session {
-  ~WriteSession() { png_destroy_write_struct(&png, &info); }
-};
-struct ReadSession : Session {
+  ReadSession() = default;
+  ReadSession(const ReadSession&) = delete;
+  ReadSession& operator=(const ReadSession&) = delete;
   ~ReadSession() { png_destroy_read_struct(&png, &info, nullptr); }
+  static ReadSession& of(png_structp png) { return *static_cast<ReadSession*>(png_get_error_ptr(png)); }
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  Session& session = Session::of(png);
+  ReadSession& session = ReadSession::of(png);
   std::snprintf(session.message, sizeof(session.message), "%s", message);
   png_longjmp(png, 1);
 }
 
-void on_write(png_structp png, png_bytep data, size_t size) {
-  try {
-    append(Session::of(png).out, std::as_bytes(std::span(data, size)));
-    return;
-  } catch (const std::exception&) {  // must not pass through libpng
-  }
-  png_error(png, "no memory");
-}
-
-void on_flush(png_structp) {}
-
 void on_read(png_structp png, png_bytep data, size_t size) {
-  std::span<const std::byte>& in = Session::of(png).in;
+  std::span<const std::byte>& in = ReadSession::of(png).in;
   if (size > in.size()) png_error(png, "the file is cut off");
   std::memcpy(data, in.data(), size);
   in = in.subspan(size);
@@ -77,27 +65,8 @@ void match_byte_order(png_structp png, const Layout& layout) {
   if (layout.bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
 }
 
-bool write_png(Session& session, const Layout& layout, const std::byte* pixels) {
-  session.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_error);
-  if (session.png != nullptr) session.info = png_create_info_struct(session.png);
-  if (session.info == nullptr || setjmp(png_jmpbuf(session.png)) != 0) return false;
-  png_set_write_fn(session.png, nullptr, on_write, on_flush);
-  png_set_user_limits(session.png, largest_side, largest_side);
-  png_set_IHDR(session.png, session.info, layout.width, layout.height, layout.bit_depth, layout.color_type,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
-  png_set_compression_level(session.png, compression_level);
-  png_set_compression_buffer_size(session.png, idat_bytes);
-  png_set_filter(session.png, PNG_FILTER_TYPE_BASE, filter);
-  png_write_info(session.png, session.info);
-  match_byte_order(session.png, layout);
-  for (uint32_t y = 0; y < layout.height; ++y)
-    png_write_row(session.png, reinterpret_cast<png_const_bytep>(pixels + y * layout.row_bytes()));
-  png_write_end(session.png, nullptr);
-  return true;
-}
-
 /// Everything before the pixels. Warnings are errors: a file of a data set has nothing to warn about.
-bool read_header(Session& session, Layout& layout, bool& interlaced) {
+bool read_header(ReadSession& session, Layout& layout, bool& interlaced) {
   session.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_error);
   if (session.png != nullptr) session.info = png_create_info_struct(session.png);
   if (session.info == nullptr || setjmp(png_jmpbuf(session.png)) != 0) return false;
@@ -110,7 +79,7 @@ bool read_header(Session& session, Layout& layout, bool& interlaced) {
   return true;
 }
 
-bool read_pixels(Session& session, const Layout& layout, std::byte* pixels) {
+bool read_pixels(ReadSession& session, const Layout& layout, std::byte* pixels) {
   if (setjmp(png_jmpbuf(session.png)) != 0) return false;
   match_byte_order(session.png, layout);
   for (uint32_t y = 0; y < layout.height; ++y)
@@ -119,15 +88,71 @@ bool read_pixels(Session& session, const Layout& layout, std::byte* pixels) {
   return true;
 }
 
+void append_word(Bytes& out, uint32_t word) {
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::byte>(word >> shift));
+}
+
+/// Length, type, data, checksum of type and data (section 5.3 of the standard). `fill` appends the data.
+template <typename Fill>
+void append_chunk(Bytes& out, const char (&type)[5], Fill&& fill) {
+  const size_t length_at = out.size();
+  append_word(out, 0);
+  append(out, std::as_bytes(std::span(type, 4)));
+  fill();
+  const auto length = static_cast<uint32_t>(out.size() - length_at - 8);
+  for (int i = 0; i < 4; ++i) out[length_at + size_t(i)] = static_cast<std::byte>(length >> (24 - 8 * i));
+  append_word(out, libdeflate_crc32(0, out.data() + length_at + 4, length + 4));
+}
+
+/// Each line behind its filter's number, less the line above; 16-bit values in big-endian order.
+Bytes filtered(const Layout& layout, const std::byte* pixels) {
+  const size_t row = layout.row_bytes();
+  const bool swap = layout.bit_depth == 16 && std::endian::native == std::endian::little;
+  Bytes lines((row + 1) * layout.height), above(row), line(row);
+  std::byte* to = lines.data();
+  for (uint32_t y = 0; y < layout.height; ++y) {
+    const std::byte* from = pixels + y * row;
+    for (size_t i = 0; i < row; ++i) line[i] = from[swap ? i ^ 1 : i];
+    *to++ = filter_up;
+    for (size_t i = 0; i < row; ++i)
+      to[i] =
+          static_cast<std::byte>(std::to_integer<unsigned>(line[i]) - std::to_integer<unsigned>(above[i]));
+    to += row;
+    std::swap(line, above);
+  }
+  return lines;
+}
+
 /// Bytes of `pixels`: line after line, 16-bit values as the machine has them.
 Bytes encode(const Layout& layout, std::span<const std::byte> pixels) {
   GREATX_CHECK(pixels.size() == layout.height * layout.row_bytes(), "{} bytes for {}x{} pixels",
                pixels.size(), layout.width, layout.height);
-  WriteSession session;
-  session.out.reserve(pixels.size() / 2);
-  const bool written = write_png(session, layout, pixels.data());
-  GREATX_CHECK(written, "libpng: {}", session.message);
-  return std::move(session.out);
+  const Bytes lines = filtered(layout, pixels.data());
+  const int level = layout.color_type == PNG_COLOR_TYPE_RGB ? color_level : grey_level;
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+  GREATX_CHECK(compressor != nullptr, "libdeflate: no memory");
+
+  constexpr uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  Bytes out;
+  append(out, std::as_bytes(std::span(signature)));
+  append_chunk(out, "IHDR", [&] {
+    append_word(out, layout.width);
+    append_word(out, layout.height);
+    for (const int byte : {layout.bit_depth, layout.color_type, PNG_COMPRESSION_TYPE_BASE,
+                           PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE})
+      out.push_back(static_cast<std::byte>(byte));
+  });
+  append_chunk(out, "IDAT", [&] {
+    const size_t begin = out.size();
+    out.resize(begin + libdeflate_zlib_compress_bound(compressor.get(), lines.size()));
+    const size_t size = libdeflate_zlib_compress(compressor.get(), lines.data(), lines.size(),
+                                                 out.data() + begin, out.size() - begin);
+    GREATX_CHECK(size > 0 && size < (1u << 31), "libdeflate: {} bytes of {}", size, lines.size());
+    out.resize(begin + size);
+  });
+  append_chunk(out, "IEND", [] {});
+  return out;
 }
 
 Layout layout_of(const Array& image, int bit_depth, int color_type) {

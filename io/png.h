@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PNG (ISO/IEC 15948) by libpng, set for speed: zlib's level 1, the filter Up in every line. The same pixels always give
-// the same bytes (of one libpng and zlib).
+// PNG (ISO/IEC 15948), written for speed: libdeflate, the filter Up in every line; read by libpng. The same pixels always
+// give the same bytes (of one libdeflate).
 #pragma once
 
 #include "core/record.h"
