@@ -144,13 +144,17 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
   const double clear_lux = illuminance_;
   const LayerLight below = through_layer(key.lux, key.direction.z, clear_lux, lighting.haze_depth,
                                          uniform ? 1.0 : lighting.ground_albedo);
-  if (key.lux > 0.0) key_illuminance_ *= below.direct_lux / key.lux;
+  const dvec3 key_color = key.lux > 0.0 ? key_illuminance_ / key.lux : dvec3(0.0);
+  key_illuminance_ = key_color * below.direct_lux;
   depth_ = lighting.haze_depth;
-  dvec3 mean(0.0);
+  dvec3 mean(0.0), on_ground(0.0);
   over_sphere([&](const dvec3& d, double solid_angle) {
     mean += (d.z > 0.0 ? clear(d) : ground_) * (solid_angle / (4.0 * pi));
+    if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
   });
-  haze_ambient_ = mean;
+  // Scattered many times over: the colour of all light that came in, less what goes straight through.
+  if (key.lux > 0.0) on_ground += key_color * (std::max(key.direction.z, 0.0) * (key.lux - below.direct_lux));
+  haze_ambient_ = luminance(on_ground) > 0.0 ? of_luminance(on_ground, luminance(mean)) : dvec3(0.0);
   haze_directed_ = key_illuminance_ * ((1.0 - haze_asymmetry * haze_asymmetry) / (4.0 * pi));
   if (depth_ <= 0.0) return;
   double kept = 0.0, added = 0.0;
