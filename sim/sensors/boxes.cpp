@@ -229,25 +229,6 @@ bool Boxes::outside(const Object& object, const Pose& optical_from_body) const {
   return beyond_all != 0;
 }
 
-void Boxes::extend(dvec4& bounds, std::span<const dvec2> polygon) const {
-  const auto add = [&](const dvec2& p) {
-    bounds = {std::min(bounds.x, p.x), std::min(bounds.y, p.y), std::max(bounds.z, p.x),
-              std::max(bounds.w, p.y)};
-  };
-  if (!projection_.distorted()) {
-    for (const dvec2& corner : polygon) add(corner);
-    return;
-  }
-  // A lens bends long edges: a point every few pixels of them.
-  constexpr double step = 8.0;
-  constexpr double most_steps = 256.0;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const dvec2 along = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const double steps = std::clamp(std::ceil(glm::length(along) / step), 1.0, most_steps);
-    for (double s = 0.0; s < steps; s += 1.0) add(projection_.picture(polygon[i] + along * (s / steps)));
-  }
-}
-
 void Boxes::project(const Object& object, const Pose& optical_from_body, ObjectBox& box) {
   const glm::dmat3 turn = glm::mat3_cast(optical_from_body.orientation);
   optical_.resize(object.vertices.size());
@@ -272,8 +253,11 @@ void Boxes::project(const Object& object, const Pose& optical_from_body, ObjectB
       }
     }
     if (corners == 0) continue;
-    extend(box.unclipped, {polygon.data(), corners});
-    coverage_.add({polygon.data(), corners});
+    const std::span<const dvec2> part(polygon.data(), corners);
+    const dvec4 bounds = projection_.bounds(part);
+    box.unclipped = {std::min(box.unclipped.x, bounds.x), std::min(box.unclipped.y, bounds.y),
+                     std::max(box.unclipped.z, bounds.z), std::max(box.unclipped.w, bounds.w)};
+    coverage_.add(part, bounds);
   }
 }
 

@@ -72,7 +72,6 @@ class Boxes {
   void count_seen(std::span<const uint32_t> instances);
   bool outside(const Object& object, const Pose& optical_from_body) const;
   void project(const Object& object, const Pose& optical_from_body, ObjectBox& box);
-  void extend(dvec4& bounds, std::span<const dvec2> polygon) const;
 
   const scene::Scene& scene_;
   Projection projection_;

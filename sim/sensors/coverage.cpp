@@ -54,31 +54,30 @@ dvec2 Projection::picture(const dvec2& pinhole) const {
   return principal + focal * distortion_.distort(n);
 }
 
+dvec4 Projection::bounds(std::span<const dvec2> polygon) const {
+  dvec4 bounds(infinity, infinity, -infinity, -infinity);
+  const auto add = [&](const dvec2& p) {
+    bounds = {std::min(bounds.x, p.x), std::min(bounds.y, p.y), std::max(bounds.z, p.x),
+              std::max(bounds.w, p.y)};
+  };
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    if (!distorted()) {
+      add(polygon[i]);
+      continue;
+    }
+    const dvec2 along = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const double points = std::clamp(std::ceil(glm::length(along) / edge_step), 1.0, most_edge_points);
+    for (double s = 0.0; s < points; s += 1.0) add(picture(polygon[i] + along * (s / points)));
+  }
+  return bounds;
+}
+
 Coverage::Coverage(const Projection& projection)
     : projection_(&projection),
       words_((size_t{projection.width()} + 63) / 64),
       bits_(words_ * projection.height(), 0),
       first_row_(projection.height()),
-      end_row_(0) {
-  if (!projection.distorted()) return;
-  const uint32_t width = projection.width(), height = projection.height();
-  row_most_.assign(height, -infinity);
-  row_least_.assign(height, infinity);
-  column_most_.assign(width, -infinity);
-  column_least_.assign(width, infinity);
-  for (uint32_t row = 0; row < height; ++row)
-    for (uint32_t column = 0; column < width; ++column) {
-      const dvec2& center = projection.centers()[size_t{row} * width + column];
-      row_most_[row] = std::max(row_most_[row], center.y);
-      row_least_[row] = std::min(row_least_[row], center.y);
-      column_most_[column] = std::max(column_most_[column], center.x);
-      column_least_[column] = std::min(column_least_[column], center.x);
-    }
-  for (std::vector<double>* most : {&row_most_, &column_most_})
-    for (size_t i = 1; i < most->size(); ++i) (*most)[i] = std::max((*most)[i], (*most)[i - 1]);
-  for (std::vector<double>* least : {&row_least_, &column_least_})
-    for (size_t i = least->size() - 1; i-- > 0;) (*least)[i] = std::min((*least)[i], (*least)[i + 1]);
-}
+      end_row_(0) {}
 
 void Coverage::clear() {
   if (first_row_ < end_row_)
@@ -101,9 +100,9 @@ uint32_t Coverage::count() const {
   return total;
 }
 
-void Coverage::add(std::span<const dvec2> polygon) {
+void Coverage::add(std::span<const dvec2> polygon, const dvec4& bounds) {
   if (projection_->distorted())
-    add_distorted(polygon);
+    add_distorted(polygon, bounds);
   else
     add_straight(polygon);
 }
@@ -146,28 +145,28 @@ void Coverage::add_straight(std::span<const dvec2> polygon) {
   }
 }
 
-void Coverage::add_distorted(std::span<const dvec2> polygon) {
-  dvec2 least(infinity), most(-infinity);
-  double doubled_area = 0.0;
+void Coverage::add_distorted(std::span<const dvec2> polygon, const dvec4& bounds) {
+  // Between two points of an edge the lens bends it by a fraction of a pixel, with the square of their distance; an edge
+  // too long for that may be anywhere.
+  constexpr double most_bend = 2.0;
+  double doubled_area = 0.0, longest = 0.0;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    least = glm::min(least, polygon[i]);
-    most = glm::max(most, polygon[i]);
-    const dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    const dvec2& next = polygon[(i + 1) % polygon.size()];
+    const dvec2 a = polygon[i] - polygon[0], b = next - polygon[0];
     doubled_area += a.x * b.y - a.y * b.x;
+    longest = std::max(longest, glm::length(next - polygon[i]));
   }
+  const double step = std::min(longest / Projection::edge_step, 1.0);
+  const double margin =
+      longest > Projection::edge_step * Projection::most_edge_points ? infinity : most_bend * step * step;
+  const dvec4 within = bounds + dvec4(-margin, -margin, margin, margin);
   if (doubled_area == 0.0) return;
   const double side = doubled_area > 0.0 ? 1.0 : -1.0;
-  const auto range = [](const std::vector<double>& greatest, const std::vector<double>& smallest, double from,
-                        double to) {
-    const auto first = std::ranges::lower_bound(greatest, from) - greatest.begin();
-    const auto end = std::ranges::upper_bound(smallest, to) - smallest.begin();
-    return std::pair(static_cast<uint32_t>(first), static_cast<uint32_t>(end));
-  };
-  const auto [first_row, end_row] = range(row_most_, row_least_, least.y, most.y);
-  const auto [first_column, end_column] = range(column_most_, column_least_, least.x, most.x);
-  for (uint32_t row = first_row; row < end_row; ++row) {
-    const dvec2* const centers = projection_->centers().data() + size_t{row} * projection_->width();
-    for (uint32_t column = first_column; column < end_column; ++column) {
+  const uint32_t width = projection_->width(), end_row = first_center(within.w, projection_->height()),
+                 end_column = first_center(within.z, width);
+  for (uint32_t row = first_center(within.y, projection_->height()); row < end_row; ++row) {
+    const dvec2* const centers = projection_->centers().data() + size_t{row} * width;
+    for (uint32_t column = first_center(within.x, width); column < end_column; ++column) {
       bool inside = true;
       for (size_t i = 0; inside && i < polygon.size(); ++i) {
         const dvec2& a = polygon[i];

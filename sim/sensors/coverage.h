@@ -26,6 +26,12 @@ class Projection {
   /// Pixel coordinates in the picture. What lies beyond the lens's fold (outside of the picture for sure) is taken to
   /// the fold.
   dvec2 picture(const dvec2& pinhole) const;
+  /// Bounds in the picture of a polygon of pinhole coordinates: u_min, v_min, u_max, v_max. A lens bends its edges:
+  /// points are taken every `edge_step` pixels of them.
+  dvec4 bounds(std::span<const dvec2> polygon) const;
+  static constexpr double edge_step = 8.0;
+  /// Points of an edge at most; a longer edge is sampled more coarsely.
+  static constexpr double most_edge_points = 256.0;
   bool distorted() const { return distortion_.any(); }
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
@@ -52,9 +58,10 @@ class Coverage {
   explicit Coverage(const Projection& projection);
 
   void clear();
-  /// Adds the pixels whose centres lie in a convex polygon of pinhole pixel coordinates. Without distortion an edge's
-  /// centres belong to the polygon on its right or lower side, so that neighbours share none.
-  void add(std::span<const dvec2> polygon);
+  /// Adds the pixels whose centres lie in a convex polygon of pinhole pixel coordinates, whose bounds() in the picture
+  /// are `bounds`. Without distortion an edge's centres belong to the polygon on its right or lower side, so that
+  /// neighbours share none.
+  void add(std::span<const dvec2> polygon, const dvec4& bounds);
   void add(uint32_t column, uint32_t row) { row_bits(row)[column / 64] |= uint64_t{1} << (column % 64); }
   bool contains(uint32_t column, uint32_t row) const {
     return (bits_[size_t{row} * words_ + column / 64] >> (column % 64) & 1) != 0;
@@ -66,15 +73,12 @@ class Coverage {
   uint64_t* row_bits(uint32_t row);
   void add_span(uint32_t row, uint32_t first, uint32_t end);
   void add_straight(std::span<const dvec2> polygon);
-  void add_distorted(std::span<const dvec2> polygon);
+  void add_distorted(std::span<const dvec2> polygon, const dvec4& bounds);
 
   const Projection* projection_;
   size_t words_;  ///< a row
   std::vector<uint64_t> bits_;
   uint32_t first_row_, end_row_;  ///< of what may be set
-  /// Of a distorting lens, by row and by column: no centre of rows 0..j lies below row_most_[j], none of j.. above
-  /// row_least_[j].
-  std::vector<double> row_most_, row_least_, column_most_, column_least_;
 };
 
 }  // namespace greatx::sim

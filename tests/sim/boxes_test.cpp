@@ -172,9 +172,9 @@ TEST(Boxes, CountThePixelsWhoseRaysMeetTheObject) {
   }
 }
 
-TEST(Boxes, BehindALensThatDistorts) {
+void check_lens(const render::Distortion& distortion) {
   CameraDesc desc = box_camera();
-  desc.distortion = {-0.22, 0.04, 0.002, -0.003, 0.0};
+  desc.distortion = distortion;
   const render::Lens lens(
       {"camera", desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion});
   Crowd around = crowd(40, 1, 30);
@@ -212,6 +212,11 @@ TEST(Boxes, BehindALensThatDistorts) {
     }
   }
   EXPECT_GT(at, 10u);
+}
+
+TEST(Boxes, BehindALensThatDistorts) {
+  check_lens({-0.22, 0.04, 0.002, -0.003, 0.0});
+  check_lens({0.25, 0.02, -0.004, 0.002, 0.01});
 }
 
 TEST(Boxes, OfWhatCrossesTheNearPlaneReachToIt) {
@@ -416,9 +421,9 @@ TEST(Coverage, NeighboursShareNoPixelAndLeaveNone) {
     for (size_t i = 0; i < rim.size(); ++i) {
       const dvec2 triangle[] = {center, rim[i], rim[(i + 1) % rim.size()]};
       one.clear();
-      one.add(triangle);
+      one.add(triangle, projection.bounds(triangle));
       total += one.count();
-      sum.add(triangle);
+      sum.add(triangle, projection.bounds(triangle));
     }
     EXPECT_EQ(total, 130u * 40u);
     EXPECT_EQ(sum.count(), 130u * 40u);
