@@ -201,6 +201,7 @@ void Simulator::compare_lidar_with_depth(const std::vector<Due>& due) {
     for (const Due& b : due) {
       const auto* camera = dynamic_cast<const CameraSensor*>(sensors_[b.sensor].get());
       if (camera == nullptr || camera->node() != lidar->node() || camera->images().depth.empty()) continue;
+      if (camera->desc().distortion.any()) continue;  // the comparison is that of a pinhole camera
       const Pose camera_from_lidar = camera->mount().inverse() * lidar->mount();
       const render::LidarScan& scan = lidar->scan();
       const size_t stride = std::max<size_t>(1, scan.size() / lidar_comparisons);

@@ -26,9 +26,11 @@ struct Effect {
 struct EffectPlan {
   // What tracing rays needs.
   Effect acceleration_structure, scene_motion;
-  // Cameras.
-  Effect camera, rgb, depth, ids, hdr, sun, sky, static_shadows, moving_shadows, textures, normal_maps,
-      alpha_mask, emissive, punctual_lights, haze, night_sky;
+  // Cameras: what they deliver, what shades pixels, what lens and sensor do.
+  Effect camera, rgb, depth, ids, hdr, depth_ray, normals, flow, boxes, event_camera, adaptive_steps, sun,
+      sky, static_shadows, moving_shadows, ambient_occlusion, textures, normal_maps, alpha_mask, emissive,
+      punctual_lights, haze, night_sky, smooth_edges, lens_distortion, vignetting, motion_blur, auto_exposure,
+      sensor_noise;
   // LiDAR.
   Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion, lidar_haze;
   // Radio.

@@ -21,6 +21,7 @@ render::CameraEffects camera_effects(const EffectPlan& plan) {
   effects.normal_maps = plan.normal_maps.on;
   effects.alpha_mask = plan.alpha_mask.on;
   effects.emissive = plan.emissive.on;
+  effects.ambient_occlusion = plan.ambient_occlusion.on;
   effects.punctual_lights = plan.punctual_lights.on;
   effects.haze = plan.haze.on;
   effects.night_sky = plan.night_sky.on;

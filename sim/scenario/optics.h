@@ -35,22 +35,22 @@ enum class SkyKind { automatic, clear, overcast };
 
 /// Light from outside and the air between. What follows from it: sim/plan/light_plan.h.
 struct Environment {
-  std::optional<PlaceAndTime> place;         ///< given instead of the positions below
-  double sun_azimuth = -0.25 * pi;           ///< rad, from x (east) towards y (north): the direction to the sun
-  double sun_elevation = 0.25 * pi;          ///< rad above the horizon
+  std::optional<PlaceAndTime> place;  ///< given instead of the positions below
+  double sun_azimuth = -0.25 * pi;    ///< rad, from x (east) towards y (north): the direction to the sun
+  double sun_elevation = 0.25 * pi;   ///< rad above the horizon
   std::optional<double> sun_illuminance_lux;  ///< on a surface facing the sun
   std::optional<MoonConfig> moon;
   std::optional<double> moon_illuminance_lux;  ///< with a place: instead of the model's
   std::optional<double> sky_illuminance_lux;   ///< on the ground from the sky alone
-  SkyKind sky = SkyKind::automatic;            ///< automatic: overcast where it rains, unless the sun's light is given
-  double sky_glow_cd_m2 = 0.0;                 ///< of a city's lamps in the night sky, at the zenith
-  double turbidity = 2.0;                      ///< of a clear sky, 1.1 (purest air) to 10
+  SkyKind sky = SkyKind::automatic;  ///< automatic: overcast where it rains, unless the sun's light is given
+  double sky_glow_cd_m2 = 0.0;       ///< of a city's lamps in the night sky, at the zenith
+  double turbidity = 2.0;            ///< of a clear sky, 1.1 (purest air) to 10
   double temperature_k = 288.15;
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
   double rain_mm_h = 0.0;
-  double fog_g_m3 = 0.0;         ///< liquid water
-  double fog_height_m = 100.0;   ///< of fog and rain above the scene, for light from above
+  double fog_g_m3 = 0.0;        ///< liquid water
+  double fog_height_m = 100.0;  ///< of fog and rain above the scene, for light from above
 };
 
 /// Brown-Conrady distortion of normalised coordinates (D. Brown, "Decentering Distortion of Lenses", 1966; the order and
@@ -90,13 +90,14 @@ struct PinholeConfig {
   uint32_t width = 640, height = 480;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if the user gave that
   double near_m = 0.1;
-  uint32_t msaa = 4;  ///< samples per pixel of the colour: 1 or 4
+  uint32_t msaa = 1;         ///< samples per pixel of the colour: 1 or 4
+  bool smooth_edges = true;  ///< of one sample: outlines are blended by their share of the pixel
   Distortion distortion;
 };
 
 struct CameraConfig : PinholeConfig {
   Exposure exposure;
-  uint32_t motion_blur_samples = 0;  ///< instants within the shutter time; 0: sharp
+  uint32_t motion_blur_samples = 0;  ///< instants within the shutter time, an odd number; 0: sharp
   Vignetting vignetting;
   std::optional<SensorNoise> noise;
   // What to deliver.

@@ -136,7 +136,11 @@ void parse_pinhole(const FieldMap& map, PinholeConfig& camera) {
   if (const auto f = map.find("height")) camera.height = f->integer32(1, largest_image_edge);
   parse_intrinsics(map, camera);
   if (const auto f = map.find("near_m")) camera.near_m = f->positive();
-  if (const auto f = map.find("msaa")) camera.msaa = f->choice({"1", "4"}) == 0 ? 1 : 4;
+  if (const auto f = map.find("antialiasing")) {
+    const size_t kind = f->choice({"none", "edges", "msaa4"});
+    camera.smooth_edges = kind == 1;
+    camera.msaa = kind == 2 ? 4 : 1;
+  }
   if (const auto f = map.find("distortion")) camera.distortion = parse_distortion(*f);
 }
 
@@ -147,7 +151,9 @@ CameraConfig parse_camera(const FieldMap& map) {
   if (const auto f = map.find("exposure_ev100")) camera.exposure.ev100 = f->between(-20.0, 24.0);
   if (const auto f = map.find("exposure")) camera.exposure = parse_exposure(*f);
   if (const auto f = map.find("motion_blur_samples")) {
-    camera.motion_blur_samples = f->integer32(2, 64);
+    camera.motion_blur_samples = f->integer32(3, 63);
+    // The middle one is the tick: its depth and ids are the picture's.
+    if (camera.motion_blur_samples % 2 == 0) f->fail("an odd number from 3 to 63", f->text());
     if (!camera.exposure.shutter_s) f->fail("exposure.shutter_s, over which things move");
   }
   if (const auto f = map.find("vignetting")) camera.vignetting = parse_vignetting(*f);

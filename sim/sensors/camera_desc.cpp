@@ -36,6 +36,8 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   desc.cy = config.cy;
   desc.near_m = config.near_m;
   desc.msaa = config.msaa;
+  desc.smooth_edges = config.smooth_edges;
+  desc.parts = config.motion_blur_samples > 0;
   const Distortion& lens = config.distortion;
   desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
   desc.exposure_ev100 = config.exposure.ev100;
@@ -66,7 +68,7 @@ nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_fr
   metadata["cy"] = config.cy;
   metadata["pixel_center"] = 0.5;
   metadata["near_m"] = config.near_m;
-  metadata["msaa"] = config.msaa;
+  metadata["antialiasing"] = config.msaa > 1 ? "msaa4" : config.smooth_edges ? "edges" : "none";
   metadata["optical_frame"] = "x right, y down, z forward";
   metadata["body_from_sensor"] = json_of(body_from_sensor);
   const Distortion& lens = config.distortion;

@@ -37,7 +37,7 @@ CameraSensor::CameraSensor(Stage& stage, const render::ProbePass* probe, const S
       times_(scenario.tick_rate_hz, scenario.nodes[node].sensors[sensor].rate_hz),
       pass_(stage.lighting(), camera_desc(scenario, scenario.nodes[node],
                                           scenario.nodes[node].sensors[sensor], world_.body_of_node[node])),
-      probe_(pass_.desc().outputs.depth ? probe : nullptr) {
+      probe_(pass_.desc().outputs.depth && !config_.distortion.any() ? probe : nullptr) {
   spec_.name = pass_.desc().name;
   spec_.kind = "camera";
   spec_.rate = scenario.nodes[node].sensors[sensor].rate_hz.str();
@@ -120,9 +120,28 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
   return {world_.scene.to_local(motions[node_].pose) * mount_, body_poses(world_, motions)};
 }
 
+/// The instants of an exposure around the tick, evenly; the tick itself, whose depth and ids are the picture's, last.
+void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
+  const render::FrameNumber frame{context.sequence, context.tick};
+  const uint32_t instants = config_.motion_blur_samples;
+  if (instants == 0) return pass_.record(slot, local_from_sensor, frame);
+  const float weight = 1.0f / static_cast<float>(instants);
+  bool first = true;
+  for (uint32_t i = 0; i < instants; ++i) {
+    if (i == instants / 2) continue;
+    const double time_s = context.time_s + *config_.exposure.shutter_s * ((i + 0.5) / instants - 0.5);
+    stage_.move_to(slot, context, time_s);
+    const Pose pose = world_.scene.to_local(context.motion_at(node_, time_s).pose) * mount_;
+    pass_.record(slot, pose, frame, {.weight = weight, .first = first, .last = false});
+    first = false;
+  }
+  stage_.move_to(slot, context, context.time_s);
+  pass_.record(slot, local_from_sensor, frame, {.weight = weight, .first = false, .last = true});
+}
+
 void CameraSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   const Pose local_from_sensor = world_.scene.to_local(context.nodes[node_].pose) * mount_;
-  pass_.record(slot, local_from_sensor, {context.sequence, context.tick});
+  expose(slot, context, local_from_sensor);
   if (truth_) {
     TruthMoment next{local_from_sensor, {context.body_poses.begin(), context.body_poses.end()}};
     if (config_.flow) next = next_sample(context);

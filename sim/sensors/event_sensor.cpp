@@ -34,6 +34,7 @@ render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig&
   desc.cy = config.cy;
   desc.near_m = config.near_m;
   desc.msaa = config.msaa;
+  desc.smooth_edges = config.smooth_edges;
   const Distortion& lens = config.distortion;
   desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
   desc.outputs = {.rgb = false, .depth = false, .instance = false, .semantic = false, .material = false};

@@ -131,6 +131,7 @@ TEST(Scenario, EverythingSenses) {
   EXPECT_EQ(camera.cx, 159.5);
   EXPECT_EQ(camera.cy, 120.25);
   EXPECT_EQ(camera.msaa, 1u);
+  EXPECT_FALSE(camera.smooth_edges);
   EXPECT_TRUE(camera.rgb && camera.depth && camera.ids && camera.hdr && camera.depth_png24 &&
               camera.depth_log);
   EXPECT_TRUE(camera.see_own_body);

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/plan/camera_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "renderer/light/sky.h"
+#include "shaders/shared/camera.h"
+#include "sim/plan/light_plan.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// Enough digits for sunlight and starlight alike.
+std::string lux_text(double lux) {
+  return lux >= 10.0 ? fmt::format("{:.0f}", lux) : fmt::format("{:.2g}", lux);
+}
+
+/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1 m (a lamp
+/// nearer to a surface than that lights a spot of its own size only).
+double lamp_illuminance(const scene::PunctualLight& light, double ground) {
+  if (light.type == scene::PunctualLight::Type::directional) return light.intensity;
+  const double height = std::max(1.0, light.position.z - ground);
+  return static_cast<double>(light.intensity) / (height * height);
+}
+
+}  // namespace
+
+Offers offers_of(const scene::Scene& scene) {
+  Offers offers;
+  for (const scene::Primitive& primitive : scene.primitives) {
+    const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
+    const bool moving = scene.instances[primitive.instance].body != 0;
+    offers.triangles = true;
+    (moving ? offers.moving_triangles : offers.static_triangles) = true;
+    offers.textures |= pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 ||
+                       pbr.emissive_texture >= 0 || pbr.normal_texture >= 0;
+    const scene::Material& material = scene.materials[primitive.material];
+    offers.reflectance_textures |=
+        pbr.base_color_texture >= 0 && !(material.reflectance_905nm && material.reflectance_1550nm);
+    offers.normal_maps |= pbr.normal_texture >= 0;
+    offers.alpha_mask |= pbr.alpha_mode == scene::AlphaMode::mask;
+    offers.emissive |= pbr.emissive != vec3(0.0f);
+    offers.brightest_cd_m2 =
+        std::max(offers.brightest_cd_m2, shared::emissive_nits * render::luminance(dvec3(pbr.emissive)));
+  }
+  offers.lights = scene.lights.size();
+  const double ground = scene.bounds.empty() ? 0.0 : scene.bounds.min.z;
+  for (const scene::PunctualLight& light : scene.lights)
+    offers.lamp_illuminance_lux = std::max(offers.lamp_illuminance_lux, lamp_illuminance(light, ground));
+  return offers;
+}
+
+namespace {
+
+void add(Asks& asks, const PinholeConfig& camera) {
+  asks.smooth_edges |= camera.smooth_edges;
+  asks.distortion |= camera.distortion.any();
+}
+
+void add(Asks& asks, const CameraConfig& camera) {
+  ++asks.cameras;
+  asks.rgb |= camera.rgb;
+  asks.depth |= camera.depth || camera.depth_png24 || camera.depth_log;
+  asks.ids |= camera.ids;
+  asks.hdr |= camera.hdr;
+  asks.depth_ray |= camera.depth_ray;
+  asks.normals |= camera.normals;
+  asks.flow |= camera.flow;
+  asks.boxes |= camera.boxes;
+  asks.vignetting |= camera.rgb && camera.vignetting.any();
+  asks.noise |= camera.rgb && camera.noise.has_value();
+  asks.motion_blur |= camera.motion_blur_samples > 0;
+  asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
+  add(asks, static_cast<const PinholeConfig&>(camera));
+}
+
+}  // namespace
+
+Asks asks_of(const Scenario& scenario) {
+  Asks asks;
+  for (const NodeConfig& node : scenario.nodes) {
+    for (const SensorConfig& sensor : node.sensors) {
+      if (const auto* camera = std::get_if<CameraConfig>(&sensor.config)) {
+        add(asks, *camera);
+      } else if (const auto* events = std::get_if<EventCameraConfig>(&sensor.config)) {
+        ++asks.event_cameras;
+        asks.adaptive_events |= events->steps != EventCameraConfig::Steps::fixed;
+        add(asks, static_cast<const PinholeConfig&>(*events));
+      } else if (const auto* lidar = std::get_if<LidarConfig>(&sensor.config)) {
+        ++asks.lidars;
+        asks.sweep |= lidar->sweep_s > 0.0;
+      }
+    }
+  }
+  return asks;
+}
+
+std::string haze_reason(const Environment& environment) {
+  return fmt::format("fog and rain leave {:.0f} m of visibility",
+                     render::visibility_m(haze_extinction(environment)));
+}
+
+namespace {
+
+/// Decides what shades pixels: without colour there is none of it.
+class Shading {
+ public:
+  Shading(const Planner& planner, bool color) : planner_(planner), color_(color) {}
+  Effect decide(const char* name, bool offered, const std::string& yes, const std::string& no,
+                const std::string& bound = "") const {
+    return planner_.decide(name, color_ && offered,
+                           !color_   ? "no camera delivers colour"
+                           : offered ? yes
+                                     : no,
+                           bound);
+  }
+
+ private:
+  const Planner& planner_;
+  bool color_;
+};
+
+void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
+  const size_t all = asks.cameras + asks.event_cameras;
+  plan.camera = planner.fixed("camera", all > 0, all > 0 ? fmt::format("{} of them", all) : "no camera");
+  const auto output = [&](const char* name, bool asked) {
+    return planner.fixed(name, asked, all == 0 ? "no camera" : asked ? "asked for" : "no camera delivers it");
+  };
+  plan.rgb = output("rgb", asks.rgb);
+  plan.depth = output("depth", asks.depth);
+  plan.ids = output("ids", asks.ids);
+  plan.hdr = output("hdr", asks.hdr);
+  plan.depth_ray = output("depth_ray", asks.depth_ray);
+  plan.normals = output("normals", asks.normals);
+  plan.flow = output("flow", asks.flow);
+  plan.boxes = output("boxes", asks.boxes);
+  plan.event_camera = planner.fixed(
+      "event_camera", asks.event_cameras > 0,
+      asks.event_cameras > 0 ? fmt::format("{} of them", asks.event_cameras) : "no event camera");
+  plan.adaptive_steps = planner.fixed("adaptive_steps", asks.adaptive_events,
+                                      asks.event_cameras == 0 ? "no event camera"
+                                      : asks.adaptive_events  ? "asked for"
+                                                              : "event cameras step evenly");
+}
+
+/// What a lens, an exposure and a sensor of light do to a picture.
+void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
+  const auto asked = [&](const char* name, bool wanted, const char* bound = "") {
+    return planner.fixed(name, wanted,
+                         !asks.color() ? "no camera delivers colour"
+                         : wanted      ? "asked for"
+                                       : "no camera asks for it",
+                         bound);
+  };
+  plan.smooth_edges = asked("smooth_edges", asks.smooth_edges && asks.color());
+  plan.lens_distortion = asked("lens_distortion", asks.distortion);
+  plan.vignetting = asked("vignetting", asks.vignetting);
+  plan.motion_blur = asked("motion_blur", asks.motion_blur, "costs a picture for each of its samples");
+  plan.auto_exposure = asked("auto_exposure", asks.automatic_exposure);
+  plan.sensor_noise = asked("sensor_noise", asks.noise);
+}
+
+void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shading, const Offers& offers,
+                   const Asks& asks, double ground_lux) {
+  const bool camera = asks.cameras + asks.event_cameras > 0;
+  plan.textures = shading.decide("textures", offers.textures, "materials have them", "no material has one");
+  plan.normal_maps =
+      shading.decide("normal_maps", offers.normal_maps && plan.textures.on, "materials have them",
+                     offers.normal_maps ? "textures are off" : "no material has one");
+  plan.alpha_mask = planner.decide("alpha_mask", camera && offers.alpha_mask,
+                                   !camera             ? "no camera"
+                                   : offers.alpha_mask ? "materials have holes"
+                                                       : "no material has holes");
+  // What shines less than a white surface in this light is switched off, as lamps and windows are by day.
+  const double white = ground_lux / pi;
+  plan.emissive =
+      shading.decide("emissive", offers.emissive && offers.brightest_cd_m2 > white, "materials glow",
+                     offers.emissive ? "daylight drowns what glows" : "no material glows",
+                     offers.emissive ? fmt::format("up to {:.0f} cd/m^2 against {:.0f} of a white surface",
+                                                   offers.brightest_cd_m2, white)
+                                     : "");
+  // Lamps matter once they add more than 1 % to what the sun and the sky give the ground.
+  constexpr double tolerance = 0.01;
+  const bool lamps = offers.lights > 0 && offers.lamp_illuminance_lux > tolerance * ground_lux;
+  plan.punctual_lights = shading.decide(
+      "punctual_lights", lamps,
+      fmt::format("{} lamps, up to {:.1f} lux on the ground", offers.lights, offers.lamp_illuminance_lux),
+      offers.lights == 0 ? "the scene has no lamps" : "daylight drowns them",
+      offers.lights == 0 || ground_lux <= 0.0
+          ? ""
+          : fmt::format("at most {:.2f} % of the ground's {:.0f} lux, tolerance {:.0f} %",
+                        100.0 * offers.lamp_illuminance_lux / ground_lux, ground_lux, 100.0 * tolerance));
+}
+
+void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenario,
+                const ResolvedLight& light, const Offers& offers) {
+  const double key_lux = light.below.direct_lux * std::max(0.0, light.key.direction.z);
+  plan.sun =
+      shading.decide("sun", key_lux > 0.0,
+                     fmt::format("{} lux on the ground{}", lux_text(key_lux),
+                                 light.key.body == render::KeyLight::Body::moon ? ", of the moon" : ""),
+                     "neither sun nor moon shines");
+  plan.sky = shading.decide("sky", light.below.sky_lux > 0.0,
+                            fmt::format("{} lux on the ground", lux_text(light.below.sky_lux)),
+                            "its illuminance is 0");
+  plan.static_shadows = shading.decide(
+      "static_shadows", plan.sun.on && offers.static_triangles, "the sun shines on static meshes",
+      plan.sun.on ? "nothing static to cast them" : "the sun is off", "drawn once, at the first tick");
+  plan.moving_shadows = shading.decide("moving_shadows", plan.sun.on && offers.moving_triangles,
+                                       "the sun shines on moving meshes",
+                                       plan.sun.on ? "no mesh moves" : "the sun is off", "drawn every tick");
+  plan.ambient_occlusion = shading.decide(
+      "ambient_occlusion", plan.sky.on && offers.static_triangles, "static meshes hide parts of the sky",
+      plan.sky.on ? "nothing static hides the sky" : "the sky is off", "made once, at the start");
+  plan.haze = shading.decide("haze", light.haze, haze_reason(scenario.environment), "neither fog nor rain");
+  plan.night_sky = shading.decide("night_sky", light.night_sky,
+                                  fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
+                                              degrees(light.sun_elevation), degrees(light.moon_elevation)),
+                                  "by day or under clouds there are no stars, and no moon is up");
+}
+
+}  // namespace
+
+void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
+                 const Asks& asks) {
+  const ResolvedLight light = resolve(scenario.environment);
+  const Shading shading(planner, asks.color());
+  plan_outputs(plan, planner, asks);
+  plan_light(plan, shading, scenario, light, offers);
+  const double ground_lux =
+      (plan.sun.on ? light.below.direct_lux * std::max(0.0, light.key.direction.z) : 0.0) +
+      (plan.sky.on ? light.below.sky_lux : 0.0);
+  plan_surfaces(plan, planner, shading, offers, asks, ground_lux);
+  plan_lens(plan, planner, asks);
+}
+
+}  // namespace greatx::sim
