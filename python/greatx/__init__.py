@@ -14,6 +14,7 @@ from .antenna import Array
 from .arrays import Frames, Ragged
 from .dataset import Dataset, Record, Sensor, Sequence, Tick, load
 from .errors import DatasetError, Error
+from .events import Events
 from .paths import Paths
 from .radio_map import RadioMap
 from .samples import Samples
@@ -21,7 +22,7 @@ from .stream import Run
 from .tables import Arrays
 
 __version__ = "0.1.0"
-__all__ = ["Array", "Arrays", "Dataset", "DatasetError", "Error", "Frames", "Paths", "RadioMap", "Ragged", "Record", "Run",
+__all__ = ["Array", "Arrays", "Dataset", "DatasetError", "Error", "Events", "Frames", "Paths", "RadioMap", "Ragged", "Record", "Run",
            "Samples", "Sensor", "Sequence", "Tick", "load"]
 
 #: What needs greatx._native.

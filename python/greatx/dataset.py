@@ -14,10 +14,11 @@ import numpy as np
 from .arrays import Frames, Ragged, open_stack
 from .errors import DatasetError
 from .frames import load_npy
-from .layout import ArrayInfo, SensorInfo, parse_sensors, read_info
+from .layout import EXPORT_SUFFIX, ArrayInfo, SensorInfo, parse_sensors, read_info
 from .ticks import TickRecords
 
 if TYPE_CHECKING:
+    from .events import Events
     from .samples import Samples
 
 INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
@@ -189,7 +190,8 @@ class Sensor:
     sensor["NAME"], or sensor.NAME, is by the kind of the output that holds the array:
       npy_stack   a read-only memory map [records, ...];
       npy_ragged  a Ragged: [i] is the view [rows of record i, ...];
-      files       Frames: [i] reads and decodes the file of record i.
+      files       Frames: [i] reads and decodes the file of record i;
+      hdf5_events, text_events  the path of the sequence's file, for h5py and the like.
     NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). Names that are
     neither are looked for in `metadata`: csi.carrier_hz.
     """
@@ -236,6 +238,11 @@ class Sensor:
         """The record of a tick."""
         return self.sequence.at(tick)[self.name]
 
+    def events(self, first: int = 0, last: Optional[int] = None) -> "Events":
+        """Of an event camera: the events of records first to last - 1, of all of them by default; views of the files."""
+        from .events import Events
+        return Events.of(self, first, len(self) if last is None else last)
+
     def __iter__(self) -> Iterator["Record"]:
         return (Record(self, i) for i in range(len(self)))
 
@@ -254,6 +261,8 @@ class Sensor:
                 opened: Any = open_stack(base.with_name(base.name + ".npy"), array, len(self))
             elif output.format == "npy_ragged":
                 opened = Ragged.open(base, array, len(self))
+            elif output.format in EXPORT_SUFFIX:
+                opened = base.with_name(base.name + EXPORT_SUFFIX[output.format])
             else:
                 opened = Frames(base, output, array, self.index[:, 3])
             self._opened[key] = opened
@@ -316,6 +325,11 @@ class Record:
         """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see greatx.links)."""
         from .links import paths_of
         return paths_of(self, rx, tx)
+
+    def events(self) -> "Events":
+        """Of an event camera: the events since its record before (see greatx.Events)."""
+        from .events import Events
+        return Events.of(self.sensor, self.row, self.row + 1)
 
     def __repr__(self) -> str:
         return f"<greatx.Record {self.row} of {self.sensor.name}, tick {self.tick}>"

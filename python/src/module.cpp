@@ -38,6 +38,8 @@ const char* buffer_format(DType dtype) {
       return "I";
     case DType::u64:
       return "Q";
+    case DType::i8:
+      return "b";
     case DType::i32:
       return "i";
     case DType::i64:

@@ -66,6 +66,22 @@ nodes:
     class: vehicle
 """
 
+# An event camera that turns past a parked van, with every output.
+EVENTS = """
+greatx: 1
+name: events
+ticks: 100
+tick_rate_hz: 1000
+scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
+nodes:
+  - name: car
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 1.5], rotation_deg: [90, 0, 0]},
+                                           {t_s: 0.1, position_m: [2.4, -29, 1.5], rotation_deg: [95, 0, 0]}]}
+    sensors:
+      - {name: dvs, type: event_camera, rate_hz: 30, width: 62, height: 48, fov_deg: 80, steps: 4,
+         noise: {shot_rate_hz: 5}, outputs: [events, differences, hdf5, text, instance], difference: {on: 0.02, off: 0.02}}
+"""
+
 # Two antennas in free space, the second moving away: closed forms. Two runs of it.
 SPACE = """
 greatx: 1
@@ -113,6 +129,11 @@ def street() -> pathlib.Path:
 def truth() -> pathlib.Path:
     """The folder of a data set of TRUTH, which is not to be changed."""
     return _made("truth", TRUTH)
+
+
+def events() -> pathlib.Path:
+    """The folder of a data set of EVENTS, which is not to be changed."""
+    return _made("events", EVENTS)
 
 
 def space() -> pathlib.Path:

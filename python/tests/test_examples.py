@@ -39,6 +39,11 @@ class Examples(unittest.TestCase):
         self.assertIn("van/front, tick 1: flow up to ", out)
         self.assertIn("visibility", out)
 
+    def test_events(self):
+        out = self.run_example("events.py", support.events())
+        self.assertIn("million a second", out)
+        self.assertIn("events.ppm", out)
+
     def test_each_fits_on_two_screens(self):
         for path in EXAMPLES.glob("*.py"):
             self.assertLess(len(path.read_text().splitlines()), 80, path)

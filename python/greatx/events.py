@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events of an event camera, and the pictures and tensors that are made of them (docs/events.md)."""
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Optional, Tuple
+
+import numpy as np
+
+from .errors import DatasetError
+
+if TYPE_CHECKING:
+    from .dataset import Sensor
+
+#: Colours of Events.picture: brighter, darker, nothing.
+ON, OFF, NEUTRAL = (214, 39, 40), (31, 90, 200), (128, 128, 128)
+
+
+@dataclasses.dataclass(frozen=True)
+class Events:
+    """Events in order of (t, y, x, p), one entry an event in each array."""
+
+    t: np.ndarray  #: int64, ns since the sequence's first tick
+    x: np.ndarray  #: uint16, column
+    y: np.ndarray  #: uint16, row
+    p: np.ndarray  #: uint8, 1: brighter, 0: darker
+    width: int
+    height: int
+    instance: Optional[np.ndarray] = None  #: uint32, index into instances + 1, if the data set has it
+
+    @classmethod
+    def of(cls, sensor: "Sensor", first: int, last: int) -> "Events":
+        """Those of records first to last - 1 of an event camera; views of its files."""
+        if sensor.kind != "event_camera" or "t" not in sensor.arrays:
+            raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")
+        begin, end = (int(sensor["t"].offsets[i]) for i in (first, last))
+        columns = {name: sensor[name].values[begin:end] for name in ("t", "x", "y", "p", "instance") if name in sensor.arrays}
+        return cls(width=sensor.metadata["width"], height=sensor.metadata["height"], **columns)
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def between(self, begin_ns: int, end_ns: int) -> "Events":
+        """Those with begin_ns < t <= end_ns, as records hold them from one tick to the next."""
+        part = slice(*np.searchsorted(self.t, [begin_ns, end_ns], side="right"))
+        return dataclasses.replace(self, t=self.t[part], x=self.x[part], y=self.y[part], p=self.p[part],
+                                   instance=None if self.instance is None else self.instance[part])
+
+    def counts(self) -> np.ndarray:
+        """int32 [2, height, width]: how many darker and brighter events each pixel had."""
+        bins = (self.p.astype(np.int64) * self.height + self.y) * self.width + self.x
+        return np.bincount(bins, minlength=2 * self.height * self.width).reshape(2, self.height, self.width).astype(np.int32)
+
+    def frame(self) -> np.ndarray:
+        """int32 [height, width]: brighter less darker. Times the threshold it is the change of ln(luminance)."""
+        darker, brighter = self.counts()
+        return brighter - darker
+
+    def voxel_grid(self, bins: int, span_ns: Optional[Tuple[int, int]] = None) -> np.ndarray:
+        """float32 [bins, height, width]: polarities (1, -1) shared between the two bins nearest in time (A. Zhu et al.,
+        "Unsupervised Event-based Learning", CVPR 2019, eq. 1-2). `span_ns`: times of the first and the last bin, by default
+        those of the first and the last event. torch.from_numpy takes it as it is."""
+        grid = np.zeros(bins * self.height * self.width)
+        if len(self):
+            begin, end = span_ns or (int(self.t[0]), int(self.t[-1]))
+            time = (self.t - begin) * ((bins - 1) / max(end - begin, 1))
+            low = np.floor(time).astype(np.int64)
+            pixel = self.y.astype(np.int64) * self.width + self.x
+            polarity = 2.0 * self.p - 1.0
+            for bin_, weight in ((low, low + 1 - time), (low + 1, time - low)):
+                inside = (bin_ >= 0) & (bin_ < bins)
+                grid += np.bincount(bin_[inside] * self.height * self.width + pixel[inside],
+                                    (polarity * weight)[inside], minlength=grid.size)
+        return grid.reshape(bins, self.height, self.width).astype(np.float32)
+
+    def picture(self) -> np.ndarray:
+        """uint8 [height, width, 3] for people: red where it got brighter, blue where darker, grey where nothing happened;
+        the stronger the more events, full from three on."""
+        frame = self.frame()
+        strength = np.minimum(np.abs(frame), 3)[..., None] / 3.0
+        color = np.where((frame > 0)[..., None], ON, OFF)
+        return np.rint(NEUTRAL + (color - np.array(NEUTRAL)) * strength).astype(np.uint8)
