@@ -73,7 +73,8 @@ void window(Canvas& canvas, int x0, int y0, int x1, int y1, const WindowStyle& s
   canvas.rect(x0, y0, x1, y1, style.frame, 120);
   const int w = (x1 - x0 - style.frame_px * (style.columns + 1)) / style.columns;
   const int h = (y1 - y0 - style.frame_px * (style.rows + 1)) / style.rows;
-  const uint32_t dressing = hash(x0, y0, seed) % 10;  // the same in all panes: one household
+  // The same in all panes: one household. Shops show what they have.
+  const uint32_t dressing = style.use == Use::shop ? 9u : hash(x0, y0, seed) % 10;
   const Rgb cloth = hash(x0, y0, seed + 3) % 3 == 0 ? Rgb{122, 96, 80} : Rgb{168, 162, 150};
   for (int c = 0; c < style.columns; ++c)
     for (int r = 0; r < style.rows; ++r) {
