@@ -225,7 +225,7 @@ Atmosphere::Atmosphere(double turbidity, double elevation, double ground_albedo)
                });
       cells_[i * azimuths + k] = {displayable(by_air), displayable(by_aerosol), displayable(rest)};
     }
-  constexpr int rings = 48, sectors = 64;
+  constexpr int rings = 256, sectors = 48;
   for (int i = 0; i < rings; ++i)
     for (int k = 0; k < sectors; ++k) {
       const double z = (i + 0.5) / rings, level = std::sqrt(1.0 - z * z), phi = pi * (k + 0.5) / sectors;

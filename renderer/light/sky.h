@@ -20,7 +20,7 @@ inline constexpr double sun_radius = 0.004652, moon_radius = 0.004520;
 
 /// The colour that pictures show as white: of a white card on the ground under a clear sky (turbidity 2, albedo 0.15),
 /// the sun 45 degrees high. Daylight thus looks neutral, evening warm and shade blue.
-inline constexpr dvec3 daylight_white{1.114952, 0.977658, 0.882825};
+inline constexpr dvec3 daylight_white{1.114954, 0.977658, 0.882823};
 
 class Sky {
  public:

@@ -54,7 +54,11 @@ TEST(NightSky, StarsAreAsManyAsCounted) {
   const auto above = std::ranges::count_if(
       stars, [](const render::Star& s) { return std::isfinite(s.magnitude) && s.direction.z > 0.0; });
   EXPECT_NEAR(double(above), 2400.0, 140.0);
-  EXPECT_NE(render::draw_stars(8)[5000].direction, stars[5000].direction);
+  const std::vector<render::Star> others = render::draw_stars(8);
+  size_t same = 0;
+  for (size_t i = 0; i < stars.size(); ++i)
+    same += std::isfinite(stars[i].magnitude) && others[i].direction == stars[i].direction;
+  EXPECT_EQ(same, 0u);
 }
 
 TEST(NightSky, StarsKeepTheirLightAtEveryResolution) {
@@ -143,7 +147,7 @@ TEST(NightSky, TheMoonCastsShadows) {
     EXPECT_NEAR(luminance_at(moon, i), expected, 3e-3 * expected + 1e-9) << i;
     dark += expected == 0.0;
   }
-  EXPECT_GT(dark, 100u);
+  EXPECT_GT(dark, 40u);
   // Moonlight is a little warmer than sunlight from the same height.
   EXPECT_GT(moon.hdr[0] / moon.hdr[2], sun.hdr[0] / sun.hdr[2]);
 }

@@ -62,7 +62,7 @@ TEST(Sky, LightsLevelGroundAsAsked) {
         lighting.moon_illuminance_lux = 0.2;
       }
       const render::Sky sky(lighting, false);
-      EXPECT_NEAR(level_lux(sky) / 12345.0, 1.0, 0.01) << elevation;
+      EXPECT_NEAR(level_lux(sky) / 12345.0, 1.0, 3e-3) << elevation;
       EXPECT_EQ(sky.illuminance(), 12345.0);
       const double key = elevation > 0.0 ? 100000.0 : moon ? 0.2 : 0.0;
       EXPECT_NEAR(render::luminance(sky.key_illuminance()), key, 1e-9 * (1.0 + key));
@@ -108,7 +108,7 @@ TEST(Sky, WhiteIsTheDaylightOfTheModel) {
   const render::Atmosphere air(2.0, 0.25 * pi, 0.15);
   const dvec3 card = air.direct_illuminance() * std::sqrt(0.5) + air.sky_illuminance();
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(card[c] / render::luminance(card), render::daylight_white[c], 1e-6) << c;
+    EXPECT_NEAR(card[c] / render::luminance(card), render::daylight_white[c], 5e-6) << c;
 }
 
 TEST(Sky, EveningIsWarmAndTwilightBlue) {
@@ -180,7 +180,7 @@ TEST(Sky, HazeKeepsTheBalanceOnLevelGround) {
       EXPECT_GT(below, above / (1.0 + 0.075 * depth) * (1.0 - 1e-9));
       // At the horizon there is nothing but haze.
       const dvec3 horizon = sky.radiance({1.0, 0.0, 0.0});
-      EXPECT_GT(render::luminance(horizon), render::luminance(sky.haze_ambient()));
+      EXPECT_GE(render::luminance(horizon), render::luminance(sky.haze_ambient()) * (1.0 - 1e-9));
     }
   // In a white world the air is white too.
   Lighting white;
