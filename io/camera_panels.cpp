@@ -4,47 +4,26 @@
 #include <cmath>
 #include <set>
 
-#include "io/panels.h"
+#include "io/picture_panel.h"
 
 namespace greatx::io {
 
 namespace {
 
-constexpr Color sky{48, 52, 62};
-
-class CameraPanel : public FramePanel {
+class RgbPanel : public PicturePanel {
  public:
-  CameraPanel(const PanelSource& source, std::string array, const char* what)
-      : source_(source), array_(std::move(array)), title_(source.spec().name + " " + what) {
-    for (const ArraySpec& spec : source.spec().arrays)
-      if (spec.name == array_ && spec.shape.size() >= 2)
-        aspect_ = static_cast<double>(spec.shape[0]) / static_cast<double>(spec.shape[1]);
-  }
-  std::string title() const override { return title_; }
-  double aspect() const override { return aspect_; }
-
- protected:
-  Array load(size_t row) const { return source_.load(source_.chosen[row], array_); }
-  PanelSource source_;
-  std::string array_, title_;
-  double aspect_ = 0.75;
-};
-
-class RgbPanel : public CameraPanel {
- public:
-  explicit RgbPanel(const PanelSource& source) : CameraPanel(source, "rgb", "rgb") {}
+  explicit RgbPanel(const PanelSource& source) : PicturePanel(source, "rgb", "rgb") {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array image = load(row);
     canvas.picture(picture, image);
-    canvas.text(legend.x, legend.y + 4, fmt::format("{} x {}", image.shape[1], image.shape[0]),
-                theme::text_scale, theme::dim);
+    caption(canvas, legend, fmt::format("{} x {}", image.shape[1], image.shape[0]));
   }
 };
 
 /// Planar depth; one scale for all rows, so that they can be compared.
-class DepthPanel : public CameraPanel {
+class DepthPanel : public PicturePanel {
  public:
-  explicit DepthPanel(const PanelSource& source) : CameraPanel(source, "depth", "depth") {
+  explicit DepthPanel(const PanelSource& source) : PicturePanel(source, "depth", "depth") {
     std::vector<float> values;
     for (size_t row = 0; row < source_.chosen.size(); ++row) {
       const Array depth = load(row);
@@ -65,7 +44,7 @@ class DepthPanel : public CameraPanel {
     const int64_t width = depth.shape[1];
     canvas.raster(picture, static_cast<int>(width), static_cast<int>(depth.shape[0]), [&](int x, int y) {
       const float value = metres[static_cast<size_t>(y * width + x)];
-      return std::isfinite(value) ? turbo(1.0 - scale_.at(std::max<double>(value, 1e-6))) : sky;
+      return std::isfinite(value) ? turbo(1.0 - scale_.at(std::max<double>(value, 1e-6))) : color_of_sky;
     });
     draw_color_bar(
         canvas, legend, scale_, [](double t) { return turbo(1.0 - t); },
@@ -76,10 +55,10 @@ class DepthPanel : public CameraPanel {
   Scale scale_{0.0, 100.0, false};
 };
 
-class IdPanel : public CameraPanel {
+class IdPanel : public PicturePanel {
  public:
   IdPanel(const PanelSource& source, const std::string& array)
-      : CameraPanel(source, array, array == "instance" ? "instances" : array.c_str()) {}
+      : PicturePanel(source, array, array == "instance" ? "instances" : array.c_str()) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array image = load(row);
     std::vector<uint32_t> ids;
@@ -94,8 +73,7 @@ class IdPanel : public CameraPanel {
                   [&](int x, int y) { return color_of_id(ids[static_cast<size_t>(y * width + x)]); });
     std::set<uint32_t> distinct(ids.begin(), ids.end());
     distinct.erase(0);
-    canvas.text(legend.x, legend.y + 4, fmt::format("{} visible", distinct.size()), theme::text_scale,
-                theme::dim);
+    caption(canvas, legend, fmt::format("{} visible", distinct.size()));
   }
 };
 
@@ -109,6 +87,7 @@ void add_camera_panels(const PanelSource& source, Panels& panels) {
     panels.frames.push_back(std::make_unique<IdPanel>(source, ids));
     break;  // one of them is enough to see that they are there
   }
+  add_truth_panels(source, panels);
 }
 
 }  // namespace greatx::io

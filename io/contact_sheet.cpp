@@ -23,16 +23,20 @@ struct Moment {
   int64_t tick, time_ns;
 };
 
-/// First, one third, two thirds, last of the records of the sensor that the rows follow.
+/// First, one third, two thirds, last of the records of the sensor that the rows follow. With an event camera the second
+/// stands for the first, at which there are no events yet.
 std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequence) {
+  const bool events = std::any_of(reader.sensors().begin(), reader.sensors().end(),
+                                  [](const SensorSpec& sensor) { return sensor.kind == "event_camera"; });
   for (const bool frames_only : {true, false}) {
     for (size_t s = 0; s < reader.sensors().size(); ++s) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
       if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s].kind))) continue;
       std::vector<Moment> moments;
       std::set<size_t> taken;
+      const size_t first = events && rows.size() > 1 ? 1 : 0;
       for (const size_t third : {0, 1, 2, 3}) {
-        const size_t i = third * (rows.size() - 1) / 3;
+        const size_t i = first + third * (rows.size() - 1 - first) / 3;
         if (taken.insert(i).second) moments.push_back({rows[i].tick, rows[i].time_ns});
       }
       return moments;
@@ -127,11 +131,21 @@ int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
   return y;
 }
 
+void check_has_records(const DatasetReader& reader, uint32_t sequence) {
+  if (sequence >= reader.sequences() || reader.records(sequence).empty())
+    throw_user_error("{}: sequence {} has no records to show", reader.folder().string(), sequence);
+}
+
+/// A column of a comparison: what one data set shows at one moment.
+struct Column {
+  std::string title;
+  Panels panels;
+};
+
 }  // namespace
 
 Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
-  if (sequence >= reader.sequences() || reader.records(sequence).empty())
-    throw_user_error("{}: sequence {} has no records to show", reader.folder().string(), sequence);
+  check_has_records(reader, sequence);
   const std::vector<Moment> moments = choose_moments(reader, sequence);
   const Panels panels = make_panels(reader, sequence, moments);
   const std::vector<Band> bands = make_bands(panels);
@@ -160,10 +174,60 @@ Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
   return canvas.image();
 }
 
-void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file, uint32_t sequence) {
-  const Bytes png = encode_png(contact_sheet(reader, sequence));
+Array comparison_sheet(std::span<const DatasetReader> readers, uint32_t sequence) {
+  std::vector<Column> columns;
+  size_t rows = 0;
+  for (const DatasetReader& reader : readers) {
+    check_has_records(reader, sequence);
+    std::vector<Moment> moments = choose_moments(reader, sequence);
+    if (!moments.empty()) moments = {moments[moments.size() / 2]};
+    columns.push_back({summarize(reader).title, make_panels(reader, sequence, moments)});
+    rows = std::max(rows, columns.back().panels.frames.size());
+  }
+  if (rows == 0) throw_user_error("none of the data sets has a camera or a LiDAR to show");
+
+  std::vector<int> heights;
+  for (size_t row = 0; row < rows; ++row) {
+    double aspect = 0.5;
+    for (const Column& column : columns)
+      if (row < column.panels.frames.size()) aspect = std::max(aspect, column.panels.frames[row]->aspect());
+    heights.push_back(static_cast<int>(std::lround(tile_width * std::min(aspect, 1.0))));
+  }
+  int height = margin + header_height / 2 + margin;
+  for (const int tile : heights) height += title_height + tile + legend_height + row_gap;
+  Canvas canvas(2 * margin + static_cast<int>(columns.size()) * (tile_width + gap) - gap, height,
+                theme::page);
+  for (size_t c = 0; c < columns.size(); ++c) {
+    const int x = margin + static_cast<int>(c) * (tile_width + gap);
+    canvas.text(x, margin, columns[c].title, 3, theme::text);
+    int y = margin + header_height / 2;
+    for (size_t row = 0; row < rows; ++row) {
+      if (row < columns[c].panels.frames.size()) {
+        FramePanel& panel = *columns[c].panels.frames[row];
+        canvas.text(x, y + 6, panel.title(), theme::text_scale, theme::text);
+        const Rect tile{x, y + title_height, tile_width, heights[row]};
+        canvas.fill(tile, theme::panel);
+        panel.draw(canvas, fit(tile, panel.aspect()), {x, tile.bottom() + 2, tile_width, legend_height - 4},
+                   0);
+        canvas.frame(tile, theme::border);
+      }
+      y += title_height + heights[row] + legend_height + row_gap;
+    }
+  }
+  return canvas.image();
+}
+
+void write_contact_sheet(std::span<const DatasetReader> readers, const std::filesystem::path& file,
+                         uint32_t sequence) {
+  const Array sheet =
+      readers.size() == 1 ? contact_sheet(readers[0], sequence) : comparison_sheet(readers, sequence);
+  const Bytes png = encode_png(sheet);
   create_folder_of(file);
   write_file_atomically(file, png);
+}
+
+void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file, uint32_t sequence) {
+  write_contact_sheet({&reader, 1}, file, sequence);
 }
 
 }  // namespace greatx::io

@@ -17,9 +17,8 @@ struct Maker {
   void (*add)(const PanelSource&, Panels&);
 };
 constexpr Maker makers[] = {
-    {"camera", true, add_camera_panels},
-    {"lidar", true, add_lidar_panels},
-    {"csi", false, add_csi_panels},
+    {"camera", true, add_camera_panels}, {"event_camera", true, add_event_panels},
+    {"lidar", true, add_lidar_panels},   {"csi", false, add_csi_panels},
     {"pose", false, add_pose_panels},
 };
 

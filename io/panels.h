@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,11 +59,23 @@ void add_panels(const PanelSource& source, Panels& panels);
 /// Whether sensors of the kind are drawn moment by moment.
 bool has_frame_panels(std::string_view kind);
 
-// The makers, one for each kind (camera_panels.cpp, lidar_panel.cpp, csi_panels.cpp, pose_panel.cpp).
+// The makers, one for each kind (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp, csi_panels.cpp, pose_panel.cpp).
 void add_camera_panels(const PanelSource& source, Panels& panels);
+void add_event_panels(const PanelSource& source, Panels& panels);
 void add_lidar_panels(const PanelSource& source, Panels& panels);
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
+
+/// Of a camera: normals, optical flow, boxes (truth_panels.cpp); add_camera_panels calls it.
+void add_truth_panels(const PanelSource& source, Panels& panels);
+
+/// A motion as a colour: direction as hue (right: red, down: yellow-green), length as saturation: white 0, full 1,
+/// darker beyond. NaN: black.
+Color flow_color(double u, double v);
+/// Events summed by pixel on neutral grey, ON red, OFF blue, both violet: u8 [height, width, 3]. Throws UserError if one
+/// lies outside.
+Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
+                    int64_t width, int64_t height);
 
 /// A sensor's pose in the world at a record: that of its node from the "pose" sensor, times its mount
 /// ("body_from_sensor" of its metadata). Empty if the data set does not say.

@@ -151,6 +151,136 @@ TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
   EXPECT_NEAR(fraction * end, delay, 25e-9);
 }
 
+TEST(ContactSheet, SeveralSideBySide) {
+  const test::TemporaryFolder folder;
+  std::vector<DatasetReader> readers;
+  for (const char* name : {"a", "b", "c"}) {
+    DatasetInfo info = sample_info();
+    DatasetWriter writer(folder.path() / name, info);
+    ASSERT_TRUE(write_sample_run(writer, info));
+    readers.emplace_back(folder.path() / name);
+  }
+  const Array sheet = comparison_sheet(readers);
+  EXPECT_EQ(sheet.shape[1], 2 * 28 + 3 * 400 + 2 * 14);
+  // The same data give the same columns.
+  const size_t column = 3 * 414, width = 3 * static_cast<size_t>(sheet.shape[1]);
+  for (int64_t y = 0; y < sheet.shape[0]; ++y) {
+    const std::byte* const line = sheet.bytes.data() + static_cast<size_t>(y) * width + 3 * 28;
+    ASSERT_TRUE(std::equal(line, line + 3 * 400, line + column)) << y;
+  }
+  EXPECT_THROW(comparison_sheet(readers, 7), UserError);
+}
+
+TEST(Colors, FlowHasDirectionsAndLengths) {
+  const auto rgb = [](Color c) { return std::array<int, 3>{c.r, c.g, c.b}; };
+  EXPECT_THAT(rgb(flow_color(0, 0)), ElementsAre(255, 255, 255));
+  EXPECT_THAT(rgb(flow_color(1, 0)), ElementsAre(255, 0, 0));
+  EXPECT_THAT(rgb(flow_color(-1, 0)), ElementsAre(0, 255, 255));
+  EXPECT_THAT(rgb(flow_color(0, 1)), ElementsAre(128, 255, 0));
+  EXPECT_THAT(rgb(flow_color(0, -1)), ElementsAre(128, 0, 255));
+  EXPECT_THAT(rgb(flow_color(0.5, 0)), ElementsAre(255, 128, 128));
+  EXPECT_THAT(rgb(flow_color(std::nan(""), 0)), ElementsAre(0, 0, 0));
+}
+
+TEST(EventPanels, GreyRedBlueAndBoth) {
+  const std::vector<uint16_t> x{0, 1, 2, 2}, y{0, 0, 1, 1};
+  const std::vector<uint8_t> p{1, 0, 1, 0};
+  const Array picture = event_picture(x, y, p, 3, 2);
+  const auto pixel = [&](size_t i) {
+    return std::vector<int>(picture.as<uint8_t>().begin() + 3 * i, picture.as<uint8_t>().begin() + 3 * i + 3);
+  };
+  EXPECT_GT(pixel(0)[0], pixel(0)[2] + 50) << "brighter: red";
+  EXPECT_GT(pixel(1)[2], pixel(1)[0] + 50) << "darker: blue";
+  EXPECT_THAT(pixel(2), ElementsAre(128, 128, 128)) << "nothing: grey";
+  EXPECT_NEAR(pixel(5)[0], pixel(5)[2], 10) << "both: between the two";
+  EXPECT_LT(pixel(5)[1], 90);
+  EXPECT_THROW(event_picture(x, y, p, 2, 2), UserError);
+}
+
+/// Normals, flow, boxes, events and differences that a data set has, from its files alone.
+TEST(ContactSheet, ShowsTruthAndEvents) {
+  const test::TemporaryFolder folder;
+  DatasetInfo info;
+  info.tick_rate = "10";
+  info.ticks_per_sequence = 3;
+  info.sensors = {{"uav/cam",
+                   "camera",
+                   "10",
+                   {{"rgb", DType::u8, {4, 6, 3}, "1", ""},
+                    {"normals", DType::f32, {4, 6, 3}, "1", ""},
+                    {"flow", DType::f32, {4, 6, 2}, "pixel", ""},
+                    {"box_instance", DType::u32, {-1}, "1", ""},
+                    {"box_amodal", DType::f32, {-1, 4}, "pixel", ""},
+                    {"box_visibility", DType::f32, {-1}, "1", ""}},
+                   {{"rgb", FileFormat::png, {"rgb"}},
+                    {"normals", FileFormat::exr, {"normals"}},
+                    {"flow", FileFormat::npy_frame, {"flow"}},
+                    {"box_instance", FileFormat::npy_ragged, {"box_instance"}},
+                    {"box_amodal", FileFormat::npy_ragged, {"box_amodal"}},
+                    {"box_visibility", FileFormat::npy_ragged, {"box_visibility"}}},
+                   R"({"width": 6, "height": 4, "non_finite": ["flow"]})"},
+                  {"uav/events",
+                   "event_camera",
+                   "10",
+                   {{"x", DType::u16, {-1}, "1", ""},
+                    {"y", DType::u16, {-1}, "1", ""},
+                    {"p", DType::u8, {-1}, "1", ""},
+                    {"difference_picture", DType::u8, {4, 6}, "1", ""}},
+                   {{"x", FileFormat::npy_ragged, {"x"}},
+                    {"y", FileFormat::npy_ragged, {"y"}},
+                    {"p", FileFormat::npy_ragged, {"p"}},
+                    {"differences", FileFormat::png, {"difference_picture"}}},
+                   R"({"width": 6, "height": 4})"}};
+  DatasetWriter writer(folder.path() / "set", info);
+  writer.begin_sequence(0);
+  for (int64_t tick = 0; tick < 3; ++tick) {
+    Array normals(DType::f32, {4, 6, 3}), flow(DType::f32, {4, 6, 2}), box(DType::f32, {1, 4});
+    for (size_t i = 0; i < 24; ++i) normals.as<float>()[3 * i + 2] = 1.0f, flow.as<float>()[2 * i] = 2.0f;
+    for (size_t i = 0; i < 4; ++i) box.as<float>()[i] = static_cast<float>(i + 1);
+    const uint32_t id = 3;
+    const float visibility = 0.5f;
+    const uint16_t x = 5, y = 3;
+    const uint8_t p = 1;
+    const int64_t events = tick > 0;
+    const auto one = [&](auto value, int64_t count) {
+      return Array::of<decltype(value)>({count}, std::span(&value, static_cast<size_t>(count)));
+    };
+    Packet packet{tick, tick * 100'000'000, {}};
+    packet.records.push_back(
+        {0,
+         tick,
+         packet.time_ns,
+         tick,
+         {Array(DType::u8, {4, 6, 3}), normals, flow, one(id, 1), box, one(visibility, 1)}});
+    packet.records.push_back({1,
+                              tick,
+                              packet.time_ns,
+                              tick,
+                              {one(x, events), one(y, events), one(p, events), Array(DType::u8, {4, 6})}});
+    writer.write(std::move(packet));
+  }
+  writer.end_sequence();
+  writer.finish();
+  const DatasetReader reader(folder.path() / "set");
+  Panels panels;
+  for (size_t s = 0; s < 2; ++s) add_panels({reader, 0, s, {reader.records_of(0, s)[1]}}, panels);
+  std::vector<std::string> titles;
+  for (const auto& panel : panels.frames) titles.push_back(panel->title());
+  EXPECT_THAT(titles, ElementsAre("uav/cam rgb", "uav/cam normals", "uav/cam flow", "uav/cam boxes",
+                                  "uav/events events: ON red, OFF blue", "uav/events differences"));
+  const auto corner = [&](size_t panel) {  // of the first column and row
+    Canvas canvas(60, 80, theme::page);
+    panels.frames[panel]->draw(canvas, {0, 0, 60, 40}, {0, 50, 60, 20}, 0);
+    const Array image = canvas.image();
+    const uint8_t* const rgb = image.as<uint8_t>().data() + (5 * 60 + 5) * 3;
+    return std::vector<int>{rgb[0], rgb[1], rgb[2]};
+  };
+  EXPECT_THAT(corner(1), ElementsAre(128, 128, 255)) << "up";
+  EXPECT_THAT(corner(2), ElementsAre(255, 0, 0)) << "to the right, the longest there is";
+  EXPECT_THAT(corner(4), ElementsAre(128, 128, 128)) << "no event there";
+  EXPECT_GT(contact_sheet(reader).shape[0], 800);
+}
+
 TEST(Summary, CountsWhatIsThere) {
   const test::TemporaryFolder folder;
   {
