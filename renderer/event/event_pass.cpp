@@ -102,7 +102,8 @@ void EventPass::build_pipelines() {
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   for (const uint32_t slot :
        {shared::event_luminance_binding, shared::event_seen_binding, shared::event_pixel_binding,
-        shared::event_extra_binding, shared::event_before_binding, shared::event_threshold_binding})
+        shared::event_extra_binding, shared::event_before_binding, shared::event_awake_binding,
+        shared::event_threshold_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
   compute.push_constant_bytes = sizeof(shared::EventConstants);
   compute.specialization.resize(shared::event_spec_count);
@@ -140,7 +141,8 @@ void EventPass::create_resources() {
   image(previous_, VK_FORMAT_R32_SFLOAT, desc_.differences, "picture before");
   image(pixels_, VK_FORMAT_R32G32_SINT, desc_.events, "pixels");
   image(extra_, VK_FORMAT_R32G32_SINT, desc_.events && extra, "pixels' delays");
-  image(before_, VK_FORMAT_R32G32B32A32_SINT, desc_.events, "pixels before");
+  image(before_, VK_FORMAT_R32G32_SINT, desc_.events, "pixels before");
+  image(awake_, VK_FORMAT_R32_SINT, desc_.events && desc_.refractory_s > 0.0, "pixels asleep before");
   image(thresholds_, VK_FORMAT_R32G32B32A32_SINT, thresholds, "thresholds");
   image(no_seen_, VK_FORMAT_R32G32_UINT, false, "nothing seen");
   gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
@@ -245,6 +247,7 @@ void EventPass::begin(gpu::TickSlot& slot, const EventInterval& interval) {
                                        {shared::event_pixel_binding, &pixels_},
                                        {shared::event_extra_binding, &extra_},
                                        {shared::event_before_binding, &before_},
+                                       {shared::event_awake_binding, &awake_},
                                        {shared::event_threshold_binding, &thresholds_}})
     descriptors_.push_back(gpu::Descriptor::storage(binding, *image));
   for (const auto& [binding, buffer] : {std::pair{shared::event_model_binding, &model_},
@@ -362,22 +365,7 @@ void EventPass::end(gpu::TickSlot& slot, gpu::Image& luminance) {
 namespace {
 
 template <typename Event>
-std::vector<Event> listed(const gpu::Slice& events, const gpu::Slice& instances, size_t count) {
-  std::vector<Event> list(count);
-  const std::span<const shared::uvec2> from = events.as<shared::uvec2>();
-  for (size_t i = 0; i < count; ++i) {
-    list[i].t_ns = from[i].x;
-    list[i].place = from[i].y;
-    if constexpr (std::is_same_v<Event, ListedEventOfInstance>)
-      list[i].instance = instances.as<uint32_t>()[i];
-  }
-  return list;
-}
-
-template <typename Event>
-void unpack(std::vector<Event> list, uint32_t interval_ns, EventFrame& frame) {
-  std::vector<Event> scratch;
-  sort_events(list, scratch, interval_ns);
+void unpack(const std::vector<Event>& list, EventFrame& frame) {
   const size_t count = list.size();
   frame.t_ns.resize(count);
   frame.x.resize(count);
@@ -388,10 +376,6 @@ void unpack(std::vector<Event> list, uint32_t interval_ns, EventFrame& frame) {
     frame.x[i] = static_cast<uint16_t>(list[i].place >> 1 & 0x3fffu);
     frame.y[i] = static_cast<uint16_t>(list[i].place >> 15);
     frame.p[i] = static_cast<uint8_t>(list[i].place & 1u);
-  }
-  if constexpr (std::is_same_v<Event, ListedEventOfInstance>) {
-    frame.instance.resize(count);
-    for (size_t i = 0; i < count; ++i) frame.instance[i] = list[i].instance;
   }
 }
 
@@ -414,10 +398,19 @@ EventFrame EventPass::collect(const gpu::TickSlot& slot) {
   frame.coarse = control.coarse;
   frame.largest = shared::uintBitsToFloat(control.largest);
   const auto interval_ns = static_cast<uint32_t>(from.interval.end_ns - from.interval.begin_ns);
-  if (desc_.instance)
-    unpack(listed<ListedEventOfInstance>(from.events, from.instances, count), interval_ns, frame);
-  else
-    unpack(listed<ListedEvent>(from.events, {}, count), interval_ns, frame);
+  const std::span<const ListedEvent> listed = from.events.as<ListedEvent>().first(count);
+  if (!desc_.instance) {
+    sorter_.sort(listed, interval_ns);
+    unpack(sorter_.sorted(), frame);
+    return frame;
+  }
+  const std::span<const uint32_t> instances = from.instances.as<uint32_t>();
+  with_instance_.resize(count);
+  for (size_t i = 0; i < count; ++i) with_instance_[i] = {listed[i], instances[i]};
+  instance_sorter_.sort(with_instance_, interval_ns);
+  unpack(instance_sorter_.sorted(), frame);
+  for (const ListedEventOfInstance& event : instance_sorter_.sorted())
+    frame.instance.push_back(event.instance);
   return frame;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gpu/tick_ring.h"
+#include "renderer/event/event_sort.h"
 #include "scene/gpu_scene.h"
 #include "shaders/shared/events.h"
 
@@ -123,10 +124,13 @@ class EventPass {
   EventDesc desc_;
   gpu::ComputePipeline begin_, step_, scan_, emit_, difference_;
   gpu::Buffer model_, control_, runs_, objects_, no_motions_;
-  gpu::Image pixels_, extra_, before_, thresholds_, no_seen_, previous_;
+  gpu::Image pixels_, extra_, before_, awake_, thresholds_, no_seen_, previous_;
   std::vector<Pending> pending_;  ///< by slot
   Pending now_;                   ///< being recorded
   std::vector<gpu::Descriptor> descriptors_;
+  EventSorter<ListedEvent> sorter_;
+  EventSorter<ListedEventOfInstance> instance_sorter_;
+  std::vector<ListedEventOfInstance> with_instance_;
   bool first_ = true;
   std::string scope_, difference_scope_;
 };

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Puts events in order of (t, y, x, p). The GPU writes each step's events row by row, so a stable sort by time alone is
-// enough; a radix sort takes one pass over them for each 11 bits of the interval.
+// enough; a radix sort takes one pass over them for each 13 bits of the interval.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace greatx::render {
@@ -25,25 +26,40 @@ struct ListedEventOfInstance : ListedEvent {
   uint32_t instance;
 };
 
-/// Sorts; `scratch` is room to work in. Events of one time must be in order of their pixels beforehand.
+/// Sorts, keeping its memory from one interval to the next.
 template <typename Event>
-void sort_events(std::vector<Event>& events, std::vector<Event>& scratch, uint32_t interval_ns) {
-  constexpr uint32_t digit_bits = 11;
-  const uint32_t bits = static_cast<uint32_t>(std::bit_width(interval_ns));
-  scratch.resize(events.size());
-  std::array<uint32_t, (1u << digit_bits)> place;
-  for (uint32_t shift = 0; shift < bits; shift += digit_bits) {
-    const auto digit = [&](const Event& event) { return event.t_ns >> shift & ((1u << digit_bits) - 1); };
-    place.fill(0);
-    for (const Event& event : events) ++place[digit(event)];
-    uint32_t sum = 0;
-    for (uint32_t& p : place) sum += std::exchange(p, sum);
-    for (const Event& event : events) scratch[place[digit(event)]++] = event;
-    events.swap(scratch);
+class EventSorter {
+ public:
+  /// Events of one time must be in order of their pixels beforehand. None is later than interval_ns.
+  void sort(std::span<const Event> events, uint32_t interval_ns) {
+    const auto bits = static_cast<uint32_t>(std::bit_width(interval_ns | 1u));
+    const uint32_t passes = (bits + most_digit_bits - 1) / most_digit_bits,
+                   digit = (bits + passes - 1) / passes;
+    const uint32_t mask = (1u << digit) - 1;
+    places_.assign(size_t{passes} << digit, 0);
+    for (const Event& event : events)
+      for (uint32_t pass = 0; pass < passes; ++pass)
+        ++places_[(pass << digit) + (event.t_ns >> pass * digit & mask)];
+    std::span<const Event> from = events;
+    for (uint32_t pass = 0; pass < passes; ++pass) {
+      uint32_t* const place = &places_[pass << digit];
+      uint32_t sum = 0;
+      for (uint32_t i = 0; i <= mask; ++i) sum += std::exchange(place[i], sum);
+      scratch_.resize(events.size());
+      for (const Event& event : from) scratch_[place[event.t_ns >> pass * digit & mask]++] = event;
+      sorted_.swap(scratch_);
+      from = sorted_;
+    }
+    // A pixel's events of the same nanosecond, one of them noise: by polarity.
+    for (size_t i = 1; i < sorted_.size(); ++i)
+      for (size_t j = i; j > 0 && sorted_[j] < sorted_[j - 1]; --j) std::swap(sorted_[j], sorted_[j - 1]);
   }
-  // A pixel's events of the same nanosecond, one by noise: by polarity.
-  for (size_t i = 1; i < events.size(); ++i)
-    for (size_t j = i; j > 0 && events[j] < events[j - 1]; --j) std::swap(events[j], events[j - 1]);
-}
+  const std::vector<Event>& sorted() const { return sorted_; }
+
+ private:
+  static constexpr uint32_t most_digit_bits = 13;  ///< counters of a pass stay in the nearest cache
+  std::vector<Event> sorted_, scratch_;
+  std::vector<uint32_t> places_;
+};
 
 }  // namespace greatx::render

@@ -15,7 +15,7 @@ void main() {
   if (run >= runs_per_row() * model.height) return;
   uint fired = runs[run].fired;
   if (fired == 0u) return;
-  uint slot = runs[run].first;
+  uint slot = runs[run].first, end = slot + runs[run].count;
   uint pixels;
   ivec2 start = run_start(run, pixels);
   Step step = this_step(control.from);
@@ -23,11 +23,17 @@ void main() {
     int i = findLSB(fired);
     fired &= fired - 1u;
     ivec2 at = start + ivec2(i, 0);
-    ivec4 before = imageLoad(before_image, at);
+    ivec2 before = imageLoad(before_image, at).rg;  // signal, crossings
     ivec3 c = thresholds_at(at);
-    int to = imageLoad(pixel_image, at).g;
-    if (leak_on) to += leak_between(step.leaked_from, step.leaked_to, c.x);
-    EventWalk walk = begin_walk(before.y, to, before.x, c.x, c.y, step.dt_ns, before.z);
+    ivec2 after = imageLoad(pixel_image, at).rg;
+    int reference = after.x - before.y * (before.y > 0 ? c.x : c.y), to = after.y;
+    if (leak_on) {
+      int leak = leak_between(step.leaked_from, step.leaked_to, c.x);
+      reference += leak;
+      to += leak;
+    }
+    int awake = refractory_on ? imageLoad(awake_image, at).r : 0;
+    EventWalk walk = begin_walk(before.x, to, reference, c.x, c.y, step.dt_ns, awake);
     Shot shot = begin_shot(walk, at);
     uint instance = 0u;
     if (instance_on) {
@@ -35,11 +41,10 @@ void main() {
       if (triangle != 0u) instance = objects[triangle - 1u].x;
     }
     uint place = uint(at.y) << 15 | uint(at.x) << 1;
-    for (uint end = slot + uint(before.w); slot < end; ++slot) {
-      int t = step.dt_ns;
-      bool on = true;
-      next_event(walk, shot, t, on);
-      if (slot >= model.capacity) continue;
+    int t;
+    bool on;
+    for (; slot < end && next_event(walk, shot, t, on); ++slot) {
+      if (slot >= model.capacity) return;
       EventList(interval.events).v[slot] = uvec2(uint(step.from_ns + t), place | uint(on));
       if (instance_on) InstanceList(interval.instances).v[slot] = instance;
     }

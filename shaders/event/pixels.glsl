@@ -23,7 +23,8 @@ layout(set = 0, binding = event_luminance_binding, r32f) uniform readonly image2
 layout(set = 0, binding = event_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
 layout(set = 0, binding = event_pixel_binding, rg32i) uniform iimage2D pixel_image;
 layout(set = 0, binding = event_extra_binding, rg32i) uniform iimage2D extra_image;
-layout(set = 0, binding = event_before_binding, rgba32i) uniform iimage2D before_image;
+layout(set = 0, binding = event_before_binding, rg32i) uniform iimage2D before_image;
+layout(set = 0, binding = event_awake_binding, r32i) uniform iimage2D awake_image;
 layout(set = 0, binding = event_threshold_binding, rgba32i) uniform readonly iimage2D threshold_image;
 layout(set = 0, binding = event_objects_binding, scalar) readonly buffer ObjectsBlock { uvec2 objects[]; };
 layout(set = 0, binding = event_motion_binding, scalar) readonly buffer MotionBlock { EventMotion motions[]; };

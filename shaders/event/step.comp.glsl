@@ -75,7 +75,8 @@ void main() {
     if (count > 0u) {
       events += count;
       fired |= 1u << i;
-      imageStore(before_image, at, ivec4(before.x, before.y, extra.y, count));
+      imageStore(before_image, at, ivec4(before.y, crossings, 0, 0));
+      if (refractory_on) imageStore(awake_image, at, ivec4(extra.y));
     }
     int reference = before.x + crossings * (crossings > 0 ? c.x : c.y) - leak;
     imageStore(pixel_image, at, ivec4(reference, signal, 0, 0));

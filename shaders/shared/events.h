@@ -74,9 +74,12 @@ GREATX_FUNCTION int low_pass(int y0, int u0, int u1, float x) {
 /// one threshold from the new reference.
 GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) {
   int above = signal - reference;
-  if (above >= on) return above / on;
-  if (-above >= off) return -(-above / off);
-  return 0;
+  int size = abs(above), c = above > 0 ? on : off;
+  // The quotient, without the division of integers that vector units lack: from floats it is one off at most.
+  int n = int(float(size) / float(c));
+  int rest = size - n * c;
+  n += (rest >= c ? 1 : 0) - (rest < 0 ? 1 : 0);
+  return above > 0 ? n : -n;
 }
 
 /// Nanoseconds after a step's start at which a signal that goes linearly from `from` to `to` reaches `level`, rounded up:
@@ -166,7 +169,8 @@ const uint event_luminance_binding = 3u;   // storage image r32f, cd/m^2
 const uint event_seen_binding = 4u;        // storage image rg32ui: planar depth's bits, triangle + 1
 const uint event_pixel_binding = 5u;       // storage image rg32i: reference, signal
 const uint event_extra_binding = 6u;       // storage image rg32i: input of the low pass, end of the refractory time
-const uint event_before_binding = 7u;      // storage image rgba32i: reference, signal, end of the refractory time, events
+const uint event_before_binding = 7u;      // storage image rg32i, of pixels that fired: signal before, signed crossings
+const uint event_awake_binding = 11u;      // storage image r32i: end of the refractory time before
 const uint event_threshold_binding = 8u;   // storage image rgba32i: on, off, phase of the leak
 const uint event_objects_binding = 9u;     // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;     // storage: EventMotion [bodies]

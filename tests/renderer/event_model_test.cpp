@@ -114,7 +114,7 @@ TEST(EventModel, CrossingTimesAreTheQuotientRoundedUp) {
 
 TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
   using render::ListedEvent;
-  std::vector<ListedEvent> events, scratch;
+  std::vector<ListedEvent> events;
   const auto place = [](uint32_t y, uint32_t x, uint32_t p) { return y << 15 | x << 1 | p; };
   for (const uint32_t step : {0u, 1u})
     for (uint32_t y = 0; y < 40; ++y)
@@ -123,7 +123,9 @@ TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
           events.push_back({1000000 * step + 7 * ((x * y + k / 2) % 13) + 1, place(y, x, k == 2 ? 1 : k)});
   std::vector<ListedEvent> sorted = events;
   std::stable_sort(sorted.begin(), sorted.end());
-  render::sort_events(events, scratch, 33'333'333);
+  render::EventSorter<ListedEvent> sorter;
+  sorter.sort(events, 33'333'333);
+  events = sorter.sorted();
   ASSERT_EQ(events.size(), sorted.size());
   for (size_t i = 0; i < events.size(); ++i) {
     EXPECT_EQ(events[i].t_ns, sorted[i].t_ns) << i;
