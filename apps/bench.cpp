@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/bench/camera_bench.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
@@ -28,6 +29,8 @@ struct Options {
   bool discard = false, json = false;
   bool recall = false;
   RecallOptions recall_options;
+  bool camera = false;
+  CameraBenchOptions camera_options;
   bool radio = false;
   RadioBenchOptions radio_options;
 };
@@ -109,6 +112,13 @@ void run(const Options& options) {
     print(result);
 }
 
+void run_camera(const Options& options) {
+  CameraBenchOptions camera = options.camera_options;
+  camera.warm_up = options.warm_up;
+  const nlohmann::json result = camera_bench(options.scenario, options.run, camera);
+  std::cout << (options.json ? result.dump(2) + "\n" : camera_bench_text(result));
+}
+
 void run_radio(const Options& options) {
   RadioBenchOptions radio = options.radio_options;
   radio.warm_up = options.warm_up;
@@ -149,6 +159,12 @@ void add_bench(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(0, 24));
   command->add_flag(
+      "--camera", options->camera,
+      "time the first camera alone instead, row by row: antialiasing, each effect, night, lamps");
+  command->add_option("--pictures", options->camera_options.pictures, "of --camera: measured of each row")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag(
       "--radio", options->radio,
       "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
       "with diffraction and scattering, many receivers in one call");
@@ -165,6 +181,7 @@ void add_bench(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->callback([options, command] {
+    if (options->camera) return run_camera(*options);
     if (options->radio) return run_radio(*options);
     if (!options->recall) return run(*options);
     options->recall_options.scenario = options->scenario;

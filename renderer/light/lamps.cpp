@@ -134,7 +134,7 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
       std::bit_cast<uint32_t>(light.range_m > 0.0f ? 1.0f / (light.range_m * light.range_m) : 0.0f));
   words.push_back(octahedral_word(direction));
   words.push_back(glm::packHalf2x16(vec2(intensity)));
-  words.push_back(glm::packHalf2x16(vec2(intensity.z, 0.0f)) | (directional ? 0x10000u : 0u));
+  words.push_back(glm::packHalf2x16(vec2(intensity.z, directional ? 1.0f : 0.0f)));
   words.push_back(std::bit_cast<uint32_t>(scale));
   words.push_back(std::bit_cast<uint32_t>(offset));
 }
@@ -176,6 +176,8 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
   words[shared::lamps_rows_word] = grid.rows;
   words[shared::lamps_across_word] = std::bit_cast<uint32_t>(float(grid.across));
   words[shared::lamps_down_word] = std::bit_cast<uint32_t>(float(grid.down));
+  words[shared::lamps_last_column_word] = std::bit_cast<uint32_t>(float(grid.columns - 1));
+  words[shared::lamps_last_row_word] = std::bit_cast<uint32_t>(float(grid.rows - 1));
   size_t entries = 0;
   for (const std::vector<uint32_t>& list : clusters.lists()) entries += list.size();
   counts.entries = static_cast<uint32_t>(entries);

@@ -42,12 +42,12 @@ Lamp make_lamp(LampKind kind) {
     case LampKind::avenue:
       lamp.mesh = arm_lamp(8.0, 1.9, "lamp_glass");
       lamp.light_position = {2.2, 0.0, 7.95};
-      lamp.light = downlight(lamp_color_4000k, 9000.0, 55.0, 83.0, 45.0);
+      lamp.light = downlight(lamp_color_4000k, 9000.0, 55.0, 83.0, 31.0);
       break;
     case LampKind::street:
       lamp.mesh = arm_lamp(6.25, 1.2, "lamp_glass_warm");
       lamp.light_position = {1.5, 0.0, 6.2};
-      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 36.0);
+      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 24.0);
       break;
     case LampKind::park: {
       const int metal = material("painted_metal");
@@ -55,13 +55,13 @@ Lamp make_lamp(LampKind kind) {
       lamp.mesh.box(material("lamp_glass_warm"), {-0.13, -0.13, 3.55}, {0.13, 0.13, 3.75});
       lamp.mesh.prism(metal, metal, regular_polygon(6, 0.3), 3.72, 3.8);
       lamp.light_position = {0.0, 0.0, 3.5};
-      lamp.light = downlight(lamp_color_3000k, 2500.0, 50.0, 84.0, 22.0);
+      lamp.light = downlight(lamp_color_3000k, 2500.0, 50.0, 84.0, 15.0);
       break;
     }
     case LampKind::yard:
       lamp.mesh = arm_lamp(5.2, 0.7, "lamp_glass_warm");
       lamp.light_position = {1.0, 0.0, 5.15};
-      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 36.0);
+      lamp.light = downlight(lamp_color_3000k, 6000.0, 55.0, 83.0, 24.0);
   }
   return lamp;
 }

@@ -35,7 +35,7 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     lit = false;
   }
   if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
-  if (lights_on) radiance += reflect_lamps(r, s.n, s.v, s.p);
+  if (lights_on) radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
   if (haze_on) radiance = through_haze(radiance, -s.v, length(s.p));
   return radiance;
 }
@@ -69,7 +69,7 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(seen_image)))) return;
   vec2 pixel = pinhole_place(at);
-  ivec2 in_pinhole = ivec2(pixel);
+  ivec2 in_pinhole = distortion_on ? ivec2(pixel) : at;  // a conversion costs a CPU driver more than a sum
   vec3 ray = pixel_ray(pixel);
   const float infinity = uintBitsToFloat(0x7f800000u);
 

@@ -70,11 +70,15 @@ const uint lamps_columns_word = 0u;
 const uint lamps_rows_word = 1u;
 const uint lamps_across_word = 2u;  // tiles across the picture, a float
 const uint lamps_down_word = 3u;
-const uint lamps_header_words = 4u;
+const uint lamps_last_column_word = 4u;  // as floats
+const uint lamps_last_row_word = 5u;
+const uint lamps_header_words = 6u;
 /// Of a lamp: position from the eye; 1 / range^2, 0: unlimited; direction, octahedral; intensity over the unit in halves:
 /// red and green, blue and 1 if directional (lux then); scale and offset of the cone.
 const uint lamp_record_words = 9u;
 const float lamp_intensity_unit = 64.0f;
+/// Rougher dielectrics show no highlights of lamps.
+const float lamp_most_roughness = 0.6f;
 
 /// Texels of four words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
 ///   0  first corner; body << 16 | material

@@ -1,0 +1,336 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/camera_bench.h"
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <sys/resource.h>
+
+#include "apps/bench/measure.h"
+#include "core/units.h"
+#include "gpu/tick_ring.h"
+#include "renderer/camera/camera.h"
+#include "sim/moment.h"
+#include "sim/plan/plan_options.h"
+#include "sim/scenario/trajectory.h"
+#include "sim/sensors/camera_desc.h"
+
+namespace greatx::apps {
+
+namespace {
+
+constexpr double day_target_ms = 20.0, night_over_day = 1.5;
+constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
+
+double cpu_ms() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto of = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+  return of(usage.ru_utime) + of(usage.ru_stime);
+}
+
+/// Where the camera and everything else is at one picture.
+struct Instant {
+  Pose local_from_sensor;
+  std::vector<Pose> bodies;
+};
+
+/// One way to take the picture, with everything it needs.
+class Row {
+ public:
+  Row(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
+      const render::Lighting& lighting, const render::CameraEffects& effects, const render::CameraDesc& desc)
+      : name_(std::move(name)),
+        scene_(std::make_unique<scene::Scene>(std::move(scene))),
+        gpu_(device, *scene_,
+             {.acceleration_structure = false, .textures = sim::gpu_scene_options(plan).textures}),
+        lighting_(gpu_, lighting, effects),
+        camera_(lighting_, desc),
+        ring_(device, 2, 4u << 20, 16u << 20) {}
+
+  void shoot(const Instant& instant, bool counts) {
+    const double cpu_before = cpu_ms();
+    const Clock::time_point begin = Clock::now();
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_.record_update(slot, instant.bodies);
+    lighting_.record(slot, instant.bodies);
+    camera_.record(slot, instant.local_from_sensor);
+    ring_.submit(slot);
+    ring_.wait(slot);
+    images_ = camera_.collect(slot);
+    if (!counts) return;
+    times_.push_back(milliseconds_since(begin));
+    cpu_.push_back(cpu_ms() - cpu_before);
+    lamps_ += camera_.lamps().seen;
+  }
+  const render::CameraImages& images() const { return images_; }
+  const std::string& name() const { return name_; }
+  size_t lamps_placed() const { return scene_->lights.size(); }
+
+  /// Adds the squared differences of 8-bit channels to a reference of the same size.
+  void compare(const std::vector<uint8_t>& reference) {
+    if (images_.rgb.size() != reference.size()) return;
+    for (size_t i = 0; i < reference.size(); ++i)
+      squares_ += std::pow(double(images_.rgb[i]) - reference[i], 2.0);
+    compared_ += reference.size();
+  }
+
+  nlohmann::json result() const {
+    nlohmann::json row{{"name", name_}, {"tick_ms", distribution(times_)}, {"cpu_ms", distribution(cpu_)}};
+    row["lamps_placed"] = scene_->lights.size();
+    row["lamps_seen"] = times_.empty() ? 0.0 : double(lamps_) / double(times_.size());
+    if (compared_ > 0) row["rmse_8bit"] = std::sqrt(squares_ / double(compared_));
+    return row;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<scene::Scene> scene_;
+  scene::GpuScene gpu_;
+  render::SceneLighting lighting_;
+  render::CameraPass camera_;
+  gpu::TickRing ring_;
+  render::CameraImages images_;
+  std::vector<double> times_, cpu_;
+  uint64_t lamps_ = 0, compared_ = 0;
+  double squares_ = 0.0;
+};
+
+/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point: 900 cd down a
+/// cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
+std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, uint32_t count) {
+  constexpr double spacing_m = 30.0;
+  std::vector<scene::PunctualLight> lamps;
+  const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(double(count))));
+  const dvec3 middle = scene.bounds.center();
+  for (uint32_t i = 0; i < count; ++i) {
+    scene::PunctualLight lamp;
+    lamp.type = scene::PunctualLight::Type::spot;
+    const dvec2 place = spacing_m * (dvec2(i % side, i / side) - 0.5 * (side - 1.0));
+    lamp.position = dvec3(dvec2(middle) + place, scene.bounds.min.z + 8.0);
+    lamp.intensity = 900.0f;
+    lamp.range_m = 30.0f;
+    lamp.inner_cone = float(radians(50.0));
+    lamp.outer_cone = float(radians(70.0));
+    lamps.push_back(lamp);
+  }
+  return lamps;
+}
+
+struct FirstCamera {
+  uint32_t node = 0, sensor = 0;
+};
+FirstCamera first_camera(const sim::Scenario& scenario) {
+  for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
+    for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor)
+      if (std::holds_alternative<sim::CameraConfig>(scenario.nodes[node].sensors[sensor].config))
+        return {node, sensor};
+  throw_user_error("{}: bench --camera: expected a camera, found none", scenario.name);
+}
+
+std::vector<Instant> instants_of(const sim::Scenario& scenario, const sim::World& world, FirstCamera camera,
+                                 uint32_t count) {
+  const auto paths = sim::make_paths(scenario, 0);
+  const sim::Clock clock(scenario.tick_rate_hz);
+  const Pose mount = sim::mount_pose(scenario.nodes[camera.node].sensors[camera.sensor].mount);
+  std::vector<Instant> instants;
+  for (uint32_t i = 0; i < count; ++i) {
+    const sim::Moment moment = sim::moment_at(world, paths, clock, scenario.ticks * i / count);
+    instants.push_back({world.scene.to_local(moment.motions[camera.node].pose) * mount, moment.bodies});
+  }
+  return instants;
+}
+
+/// Mean of blocks of 4 x 4 pixels of a picture 4 times as large, in linear light and back.
+std::vector<uint8_t> reduced(const render::CameraImages& large) {
+  const auto linear = [](uint8_t b) {
+    const double s = b / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  };
+  const uint32_t width = large.width / 4, height = large.height / 4;
+  std::vector<uint8_t> small(size_t{3} * width * height);
+  for (uint32_t row = 0; row < height; ++row)
+    for (uint32_t column = 0; column < width; ++column)
+      for (uint32_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (uint32_t k = 0; k < 16; ++k)
+          sum += linear(large.rgb[3 * (size_t{4 * row + k / 4} * large.width + 4 * column + k % 4) + c]);
+        const double mean = sum / 16.0;
+        const double s = mean <= 0.0031308 ? 12.92 * mean : 1.055 * std::pow(mean, 1.0 / 2.4) - 0.055;
+        small[3 * (size_t{row} * width + column) + c] = static_cast<uint8_t>(std::lround(255.0 * s));
+      }
+  return small;
+}
+
+render::CameraDesc enlarged(render::CameraDesc desc) {
+  desc.width *= 4;
+  desc.height *= 4;
+  desc.fx *= 4.0;
+  desc.fy *= 4.0;
+  desc.cx *= 4.0;
+  desc.cy *= 4.0;
+  return desc;
+}
+
+class Bench {
+ public:
+  Bench(const ScenarioOptions& options, const RunOptions& run)
+      : scenario_(load_scenario(options)),
+        world_(sim::load_world(scenario_)),
+        plan_(sim::make_effect_plan(scenario_, world_.scene)),
+        device_(run.device_options()),
+        camera_(first_camera(scenario_)) {
+    const sim::NodeConfig& node = scenario_.nodes[camera_.node];
+    desc_ =
+        sim::camera_desc(scenario_, node, node.sensors[camera_.sensor], world_.body_of_node[camera_.node]);
+    desc_.outputs = {};  // rgb, depth, ids
+    desc_.distortion = {};
+    desc_.parts = false;
+    day_ = sim::lighting_of(scenario_.environment);
+    effects_ = sim::camera_effects(plan_);
+  }
+
+  void add_rows() {
+    const auto with = [&](const std::string& name, const std::function<void(render::CameraDesc&)>& change) {
+      render::CameraDesc desc = desc_;
+      change(desc);
+      add(name, world_.scene, day_, effects_, desc);
+    };
+    with("as in the scenario", [](auto&) {});
+    with("antialiasing none", [](auto& d) { d.msaa = 1, d.smooth_edges = false; });
+    with("antialiasing edges", [](auto& d) { d.msaa = 1, d.smooth_edges = true; });
+    with("antialiasing msaa4", [](auto& d) { d.msaa = 4, d.smooth_edges = false; });
+    with("depth and ids alone", [](auto& d) { d.outputs.rgb = false; });
+    with("automatic exposure", [](auto& d) { d.automatic_exposure = true; });
+    with("sensor noise", [](auto& d) { d.noise = render::SensorNoise{}; });
+    with("lens distortion", [](auto& d) { d.distortion.k1 = -0.05; });
+    const auto without = [&](const std::string& name, bool render::CameraEffects::*effect) {
+      if (!(effects_.*effect)) return;
+      render::CameraEffects effects = effects_;
+      effects.*effect = false;
+      add("without " + name, world_.scene, day_, effects, desc_);
+    };
+    without("textures", &render::CameraEffects::textures);
+    without("static shadows", &render::CameraEffects::static_shadows);
+    without("moving shadows", &render::CameraEffects::moving_shadows);
+    without("ambient occlusion", &render::CameraEffects::ambient_occlusion);
+    without("specular", &render::CameraEffects::specular);
+    add_night();
+    render::CameraDesc large = enlarged(desc_);
+    large.msaa = 1;
+    large.smooth_edges = false;
+    reference_ = std::make_unique<Row>(device_, "reference", world_.scene, plan_, day_, effects_, large);
+  }
+
+  nlohmann::json measure(const CameraBenchOptions& options) {
+    const auto warm = static_cast<uint32_t>(options.warm_up);
+    const std::vector<Instant> instants = instants_of(scenario_, world_, camera_, options.pictures + warm);
+    for (uint32_t i = 0; i < instants.size(); ++i) {
+      for (const auto& row : rows_) row->shoot(instants[i], i >= warm);
+      if (i % 8 == 0) compare(instants[i]);
+    }
+    return result();
+  }
+
+ private:
+  void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
+           const render::CameraEffects& effects, const render::CameraDesc& desc) {
+    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+  }
+
+  /// The same view by night: the scene's own lamps, then lamps over the whole scene.
+  void add_night() {
+    sim::Scenario scenario = scenario_;
+    scenario.environment = {};
+    scenario.environment.sun_elevation = radians(night_elevation_deg);
+    const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
+    const render::Lighting night = sim::lighting_of(scenario.environment);
+    render::CameraDesc desc = desc_;
+    desc.exposure_ev100 = night_ev100;
+    desc.automatic_exposure = false;
+    add("night", world_.scene, night, sim::camera_effects(plan), desc);
+    render::CameraEffects effects = sim::camera_effects(plan);
+    effects.punctual_lights = true;
+    for (const uint32_t count : {10u, 100u, 1000u}) {
+      scene::Scene scene = world_.scene;
+      scene.lights = lattice_of_lamps(scene, count);
+      add(fmt::format("night, {} lamps placed", count), std::move(scene), night, effects, desc);
+    }
+  }
+
+  void compare(const Instant& instant) {
+    reference_->shoot(instant, false);
+    const std::vector<uint8_t> reference = reduced(reference_->images());
+    for (const auto& row : rows_) {
+      if (row->name().starts_with("antialiasing")) row->compare(reference);
+      if (row->name().starts_with("without")) row->compare(rows_.front()->images().rgb);
+    }
+  }
+
+  nlohmann::json result() const {
+    nlohmann::json result{{"scenario", scenario_.name},
+                          {"device", device_.info().name},
+                          {"driver", device_.info().driver},
+                          {"camera", desc_.name},
+                          {"width", desc_.width},
+                          {"height", desc_.height},
+                          {"triangles", world_.scene.triangle_count()},
+                          {"rows", nlohmann::json::array()}};
+    double first = 0.0;
+    for (const auto& row : rows_) {
+      nlohmann::json json = row->result();
+      const double median = json["tick_ms"]["median"];
+      if (first == 0.0) {
+        first = median;
+        json["target_ms"] = day_target_ms;
+      }
+      if (row->name() == "night") json["target_ms"] = night_over_day * first;
+      json["ratio"] = median / first;
+      result["rows"].push_back(std::move(json));
+    }
+    return result;
+  }
+
+  sim::Scenario scenario_;
+  sim::World world_;
+  sim::EffectPlan plan_;
+  gpu::Device device_;
+  FirstCamera camera_;
+  render::CameraDesc desc_;
+  render::Lighting day_;
+  render::CameraEffects effects_;
+  std::vector<std::unique_ptr<Row>> rows_;
+  std::unique_ptr<Row> reference_;
+};
+
+}  // namespace
+
+nlohmann::json camera_bench(const ScenarioOptions& scenario, const RunOptions& run,
+                            const CameraBenchOptions& options) {
+  Bench bench(scenario, run);
+  bench.add_rows();
+  return bench.measure(options);
+}
+
+std::string camera_bench_text(const nlohmann::json& result) {
+  std::string text = fmt::format(
+      "{}, {} of {} x {}, {} triangles, on {} ({})\n{:<28} {:>8} {:>8} {:>8} {:>7} {:>9} {:>10}\n",
+      result["scenario"].get<std::string>(), result["camera"].get<std::string>(), result["width"].get<int>(),
+      result["height"].get<int>(), result["triangles"].get<size_t>(), result["device"].get<std::string>(),
+      result["driver"].get<std::string>(), "", "min ms", "median", "cpu ms", "ratio", "rmse/255",
+      "lamps seen");
+  for (const nlohmann::json& row : result["rows"]) {
+    text += fmt::format(
+        "{:<28} {:8.2f} {:8.2f} {:8.2f} {:7.2f} {:>9} {:>10}{}\n", row["name"].get<std::string>(),
+        row["tick_ms"]["min"].get<double>(), row["tick_ms"]["median"].get<double>(),
+        row["cpu_ms"]["median"].get<double>(), row["ratio"].get<double>(),
+        row.contains("rmse_8bit") ? fmt::format("{:.2f}", row["rmse_8bit"].get<double>()) : "",
+        row["lamps_seen"].get<double>() > 0.0 ? fmt::format("{:.1f}", row["lamps_seen"].get<double>()) : "",
+        row.contains("target_ms") ? fmt::format("  (to reach: {:.1f} ms)", row["target_ms"].get<double>())
+                                  : "");
+  }
+  return text;
+}
+
+}  // namespace greatx::apps
