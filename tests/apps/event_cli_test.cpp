@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Event cameras from the command line: threads, a run that is cut short, the files' check.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/program.h"
+
+namespace greatx::apps::test {
+namespace {
+
+class EventCli : public testing::Test {
+ protected:
+  EventCli() {
+    std::ofstream(path("events.yaml")) << R"(
+greatx: 1
+name: events
+ticks: 100
+tick_rate_hz: 1000
+scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}
+nodes:
+  - name: van
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -6, 0]}, {t_s: 0.2, position_m: [2, -4, 0]}]}
+    model: {generate: {kind: car, variant: van}}
+  - name: eye
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -16, 1.6], rotation_deg: [90, 0, 0]},
+                                           {t_s: 0.1, position_m: [2, -16, 1.6], rotation_deg: [95, 0, 0]}]}
+    sensors:
+      - {name: dvs, type: event_camera, rate_hz: 30, width: 62, height: 46, fov_deg: 70,
+         threshold: {on: 0.15, off: 0.2, sigma: 0.03}, noise: {leak_rate_hz: 2, shot_rate_hz: 10}, cutoff_hz: 300,
+         refractory_s: 0.0005, steps: {by: brightness, max_change: 1, most: 8},
+         outputs: [events, instance, differences, hdf5, text]}
+)";
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string manifest(const std::string& name) const { return read_file(path(name) + "/manifest.json"); }
+  Outcome generate(const std::string& name, const std::string& arguments, const std::string& before = "") {
+    return greatx(fmt::format("generate {} -o {} -q {}", path("events.yaml"), path(name), arguments), before);
+  }
+  greatx::test::TemporaryFolder folder_;
+};
+
+TEST_F(EventCli, HardCaseN63AnyNumberOfThreadsGivesTheSameBytes) {
+  ASSERT_EQ(generate("one", "--threads 1", "LP_NUM_THREADS=1").code, 0);
+  ASSERT_EQ(generate("two", "--threads 2", "LP_NUM_THREADS=2").code, 0);
+  ASSERT_EQ(generate("many", "--threads 16", "LP_NUM_THREADS=16").code, 0);
+  EXPECT_FALSE(manifest("one").empty());
+  EXPECT_EQ(manifest("one"), manifest("two"));
+  EXPECT_EQ(manifest("one"), manifest("many"));
+  EXPECT_THAT(manifest("one"), testing::HasSubstr("eye/dvs/events.h5"));
+  EXPECT_THAT(manifest("one"), testing::HasSubstr("eye/dvs/events_text.txt"));
+  EXPECT_EQ(greatx("verify " + path("one")).code, 0);
+}
+
+TEST_F(EventCli, ACutRunIsFinishedToTheSameBytes) {
+  ASSERT_EQ(generate("whole", "").code, 0);
+  // A file-size limit ends it once a stack has grown to 12 kB; what was committed before stays.
+  ASSERT_NE(generate("cut", "", "ulimit -f 24;").code, 0) << "the stacks have no room";
+  const Outcome resumed = generate("cut", "--resume");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(manifest("cut"), manifest("whole"));
+}
+
+TEST_F(EventCli, AChangedExportIsFound) {
+  ASSERT_EQ(generate("data", "").code, 0);
+  std::ofstream(path("data") + "/sequence_0000/eye/dvs/events.h5", std::ios::app) << "x";
+  const Outcome verified = greatx("verify " + path("data"));
+  EXPECT_NE(verified.code, 0);
+  EXPECT_THAT(verified.out + verified.err, testing::HasSubstr("events.h5"));
+}
+
+}  // namespace
+}  // namespace greatx::apps::test
