@@ -48,7 +48,7 @@ class EventFiles(unittest.TestCase):
             ms = file["ms_to_idx"][:]
             self.assertEqual(ms.dtype, np.uint64)
             self.assertEqual(ms[-1], len(t))
-            for i, first in enumerate(ms):  # t[ms_to_idx[ms]] >= 1000 ms, and no event before it is
+            for i, first in enumerate(ms.tolist()):  # t[ms_to_idx[ms]] >= 1000 ms, and no event before it is
                 self.assertTrue(first == len(t) or t[first] >= 1000 * i)
                 self.assertTrue(first == 0 or t[first - 1] < 1000 * i)
 

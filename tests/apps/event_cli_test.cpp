@@ -55,11 +55,18 @@ TEST_F(EventCli, HardCaseN63AnyNumberOfThreadsGivesTheSameBytes) {
   EXPECT_EQ(greatx("verify " + path("one")).code, 0);
 }
 
-TEST_F(EventCli, ACutRunIsFinishedToTheSameBytes) {
-  ASSERT_EQ(generate("whole", "").code, 0);
-  // A file-size limit ends it once a stack has grown to 12 kB; what was committed before stays.
-  ASSERT_NE(generate("cut", "", "ulimit -f 24;").code, 0) << "the stacks have no room";
-  const Outcome resumed = generate("cut", "--resume");
+TEST_F(EventCli, AKilledRunIsFinishedToTheSameBytes) {
+  const std::string longer = "--ticks 1500";
+  ASSERT_EQ(generate("whole", longer).code, 0);
+  // Killed when the fifth of 45 difference images is there.
+  const std::string command = fmt::format(
+      "'{}' generate {} -o {} -q {} & run=$!; n=0; while [ ! -e "
+      "{}/sequence_0000/eye/dvs/differences/000004.png ] && "
+      "[ $n -lt 6000 ]; do sleep 0.005; n=$((n+1)); done; kill -9 $run; wait $run 2>/dev/null; true",
+      GREATX_PROGRAM, path("events.yaml"), path("cut"), longer, path("cut"));
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_THAT(greatx("verify " + path("cut")).out, testing::HasSubstr("unfinished"));
+  const Outcome resumed = generate("cut", longer + " --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(manifest("cut"), manifest("whole"));
 }
