@@ -16,7 +16,7 @@ namespace {
 
 constexpr int azimuths = 16;
 constexpr double least_cell_m = 0.5;
-constexpr double step_growth = 1.35;  ///< of the distances at which a horizon is looked up
+constexpr double step_growth = 1.25;  ///< of the distances at which a horizon is looked up
 constexpr double farthest_m = 200.0;
 
 /// Raises the cells whose centres a triangle covers from above, and those of its corners and edges, so that walls
