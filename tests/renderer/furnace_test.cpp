@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A white sphere in a uniformly white world cannot be seen: it sends back what comes in, at every angle at once.
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scene/build.h"
+#include "tests/renderer/camera_rig.h"
+
+namespace greatx::test {
+namespace {
+
+/// Round to shading: its vertex normals are those of the sphere, so angles from 0 to 90 degrees are all there.
+scene::Scene sphere(const scene::Material& material) {
+  constexpr int rings = 24, sectors = 48;
+  const auto point = [](int ring, int sector) {
+    const double polar = pi * ring / rings, azimuth = 2.0 * pi * sector / sectors;
+    return dvec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+  };
+  TinyScene tiny;
+  tiny.object("sphere", 0, tiny.material_as(material));
+  for (int ring = 0; ring < rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector) {
+      const dvec3 a = point(ring, sector), b = point(ring + 1, sector), c = point(ring + 1, sector + 1),
+                  d = point(ring, sector + 1);
+      if (ring + 1 < rings) tiny.triangle(a, b, c);
+      if (ring > 0) tiny.triangle(a, c, d);
+    }
+  scene::Scene scene = tiny.build();
+  for (size_t i = 0; i < scene.positions.size(); ++i) scene.normals[i] = glm::normalize(scene.positions[i]);
+  return scene;
+}
+
+render::Lighting furnace() {
+  render::Lighting lighting = plain_light();
+  lighting.sky_model = render::SkyModel::uniform;
+  lighting.sun_illuminance_lux = 0.0;
+  return lighting;
+}
+
+struct Contrast {
+  size_t pixels = 0;     ///< of the sphere
+  double largest = 0.0;  ///< |L / L_world - 1|
+};
+
+Contrast contrast_of(const scene::Material& material) {
+  CameraRig rig(sphere(material), furnace(), plain_camera(64));
+  const render::CameraImages images = rig.shoot(look({-1.8, 0, 0}));
+  Contrast contrast;
+  for (size_t i = 0; i < images.depth.size(); ++i) {
+    contrast.pixels += std::isfinite(images.depth[i]);
+    contrast.largest = std::max(contrast.largest, std::abs(luminance_at(images, i) / (15000.0 / pi) - 1.0));
+  }
+  return contrast;
+}
+
+TEST(Furnace, WhiteSphereDisappears) {
+  for (const float metallic : {0.0f, 1.0f})
+    for (const float roughness : {0.1f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+      const Contrast contrast = contrast_of(optical_material("white", 1.0f, metallic, roughness));
+      EXPECT_GT(contrast.pixels, 500u);
+      EXPECT_LT(contrast.largest, 4e-3) << metallic << " " << roughness;
+    }
+}
+
+TEST(Furnace, GreySphereDoesNot) { EXPECT_GT(contrast_of(optical_material("grey", 0.5f)).largest, 0.3); }
+
+TEST(Furnace, NothingElseGains) {
+  // Grey metal, and what lies between dielectric and metal (which loses up to a third even if white).
+  for (const auto& [grey, metallic, roughness] : {std::array{0.7f, 1.0f, 0.1f},
+                                                  {0.7f, 1.0f, 0.5f},
+                                                  {0.7f, 1.0f, 1.0f},
+                                                  {1.0f, 0.5f, 0.1f},
+                                                  {1.0f, 0.5f, 1.0f}}) {
+    CameraRig rig(sphere(optical_material("grey", grey, metallic, roughness)), furnace(), plain_camera(64));
+    const render::CameraImages images = rig.shoot(look({-1.8, 0, 0}));
+    for (size_t i = 0; i < images.depth.size(); ++i) {
+      EXPECT_LE(luminance_at(images, i) / (15000.0 / pi), 1.004) << metallic << " " << roughness << " " << i;
+      EXPECT_GE(luminance_at(images, i) / (15000.0 / pi), 0.55) << metallic << " " << roughness << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace greatx::test
