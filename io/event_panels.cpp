@@ -16,7 +16,7 @@ class EventPanel : public FramePanel {
  public:
   EventPanel(const PanelSource& source, int64_t width, int64_t height)
       : source_(source), width_(width), height_(height) {}
-  std::string title() const override { return source_.spec().name + " events: ON red, OFF blue"; }
+  std::string title() const override { return source_.spec().name + ": ON red, OFF blue"; }
   double aspect() const override { return static_cast<double>(height_) / static_cast<double>(width_); }
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {

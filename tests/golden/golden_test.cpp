@@ -75,20 +75,27 @@ Comparison compare(const YAML::Node& row, const Array& expected, const Array& ac
 
 bool same_shape(const Array& a, const Array& b) { return a.dtype == b.dtype && a.shape == b.shape; }
 
+/// What an update changes, in words; a golden that cannot be read is no obstacle.
+std::string change(const std::string& name, const YAML::Node& row, const Array& actual) try {
+  if (!std::filesystem::exists(folder / (name + ".png"))) return "new";
+  const Array before = golden(name);
+  if (!same_shape(before, actual)) return "another size";
+  if (before.bytes == actual.bytes) return "as it was";
+  return fmt::format("changed, {} {:.4f}", row["flip"] ? "FLIP" : "share",
+                     compare(row, before, actual).value);
+} catch (const UserError& error) {
+  return fmt::format("written anew: {}", error.what());
+}
+
 void update(const std::string& name, const YAML::Node& row, const Array& actual) {
-  std::string text = "new";
-  if (std::filesystem::exists(folder / (name + ".png"))) {
-    const Array before = golden(name);
-    text = !same_shape(before, actual)    ? "another size"
-           : before.bytes == actual.bytes ? "as it was"
-                                          : fmt::format("changed, {} {:.4f}", row["flip"] ? "FLIP" : "share",
-                                                        compare(row, before, actual).value);
-  }
+  const std::string text = change(name, row, actual);
   io::write_file_atomically(folder / (name + ".png"), io::encode_png(actual));
   std::cout << name << ".png: " << text << '\n';
 }
 
 void check(const std::string& name, const YAML::Node& row, const Array& actual) {
+  for (const char* what : {"_expected.png", "_actual.png", "_difference.png"})
+    std::filesystem::remove(findings / (name + what));  // of an earlier run
   const Array expected = golden(name);
   const auto keep = [&](const char* what, const Array& picture) {
     std::filesystem::create_directories(findings);

@@ -267,7 +267,7 @@ TEST(ContactSheet, ShowsTruthAndEvents) {
   std::vector<std::string> titles;
   for (const auto& panel : panels.frames) titles.push_back(panel->title());
   EXPECT_THAT(titles, ElementsAre("uav/cam rgb", "uav/cam normals", "uav/cam flow", "uav/cam boxes",
-                                  "uav/events events: ON red, OFF blue", "uav/events differences"));
+                                  "uav/events: ON red, OFF blue", "uav/events differences"));
   const auto corner = [&](size_t panel) {  // of the first column and row
     Canvas canvas(60, 80, theme::page);
     panels.frames[panel]->draw(canvas, {0, 0, 60, 40}, {0, 50, 60, 20}, 0);
