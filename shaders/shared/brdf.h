@@ -94,7 +94,9 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   vec2 terms = specular_albedo_terms(r.n_dot_v, roughness);
   r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
   r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
-  r.diffuse = base_color * (1.0f - metallic) * (vec3(1.0f) - r.albedo);
+  // Under the diffuse part lies the dielectric's lobe, whatever share of the surface is metal.
+  float dielectric = (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
+  r.diffuse = base_color * ((1.0f - metallic) * (1.0f - dielectric));
   return r;
 }
 
