@@ -69,7 +69,7 @@ TEST(Furnace, WhiteSphereDisappears) {
 TEST(Furnace, GreySphereDoesNot) { EXPECT_GT(contrast_of(optical_material("grey", 0.5f)).largest, 0.3); }
 
 TEST(Furnace, NothingElseGains) {
-  // Grey metal; white between dielectric and metal, where the lobe's energy is not linear in F0.
+  // Grey metal; white between dielectric and metal, which loses up to a sixth: the lobe is not linear in F0.
   for (const auto& [grey, metallic, roughness] : {std::array{0.7f, 1.0f, 0.1f},
                                                   {0.7f, 1.0f, 0.5f},
                                                   {0.7f, 1.0f, 1.0f},
@@ -78,7 +78,7 @@ TEST(Furnace, NothingElseGains) {
     CameraRig rig(sphere(optical_material("grey", grey, metallic, roughness)), furnace(), plain_camera(64));
     const render::CameraImages images = rig.shoot(look({-1.8, 0, 0}));
     for (size_t i = 0; i < images.depth.size(); ++i) {
-      const double least = metallic < 1.0f ? 0.9 : 0.55;
+      const double least = metallic < 1.0f ? 0.8 : 0.55;
       EXPECT_LE(luminance_at(images, i) / (15000.0 / pi), 1.004) << metallic << " " << roughness << " " << i;
       EXPECT_GE(luminance_at(images, i) / (15000.0 / pi), least) << metallic << " " << roughness << " " << i;
     }
