@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "renderer/camera/camera_view.h"
 #include "renderer/light/sky.h"
 #include "shaders/shared/camera.h"
 #include "sim/plan/light_plan.h"
@@ -17,7 +18,7 @@ namespace greatx::sim {
 namespace {
 
 /// Enough digits for sunlight and starlight alike.
-std::string lux_text(double lux) {
+std::string digits(double lux) {
   return lux >= 10.0 ? fmt::format("{:.0f}", lux) : fmt::format("{:.2g}", lux);
 }
 
@@ -149,6 +150,29 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
                                                               : "event cameras step evenly");
 }
 
+/// A lens must be invertible over its whole picture; said here, before anything is built.
+void check_lenses(const Scenario& scenario) {
+  for (const NodeConfig& node : scenario.nodes)
+    for (const SensorConfig& sensor : node.sensors) {
+      const PinholeConfig* camera = std::get_if<CameraConfig>(&sensor.config);
+      if (camera == nullptr) camera = std::get_if<EventCameraConfig>(&sensor.config);
+      if (camera == nullptr || !camera->distortion.any()) continue;
+      const Distortion& d = camera->distortion;
+      try {
+        render::pinhole_of({.name = node.name + "/" + sensor.name,
+                            .width = camera->width,
+                            .height = camera->height,
+                            .fx = camera->fx,
+                            .fy = camera->fy,
+                            .cx = camera->cx,
+                            .cy = camera->cy,
+                            .distortion = {d.k1, d.k2, d.p1, d.p2, d.k3}});
+      } catch (const UserError& error) {
+        throw_user_error_at(sensor.where, "{}", error.what());
+      }
+    }
+}
+
 /// What a lens, an exposure and a sensor of light do to a picture.
 void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
   const auto asked = [&](const char* name, bool wanted, const char* bound = "") {
@@ -182,8 +206,8 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
   plan.emissive =
       shading.decide("emissive", offers.emissive && offers.brightest_cd_m2 > white, "materials glow",
                      offers.emissive ? "daylight drowns what glows" : "no material glows",
-                     offers.emissive ? fmt::format("up to {:.0f} cd/m^2 against {:.0f} of a white surface",
-                                                   offers.brightest_cd_m2, white)
+                     offers.emissive ? fmt::format("up to {} cd/m^2 against {} of a white surface",
+                                                   digits(offers.brightest_cd_m2), digits(white))
                                      : "");
   // Lamps matter once they add more than 1 % to what the sun and the sky give the ground.
   constexpr double tolerance = 0.01;
@@ -194,8 +218,8 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
       offers.lights == 0 ? "the scene has no lamps" : "daylight drowns them",
       offers.lights == 0 || ground_lux <= 0.0
           ? ""
-          : fmt::format("at most {:.2f} % of the ground's {:.0f} lux, tolerance {:.0f} %",
-                        100.0 * offers.lamp_illuminance_lux / ground_lux, ground_lux, 100.0 * tolerance));
+          : fmt::format("at most {} lux beside the ground's {}, tolerance {:.0f} %",
+                        digits(offers.lamp_illuminance_lux), digits(ground_lux), 100.0 * tolerance));
 }
 
 void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenario,
@@ -203,11 +227,11 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
   const double key_lux = light.below.direct_lux * std::max(0.0, light.key.direction.z);
   plan.sun =
       shading.decide("sun", key_lux > 0.0,
-                     fmt::format("{} lux on the ground{}", lux_text(key_lux),
+                     fmt::format("{} lux on the ground{}", digits(key_lux),
                                  light.key.body == render::KeyLight::Body::moon ? ", of the moon" : ""),
                      "neither sun nor moon shines");
   plan.sky = shading.decide("sky", light.below.sky_lux > 0.0,
-                            fmt::format("{} lux on the ground", lux_text(light.below.sky_lux)),
+                            fmt::format("{} lux on the ground", digits(light.below.sky_lux)),
                             "its illuminance is 0");
   plan.static_shadows = shading.decide(
       "static_shadows", plan.sun.on && offers.static_triangles, "the sun shines on static meshes",
@@ -229,6 +253,7 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
 
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
                  const Asks& asks) {
+  check_lenses(scenario);
   const ResolvedLight light = resolve(scenario.environment);
   const Shading shading(planner, asks.color());
   plan_outputs(plan, planner, asks);
