@@ -201,6 +201,9 @@ void Cmd::push_constants(const void* data, uint32_t bytes) {
 }
 
 void Cmd::dispatch(uint32_t x, uint32_t y, uint32_t z) {
+  const uint32_t* most = device_->limits().maxComputeWorkGroupCount;
+  GREATX_CHECK(x <= most[0] && y <= most[1] && z <= most[2],
+               "{} x {} x {} groups, the device takes {} x {} x {}", x, y, z, most[0], most[1], most[2]);
   vkCmdDispatch(handle_, x, y, z);
   ++device_->counters().dispatches;
 }

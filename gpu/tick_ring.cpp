@@ -10,7 +10,7 @@ namespace greatx::gpu {
 
 namespace {
 constexpr VkDeviceSize arena_alignment = 256;
-constexpr uint32_t max_scopes = 256;
+constexpr uint32_t max_scopes = 1024;
 }  // namespace
 
 Arena::Arena(Device& device, Memory memory, VkDeviceSize bytes, std::string name)

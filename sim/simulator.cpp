@@ -117,7 +117,7 @@ void Simulator::replay(int64_t end) {
     record(slot, moment_at(tick), due);
     ring_.submit(slot, gpu::TickRing::Kind::setup);
     ring_.wait(slot);
-    for (const Due& sensor : due) sensors_[sensor.sensor]->collect(slot);
+    for (const Due& sensor : due) sensors_[sensor.sensor]->catch_up(slot);
   }
 }
 

@@ -44,6 +44,11 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   desc_.smooth_edges = desc_.smooth_edges && shaded;
   desc_.outputs.seen = desc_.outputs.seen || desc_.smooth_edges;
   pinhole_ = std::make_unique<PinholeView>(pinhole_of(desc_));
+  const uint32_t most = scene_->device().limits().maxImageDimension2D;
+  if (std::max(pinhole_->width, pinhole_->height) > most)
+    throw_user_error(
+        "camera {}: distortion: expected a pinhole picture of at most {} pixels along a side, found {} x {}",
+        desc_.name, most, pinhole_->width, pinhole_->height);
   bound_primitives();
   sort_primitives();
   build_pipelines();
@@ -75,6 +80,15 @@ void CameraPass::check() const {
           desc_.exposure_ev100);
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
           0);
+  require(!desc_.outputs.luminance || !desc_.outputs.color(), "outputs", "luminance or colour, not both", 2);
+  for (const scene::PunctualLight& light : scene_->scene().lights) {
+    const vec3 peak = light.color * light.intensity;
+    const float brightest = std::max({peak.x, peak.y, peak.z}),
+                most_cd = 65504.0f * shared::lamp_intensity_unit;
+    if (!(brightest <= most_cd))
+      throw_user_error("lamp {}: expected an intensity of at most {} cd (or lux), found {}", light.name,
+                       most_cd, brightest);
+  }
   const size_t materials = scene_->scene().materials.size();
   require(!desc_.outputs.material || materials < 65535, "outputs.material",
           "a scene of at most 65534 materials", double(materials));

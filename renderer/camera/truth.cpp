@@ -137,7 +137,11 @@ void TruthPass::record(gpu::TickSlot& slot, gpu::Image& seen, const TruthInstant
                                                 lighting_->surfaces().triangle_primitives()));
   cmd.push(descriptors);
   cmd.constants(constants);
-  cmd.dispatch(static_cast<uint32_t>((pixels + shared::truth_group_size - 1) / shared::truth_group_size));
+  // In rows: a device need not take more than 65535 groups along an axis.
+  const auto groups =
+      static_cast<uint32_t>((pixels + shared::truth_group_size - 1) / shared::truth_group_size);
+  constexpr uint32_t across = 4096;
+  cmd.dispatch(std::min(groups, across), (groups + across - 1) / across);
 }
 
 TruthImages TruthPass::collect(const gpu::TickSlot& slot) const {

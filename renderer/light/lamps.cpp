@@ -130,8 +130,9 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
     offset = float(-outer) * scale;
   }
   for (int i = 0; i < 3; ++i) words.push_back(std::bit_cast<uint32_t>(position[i]));
-  words.push_back(
-      std::bit_cast<uint32_t>(light.range_m > 0.0f ? 1.0f / (light.range_m * light.range_m) : 0.0f));
+  // A lamp without a range gets the window of its reach, so that nothing jumps at the rim of its clusters.
+  const double reach = lamp_reach(light);
+  words.push_back(std::bit_cast<uint32_t>(directional ? 0.0f : float(1.0 / std::max(reach * reach, 1e-12))));
   words.push_back(octahedral_word(direction));
   words.push_back(glm::packHalf2x16(vec2(intensity)));
   words.push_back(glm::packHalf2x16(vec2(intensity.z, directional ? 1.0f : 0.0f)));

@@ -52,7 +52,8 @@ void look(inout Center center, Seen seen, vec3 ray) {
   float depth = dot(seen.p0, seen.normal) / facing;
   const float rim = 1e-4;  // on an edge both neighbours cover the centre
   vec2 b = vec2(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator)) / facing;
-  bool covers = sample_count == 1u || (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
+  // One sample is the centre itself, unless a lens bends the ray away from it.
+  bool covers = (sample_count == 1u && !distortion_on) || (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
   if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.triangle + 1u);
 }
 
@@ -91,7 +92,7 @@ void main() {
     } else {
       Seen seen = see(id - 1u);
       if (ids_on) look(center, seen, ray);
-      if (ids_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
+      if (ids_on && (sample_count > 1u || distortion_on) && id == ids[0]) first = rim_of(seen, ray);
       if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray);
     }
   }
@@ -101,7 +102,7 @@ void main() {
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
     vec4 before = blend_on ? imageLoad(color_image, at) : vec4(0.0);
-    imageStore(color_image, at, blend_on ? exposed(stored, before) : stored);
+    imageStore(color_image, at, blend_on ? min(exposed(stored, before), vec4(65504.0)) : stored);
   }
   if (luminance_on) {
     vec4 stored = vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722)));

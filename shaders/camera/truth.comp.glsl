@@ -91,7 +91,7 @@ uvec2 flow_bits(vec2 n, float inverse_depth, GpuBodyMotion motion) {
 }
 
 void main() {
-  uint pixel = gl_GlobalInvocationID.x;
+  uint pixel = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * truth_group_size) + gl_GlobalInvocationID.x;
   if (pixel >= camera.width * camera.height) return;
   ivec2 at = ivec2(pixel % camera.width, pixel / camera.width);
   uvec2 seen = imageLoad(seen_image, at).rg;

@@ -20,6 +20,7 @@ void main() {
   }
   for (uint i = 0u; i <= most_substeps; ++i) control.due[i] = 0u;
   control.due[interval.grid] = 1u;
+  if (interval.index == 0u) return;
   float spacing = float(interval.interval_ns) / float(interval.grid);
   float ahead = clamp(uintBitsToFloat(control.allowed) / spacing, 1.0, float(interval.grid));
   control.due[uint(ahead)] = 1u;

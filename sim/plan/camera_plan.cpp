@@ -76,7 +76,7 @@ void add(Asks& asks, const CameraConfig& camera) {
   asks.boxes |= camera.boxes;
   asks.vignetting |= camera.rgb && camera.vignetting.any();
   asks.noise |= camera.rgb && camera.noise.has_value();
-  asks.motion_blur |= camera.motion_blur_samples > 0;
+  asks.motion_blur |= camera.motion_blur_samples > 0 && (camera.rgb || camera.hdr);
   asks.automatic_exposure |= camera.rgb && camera.exposure.automatic;
   add(asks, static_cast<const PinholeConfig&>(camera));
 }
@@ -183,7 +183,8 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
                          bound);
   };
   plan.smooth_edges = asked("smooth_edges", asks.smooth_edges && asks.color());
-  plan.lens_distortion = asked("lens_distortion", asks.distortion);
+  plan.lens_distortion = planner.fixed("lens_distortion", asks.distortion,
+                                       asks.distortion ? "asked for" : "no camera asks for it");
   plan.vignetting = asked("vignetting", asks.vignetting);
   plan.motion_blur = asked("motion_blur", asks.motion_blur, "costs a picture for each of its samples");
   plan.auto_exposure = asked("auto_exposure", asks.automatic_exposure);

@@ -37,7 +37,7 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   desc.near_m = config.near_m;
   desc.msaa = config.msaa;
   desc.smooth_edges = config.smooth_edges;
-  desc.parts = config.motion_blur_samples > 0;
+  desc.parts = config.motion_blur_samples > 0 && (config.rgb || config.hdr);
   const Distortion& lens = config.distortion;
   desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
   desc.exposure_ev100 = config.exposure.ev100;

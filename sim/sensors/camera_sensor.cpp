@@ -105,7 +105,7 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
     output("material", FileFormat::png, "material");
   }
   if (config.boxes) describe_boxes(spec_);
-  if (config.exposure.automatic) {
+  if (config.rgb && config.exposure.automatic) {
     array("ev100", DType::f32, {}, "EV", "exposure that the meter set, at ISO 100");
     output("ev100", FileFormat::npy_stack, "ev100");
   }
@@ -124,7 +124,7 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
 void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
   const render::FrameNumber frame{context.sequence, context.tick};
   const uint32_t instants = config_.motion_blur_samples;
-  if (instants == 0) return pass_.record(slot, local_from_sensor, frame);
+  if (!pass_.desc().parts) return pass_.record(slot, local_from_sensor, frame);
   const float weight = 1.0f / static_cast<float>(instants);
   bool first = true;
   for (uint32_t i = 0; i < instants; ++i) {
@@ -193,7 +193,8 @@ std::vector<Array> CameraSensor::collect(const gpu::TickSlot& slot) {
         boxes_->find(moment.local_from_sensor, moment.bodies, images_.instance);
     for (Array& array : box_arrays(*boxes_, found, node_of_body_)) arrays.push_back(std::move(array));
   }
-  if (config_.exposure.automatic) arrays.push_back(Array::of<float>({}, std::span(&images_.ev100, 1)));
+  if (config_.rgb && config_.exposure.automatic)
+    arrays.push_back(Array::of<float>({}, std::span(&images_.ev100, 1)));
   return arrays;
 }
 

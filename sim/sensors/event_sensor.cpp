@@ -164,7 +164,6 @@ void EventSensor::start(const TickContext& /*context*/) {
   events_.restart();
   last_ns_.reset();
   sample_ = 0;
-  event_count_ = dropped_ = pictures_ = coarse_ = 0;
 }
 
 void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
@@ -217,6 +216,8 @@ std::vector<shared::EventMotion> EventSensor::motions(const TickContext& context
   }
   return motions;
 }
+
+void EventSensor::catch_up(const gpu::TickSlot& slot) { frame_ = events_.collect(slot); }
 
 std::vector<Array> EventSensor::collect(const gpu::TickSlot& slot) {
   frame_ = events_.collect(slot);

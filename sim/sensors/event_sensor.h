@@ -25,6 +25,7 @@ class EventSensor : public Sensor {
   void start(const TickContext& context) override;
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  void catch_up(const gpu::TickSlot& slot) override;
   void count(std::map<std::string, uint64_t>& counters) const override;
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 

@@ -60,6 +60,9 @@ class Sensor {
   virtual void record_ahead(gpu::TickSlot&, const TickContext&) {}
   /// The arrays of the record, in the order of the spec; after the slot's submission is done.
   virtual std::vector<Array> collect(const gpu::TickSlot& slot) = 0;
+  /// Of a sensor that remembers: instead of collect(), at a tick that is gone through again before a resume. Counts
+  /// nothing.
+  virtual void catch_up(const gpu::TickSlot&) {}
   /// Adds this sensor's figures.
   virtual void report(Consistency&) const {}
   /// Adds what this sensor counted over the run: candidates, paths, overflows.
