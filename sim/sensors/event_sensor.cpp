@@ -68,9 +68,14 @@ render::EventDesc event_desc(const std::string& name, const Scenario& scenario,
   desc.cutoff_hz = config.cutoff_hz;
   desc.dark_cd_m2 = config.dark_cd_m2;
   desc.bright_cd_m2 = config.bright_cd_m2;
+  const uint64_t pixels = uint64_t{config.width} * config.height;
+  if (config.max_events_per_pixel * pixels > most_events)
+    throw_user_error(
+        "event camera {}: max_events_per_pixel: expected at most {} for {} x {} pixels, found {}", name,
+        most_events / pixels, config.width, config.height, config.max_events_per_pixel);
   const uint64_t per_pixel =
       config.max_events_per_pixel > 0 ? config.max_events_per_pixel : chosen_events_per_pixel;
-  desc.capacity = static_cast<uint32_t>(std::min(per_pixel * config.width * config.height, most_events));
+  desc.capacity = static_cast<uint32_t>(std::min(per_pixel * pixels, most_events));
   desc.events = config.events;
   desc.instance = config.instance;
   desc.differences = config.differences;
