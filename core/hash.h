@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -33,6 +34,13 @@ class Sha256 {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// FNV-1a (draft-eastlake-fnv, 32 bits). For streams of random numbers that depend on a name alone; no checksum.
+constexpr uint32_t fnv1a32(std::string_view text) {
+  uint32_t hash = 2166136261u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
 
 std::string sha256_hex(std::span<const std::byte> bytes);
 /// Throws UserError if the file cannot be read.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions in one word (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
-// 3(2), 2014): 5e-5 rad. shaders/camera/octahedral.glsl reads them.
+// Directions on a square (Z. Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
+// 3(2), 2014), z up. shaders/camera/octahedral.glsl has the same for shaders.
 #pragma once
 
 #include <cmath>
@@ -12,15 +12,31 @@
 
 namespace greatx::render {
 
-/// Two signed 16-bit fractions of a direction of any length; zero stands for +z.
+/// Turns the corners of the square [-1, 1]^2, which hold the lower half, inside out.
+template <typename T>
+glm::vec<2, T> octahedral_fold(const glm::vec<2, T>& p) {
+  return {(T(1) - std::abs(p.y)) * (p.x >= T(0) ? T(1) : T(-1)),
+          (T(1) - std::abs(p.x)) * (p.y >= T(0) ? T(1) : T(-1))};
+}
+
+/// Of a direction of any length but 0, in [-1, 1]^2.
+template <typename T>
+glm::vec<2, T> octahedral_place(const glm::vec<3, T>& d) {
+  const glm::vec<2, T> p = glm::vec<2, T>(d) / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  return d.z < T(0) ? octahedral_fold(p) : p;
+}
+
+/// u, v in [0, 1] and unit directions, as the environment map and the map of stars have them.
+inline dvec2 octahedral_uv(const dvec3& direction) { return octahedral_place(direction) * 0.5 + 0.5; }
+inline dvec3 octahedral_direction(double u, double v) {
+  const dvec2 p = 2.0 * dvec2(u, v) - 1.0;
+  const double z = 1.0 - std::abs(p.x) - std::abs(p.y);
+  return glm::normalize(dvec3(z < 0.0 ? octahedral_fold(p) : p, z));
+}
+
+/// Two signed 16-bit fractions of a direction of any length, right to 5e-5 rad; zero stands for +z.
 inline uint32_t octahedral_word(const vec3& direction) {
-  const float norm = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-  vec2 p(0.0f);
-  if (norm > 0.0f) {
-    p = vec2(direction.x, direction.y) / norm;
-    if (direction.z < 0.0f)
-      p = (1.0f - glm::abs(vec2(p.y, p.x))) * vec2(p.x >= 0.0f ? 1.0f : -1.0f, p.y >= 0.0f ? 1.0f : -1.0f);
-  }
+  const vec2 p = direction == vec3(0.0f) ? vec2(0.0f) : octahedral_place(direction);
   const auto fraction = [](float x) {
     return static_cast<uint32_t>(static_cast<uint16_t>(static_cast<int16_t>(std::lround(x * 32767.0f))));
   };

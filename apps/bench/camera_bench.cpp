@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "apps/bench/measure.h"
+#include "core/srgb.h"
 #include "core/units.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
@@ -144,10 +145,6 @@ std::vector<Instant> instants_of(const sim::Scenario& scenario, const sim::World
 
 /// Mean of blocks of 4 x 4 pixels of a picture 4 times as large, in linear light and back.
 std::vector<uint8_t> reduced(const render::CameraImages& large) {
-  const auto linear = [](uint8_t b) {
-    const double s = b / 255.0;
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-  };
   const uint32_t width = large.width / 4, height = large.height / 4;
   std::vector<uint8_t> small(size_t{3} * width * height);
   for (uint32_t row = 0; row < height; ++row)
@@ -155,10 +152,10 @@ std::vector<uint8_t> reduced(const render::CameraImages& large) {
       for (uint32_t c = 0; c < 3; ++c) {
         double sum = 0.0;
         for (uint32_t k = 0; k < 16; ++k)
-          sum += linear(large.rgb[3 * (size_t{4 * row + k / 4} * large.width + 4 * column + k % 4) + c]);
-        const double mean = sum / 16.0;
-        const double s = mean <= 0.0031308 ? 12.92 * mean : 1.055 * std::pow(mean, 1.0 / 2.4) - 0.055;
-        small[3 * (size_t{row} * width + column) + c] = static_cast<uint8_t>(std::lround(255.0 * s));
+          sum += linear_from_srgb(
+              large.rgb[3 * (size_t{4 * row + k / 4} * large.width + 4 * column + k % 4) + c] / 255.0);
+        small[3 * (size_t{row} * width + column) + c] =
+            static_cast<uint8_t>(std::lround(255.0 * srgb_from_linear(sum / 16.0)));
       }
   return small;
 }

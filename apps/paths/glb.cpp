@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/srgb.h"
 #include "io/glb_writer.h"
 
 namespace greatx::apps {
@@ -21,10 +22,7 @@ using Json = nlohmann::ordered_json;
 
 /// Vertex colours are linear, colours on a screen are sRGB (IEC 61966-2-1).
 vec3 linear(io::Color color) {
-  const auto channel = [](uint8_t byte) {
-    const float c = static_cast<float>(byte) / 255.0f;
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-  };
+  const auto channel = [](uint8_t byte) { return linear_from_srgb(byte / 255.0f); };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "sim/plan/plan_options.h"
+#include "sim/sensors/camera_desc.h"
 
 namespace greatx::apps {
 
@@ -100,12 +101,7 @@ ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenar
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
   const auto& config = std::get<sim::CameraConfig>(sensor.config);
   PictureView view;
-  view.width = config.width;
-  view.height = config.height;
-  view.fx = config.fx;
-  view.fy = config.fy;
-  view.cx = config.cx;
-  view.cy = config.cy;
+  sim::set_intrinsics(view, config);
   view.near_m = config.near_m;
   view.local_from_sensor =
       world.scene.to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);

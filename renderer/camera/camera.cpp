@@ -25,6 +25,10 @@ constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 
 }  // namespace
 
+LensGeometry lens_geometry(const CameraDesc& desc) {
+  return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion};
+}
+
 double saturation_luminance(double ev100) { return 1.2 * std::exp2(ev100); }
 
 double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting) {
@@ -217,11 +221,9 @@ void CameraPass::upload_lens() {
   std::vector<vec2> places(1);
   const bool distorts = desc_.distortion.any();
   if (distorts) {
-    places = Lens({desc_.name, desc_.width, desc_.height, desc_.fx, desc_.fy, desc_.cx, desc_.cy,
-                   desc_.distortion})
-                 .table();
-    for (vec2& place : places)
-      place = vec2(dvec2(place) * dvec2(pinhole_->fx, pinhole_->fy) + dvec2(pinhole_->cx, pinhole_->cy));
+    const std::vector<dvec2> exact =
+        Lens(lens_geometry(desc_)).centers({pinhole_->fx, pinhole_->fy}, {pinhole_->cx, pinhole_->cy});
+    places.assign(exact.begin(), exact.end());
   }
   lens_ = gpu::Image(device,
                      {.format = VK_FORMAT_R32G32_SFLOAT,
@@ -229,13 +231,8 @@ void CameraPass::upload_lens() {
                       .height = distorts ? desc_.height : 1,
                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
                      fmt::format("{} lens", desc_.name));
-  const gpu::Buffer staging(device, places.size() * sizeof(vec2), gpu::Memory::upload, "lens staging");
-  std::ranges::copy(places, staging.slice().as<vec2>().begin());
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    cmd.transition(lens_, gpu::ImageUse::transfer_target, true);
-    cmd.copy(staging.slice(), lens_);
-    cmd.transition(lens_, gpu::ImageUse::sampled);
-  });
+  const std::span<const std::byte> texels = std::as_bytes(std::span(places));
+  gpu::upload_image(device, lens_, std::span(&texels, 1));
 }
 
 std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {

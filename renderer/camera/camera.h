@@ -68,6 +68,8 @@ struct CameraDesc {
   std::optional<uint32_t> excluded_body;  ///< the body that carries the camera, if it shall not see it
 };
 
+LensGeometry lens_geometry(const CameraDesc& desc);
+
 /// A part of the exposure time: pictures of several instants add up to one with motion blur.
 struct ExposurePart {
   float weight = 1.0f;  ///< those of a picture sum to 1

@@ -11,7 +11,7 @@ namespace greatx::render {
 
 PinholeView pinhole_of(const CameraDesc& desc) {
   if (!desc.distortion.any()) return {desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy};
-  const Lens lens({desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion});
+  const Lens lens(lens_geometry(desc));
   const LensBounds& bounds = lens.bounds();
   constexpr double margin = 1.0;  // pixels
   const double width = std::ceil(desc.fx * (bounds.most.x - bounds.least.x) + 2.0 * margin);

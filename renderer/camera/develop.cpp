@@ -24,10 +24,6 @@ uint32_t groups_of(const CameraDesc& desc) {
   return (desc.width * desc.height + shared::develop_pixels - 1) / shared::develop_pixels;
 }
 
-LensGeometry lens_geometry(const CameraDesc& desc) {
-  return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion};
-}
-
 }  // namespace
 
 shared::SensorConstants sensor_constants(const SensorNoise& noise, const FrameNumber& frame) {

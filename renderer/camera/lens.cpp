@@ -204,8 +204,8 @@ void Lens::find_bounds() {
   bounds_.most += dvec2(0.25 * bend);
 }
 
-std::vector<vec2> Lens::table() const {
-  std::vector<vec2> table(size_t{geometry_.width} * geometry_.height);
+std::vector<dvec2> Lens::centers() const {
+  std::vector<dvec2> centers(size_t{geometry_.width} * geometry_.height);
   const Distortion& d = geometry_.distortion;
   for (uint32_t row = 0; row < geometry_.height; ++row) {
     dvec2 u(0.0), at(0.0);
@@ -217,16 +217,27 @@ std::vector<vec2> Lens::table() const {
         found = newton(d, distorted, u + glm::inverse(d.jacobian(u)) * (distorted - at));
       u = found ? *found : inverse(distorted);
       at = distorted;
-      table[size_t{row} * geometry_.width + column] = vec2(u);
+      centers[size_t{row} * geometry_.width + column] = u;
     }
   }
-  return table;
+  return centers;
+}
+
+std::vector<dvec2> Lens::centers(const dvec2& focal, const dvec2& principal) const {
+  std::vector<dvec2> places = centers();
+  for (dvec2& place : places) place = principal + focal * place;
+  return places;
+}
+
+std::vector<vec2> Lens::table() const {
+  const std::vector<dvec2> exact = centers();
+  return {exact.begin(), exact.end()};
 }
 
 std::vector<float> flat_field(const Vignetting& vignetting, const LensGeometry& geometry) {
   const Lens lens(geometry);
-  std::vector<vec2> directions;
-  if (vignetting.natural) directions = lens.table();
+  std::vector<dvec2> directions;
+  if (vignetting.natural) directions = lens.centers();
   const double half_diagonal = 0.5 * std::hypot(geometry.width, geometry.height);
   std::vector<float> field(size_t{geometry.width} * geometry.height);
   for (size_t i = 0; i < field.size(); ++i) {
@@ -236,7 +247,7 @@ std::vector<float> flat_field(const Vignetting& vignetting, const LensGeometry& 
     const auto& [a1, a2, a3] = vignetting.radial;
     double factor = 1.0 + s * (a1 + s * (a2 + s * a3));
     if (vignetting.natural) {
-      const double secant_squared = 1.0 + glm::dot(dvec2(directions[i]), dvec2(directions[i]));
+      const double secant_squared = 1.0 + glm::dot(directions[i], directions[i]);
       factor /= secant_squared * secant_squared;
     }
     if (!(factor > 0.0 && factor <= 1.0))

@@ -74,7 +74,11 @@ class Lens {
   dvec2 pixel(const dvec2& undistorted) const;
   /// What the whole picture sees, rim included: a pinhole picture over this rectangle covers it.
   const LensBounds& bounds() const { return bounds_; }
-  /// [height, width] undistorted coordinates of the pixels' centres; relative error of a float's rounding, 2^-24.
+  /// [height, width] undistorted coordinates of the pixels' centres.
+  std::vector<dvec2> centers() const;
+  /// The same in pixels of a pinhole picture with the given focal lengths and principal point.
+  std::vector<dvec2> centers(const dvec2& focal, const dvec2& principal) const;
+  /// centers() in floats; relative error of their rounding, 2^-24.
   std::vector<vec2> table() const;
 
  private:

@@ -74,14 +74,9 @@ TruthPass::TruthPass(const SceneLighting& lighting, const CameraDesc& desc, cons
 }
 
 void TruthPass::upload_lens() {
-  const Lens lens(
-      {desc_.name, desc_.width, desc_.height, desc_.fx, desc_.fy, desc_.cx, desc_.cy, desc_.distortion});
-  std::vector<vec2> pinhole;
-  pinhole.reserve(size_t{desc_.width} * desc_.height);
-  for (uint32_t row = 0; row < desc_.height; ++row)
-    for (uint32_t column = 0; column < desc_.width; ++column)
-      pinhole.emplace_back(dvec2(desc_.cx, desc_.cy) +
-                           dvec2(desc_.fx, desc_.fy) * lens.undistorted({column + 0.5, row + 0.5}));
+  const std::vector<dvec2> centers =
+      Lens(lens_geometry(desc_)).centers({desc_.fx, desc_.fy}, {desc_.cx, desc_.cy});
+  const std::vector<vec2> pinhole(centers.begin(), centers.end());
   lens_ = gpu::upload_buffer(lighting_->scene().device(), std::as_bytes(std::span(pinhole)),
                              desc_.name + " lens");
 }

@@ -196,14 +196,8 @@ void EventPass::upload_thresholds() {
                      threshold(desc_.threshold_off, radius * std::sin(angle)), static_cast<int32_t>(words.z),
                      0};
   }
-  gpu::Buffer staging(scene_->device(), values.size() * sizeof(glm::ivec4), gpu::Memory::upload,
-                      desc_.name + " thresholds");
-  std::ranges::copy(values, staging.slice().as<glm::ivec4>().begin());
-  gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
-    cmd.transition(thresholds_, gpu::ImageUse::transfer_target);
-    cmd.copy(staging.slice(), thresholds_);
-    cmd.transition(thresholds_, gpu::ImageUse::storage);
-  });
+  const std::span<const std::byte> texels = std::as_bytes(std::span(values));
+  gpu::upload_image(scene_->device(), thresholds_, std::span(&texels, 1), gpu::ImageUse::storage);
 }
 
 void EventPass::upload_objects() {

@@ -8,25 +8,9 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/units.h"
+#include "renderer/octahedral.h"
 
 namespace greatx::render {
-
-dvec3 octahedral_direction(double u, double v) {
-  dvec2 p = 2.0 * dvec2(u, v) - 1.0;
-  const double z = 1.0 - std::abs(p.x) - std::abs(p.y);
-  if (z < 0.0)
-    p = dvec2((1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0),
-              (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
-  return glm::normalize(dvec3(p, z));
-}
-
-dvec2 octahedral_uv(const dvec3& d) {
-  dvec2 p = dvec2(d) / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-  if (d.z < 0.0)
-    p = dvec2((1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0),
-              (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
-  return p * 0.5 + 0.5;
-}
 
 namespace {
 

@@ -125,17 +125,9 @@ void SceneLighting::bake(const Lighting& lighting, const Sky& sky) {
                             "environment");
   environment_sampler_ = gpu::Sampler(
       device, {.linear = true, .repeat_u = false, .repeat_v = false, .mipmaps = true}, "environment");
-  std::vector<gpu::Buffer> staging;
-  for (const std::vector<uint16_t>& texels : map.levels) {
-    staging.emplace_back(device, texels.size() * sizeof(uint16_t), gpu::Memory::upload,
-                         "environment staging");
-    std::ranges::copy(texels, staging.back().slice().as<uint16_t>().begin());
-  }
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    cmd.transition(environment_, gpu::ImageUse::transfer_target, true);
-    for (uint32_t level = 0; level < levels; ++level) cmd.copy(staging[level].slice(), environment_, level);
-    cmd.transition(environment_, gpu::ImageUse::sampled);
-  });
+  std::vector<std::span<const std::byte>> mips;
+  for (const std::vector<uint16_t>& texels : map.levels) mips.push_back(std::as_bytes(std::span(texels)));
+  gpu::upload_image(device, environment_, mips);
 }
 
 void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
@@ -155,14 +147,8 @@ void SceneLighting::bake_sky_view(shared::GpuLighting& block) {
                          "sky view");
   sky_view_sampler_ =
       gpu::Sampler(device, {.linear = true, .repeat_u = false, .repeat_v = false}, "sky view");
-  const gpu::Buffer staging(device, texels.size() * sizeof(uint16_t), gpu::Memory::upload,
-                            "sky view staging");
-  std::ranges::copy(texels, staging.slice().as<uint16_t>().begin());
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    cmd.transition(sky_view_, gpu::ImageUse::transfer_target, true);
-    cmd.copy(staging.slice(), sky_view_);
-    cmd.transition(sky_view_, gpu::ImageUse::sampled);
-  });
+  const std::span<const std::byte> mip = std::as_bytes(std::span(texels));
+  gpu::upload_image(device, sky_view_, std::span(&mip, 1));
 }
 
 void SceneLighting::record(gpu::TickSlot& slot, std::span<const Pose> body_poses) {

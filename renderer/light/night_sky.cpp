@@ -11,7 +11,8 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "renderer/light/almanac.h"
-#include "renderer/light/environment_map.h"
+#include "renderer/light/sky.h"
+#include "renderer/octahedral.h"
 
 namespace greatx::render {
 

@@ -72,17 +72,29 @@ class Raiser {
   HeightField& field_;
 };
 
-/// sin^2 of the horizon over `above` metres above a cell's floor, towards each azimuth, for several heights at once.
+/// Where a horizon is looked up, from a cell's middle: the same for all cells of a field.
+struct Looks {
+  explicit Looks(double cell_m) {
+    for (double distance = cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)
+      distances.push_back(distance);
+    for (int k = 0; k < azimuths; ++k) {
+      const double azimuth = (k + 0.5) * 2.0 * pi / azimuths;
+      along[k] = {std::cos(azimuth), std::sin(azimuth)};
+    }
+  }
+  std::vector<double> distances;
+  std::array<dvec2, azimuths> along;
+};
+
+/// Shares of the sky at several heights above a cell's floor: 1 - mean of sin^2 of the horizon.
 template <size_t N>
-std::array<double, N> shares(const HeightField& field, uint32_t column, uint32_t row,
+std::array<double, N> shares(const HeightField& field, const Looks& looks, uint32_t column, uint32_t row,
                              const std::array<double, N>& above) {
   const double floor = field.heights[size_t{row} * field.width + column];
   std::array<double, N> hidden{};
-  for (int k = 0; k < azimuths; ++k) {
-    const double azimuth = (k + 0.5) * 2.0 * pi / azimuths;
-    const dvec2 along(std::cos(azimuth), std::sin(azimuth));
+  for (const dvec2& along : looks.along) {
     std::array<double, N> steepest{};  // tangent of the horizon
-    for (double distance = field.cell_m; distance < farthest_m; distance = distance * step_growth + 0.1) {
+    for (const double distance : looks.distances) {
       const dvec2 cell = dvec2(column + 0.5, row + 0.5) + along * (distance / field.cell_m);
       if (cell.x < 0.0 || cell.y < 0.0 || cell.x >= field.width || cell.y >= field.height) break;
       const double rise =
@@ -125,15 +137,17 @@ HeightField height_field(const scene::Scene& scene, uint32_t edge) {
 }
 
 double sky_share(const HeightField& field, uint32_t column, uint32_t row, double above) {
-  return shares<1>(field, column, row, {above})[0];
+  return shares<1>(field, Looks(field.cell_m), column, row, {above})[0];
 }
 
 std::vector<uint16_t> sky_view_texels(const HeightField& field) {
+  const Looks looks(field.cell_m);
   std::vector<uint16_t> texels;
   texels.reserve(4 * field.heights.size());
   for (uint32_t row = 0; row < field.height; ++row)
     for (uint32_t column = 0; column < field.width; ++column) {
-      const auto at = shares<3>(field, column, row, {0.0, shared::sky_view_middle, shared::sky_view_top});
+      const auto at =
+          shares<3>(field, looks, column, row, {0.0, shared::sky_view_middle, shared::sky_view_top});
       texels.push_back(glm::packHalf1x16(field.heights[size_t{row} * field.width + column]));
       for (const double share : at) texels.push_back(glm::packHalf1x16(float(share)));
     }

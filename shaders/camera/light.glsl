@@ -5,6 +5,7 @@
 #ifndef GREATX_CAMERA_LIGHT_GLSL
 #define GREATX_CAMERA_LIGHT_GLSL
 #include "camera/effects.glsl"
+#include "camera/octahedral.glsl"
 #include "camera/visibility_view.glsl"
 #include "shared/brdf.h"
 
@@ -17,14 +18,6 @@ layout(set = 0, binding = environment_binding) uniform sampler2D environment;
 layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_shadow;
 layout(set = 0, binding = moving_shadow_binding) uniform sampler2DShadow moving_shadow;
 layout(set = 0, binding = sky_view_binding) uniform sampler2D sky_view;
-
-/// The octahedral map's coordinates of a unit direction, z up (Cigolle et al., JCGT 3(2), 2014).
-vec2 octahedral_uv(vec3 d) {
-  vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
-  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  if (d.z < 0.0) p = (1.0 - abs(p.yx)) * signs;
-  return p * 0.5 + 0.5;
-}
 
 /// Radiance from a direction, blurred for a roughness.
 vec3 environment_radiance(vec3 direction, float roughness) {

@@ -63,9 +63,6 @@ Center rim_of(Seen seen, vec3 ray) {
   return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
 }
 
-/// Adds this part of the exposure to what the parts before it left.
-vec4 exposed(vec4 value, vec4 before) { return camera.weight < 1.0 && camera.first == 0u ? before + value : value; }
-
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, imageSize(seen_image)))) return;
@@ -99,15 +96,16 @@ void main() {
   // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
   if (center.id == 0u && sky == 0.0) center = first;
   radiance *= camera.weight;
+  bool adds = blend_on && camera.first == 0u;  // to what the parts of the exposure before this one left
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
-    vec4 before = blend_on ? imageLoad(color_image, at) : vec4(0.0);
-    imageStore(color_image, at, blend_on ? min(exposed(stored, before), vec4(65504.0)) : stored);
+    if (adds) stored = min(stored + imageLoad(color_image, at), vec4(65504.0));
+    imageStore(color_image, at, stored);
   }
   if (luminance_on) {
     vec4 stored = vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722)));
-    vec4 before = blend_on ? imageLoad(luminance_image, at) : vec4(0.0);
-    imageStore(luminance_image, at, blend_on ? exposed(stored, before) : stored);
+    if (adds) stored += imageLoad(luminance_image, at);
+    imageStore(luminance_image, at, stored);
   }
   if (ids_on) imageStore(seen_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
 }

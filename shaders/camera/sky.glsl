@@ -34,15 +34,6 @@ float pixel_share(PixelSpan s, vec3 away) {
   return tent.x * tent.y;
 }
 
-/// Direction of octahedral coordinates in [0, 1].
-vec3 octahedral_direction(vec2 uv) {
-  vec2 p = 2.0 * uv - 1.0;
-  float z = 1.0 - abs(p.x) - abs(p.y);
-  vec2 signs = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-  p = z < 0.0 ? (1.0 - abs(p.yx)) * signs : p;
-  return normalize(vec3(p, z));
-}
-
 /// Radiance of the stars of the four cells that are nearest to a direction, each spread over a pixel.
 vec3 starlight(vec3 direction, PixelSpan span) {
   vec2 at = octahedral_uv(direction) * float(star_cells);
@@ -52,7 +43,7 @@ vec3 starlight(vec3 direction, PixelSpan span) {
     ivec2 cell = clamp(first + ivec2(i & 1, i >> 1), ivec2(0), ivec2(int(star_cells) - 1));
     GpuStar star = stars[uint(cell.y) * star_cells + uint(cell.x)];
     vec2 light = unpackHalf2x16(star.light);
-    vec3 to_star = octahedral_direction((vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells));
+    vec3 to_star = octahedral_direction(2.0 * (vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells) - 1.0);
     // Luminance 1 from bluish white to orange.
     vec3 color = mix(vec3(0.88, 0.99, 1.45), vec3(1.42, 0.93, 0.45), light.y);
     sum += color * (light.x * 1e-6 * pixel_share(span, to_star - direction));

@@ -95,7 +95,8 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
   r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
   // Under the diffuse part lies the dielectric's lobe, whatever share of the surface is metal.
-  float dielectric = (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
+  float dielectric =
+      (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
   r.diffuse = base_color * ((1.0f - metallic) * (1.0f - dielectric));
   return r;
 }

@@ -21,15 +21,15 @@ const uint material_records_binding = 15u;  // texels: what it needs of each mat
 const uint shade_color_binding = 12u;       // storage image rgba16f
 const uint shade_luminance_binding = 14u;   // storage image r32f, cd/m^2
 const uint shade_seen_binding = 13u;        // storage image rg32ui: planar depth's bits, triangle + 1
-const uint sky_view_binding = 16u;          // sampled: floor, then shares of the sky at three heights above it
-const uint lens_binding = 17u;              // sampled: where the pinhole picture has the pixels' centres
+const uint sky_view_binding = 16u;  // sampled: floor, then shares of the sky at three heights above it
+const uint lens_binding = 17u;      // sampled: where the pinhole picture has the pixels' centres
 // Smoothing edges.
 const uint edges_seen_binding = 4u;            // storage image rg32ui
 const uint edges_from_binding = 5u;            // storage image rgba16f
 const uint edges_to_binding = 6u;              // storage image rgba16f
 const uint edges_luminance_from_binding = 7u;  // storage image r32f
 const uint edges_luminance_to_binding = 8u;    // storage image r32f
-const uint stars_binding = 20u;                       // storage: GpuStar [star_cells, star_cells]
+const uint stars_binding = 20u;                // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
 const uint spec_color = 0u;
@@ -156,10 +156,10 @@ struct GpuLighting {
   float moon_cos_phase;
   vec3 moon_disc;  ///< radiance of its bright part
   float pad3;
-  vec4 sky_view_uv;       ///< scale and offset of local x, y
-  float sky_view_floor;   ///< local z that heights are over
-  float sky_view_step;    ///< m along the normal at which a point is looked up
-  vec3 bounce;            ///< radiance of what hides the sky
+  vec4 sky_view_uv;      ///< scale and offset of local x, y
+  float sky_view_floor;  ///< local z that heights are over
+  float sky_view_step;   ///< m along the normal at which a point is looked up
+  vec3 bounce;           ///< radiance of what hides the sky
   float pad4;
   vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
 };

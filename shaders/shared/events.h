@@ -53,7 +53,9 @@ GREATX_FUNCTION int fixed_log(float x) {
 }
 
 /// The photoreceptor's signal: ln(dark + luminance), both in cd/m^2. Black stays black, whatever the noise of zero.
-GREATX_FUNCTION int event_signal(float luminance, float dark) { return fixed_log(dark + max(luminance, 0.0f)); }
+GREATX_FUNCTION int event_signal(float luminance, float dark) {
+  return fixed_log(dark + max(luminance, 0.0f));
+}
 
 /// Relative intensity that bandwidth and shot noise depend on: (255 L / bright + 20) / 275, at most 1 (v2e's
 /// scaling, with `bright` as its white).
@@ -126,7 +128,8 @@ struct EventWalk {
   int shot_ns;  ///< the next of each kind; never_ns: none
 };
 
-GREATX_FUNCTION EventWalk begin_walk(int from, int to, int reference, int on, int off, int dt_ns, int alive_ns) {
+GREATX_FUNCTION EventWalk begin_walk(int from, int to, int reference, int on, int off, int dt_ns,
+                                     int alive_ns) {
   int crossings = count_crossings(reference, to, on, off);
   EventWalk walk;
   walk.from = from;
@@ -162,19 +165,21 @@ const uint shot_blocks_per_step = 65536u;
 
 // ---- what the passes share -----------------------------------------------------------------------------------------
 
-const uint event_model_binding = 0u;       // storage: EventModel
-const uint event_control_binding = 1u;     // storage: EventControl
-const uint event_runs_binding = 2u;        // storage: EventRun [runs]
-const uint event_luminance_binding = 3u;   // storage image r32f, cd/m^2
-const uint event_seen_binding = 4u;        // storage image rg32ui: planar depth's bits, triangle + 1
-const uint event_pixel_binding = 5u;       // storage image rg32i: reference, signal
-const uint event_extra_binding = 6u;       // storage image rg32i: input of the low pass, end of the refractory time
-const uint event_before_binding = 7u;      // storage image rg32i, of pixels that fired: signal before, signed crossings
-const uint event_awake_binding = 11u;      // storage image r32i: end of the refractory time before
-const uint event_threshold_binding = 8u;   // storage image rgba32i: on, off, phase of the leak
-const uint event_objects_binding = 9u;     // storage: uvec2 [triangles]: instance + 1, body
-const uint event_motion_binding = 10u;     // storage: EventMotion [bodies]
-const uint event_previous_binding = 3u;    // of the difference pass: storage image r32f, the picture before
+const uint event_model_binding = 0u;      // storage: EventModel
+const uint event_control_binding = 1u;    // storage: EventControl
+const uint event_runs_binding = 2u;       // storage: EventRun [runs]
+const uint event_luminance_binding = 3u;  // storage image r32f, cd/m^2
+const uint event_seen_binding = 4u;       // storage image rg32ui: planar depth's bits, triangle + 1
+const uint event_pixel_binding = 5u;      // storage image rg32i: reference, signal
+const uint event_extra_binding =
+    6u;  // storage image rg32i: input of the low pass, end of the refractory time
+const uint event_before_binding =
+    7u;  // storage image rg32i, of pixels that fired: signal before, signed crossings
+const uint event_awake_binding = 11u;     // storage image r32i: end of the refractory time before
+const uint event_threshold_binding = 8u;  // storage image rgba32i: on, off, phase of the leak
+const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
+const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
+const uint event_previous_binding = 3u;   // of the difference pass: storage image r32f, the picture before
 
 // Specialization constants: what is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -198,19 +203,20 @@ const uint most_substeps = 64u;
 struct EventModel {
   uint width;
   uint height;
-  int on;              ///< nominal thresholds
+  int on;  ///< nominal thresholds
   int off;
-  float dark;          ///< cd/m^2 added before the logarithm
-  float bright;        ///< cd/m^2 of relative intensity 1
+  float dark;            ///< cd/m^2 added before the logarithm
+  float bright;          ///< cd/m^2 of relative intensity 1
   float angular_cutoff;  ///< 2 pi times the bandwidth in bright light, rad/ns
   float shot_rate_hz;
   int refractory_ns;
-  uint capacity;       ///< events a picture interval
-  float fx;            ///< pixels; for the flow
+  uint capacity;  ///< events a picture interval
+  float fx;       ///< pixels; for the flow
   float fy;
   float cx;
   float cy;
-  float wanted;        ///< of adaptive steps: pixels of motion, or change over the threshold, from picture to picture
+  float
+      wanted;  ///< of adaptive steps: pixels of motion, or change over the threshold, from picture to picture
 };
 
 /// A run of pixels in one step.
@@ -222,15 +228,15 @@ struct EventRun {
 
 /// The buffer's head, kept from tick to tick.
 struct EventControl {
-  uint events;       ///< so far in this interval, those beyond the capacity included
-  uint last;         ///< grid index of the last picture taken
-  uint measured;     ///< bits of the largest flow (px/ns) or change (thresholds) since then
-  uint allowed;      ///< bits of the time to the next picture that these allow, ns
-  uint pictures;     ///< in this interval
-  uint coarse;       ///< of those, how many moved or changed more than wanted
-  uint largest;      ///< bits of the largest motion or change between two pictures of this interval
-  uint from;           ///< the picture before the last one
-  uint due[65];      ///< by grid index: whether a picture is taken then
+  uint events;    ///< so far in this interval, those beyond the capacity included
+  uint last;      ///< grid index of the last picture taken
+  uint measured;  ///< bits of the largest flow (px/ns) or change (thresholds) since then
+  uint allowed;   ///< bits of the time to the next picture that these allow, ns
+  uint pictures;  ///< in this interval
+  uint coarse;    ///< of those, how many moved or changed more than wanted
+  uint largest;   ///< bits of the largest motion or change between two pictures of this interval
+  uint from;      ///< the picture before the last one
+  uint due[65];   ///< by grid index: whether a picture is taken then
 };
 const uint event_due_offset = 32u;  ///< bytes
 
@@ -243,8 +249,9 @@ struct EventMotion {
 struct EventConstants {
   uint64_t leak_begin;     ///< thresholds leaked at the interval's start, 32.32
   uint64_t leak_interval;  ///< and during it
-  uint64_t events;         ///< address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p
-  uint64_t instances;      ///< address of uint [capacity]
+  uint64_t
+      events;  ///< address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p
+  uint64_t instances;  ///< address of uint [capacity]
   uint interval_ns;
   uint grid;   ///< instants of the interval
   uint index;  ///< of this one, 1 to grid; 0: the first picture, which sets the reference
@@ -257,7 +264,7 @@ struct DifferenceConstants {
   uint64_t picture;  ///< address of bytes [height * width], padded to words: 1, 0, -1
   uint width;
   uint height;
-  float on;   ///< cd/m^2
+  float on;  ///< cd/m^2
   float off;
   uint first;  ///< there is no picture before
   uint pad;

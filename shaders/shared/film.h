@@ -24,9 +24,10 @@ using std::sqrt;
 GREATX_SHARED_BEGIN
 
 // Set 0 of the developing pass.
-const uint develop_color_binding = 0u;         // storage image rgba16f
-const uint develop_seen_binding = 1u;          // storage image rg32ui
-const uint develop_triangle_ids_binding = 2u;  // storage: two words of triangle + 1: instance + 1, class | (material + 1) << 16
+const uint develop_color_binding = 0u;  // storage image rgba16f
+const uint develop_seen_binding = 1u;   // storage image rg32ui
+const uint develop_triangle_ids_binding =
+    2u;  // storage: two words of triangle + 1: instance + 1, class | (material + 1) << 16
 // Of the metering passes.
 const uint meter_color_binding = 0u;  // storage image rgba16f
 
@@ -36,7 +37,7 @@ const uint develop_spec_depth = 2u;
 const uint develop_spec_instance = 3u;
 const uint develop_spec_semantic = 4u;
 const uint develop_spec_material = 5u;
-const uint develop_spec_metered = 6u;    // exposure by the meter
+const uint develop_spec_metered = 6u;     // exposure by the meter
 const uint develop_spec_flat_field = 7u;  // vignetting
 const uint develop_spec_noise = 8u;
 const uint develop_spec_count = 9u;
@@ -47,7 +48,7 @@ const uint develop_pixels = 8u;
 
 /// Of light on a sensor.
 struct SensorConstants {
-  float full_well;  ///< electrons of light 1 (L_max)
+  float full_well;   ///< electrons of light 1 (L_max)
   float read_noise;  ///< electrons, rms
   float levels;      ///< of the converter, less 1
   uint tick;
@@ -102,7 +103,7 @@ struct MeterConstants {
   uint64_t result;  ///< MeterResult
   uint columns;     ///< samples in a row
   uint rows;
-  uint step;  ///< pixels from sample to sample
+  uint step;               ///< pixels from sample to sample
   float stored_luminance;  ///< cd/m^2 of a stored 1
   float compensation_ev;
   uint pad0;
@@ -177,7 +178,8 @@ GREATX_FUNCTION float sensed(float light, SensorConstants sensor, uint bits) {
 /// The same for a pixel; `pixel`: row * width + column.
 GREATX_FUNCTION vec3 sensed_color(vec3 light, SensorConstants sensor, uint pixel) {
   uvec4 bits = random_bits(sensor.key.x, sensor.key.y, sensor.tick, pixel, 0u);
-  return vec3(sensed(light.x, sensor, bits.x), sensed(light.y, sensor, bits.y), sensed(light.z, sensor, bits.z));
+  return vec3(sensed(light.x, sensor, bits.x), sensed(light.y, sensor, bits.y),
+              sensed(light.z, sensor, bits.z));
 }
 
 GREATX_SHARED_END

@@ -42,7 +42,7 @@ struct TruthConstants {
   uint64_t depth_ray;
   uint64_t flow;
   uint64_t motions;  ///< GpuBodyMotion[bodies]
-  uint64_t lens;     ///< vec2[height * width]: where a pinhole camera shows what the pixel's centre sees, pixels
+  uint64_t lens;  ///< vec2[height * width]: where a pinhole camera shows what the pixel's centre sees, pixels
   vec3 eye_high;
   vec3 eye_low;
   vec3 ray_x;

@@ -12,6 +12,7 @@
 #include "renderer/light/sky.h"
 #include "shaders/shared/camera.h"
 #include "sim/plan/light_plan.h"
+#include "sim/sensors/camera_desc.h"
 
 namespace greatx::sim {
 
@@ -157,16 +158,11 @@ void check_lenses(const Scenario& scenario) {
       const PinholeConfig* camera = std::get_if<CameraConfig>(&sensor.config);
       if (camera == nullptr) camera = std::get_if<EventCameraConfig>(&sensor.config);
       if (camera == nullptr || !camera->distortion.any()) continue;
-      const Distortion& d = camera->distortion;
+      render::CameraDesc desc;
+      desc.name = node.name + "/" + sensor.name;
+      set_pinhole(desc, *camera);
       try {
-        render::pinhole_of({.name = node.name + "/" + sensor.name,
-                            .width = camera->width,
-                            .height = camera->height,
-                            .fx = camera->fx,
-                            .fy = camera->fy,
-                            .cx = camera->cx,
-                            .cy = camera->cy,
-                            .distortion = {d.k1, d.k2, d.p1, d.p2, d.k3}});
+        render::pinhole_of(desc);
       } catch (const UserError& error) {
         throw_user_error_at(sensor.where, "{}", error.what());
       }

@@ -12,6 +12,7 @@
 
 #include "core/units.h"
 #include "core/vec.h"
+#include "renderer/camera/lens.h"
 
 namespace greatx::sim {
 
@@ -53,12 +54,8 @@ struct Environment {
   double fog_height_m = 100.0;  ///< of fog and rain above the scene, for light from above
 };
 
-/// Brown-Conrady distortion of normalised coordinates (D. Brown, "Decentering Distortion of Lenses", 1966; the order and
-/// signs of OpenCV's calib3d): x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise.
-struct Distortion {
-  double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
-  bool any() const { return k1 != 0.0 || k2 != 0.0 || p1 != 0.0 || p2 != 0.0 || k3 != 0.0; }
-};
+/// Of a lens; docs/film.md.
+using render::Distortion, render::Vignetting;
 
 /// How much light is taken. `automatic` meters each picture by itself, so that no picture depends on another.
 struct Exposure {
@@ -74,15 +71,6 @@ struct SensorNoise {
   double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
   uint32_t bits = 12;            ///< of the converter
-};
-
-/// Loss of light towards the rim.
-struct Vignetting {
-  bool natural = false;  ///< cos^4 of the angle from the axis
-  std::array<double, 3> radial{
-      0, 0, 0};  ///< times 1 + a1 r^2 + a2 r^4 + a3 r^6, r from the principal point over half
-                 ///< of the picture's diagonal
-  bool any() const { return natural || radial[0] != 0.0 || radial[1] != 0.0 || radial[2] != 0.0; }
 };
 
 /// Intrinsics, shared by cameras and event cameras. Pixels.

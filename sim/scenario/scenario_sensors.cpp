@@ -69,60 +69,24 @@ LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz) {
   return lidar;
 }
 
-/// By kind.
-const std::initializer_list<std::string_view> keys_of_kind[] = {
-    {"name",
-     "type",
-     "mount",
-     "rate_hz",
-     "width",
-     "height",
-     "fov_deg",
-     "fx",
-     "fy",
-     "cx",
-     "cy",
-     "near_m",
-     "antialiasing",
-     "distortion",
-     "exposure_ev100",
-     "exposure",
-     "motion_blur_samples",
-     "vignetting",
-     "noise",
-     "outputs",
-     "box_classes",
-     "see_own_body"},
-    {"name",
-     "type",
-     "mount",
-     "rate_hz",
-     "width",
-     "height",
-     "fov_deg",
-     "fx",
-     "fy",
-     "cx",
-     "cy",
-     "near_m",
-     "antialiasing",
-     "distortion",
-     "steps",
-     "threshold",
-     "noise",
-     "dark_cd_m2",
-     "bright_cd_m2",
-     "refractory_s",
-     "cutoff_hz",
-     "difference",
-     "max_events_per_pixel",
-     "outputs",
-     "see_own_body"},
-    {"name", "type", "mount", "rate_hz", "channels", "elevation_min_deg", "elevation_max_deg",
-     "elevations_deg", "azimuth_steps", "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m",
-     "max_range_m", "wavelength_nm", "see_own_body"},
-    {"name", "type", "mount", "pattern", "pattern_file", "polarization", "slant_deg", "polarization_model",
-     "plane", "rows", "columns", "row_spacing_wl", "column_spacing_wl", "elements_wl"}};
+/// Of every sensor that fires by itself, then what pictures share.
+const Keys fired{"name", "type", "mount", "rate_hz", "see_own_body"};
+const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "cx",
+                   "cy",    "near_m", "antialiasing", "distortion", "outputs"};
+
+/// The keys of each kind, in the order of parse_sensor's.
+const Keys keys_of_kind[] = {
+    fired + pinhole +
+        Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
+    fired + pinhole +
+        Keys{"steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s", "cutoff_hz",
+             "difference", "max_events_per_pixel"},
+    fired + Keys{"channels", "elevation_min_deg", "elevation_max_deg", "elevations_deg", "azimuth_steps",
+                 "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m", "max_range_m",
+                 "wavelength_nm"},
+    Keys{"name", "type", "mount", "pattern", "pattern_file", "polarization", "slant_deg",
+         "polarization_model", "plane", "rows", "columns", "row_spacing_wl", "column_spacing_wl",
+         "elements_wl"}};
 
 }  // namespace
 

@@ -219,8 +219,7 @@ std::vector<std::pair<std::string, Field>> entries_of(const Field& field) {
   return entries;
 }
 
-FieldMap::FieldMap(const Field& field, std::initializer_list<std::string_view> keys)
-    : field_(field), entries_(entries_of(field)) {
+FieldMap::FieldMap(const Field& field, const Keys& keys) : field_(field), entries_(entries_of(field)) {
   for (const auto& [key, value] : entries_) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string hint = suggestion(key, {keys.begin(), keys.end()});

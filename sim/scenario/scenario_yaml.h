@@ -75,10 +75,17 @@ class Field {
   int line_ = 0;
 };
 
+/// The keys of a map.
+using Keys = std::vector<std::string_view>;
+inline Keys operator+(Keys a, const Keys& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 /// A map whose keys are known beforehand. Unknown and duplicate keys throw.
 class FieldMap {
  public:
-  FieldMap(const Field& field, std::initializer_list<std::string_view> keys);
+  FieldMap(const Field& field, const Keys& keys);
   const Field& field() const { return field_; }
   std::optional<Field> find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key).has_value(); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/hash.h"
 #include "core/random.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory_curve.h"
@@ -43,13 +44,6 @@ class StaticPath : public Path {
  private:
   Motion motion_;
 };
-
-/// FNV-1a (draft-eastlake-fnv, 32 bits): the stream of a node depends on its name alone.
-uint32_t stream_of(std::string_view node) {
-  uint32_t hash = 2166136261u;
-  for (const char c : node) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  return hash;
-}
 
 std::unique_ptr<Path> make_path(const StaticTrajectory& trajectory) {
   const dvec3& turn = trajectory.rotation;
@@ -240,7 +234,7 @@ class PathMaker {
     const NodeConfig& node = scenario_.nodes[index];
     GREATX_CHECK(!begun_[index], "the path of node '{}' depends on itself", node.name);
     begun_[index] = true;
-    RandomStream random(scenario_.seed, stream_of(node.name), sequence_);
+    RandomStream random(scenario_.seed, fnv1a32(node.name), sequence_);
     if (const auto* bezier = std::get_if<BezierTrajectory>(&node.trajectory)) {
       const Path* reference =
           bezier->reference_node.empty() ? nullptr : make(index_of(bezier->reference_node));

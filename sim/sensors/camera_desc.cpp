@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/camera_desc.h"
 
-#include <string_view>
-
+#include "core/hash.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
 
-namespace {
-
-/// FNV-1a (draft-eastlake-fnv, 32 bits): a sensor's draws depend on its name alone.
-uint32_t stream_of(std::string_view sensor) {
-  uint32_t hash = 2166136261u;
-  for (const char c : sensor) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  return hash;
+void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config) {
+  set_intrinsics(desc, config);
+  desc.near_m = config.near_m;
+  desc.msaa = config.msaa;
+  desc.smooth_edges = config.smooth_edges;
+  desc.distortion = config.distortion;
 }
-
-}  // namespace
 
 render::TruthOutputs truth_outputs(const CameraConfig& config) {
   return {config.normals, config.depth_ray, config.flow};
@@ -28,25 +24,15 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   const auto& config = std::get<CameraConfig>(sensor.config);
   render::CameraDesc desc;
   desc.name = node.name + "/" + sensor.name;
-  desc.width = config.width;
-  desc.height = config.height;
-  desc.fx = config.fx;
-  desc.fy = config.fy;
-  desc.cx = config.cx;
-  desc.cy = config.cy;
-  desc.near_m = config.near_m;
-  desc.msaa = config.msaa;
-  desc.smooth_edges = config.smooth_edges;
+  set_pinhole(desc, config);
   desc.parts = config.motion_blur_samples > 0 && (config.rgb || config.hdr);
-  const Distortion& lens = config.distortion;
-  desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
   desc.exposure_ev100 = config.exposure.ev100;
   desc.automatic_exposure = config.exposure.automatic;
   desc.compensation_ev = config.exposure.compensation_ev;
-  desc.vignetting = {config.vignetting.natural, config.vignetting.radial};
+  desc.vignetting = config.vignetting;
   if (config.noise)
     desc.noise = {config.noise->full_well_e, config.noise->read_noise_e, config.noise->bits, scenario.seed,
-                  stream_of(desc.name)};
+                  fnv1a32(desc.name)};
   desc.outputs.rgb = config.rgb;
   desc.outputs.hdr = config.hdr;
   desc.outputs.depth = config.depth || config.depth_png24 || config.depth_log;

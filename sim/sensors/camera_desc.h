@@ -12,6 +12,19 @@
 
 namespace greatx::sim {
 
+/// Size and intrinsics, which every description of a picture calls the same.
+template <typename Picture>
+void set_intrinsics(Picture& to, const PinholeConfig& from) {
+  to.width = from.width;
+  to.height = from.height;
+  to.fx = from.fx;
+  to.fy = from.fy;
+  to.cx = from.cx;
+  to.cy = from.cy;
+}
+/// What cameras and event cameras share: intrinsics, the nearest depth, antialiasing, the lens's distortion.
+void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config);
+
 /// `body`: that carries the camera; 0: none.
 render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node, const SensorConfig& sensor,
                                uint32_t body);

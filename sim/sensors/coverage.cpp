@@ -35,15 +35,11 @@ Projection::Projection(const render::CameraDesc& desc)
       least_(0.0),
       most_(desc.width, desc.height) {
   if (!distorted()) return;
-  const render::Lens lens(
-      {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion});
+  const render::Lens lens(render::lens_geometry(desc));
   const dvec2 focal(fx_, fy_), principal(cx_, cy_);
   least_ = principal + focal * lens.bounds().least;
   most_ = principal + focal * lens.bounds().most;
-  centers_.reserve(size_t{width_} * height_);
-  for (uint32_t row = 0; row < height_; ++row)
-    for (uint32_t column = 0; column < width_; ++column)
-      centers_.push_back(principal + focal * lens.undistorted({column + 0.5, row + 0.5}));
+  centers_ = lens.centers(focal, principal);
 }
 
 dvec2 Projection::picture(const dvec2& pinhole) const {

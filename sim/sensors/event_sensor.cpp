@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/hash.h"
 #include "gpu/condition.h"
 #include "sim/sensors/camera_desc.h"
 
@@ -15,28 +16,11 @@ constexpr uint32_t chosen_events_per_pixel = 8;
 constexpr uint64_t most_events = 1u << 28;
 constexpr double longest_hdf5_s = 4294.967295;  ///< DSEC's times are 32-bit microseconds
 
-/// FNV-1a (draft-eastlake-fnv, 32 bits): a sensor's draws depend on its name alone.
-uint32_t stream_of(std::string_view sensor) {
-  uint32_t hash = 2166136261u;
-  for (const char c : sensor) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  return hash;
-}
-
 render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig& config, bool seen,
                                uint32_t body) {
   render::CameraDesc desc;
   desc.name = name + " sub-step";
-  desc.width = config.width;
-  desc.height = config.height;
-  desc.fx = config.fx;
-  desc.fy = config.fy;
-  desc.cx = config.cx;
-  desc.cy = config.cy;
-  desc.near_m = config.near_m;
-  desc.msaa = config.msaa;
-  desc.smooth_edges = config.smooth_edges;
-  const Distortion& lens = config.distortion;
-  desc.distortion = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  set_pinhole(desc, config);
   desc.outputs = {.rgb = false, .depth = false, .instance = false, .semantic = false, .material = false};
   desc.outputs.luminance = true;
   desc.outputs.seen = seen;
@@ -48,12 +32,7 @@ render::EventDesc event_desc(const std::string& name, const Scenario& scenario,
                              const EventCameraConfig& config) {
   render::EventDesc desc;
   desc.name = name;
-  desc.width = config.width;
-  desc.height = config.height;
-  desc.fx = config.fx;
-  desc.fy = config.fy;
-  desc.cx = config.cx;
-  desc.cy = config.cy;
+  set_intrinsics(desc, config);
   desc.substeps = config.events ? config.substeps : 1;
   if (config.steps == EventCameraConfig::Steps::by_flow) desc.steps = render::EventSteps::by_flow;
   if (config.steps == EventCameraConfig::Steps::by_brightness) desc.steps = render::EventSteps::by_brightness;
@@ -83,7 +62,7 @@ render::EventDesc event_desc(const std::string& name, const Scenario& scenario,
   desc.difference_on_cd_m2 = config.difference_on * l_max;
   desc.difference_off_cd_m2 = config.difference_off * l_max;
   desc.seed = scenario.seed;
-  desc.stream = stream_of(name);
+  desc.stream = fnv1a32(name);
   return desc;
 }
 
