@@ -118,7 +118,7 @@ void check(const std::string& name, const YAML::Node& row, const Array& actual) 
 }
 
 void run_rows_of(const std::string& scenario) {
-  const Outcome run = run_scenario(scenario_text(scenario));
+  const KeptRun run = keep_run(scenario_text(scenario));
   size_t rows = 0;
   for (const YAML::Node& row : YAML::LoadFile((folder / "goldens.yaml").string())) {
     if (row["scenario"].as<std::string>() != scenario) continue;
@@ -143,15 +143,15 @@ double tolerance_of(const std::string& picture) {
 
 TEST(GoldenGuard, SeesThatShadowsAreMissing) {
   if (updating()) GTEST_SKIP() << "goldens are being rewritten";
-  const Outcome run =
-      run_scenario(scenario_text("day") + "effects: {static_shadows: off, moving_shadows: off}\n");
+  const KeptRun run =
+      keep_run(scenario_text("day") + "effects: {static_shadows: off, moving_shadows: off}\n");
   EXPECT_GT(flip(golden("rgb_day"), picture_of(run, 1, "uav/front", "rgb")).mean, tolerance_of("rgb_day"));
 }
 
 TEST(GoldenGuard, SeesThatThePictureIsLaterOrDarker) {
   if (updating()) GTEST_SKIP() << "goldens are being rewritten";
   const Array day = golden("rgb_day");
-  const Outcome run = run_scenario(scenario_text("day"));
+  const KeptRun run = keep_run(scenario_text("day"));
   EXPECT_GT(flip(day, picture_of(run, 2, "uav/front", "rgb")).mean, tolerance_of("rgb_day"));
   Array darker = day;
   for (uint8_t& byte : darker.as<uint8_t>()) byte = static_cast<uint8_t>(byte * 9 / 10);

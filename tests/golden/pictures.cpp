@@ -9,19 +9,12 @@
 
 #include "core/units.h"
 #include "io/panels.h"
-#include "sim/simulator.h"
-#include "tests/support/gpu_fixture.h"
 
 namespace greatx::test {
 
 namespace {
 
 constexpr int64_t lidar_rings = 32, lidar_steps = 256;  // day.yaml's
-
-struct Keep : RecordSink {
-  std::vector<Packet> packets;
-  void write(Packet packet) override { packets.push_back(std::move(packet)); }
-};
 
 uint16_t centimetres(float metres) {
   return static_cast<uint16_t>(std::lround(std::min(100.0f * metres, 65535.0f)));
@@ -61,31 +54,11 @@ Array range_picture(const Array& points, const Array& rings, const Array& ranges
 
 }  // namespace
 
-const Array& Outcome::array(int64_t tick, const std::string& sensor, const std::string& name) const {
-  for (const Packet& packet : packets)
-    for (const Record& record : packet.records) {
-      const SensorSpec& spec = sensors[record.sensor];
-      if (packet.tick != tick || spec.name != sensor) continue;
-      for (size_t i = 0; i < spec.arrays.size(); ++i)
-        if (spec.arrays[i].name == name) return record.arrays[i];
-    }
-  throw std::runtime_error(sensor + " has no " + name + " at tick " + std::to_string(tick));
-}
-
-Outcome run_scenario(const std::string& yaml) {
-  const sim::Scenario scenario = sim::parse_scenario(yaml, "golden.yaml", ".");
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
-  sim::Simulator simulator(device(), scenario, world, plan);
-  Keep keep;
-  simulator.start(0);
-  while (simulator.step(keep)) {
-  }
-  return {simulator.sensors(), std::move(keep.packets)};
-}
-
-Array picture_of(const Outcome& run, int64_t tick, const std::string& sensor, const std::string& array) {
-  const auto get = [&](const char* name) -> const Array& { return run.array(tick, sensor, name); };
+Array picture_of(const KeptRun& run, int64_t tick, const std::string& sensor, const std::string& array) {
+  const auto at = std::ranges::find(run.packets, tick, &Packet::tick);
+  if (at == run.packets.end()) throw std::runtime_error("no packet at tick " + std::to_string(tick));
+  const auto packet = static_cast<size_t>(at - run.packets.begin());
+  const auto get = [&](const char* name) -> const Array& { return run.array(packet, sensor, name); };
   if (array == "events") {
     const Array& differences = get("difference_picture");  // for the size
     return io::event_picture(get("x").as<uint16_t>(), get("y").as<uint16_t>(), get("p").as<uint8_t>(),

@@ -10,63 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "sim/simulator.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/support/kept_run.h"
 
 namespace greatx::sim {
 namespace {
 
-struct Keep : RecordSink {
-  std::vector<Packet> packets;
-  void write(Packet packet) override { packets.push_back(std::move(packet)); }
-};
-
-struct Outcome {
-  std::vector<SensorSpec> sensors;
-  std::vector<Packet> packets;
-  RunStatistics statistics;
-  uint64_t submits = 0;
-
-  /// An array of every record of a sensor, in order of ticks.
-  std::vector<Array> arrays(const std::string& sensor, const std::string& name) const {
-    std::vector<Array> all;
-    for (const Packet& packet : packets)
-      for (const Record& record : packet.records) {
-        const SensorSpec& spec = sensors[record.sensor];
-        for (size_t i = 0; spec.name == sensor && i < spec.arrays.size(); ++i)
-          if (spec.arrays[i].name == name) all.push_back(record.arrays[i]);
-      }
-    return all;
-  }
-  /// Ragged arrays joined.
-  template <typename T>
-  std::vector<T> joined(const std::string& sensor, const std::string& name) const {
-    std::vector<T> all;
-    for (const Array& array : arrays(sensor, name))
-      all.insert(all.end(), array.as<T>().begin(), array.as<T>().end());
-    return all;
-  }
-};
-
-Outcome run(const std::string& yaml, int64_t first_tick = 0, uint32_t sequence = 0) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
-  const World world = load_world(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
-  Keep keep;
-  Outcome result;
-  const uint64_t submits = test::device().counters().submits;
-  {
-    Simulator simulator(test::device(), scenario, world, plan);
-    result.sensors = simulator.sensors();
-    simulator.start(sequence, first_tick);
-    while (simulator.step(keep)) {
-    }
-    result.statistics = simulator.statistics();
-  }
-  result.submits = test::device().counters().submits - submits;
-  result.packets = std::move(keep.packets);
-  return result;
-}
+using test::keep_run;
+using test::KeptRun;
 
 const std::string head =
     "greatx: 1\nname: test\nseed: 5\nticks: 201\ntick_rate_hz: 1000\n"
@@ -101,7 +51,7 @@ const std::string noisy =
     "refractory_s: 0.0005, "
     "cutoff_hz: 300, outputs: [events, instance, differences]";
 
-void expect_same_events(const Outcome& a, const Outcome& b) {
+void expect_same_events(const KeptRun& a, const KeptRun& b) {
   EXPECT_EQ(a.joined<int64_t>("eye/dvs", "t"), b.joined<int64_t>("eye/dvs", "t"));
   EXPECT_EQ(a.joined<uint16_t>("eye/dvs", "x"), b.joined<uint16_t>("eye/dvs", "x"));
   EXPECT_EQ(a.joined<uint16_t>("eye/dvs", "y"), b.joined<uint16_t>("eye/dvs", "y"));
@@ -109,8 +59,8 @@ void expect_same_events(const Outcome& a, const Outcome& b) {
 }
 
 TEST(EventSensor, StreamLiesBetweenItsTicksInOneSubmissionATick) {
-  const Outcome r = run(head + van(true) + eye(10.0, dvs("")));
-  EXPECT_EQ(r.submits, 3u);  // at 0, 100 and 200 ms
+  const KeptRun r = keep_run(head + van(true) + eye(10.0, dvs("")));
+  EXPECT_EQ(r.counters.submits, 3u);  // at 0, 100 and 200 ms
   const std::vector<Array> t = r.arrays("eye/dvs", "t"), pictures = r.arrays("eye/dvs", "pictures");
   ASSERT_EQ(t.size(), 3u);
   EXPECT_EQ(t[0].element_count(), 0);
@@ -129,7 +79,7 @@ TEST(EventSensor, StreamLiesBetweenItsTicksInOneSubmissionATick) {
 }
 
 TEST(EventSensor, NothingMovesNothingFires) {
-  const Outcome r = run(head + van(false) + eye(0.0, dvs(", outputs: [events, differences]")));
+  const KeptRun r = keep_run(head + van(false) + eye(0.0, dvs(", outputs: [events, differences]")));
   EXPECT_TRUE(r.joined<int64_t>("eye/dvs", "t").empty());
   for (const Array& d : r.arrays("eye/dvs", "difference"))
     EXPECT_TRUE(std::ranges::all_of(d.as<int8_t>(), [](int8_t v) { return v == 0; }));
@@ -139,14 +89,14 @@ TEST(EventSensor, NothingMovesNothingFires) {
 
 TEST(EventSensor, SubStepsAreThePicturesOfShorterIntervals) {
   // Camera, mesh and shadow stand where they do at that time: four steps of 25 ms in one tick, or four ticks.
-  const Outcome steps = run(head + van(true) + eye(10.0, dvs(", steps: 4", "10")));
-  const Outcome ticks = run(head + van(true) + eye(10.0, dvs(", steps: 1", "40")));
+  const KeptRun steps = keep_run(head + van(true) + eye(10.0, dvs(", steps: 4", "10")));
+  const KeptRun ticks = keep_run(head + van(true) + eye(10.0, dvs(", steps: 1", "40")));
   EXPECT_GT(steps.joined<int64_t>("eye/dvs", "t").size(), 1000u);
   expect_same_events(steps, ticks);
 }
 
 TEST(EventSensor, WhatMovesFiresUnderItsOwnName) {
-  const Outcome r = run(head + van(true) + eye(0.0, dvs(", outputs: [events, instance]")));
+  const KeptRun r = keep_run(head + van(true) + eye(0.0, dvs(", outputs: [events, instance]")));
   std::map<uint32_t, size_t> of_instance;
   for (const uint32_t i : r.joined<uint32_t>("eye/dvs", "instance")) ++of_instance[i];
   const Scenario scenario = parse_scenario(head + van(true) + eye(0.0, dvs("")), "test.yaml", ".");
@@ -164,28 +114,20 @@ TEST(EventSensor, WhatMovesFiresUnderItsOwnName) {
 TEST(EventSensor, ResumedRunHasTheBytesOfAWholeOne) {
   for (const std::string& more : {noisy, std::string(", steps: {by: brightness, max_change: 1, most: 8}")}) {
     const std::string yaml = head + van(true) + eye(10.0, dvs(more, "40"));
-    const Outcome whole = run(yaml), rest = run(yaml, 90);
+    const KeptRun whole = keep_run(yaml), rest = keep_run(yaml, 0, 90);
     ASSERT_EQ(whole.packets.size(), 9u);
     ASSERT_EQ(rest.packets.size(), 5u);
-    for (size_t k = 0; k < rest.packets.size(); ++k) {
-      const Packet &a = whole.packets[k + 4], &b = rest.packets[k];
-      ASSERT_EQ(a.tick, b.tick);
-      ASSERT_EQ(a.records.size(), b.records.size());
-      for (size_t r = 0; r < a.records.size(); ++r) {
-        EXPECT_EQ(a.records[r].sample, b.records[r].sample);
-        for (size_t i = 0; i < a.records[r].arrays.size(); ++i)
-          EXPECT_TRUE(a.records[r].arrays[i].bytes == b.records[r].arrays[i].bytes) << k << " " << i;
-      }
-    }
+    for (size_t k = 0; k < rest.packets.size(); ++k)
+      test::expect_same_bytes(whole.sensors, whole.packets[k + 4], rest.packets[k]);
   }
 }
 
 TEST(EventSensor, OtherSensorsChangeNothingAndAreNotChanged) {
   const std::string camera =
       "      - {name: front, type: camera, rate_hz: 40, width: 40, height: 30, fov_deg: 70}\n";
-  const Outcome alone = run(head + van(true) + eye(10.0, dvs(noisy, "20")));
-  const Outcome beside = run(head + van(true) + eye(10.0, dvs(noisy, "20") + camera));
-  const Outcome camera_alone = run(head + van(true) + eye(10.0, camera));
+  const KeptRun alone = keep_run(head + van(true) + eye(10.0, dvs(noisy, "20")));
+  const KeptRun beside = keep_run(head + van(true) + eye(10.0, dvs(noisy, "20") + camera));
+  const KeptRun camera_alone = keep_run(head + van(true) + eye(10.0, camera));
   expect_same_events(alone, beside);
   const std::vector<Array> with = beside.arrays("eye/front", "rgb"),
                            without = camera_alone.arrays("eye/front", "rgb");
@@ -196,17 +138,17 @@ TEST(EventSensor, OtherSensorsChangeNothingAndAreNotChanged) {
 TEST(EventSensor, SequencesDifferInNoiseAlone) {
   const std::string shot = dvs(", noise: {shot_rate_hz: 20}", "40");
   const std::string yaml = head + van(false) + eye(0.0, shot);
-  const std::vector<int64_t> first = run(yaml).joined<int64_t>("eye/dvs", "t");
+  const std::vector<int64_t> first = keep_run(yaml).joined<int64_t>("eye/dvs", "t");
   EXPECT_GT(first.size(), 100u);
-  EXPECT_EQ(first, run(yaml).joined<int64_t>("eye/dvs", "t"));
-  EXPECT_NE(first, run(yaml, 0, 1).joined<int64_t>("eye/dvs", "t"));
+  EXPECT_EQ(first, keep_run(yaml).joined<int64_t>("eye/dvs", "t"));
+  EXPECT_NE(first, keep_run(yaml, 1).joined<int64_t>("eye/dvs", "t"));
 }
 
 TEST(EventSensor, FlowStepsFollowTheTurning) {
   // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the corners.
   const auto pictures = [](double turn_deg) {
-    const Outcome r =
-        run(head + van(false) + eye(turn_deg, dvs(", steps: {by: flow, max_px: 0.5, most: 32}", "10")));
+    const KeptRun r =
+        keep_run(head + van(false) + eye(turn_deg, dvs(", steps: {by: flow, max_px: 0.5, most: 32}", "10")));
     EXPECT_EQ(r.statistics.counters.at("eye/dvs.event_pictures_too_coarse"), 0u) << turn_deg;
     return r.arrays("eye/dvs", "pictures")[1].as<uint32_t>()[0];
   };
@@ -222,7 +164,7 @@ TEST(EventSensor, FlowStepsFollowTheTurning) {
 }
 
 TEST(EventSensor, OverflowIsReported) {
-  const Outcome r = run(head + van(true) + eye(60.0, dvs(", threshold: 0.01, max_events_per_pixel: 1")));
+  const KeptRun r = keep_run(head + van(true) + eye(60.0, dvs(", threshold: 0.01, max_events_per_pixel: 1")));
   const uint64_t dropped = r.statistics.counters.at("eye/dvs.event_overflow");
   EXPECT_GT(dropped, 0u);
   uint64_t sum = 0;

@@ -5,63 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/simulator.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/support/kept_run.h"
 
 namespace greatx::sim {
 namespace {
 
-struct Keep : RecordSink {
-  std::vector<Packet> packets;
-  void write(Packet packet) override { packets.push_back(std::move(packet)); }
-};
-
-struct Outcome {
-  std::vector<SensorSpec> sensors;
-  std::vector<Packet> packets;
-  RunStatistics statistics;
-  bool reflect = false;  ///< moving reflectors
-
-  std::string note(const std::string& name) const {
-    for (const auto& [key, text] : statistics.notes)
-      if (key == name) return text;
-    return {};
-  }
-  uint64_t counter(const std::string& name) const { return statistics.counters.at(name); }
-};
-
-Outcome run(const std::string& yaml, int64_t first_tick = 0) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
-  const World world = load_world(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
-  Keep keep;
-  Outcome result;
-  result.reflect = plan.moving_reflectors.on;
-  Simulator simulator(test::device(), scenario, world, plan);
-  result.sensors = simulator.sensors();
-  simulator.start(0, first_tick);
-  while (simulator.step(keep)) {
-  }
-  result.statistics = simulator.statistics();
-  result.packets = std::move(keep.packets);
-  return result;
-}
-
-/// Every array of every record, byte for byte.
-void expect_same_bytes(const Outcome& a, const Outcome& b) {
-  ASSERT_EQ(a.packets.size(), b.packets.size());
-  for (size_t p = 0; p < a.packets.size(); ++p) {
-    ASSERT_EQ(a.packets[p].records.size(), b.packets[p].records.size());
-    for (size_t r = 0; r < a.packets[p].records.size(); ++r) {
-      const Record &first = a.packets[p].records[r], &second = b.packets[p].records[r];
-      const SensorSpec& spec = a.sensors[first.sensor];
-      for (size_t i = 0; i < spec.arrays.size(); ++i) {
-        EXPECT_EQ(first.arrays[i].shape, second.arrays[i].shape) << p << spec.name << spec.arrays[i].name;
-        EXPECT_TRUE(first.arrays[i].bytes == second.arrays[i].bytes) << p << spec.name << spec.arrays[i].name;
-      }
-    }
-  }
-}
+using test::expect_same_bytes;
+using test::keep_run;
+using test::KeptRun;
 
 const std::string antenna =
     "    sensors: [{name: antenna, type: antenna, mount: {position_m: [0, 0, 2.2]}}]\n";
@@ -85,8 +36,9 @@ std::string street(const std::string& channel, const std::string& effects) {
 
 TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
   const std::string link = "tx: bs/antenna, rx: [uav/antenna, car/antenna]";
-  const Outcome kept = run(street(link, "")), whole = run(street(link + ", search: every_tick", ""));
-  EXPECT_TRUE(kept.reflect);
+  const KeptRun kept = keep_run(street(link, "")),
+                whole = keep_run(street(link + ", search: every_tick", ""));
+  EXPECT_TRUE(kept.plan.moving_reflectors.on);
   EXPECT_GT(kept.counter("csi.paths"), 20u);
   EXPECT_THAT(kept.note("csi.search"), testing::HasSubstr("every tick for what moves"));
   EXPECT_THAT(kept.note("csi.guarantee_moving"), testing::HasSubstr("with a moving facet"));
@@ -94,15 +46,15 @@ TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
   // What moves does reflect.
   std::string still = street(link, "");
   still.replace(still.find("moving_reflectors: on"), 21, "moving_reflectors: off");
-  EXPECT_NE(run(still).counter("csi.paths"), kept.counter("csi.paths"));
+  EXPECT_NE(keep_run(still).counter("csi.paths"), kept.counter("csi.paths"));
 }
 
 TEST(MovingChannel, StaticReceiversKeepTheirs) {
   const std::string link = "tx: uav/antenna, rx: [bs/antenna]";
-  const Outcome kept = run(street(link, ", transmission: off"));
+  const KeptRun kept = keep_run(street(link, ", transmission: off"));
   EXPECT_THAT(kept.note("csi.search"), testing::StartsWith("once, from each receiver"));
   // From the other end, the same sequences the other way round: compared with the whole search from there.
-  const Outcome whole = run(street(link + ", search: every_tick", ", transmission: off"));
+  const KeptRun whole = keep_run(street(link + ", search: every_tick", ", transmission: off"));
   EXPECT_EQ(kept.counter("csi.paths"), whole.counter("csi.paths"));
   EXPECT_EQ(kept.counter("csi.path_births"), whole.counter("csi.path_births"));
 }
@@ -110,8 +62,8 @@ TEST(MovingChannel, StaticReceiversKeepTheirs) {
 TEST(MovingChannel, BothEndsMove) {
   for (const std::string effects : {"", ", transmission: off"}) {
     const std::string link = "tx: car/antenna, rx: [uav/antenna]";
-    const Outcome between = run(street(link, effects)),
-                  whole = run(street(link + ", search: every_tick", effects));
+    const KeptRun between = keep_run(street(link, effects)),
+                  whole = keep_run(street(link + ", search: every_tick", effects));
     EXPECT_GT(between.counter("csi.paths"), 10u);
     EXPECT_THAT(between.note("csi.search"), testing::StartsWith("every tick, from both ends"));
     EXPECT_LT(between.counter("csi.candidates"), whole.counter("csi.candidates"));
@@ -124,13 +76,13 @@ TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
   for (const std::string reflect : {"on", "off"}) {
     std::string yaml = street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", "");
     yaml.replace(yaml.find("moving_reflectors: on"), 21, "moving_reflectors: " + reflect);
-    const Outcome all = run(yaml);
+    const KeptRun all = keep_run(yaml);
     for (int64_t tick = 0; tick < 5; ++tick) {
       std::string one = yaml;
       one.replace(one.find("ticks: 5"), 8, fmt::format("ticks: {}", tick + 1));
-      Outcome alone = run(one, tick);
+      KeptRun alone = keep_run(one, 0, tick);
       ASSERT_EQ(alone.packets.size(), 1u);
-      Outcome same = all;
+      KeptRun same = all;
       same.packets = {all.packets[static_cast<size_t>(tick)]};
       expect_same_bytes(same, alone);
     }
@@ -138,7 +90,7 @@ TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
 }
 
 TEST(MovingChannel, DiffractionWithMovingReflectorsSearchesWholeAndSaysSo) {
-  const Outcome r = run(street("tx: bs/antenna, rx: [uav/antenna]", ", diffraction: on"));
+  const KeptRun r = keep_run(street("tx: bs/antenna, rx: [uav/antenna]", ", diffraction: on"));
   EXPECT_THAT(r.note("csi.search"), testing::StartsWith("every tick, from the transmitter"));
   EXPECT_THAT(r.note("csi.reuse"), testing::StartsWith("none"));
 }

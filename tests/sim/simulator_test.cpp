@@ -11,67 +11,13 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/support/kept_run.h"
 
 namespace greatx::sim {
 namespace {
 
-struct Keep : RecordSink {
-  std::vector<Packet> packets;
-  void write(Packet packet) override { packets.push_back(std::move(packet)); }
-};
-
-/// What a run delivered and what it did on the GPU.
-struct Outcome {
-  std::vector<SensorSpec> sensors;
-  std::vector<Packet> packets;
-  RunStatistics statistics;
-  gpu::Counters counters;  ///< differences over the run
-  EffectPlan plan;
-
-  const Array& array(size_t packet, const std::string& sensor, const std::string& name) const {
-    for (const Record& record : packets.at(packet).records) {
-      const SensorSpec& spec = sensors[record.sensor];
-      if (spec.name != sensor) continue;
-      for (size_t i = 0; i < spec.arrays.size(); ++i)
-        if (spec.arrays[i].name == name) return record.arrays[i];
-    }
-    throw std::runtime_error(sensor + " has no " + name);
-  }
-  bool built(const std::string& part) const {
-    return std::any_of(counters.pipelines.begin(), counters.pipelines.end(),
-                       [&](const std::string& pipeline) { return pipeline.find(part) != std::string::npos; });
-  }
-};
-
-Outcome run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
-  const World world = load_world(scenario);
-  Outcome result;
-  result.plan = make_effect_plan(scenario, world.scene);
-  gpu::Device& device = test::device();
-  const gpu::Counters before = device.counters();
-  Keep keep;
-  {
-    Simulator simulator(device, scenario, world, result.plan);
-    result.sensors = simulator.sensors();
-    simulator.start(sequence, first_tick);
-    while (simulator.step(keep)) {
-    }
-    result.statistics = simulator.statistics();
-  }
-  result.packets = std::move(keep.packets);
-  gpu::Counters& after = result.counters;
-  after = device.counters();
-  after.pipelines.erase(after.pipelines.begin(),
-                        after.pipelines.begin() + static_cast<std::ptrdiff_t>(before.pipelines.size()));
-  after.submits -= before.submits;
-  after.dispatches -= before.dispatches;
-  after.passes -= before.passes;
-  after.tlas_builds -= before.tlas_builds;
-  after.tlas_refits -= before.tlas_refits;
-  return result;
-}
+using test::keep_run;
+using test::KeptRun;
 
 void expect_same(const Array& a, const Array& b, const std::string& what) {
   EXPECT_EQ(a.shape, b.shape) << what;
@@ -79,7 +25,7 @@ void expect_same(const Array& a, const Array& b, const std::string& what) {
 }
 
 /// Every record of `sensor` that both runs have.
-void expect_same_sensor(const Outcome& a, const Outcome& b, const std::string& sensor) {
+void expect_same_sensor(const KeptRun& a, const KeptRun& b, const std::string& sensor) {
   ASSERT_EQ(a.packets.size(), b.packets.size());
   const auto spec =
       std::find_if(a.sensors.begin(), a.sensors.end(), [&](const SensorSpec& s) { return s.name == sensor; });
@@ -120,7 +66,8 @@ std::string channel(const std::string& more = "") {
 const std::string uav_model = "    model: {generate: {kind: quadrotor, variant: large}}\n";
 
 TEST(Simulator, OneSubmissionATickAndWholePackets) {
-  const Outcome r = run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  const KeptRun r =
+      keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
   EXPECT_EQ(r.statistics.ticks, 3);
   EXPECT_EQ(r.statistics.packets, 3);
   EXPECT_EQ(r.counters.submits, 3u);
@@ -138,7 +85,7 @@ TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
   std::string yaml = head + city + "nodes:\n" + uav(camera + lidar);
   yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 9");
   yaml.replace(yaml.find("lidar, rate_hz: 10"), 18, "lidar, rate_hz: 4 ");
-  const Outcome r = run(yaml);
+  const KeptRun r = keep_run(yaml);
   std::vector<int64_t> lidar_ticks;
   for (const Packet& packet : r.packets)
     for (const Record& record : packet.records)
@@ -147,7 +94,8 @@ TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
 }
 
 TEST(Consistency, ModalitiesSeeOneWorld) {
-  const Outcome r = run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  const KeptRun r =
+      keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
   const Consistency& c = r.statistics.consistency;
   EXPECT_GT(c.depth.count(), 100u);
   EXPECT_LT(c.depth.max(), 1e-4);
@@ -159,7 +107,7 @@ TEST(Consistency, ModalitiesSeeOneWorld) {
 }
 
 TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
-  const Outcome alone = run(head + city + "nodes:\n" + uav(camera) + "effects: {consistency: off}\n");
+  const KeptRun alone = keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {consistency: off}\n");
   EXPECT_FALSE(alone.built("lidar"));
   EXPECT_FALSE(alone.built("candidate"));
   EXPECT_FALSE(alone.built("visibility segments"));
@@ -168,17 +116,18 @@ TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
 }
 
 TEST(Plan, OtherSensorsChangeNoByte) {
-  const Outcome all =
-      run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
-  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(camera, uav_model)), "uav/camera");
-  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(lidar, uav_model)), "uav/lidar");
-  expect_same_sensor(all, run(head + city + "nodes:\n" + bs + uav(antenna, uav_model) + channel()), "csi");
+  const KeptRun all =
+      keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
+  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(camera, uav_model)), "uav/camera");
+  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(lidar, uav_model)), "uav/lidar");
+  expect_same_sensor(all, keep_run(head + city + "nodes:\n" + bs + uav(antenna, uav_model) + channel()),
+                     "csi");
 }
 
 TEST(Plan, LineOfSightAloneSearchesNoReflection) {
   std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
   yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
-  const Outcome r = run(yaml);
+  const KeptRun r = keep_run(yaml);
   EXPECT_FALSE(r.plan.reflection.on);
   EXPECT_FALSE(r.built("candidate"));
   EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0],
@@ -186,24 +135,24 @@ TEST(Plan, LineOfSightAloneSearchesNoReflection) {
 }
 
 TEST(Plan, AStaticSceneIsNeverRefitted) {
-  const Outcome still = run(head + city + "nodes:\n" + uav(lidar));
+  const KeptRun still = keep_run(head + city + "nodes:\n" + uav(lidar));
   EXPECT_EQ(still.counters.tlas_builds, 1u);
   EXPECT_EQ(still.counters.tlas_refits, 0u);
   EXPECT_FALSE(still.plan.scene_motion.on);
-  const Outcome moving = run(head + city + "nodes:\n" + uav(lidar, uav_model));
+  const KeptRun moving = keep_run(head + city + "nodes:\n" + uav(lidar, uav_model));
   EXPECT_EQ(moving.counters.tlas_refits, 2u);
 }
 
 TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {
   const std::string base = head + city + "nodes:\n" + uav(camera);
-  const Outcome automatic = run(base);
+  const KeptRun automatic = keep_run(base);
   EXPECT_FALSE(automatic.plan.normal_maps.on);
-  const Outcome forced = run(base + "effects: {normal_maps: on, alpha_mask: on, moving_shadows: on}\n");
+  const KeptRun forced = keep_run(base + "effects: {normal_maps: on, alpha_mask: on, moving_shadows: on}\n");
   EXPECT_TRUE(forced.plan.normal_maps.on);
   expect_same_sensor(automatic, forced, "uav/camera");
 
   // Lamps by day: within 1 % of the light, that is one step of 8 bits or two.
-  const Outcome lamps = run(base + "effects: {punctual_lights: on}\n");
+  const KeptRun lamps = keep_run(base + "effects: {punctual_lights: on}\n");
   EXPECT_FALSE(automatic.plan.punctual_lights.on);
   expect_same(automatic.array(0, "uav/camera", "depth"), lamps.array(0, "uav/camera", "depth"), "depth");
   const auto a = automatic.array(0, "uav/camera", "rgb").as<uint8_t>(),
@@ -213,19 +162,19 @@ TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {
 
 TEST(Plan, NamesThatAreNoneAndSwitchesThatCannotBe) {
   try {
-    run(head + city + "nodes:\n" + uav(camera) + "effects: {shadow: on}\n");
+    keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {shadow: on}\n");
     FAIL();
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("'shadow' is no effect; expected one of"));
     EXPECT_THAT(error.what(), testing::HasSubstr("static_shadows"));
   }
-  EXPECT_THROW(run(head + city + "nodes:\n" + uav(camera) + "effects: {camera: off}\n"), UserError);
+  EXPECT_THROW(keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {camera: off}\n"), UserError);
 }
 
 TEST(Search, EveryTickFindsWhatOnceFinds) {
   const std::string base = head + city + "nodes:\n" + bs + uav(antenna);
-  const Outcome once = run(base + channel(", search: once")),
-                always = run(base + channel(", search: every_tick"));
+  const KeptRun once = keep_run(base + channel(", search: once")),
+                always = keep_run(base + channel(", search: every_tick"));
   EXPECT_GT(once.array(1, "csi", "path_count").as<int32_t>()[0], 0);
   expect_same_sensor(once, always, "csi");
   EXPECT_EQ(always.counters.submits, 3u) << "looking ahead takes no submission of its own";
@@ -235,9 +184,9 @@ TEST(Search, EveryTickLooksAheadOnlyToTicksOfTheChannel) {
   std::string yaml = head + city + "nodes:\n" + bs + uav(lidar + antenna) + channel(", search: every_tick");
   yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 9");
   const std::string rate = "rx: [uav/antenna], rate_hz: 10";
-  Outcome all = run(yaml);
+  KeptRun all = keep_run(yaml);
   yaml.replace(yaml.find(rate), rate.size(), "rx: [uav/antenna], rate_hz: 2.5");
-  const Outcome few = run(yaml);  // due at ticks 0, 4 and 8
+  const KeptRun few = keep_run(yaml);  // due at ticks 0, 4 and 8
   EXPECT_EQ(few.statistics.passes.at("candidate search").count, 2u)
       << "for ticks 4 and 8; 0 is searched before";
   EXPECT_EQ(all.statistics.passes.at("candidate search").count, 8u);
@@ -247,9 +196,9 @@ TEST(Search, EveryTickLooksAheadOnlyToTicksOfTheChannel) {
 
 TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
-  const Outcome down = run(yaml);
+  const KeptRun down = keep_run(yaml);
   yaml.replace(yaml.find("tx: bs/panel, rx: [uav/antenna]"), 31, "tx: uav/antenna, rx: [bs/panel]");
-  const Outcome up = run(yaml);
+  const KeptRun up = keep_run(yaml);
   // The same source, the same candidates: the same paths the other way round.
   for (size_t i = 0; i < 3; ++i) {
     auto delays_down = down.array(i, "csi", "delay").as<double>(),
@@ -270,7 +219,7 @@ TEST(Channel, FreeSpaceIsFriis) {
       "  - name: uav\n    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, "
       "{t_s: 1, position_m: [10, 5, 40]}]}\n    sensors:\n" +
       antenna + channel();
-  const Outcome r = run(yaml);
+  const KeptRun r = keep_run(yaml);
   const auto h = r.array(0, "csi", "cfr").as<std::complex<float>>();
   const double delay = r.array(0, "csi", "delay").as<double>()[0];
   const double friis = speed_of_light / 3.5e9 / (4 * pi * speed_of_light * delay);
@@ -283,7 +232,7 @@ TEST(Simulator, SequencesDifferAndRepeat) {
                            "sequences: 2\nnodes:\n  - name: uav\n    trajectory: {type: bezier, box: {min_m: "
                            "[-30, -30, 40], max_m: [30, 30, 60]}, offset_m: [5, 5, 5]}\n    sensors:\n" +
                            lidar;
-  const Outcome first = run(yaml, 0), again = run(yaml, 0), second = run(yaml, 1);
+  const KeptRun first = keep_run(yaml, 0), again = keep_run(yaml, 0), second = keep_run(yaml, 1);
   expect_same_sensor(first, again, "poses");
   expect_same_sensor(first, again, "uav/lidar");
   EXPECT_FALSE(first.array(0, "poses", "position").bytes == second.array(0, "poses", "position").bytes);
@@ -292,15 +241,10 @@ TEST(Simulator, SequencesDifferAndRepeat) {
 TEST(Simulator, StartingLaterGivesTheSameRest) {
   const std::string yaml =
       head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel();
-  const Outcome whole = run(yaml), rest = run(yaml, 0, 1);
+  const KeptRun whole = keep_run(yaml), rest = keep_run(yaml, 0, 1);
   ASSERT_EQ(rest.packets.size(), 2u);
   for (size_t i = 0; i < rest.packets.size(); ++i)
-    for (size_t s = 0; s < rest.sensors.size(); ++s) {
-      EXPECT_EQ(rest.packets[i].records[s].sample, whole.packets[i + 1].records[s].sample);
-      for (size_t a = 0; a < rest.sensors[s].arrays.size(); ++a)
-        expect_same(rest.packets[i].records[s].arrays[a], whole.packets[i + 1].records[s].arrays[a],
-                    rest.sensors[s].arrays[a].name);
-    }
+    test::expect_same_bytes(whole.sensors, whole.packets[i + 1], rest.packets[i]);
 }
 
 TEST(HardCase, N07_AtUtmCoordinatesTheSameOutput) {
@@ -317,7 +261,7 @@ TEST(HardCase, N07_AtUtmCoordinatesTheSameOutput) {
            v(-20, -15, 40) + "}, {t_s: 1, position_m: " + v(10, 5, 45) + "}]}\n    sensors:\n" + camera +
            lidar + antenna + channel();
   };
-  const Outcome here = run(at(dvec3(0.0))), there = run(at({500000.0, 5400000.0, 120.0}));
+  const KeptRun here = keep_run(at(dvec3(0.0))), there = keep_run(at({500000.0, 5400000.0, 120.0}));
   expect_same(here.array(0, "uav/camera", "instance"), there.array(0, "uav/camera", "instance"), "instance");
   expect_same(here.array(0, "uav/camera", "depth"), there.array(0, "uav/camera", "depth"), "depth");
   expect_same(here.array(0, "uav/lidar", "points"), there.array(0, "uav/lidar", "points"), "points");
@@ -341,16 +285,16 @@ TEST(HardCase, N25_AReceiverAloneIsTheSameAmongAHundred) {
     std::string yaml = head + city + "nodes:\n" + bs + nodes + channel();
     yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 1");
     yaml.replace(yaml.find("uav/antenna"), 11, receivers);
-    return run(yaml);
+    return keep_run(yaml);
   };
-  const Outcome together = with(all);
+  const KeptRun together = with(all);
   const auto counts = together.array(0, "csi", "path_count").as<int32_t>();
   ASSERT_EQ(counts.size(), 100u);
   const auto cfr = together.array(0, "csi", "cfr").as<std::complex<float>>();
   const auto delays = together.array(0, "csi", "delay").as<double>();
   int reflected = 0;
   for (const size_t receiver : {0u, 37u, 58u, 99u}) {
-    const Outcome alone = with(fmt::format("user{}/antenna", receiver));
+    const KeptRun alone = with(fmt::format("user{}/antenna", receiver));
     const auto own = alone.array(0, "csi", "cfr").as<std::complex<float>>();
     ASSERT_EQ(own.size() * 100, cfr.size());
     EXPECT_EQ(std::memcmp(own.data(), cfr.data() + receiver * own.size(), own.size_bytes()), 0) << receiver;
@@ -369,7 +313,7 @@ TEST(HardCase, N64_NoPathIsZeroAndFinite) {
   yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
   yaml.replace(yaml.find("[-20, -15, 40]"), 14, "[-20, -15, -40]");
   yaml.replace(yaml.find("[10, 5, 45]"), 11, "[10, 5, -45]");
-  const Outcome r = run(yaml);
+  const KeptRun r = keep_run(yaml);
   ASSERT_EQ(r.packets.size(), 3u);
   EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0], 0);
   EXPECT_EQ(r.array(0, "csi", "line_of_sight").as<uint8_t>()[0], 0);
@@ -382,15 +326,16 @@ TEST(HardCase, N64_NoPathIsZeroAndFinite) {
 }
 
 TEST(HardCase, N64_NothingToSeeIsEmptyAndFinite) {
-  const Outcome r = run(head +
-                        "nodes:\n  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 0]}\n    "
-                        "sensors: [{name: panel, type: antenna}]\n" +
-                        uav(camera + lidar + antenna) + channel());
+  const KeptRun r =
+      keep_run(head +
+               "nodes:\n  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 0]}\n    "
+               "sensors: [{name: panel, type: antenna}]\n" +
+               uav(camera + lidar + antenna) + channel());
   EXPECT_EQ(r.array(0, "uav/lidar", "points").shape[0], 0);
   for (const float z : r.array(0, "uav/camera", "depth").as<float>())
     EXPECT_EQ(z, std::numeric_limits<float>::infinity());
   EXPECT_EQ(r.array(0, "csi", "path_count").as<int32_t>()[0], 1);
-  const Outcome nobody = run(head + "nodes: []\n");
+  const KeptRun nobody = keep_run(head + "nodes: []\n");
   EXPECT_EQ(nobody.packets.size(), 0u);
 }
 

@@ -8,63 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "sim/simulator.h"
-#include "tests/support/gpu_fixture.h"
+#include "tests/support/kept_run.h"
 
 namespace greatx::sim {
 namespace {
 
-struct Keep : RecordSink {
-  std::vector<Packet> packets;
-  void write(Packet packet) override { packets.push_back(std::move(packet)); }
-};
-
-struct Outcome {
-  std::vector<SensorSpec> sensors;
-  std::vector<Packet> packets;
-  uint64_t submits = 0, ticks = 0;
-  std::vector<scene::Instance> instances;
-
-  const SensorSpec& spec(const std::string& name) const {
-    for (const SensorSpec& spec : sensors)
-      if (spec.name == name) return spec;
-    throw std::runtime_error("no sensor " + name);
-  }
-  /// Null if the sensor did not fire.
-  const Array* find(size_t packet, const std::string& sensor, const std::string& name) const {
-    for (const Record& record : packets.at(packet).records) {
-      const SensorSpec& spec = sensors[record.sensor];
-      if (spec.name != sensor) continue;
-      for (size_t i = 0; i < spec.arrays.size(); ++i)
-        if (spec.arrays[i].name == name) return &record.arrays[i];
-      throw std::runtime_error(sensor + " has no " + name);
-    }
-    return nullptr;
-  }
-  template <typename T>
-  std::span<const T> array(size_t packet, const std::string& sensor, const std::string& name) const {
-    return find(packet, sensor, name)->as<T>();
-  }
-};
-
-Outcome run(const std::string& yaml) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
-  const World world = load_world(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
-  Outcome result;
-  Keep keep;
-  Simulator simulator(test::device(), scenario, world, plan);
-  result.sensors = simulator.sensors();
-  result.instances = world.scene.instances;
-  const uint64_t before = test::device().counters().submits;
-  simulator.start(0);
-  while (simulator.step(keep)) {
-  }
-  result.submits = test::device().counters().submits - before;
-  result.ticks = static_cast<uint64_t>(simulator.statistics().ticks);
-  result.packets = std::move(keep.packets);
-  return result;
-}
+using test::keep_run;
+using test::KeptRun;
 
 const std::string all = "outputs: [rgb, depth, ids, depth_ray, normals, flow, boxes]";
 std::string camera(const std::string& name, const std::string& rate, const std::string& more) {
@@ -94,13 +44,13 @@ std::string scenario(const std::string& cameras) {
 }
 
 TEST(Cameras, OfOneNodeHaveTheBytesThatEachHasAlone) {
-  const Outcome together = run(scenario(left + right + side));
-  EXPECT_EQ(together.submits, together.ticks);
-  EXPECT_EQ(together.ticks, 4u);
+  const KeptRun together = keep_run(scenario(left + right + side));
+  EXPECT_EQ(together.counters.submits, together.statistics.ticks);
+  EXPECT_EQ(together.statistics.ticks, 4u);
   const std::pair<std::string, std::string> alone[] = {
       {"van/left", left}, {"van/right", right}, {"van/side", side}};
   for (const auto& [name, text] : alone) {
-    const Outcome one = run(scenario(text));
+    const KeptRun one = keep_run(scenario(text));
     int compared = 0;
     for (size_t i = 0; i < together.packets.size(); ++i)
       for (const ArraySpec& array : together.spec(name).arrays) {
@@ -117,7 +67,7 @@ TEST(Cameras, OfOneNodeHaveTheBytesThatEachHasAlone) {
 }
 
 TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
-  const Outcome outcome = run(scenario(left + right));
+  const KeptRun outcome = keep_run(scenario(left + right));
   const auto ids_left = outcome.array<uint16_t>(0, "van/left", "instance"),
              ids_right = outcome.array<uint16_t>(0, "van/right", "instance");
   const auto depth_left = outcome.array<float>(0, "van/left", "depth"),
@@ -140,7 +90,7 @@ TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
 }
 
 TEST(Flow, IsToTheCamerasOwnNextSample) {
-  const Outcome outcome = run(scenario(left + side));
+  const KeptRun outcome = keep_run(scenario(left + side));
   // 5 m/s along y; the side camera looks to -x, what never moves goes to its left or right by fx v dt / z.
   int compared = 0;
   for (const size_t packet : {size_t{0}, size_t{2}}) {  // its last one too: the trajectory goes on
@@ -175,7 +125,7 @@ TEST(Flow, IsToTheCamerasOwnNextSample) {
 }
 
 TEST(Boxes, OfARunStandWhereThePosesSay) {
-  const Outcome outcome = run(scenario(left));
+  const KeptRun outcome = keep_run(scenario(left));
   for (size_t packet = 0; packet < 4; ++packet) {
     const auto node = outcome.array<int32_t>(packet, "van/left", "box_node");
     const auto instance = outcome.array<uint32_t>(packet, "van/left", "box_instance");
