@@ -45,7 +45,7 @@ MeshBuilder make_farmhouse(double scale) {
   MeshBuilder mesh;
   const double w = 4.0 * scale, l = 8.0 * scale;
   add_house(mesh, {w, l, 3.0 + 3.0 * (scale > 0.6), 5.6 + 3.0 * (scale > 0.6), material("farm_plaster"),
-                   material("blind_plaster"), material("roof_tiles")});
+                   material("blind_plaster"), material("farm_tiles")});
   const double top = 6.6 + 3.0 * (scale > 0.6);
   mesh.box(material("blind_brick"), {-0.4, 0.5 * l, 3.0}, {0.4, 0.5 * l + 0.7, top});
   mesh.box(material("door_boards"), {w - 0.05, -0.5, -0.3}, {w + 0.05, 0.5, 2.1});
@@ -57,7 +57,7 @@ MeshBuilder make_barn(double scale, bool red) {
   const double w = 5.5 * scale, l = 11.0 * scale, eaves = 4.4 * scale + 0.4;
   const int boards = material(red ? "barn_boards" : "barn_boards_brown");
   add_house(mesh,
-            {w, l, eaves, eaves + 0.62 * w, boards, boards, material(red ? "roof_sheet" : "roof_tiles")});
+            {w, l, eaves, eaves + 0.62 * w, boards, boards, material(red ? "roof_sheet" : "farm_tiles")});
   const double door = 0.4 * w;
   mesh.box(material("door_boards"), {-door, -l - 0.06, -0.3}, {door, -l + 0.05, 0.85 * eaves});
   return mesh;

@@ -148,7 +148,7 @@ Picture pasture() {
 }
 
 /// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of a sprayer
-/// every 24 m, patches that grew better or worse.
+/// every 24 m, patches that grew better or worse. What is low is dark: colour and relief have the same heights.
 Picture crop() {
   Canvas canvas(512, 512, {204, 204, 198});
   canvas.blotches(256, 14, 51);
@@ -156,9 +156,11 @@ Picture crop() {
   canvas.blotches(16, 6, 53);
   for (int y = 0; y < 512; ++y)
     for (int x = 0; x < 512; ++x) {
-      const int phase = y % 8, row = phase < 4 ? 5 * phase : 5 * (8 - phase);
-      const int wobble = static_cast<int>(hash(x / 2, y, 54) % 5) * 4 - 8;
-      canvas.add(x, y, {wobble - row, wobble - row, wobble - row});
+      const int phase = y % 8, furrow = 5 * std::min(phase, 8 - phase);
+      const int clod = 5 * static_cast<int>(hash(x / 2, y / 2, 54) % 5) - 10, height = clod - furrow;
+      canvas.add(x, y, {height, height, height});
+      // Of a pixel of 9.4 cm: furrows 12 cm deep, clods as high. In steps of 5 there are few slopes: a small file.
+      canvas.raise(x, y, x + 1, y + 1, height);
     }
   for (int y = 40; y < 512; y += 256)
     for (const int track : {0, 19})
@@ -167,6 +169,7 @@ Picture crop() {
         canvas.add(x, y + track, {deep + 6, deep, deep});
         canvas.add(x, y + track + 1, {deep + 6, deep, deep});
         canvas.add(x, y + track + 2, {deep / 2, deep / 2, deep / 2});
+        canvas.raise(x, y + track, x + 1, y + track + 3, -25);
       }
   return canvas.picture();
 }
@@ -271,8 +274,9 @@ Picture boards() {
   return canvas.picture();
 }
 
+/// 2.4 m: eight courses of clay tiles that overlap, staggered; each bulges across and lies with its lower edge, a tile's
+/// thickness up, on the next.
 Picture roof_tiles() {
-  // 2.4 m: eight courses of overlapping clay tiles, staggered.
   Canvas canvas(128, 128, {150, 82, 58});
   for (int row = 0; row < 8; ++row)
     for (int tile = 0; tile < 16; ++tile) {
@@ -281,7 +285,11 @@ Picture roof_tiles() {
       canvas.shade(x, y, x + 1, y + 16, -34);
       canvas.shade(x, y + 13, x + 8, y + 16, -30);
       canvas.shade(x, y, x + 8, y + 3, 10);
-      for (int k = 0; k < 8; ++k) canvas.raise(x + k, y, x + k + 1, y + 16, k < 4 ? 9 * k : 9 * (7 - k));
+      for (int down = 0; down < 16; ++down)
+        for (int k = 0; k < 8; ++k) {
+          const int bulge = 9 * std::min(k, 7 - k);
+          canvas.raise(x + k, y + down, x + k + 1, y + down + 1, bulge + down);
+        }
     }
   canvas.blotches(64, 9, 113);
   canvas.blotches(16, 7, 114);  // lichen

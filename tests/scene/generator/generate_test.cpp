@@ -147,8 +147,10 @@ TEST(Generate, LibraryNamesAreUniqueAndTexturesExist) {
   EXPECT_THROW(generator::make_texture("unobtainium"), ContractError);
 }
 
-TEST(Png, LoaderDecodesWhatWasPainted) {
-  const Soup soup = load_soup({.kind = "city", .seed = 1, .size_m = 300});
+class Painted : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Painted, LoaderDecodesWhatWasPainted) {
+  const Soup soup = load_soup({.kind = GetParam(), .seed = 1, .size_m = 300});
   size_t compared = 0;
   for (const Texture& texture : soup.model.textures) {
     std::string name = texture.name;
@@ -175,6 +177,8 @@ TEST(Png, LoaderDecodesWhatWasPainted) {
   }
   EXPECT_GE(compared, 15u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Png, Painted, ::testing::Values("city", "country"));
 
 TEST(Png, PaletteWhereItSuffices) {
   std::vector<uint8_t> rgb;

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Normal pictures: right for the heights they come from, and the right way round where they are used.
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "scene/build.h"
+#include "scene/generator/canvas.h"
+#include "tests/scene/generator/soup.h"
+
+namespace greatx::scene {
+namespace {
+
+/// glTF's reading of a texel, unit but for rounding.
+dvec3 normal_of(const generator::Raster& raster, uint32_t x, uint32_t y) {
+  const uint8_t* const rgb = raster.rgb.data() + 3 * (y * raster.width + x);
+  return dvec3(rgb[0], rgb[1], rgb[2]) / 127.5 - 1.0;
+}
+
+TEST(Relief, ARampLeansAgainstItsRise) {
+  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the picture.
+  generator::Canvas canvas(64, 64, {});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) canvas.raise(x, y, x + 1, y + 1, 4 * x + 2 * y);
+  const generator::Raster raster = canvas.picture().normal;
+  ASSERT_EQ(raster.rgb.size(), 3u * 64 * 64);
+  // Perpendicular to (1, 0, 1/4) and, since +y is up the picture, to (0, -1, 1/8).
+  const dvec3 expected = glm::normalize(dvec3(-0.25, 0.125, 1.0));
+  for (uint32_t y = 1; y < 63; ++y)  // heights wrap around at the rim
+    for (uint32_t x = 1; x < 63; ++x) {
+      const dvec3 n = normal_of(raster, x, y);
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(n[k], expected[k], 0.51 / 127.5) << x << " " << y;
+    }
+}
+
+TEST(Relief, FurrowsAreWhatTheColourShows) {
+  // The mean slope of each of the eight pixels of a row, and its colour: the deeper, the darker.
+  const generator::Picture picture = generator::make_texture("crop");
+  std::array<double, 8> slope{}, color{}, count{};
+  for (uint32_t y = 0; y < 512; ++y) {
+    if (y % 256 >= 38 && y % 256 < 64) continue;  // wheel tracks
+    for (uint32_t x = 0; x < 512; ++x) {
+      const dvec3 n = normal_of(picture.normal, x, y);
+      slope[y % 8] += n.y / n.z;
+      color[y % 8] += picture.color.rgb[3 * (y * 512 + x)];
+      ++count[y % 8];
+    }
+  }
+  for (size_t i = 0; i < 8; ++i) slope[i] /= count[i], color[i] /= count[i];
+  // 5 of 16 per pixel; clods average out.
+  for (const size_t crest_or_bottom : {0, 4}) EXPECT_NEAR(slope[crest_or_bottom], 0.0, 0.015);
+  for (const size_t falling : {1, 2, 3}) EXPECT_NEAR(slope[falling], -5.0 / 16.0, 0.015) << falling;
+  for (const size_t rising : {5, 6, 7}) EXPECT_NEAR(slope[rising], 5.0 / 16.0, 0.015) << rising;
+  EXPECT_NEAR(color[0] - color[4], 20.0, 3.0);
+}
+
+TEST(Relief, TheCountryHasItAndTheCityDoesNot) {
+  for (const Material& m : load_soup({.kind = "city", .seed = 1, .size_m = 300}).model.materials)
+    EXPECT_LT(m.pbr.normal_texture, 0) << m.name << ": a third texture costs every pixel of the city";
+  std::set<std::string> names;
+  for (const Material& m : load_soup({.kind = "country", .seed = 11, .size_m = 400}).model.materials)
+    if (m.pbr.normal_texture >= 0) names.insert(m.name);
+  EXPECT_EQ(names, (std::set<std::string>{"farm_tiles", "ploughed_soil"}));
+}
+
+TEST(Relief, TangentsFollowTheGroundAndTheRoofs) {
+  const Soup soup = load_soup({.kind = "country", .seed = 11, .size_m = 400});
+  const Scene scene = build_scene({{.name = "", .model = &soup.model, .pose = {}}}, {.name = "country"});
+  size_t tiles = 0, soil = 0;
+  for (const Primitive& primitive : scene.primitives) {
+    const std::string& name = scene.materials[primitive.material].name;
+    const bool roof = name == "farm_tiles";
+    if (!roof && name != "ploughed_soil") continue;
+    for (uint32_t i = primitive.first_index; i < primitive.first_index + primitive.index_count; ++i) {
+      const uint32_t vertex = scene.indices[i];
+      const vec3 normal = scene.normals[vertex], tangent = vec3(scene.tangents[vertex]);
+      ASSERT_NEAR(glm::length(tangent), 1.0f, 1e-5f);
+      ASSERT_NEAR(glm::dot(normal, tangent), 0.0f, 1e-5f);
+      ASSERT_EQ(scene.tangents[vertex].w, 1.0f) << name << ": no picture is seen from behind";
+      const vec3 up_the_picture = glm::cross(normal, tangent);
+      if (roof && normal.z > 0.3f && normal.z < 0.9f) {  // pitches: the picture's top is towards the ridge
+        ASSERT_NEAR(up_the_picture.z, std::sqrt(1.0f - normal.z * normal.z), 1e-3f);
+        ++tiles;
+      }
+      if (!roof) ++soil;
+    }
+  }
+  EXPECT_GE(tiles, 24u);
+  EXPECT_GE(soil, 100u);
+}
+
+}  // namespace
+}  // namespace greatx::scene
