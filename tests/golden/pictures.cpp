@@ -8,13 +8,16 @@
 #include <stdexcept>
 
 #include "core/units.h"
+#include "core/vec.h"
+#include "io/canvas.h"
 #include "io/panels.h"
 
 namespace greatx::test {
 
 namespace {
 
-constexpr int64_t lidar_rings = 32, lidar_steps = 256;  // day.yaml's
+constexpr int64_t lidar_rings = 32, lidar_steps = 256;           // day.yaml's
+constexpr double focal_px = 80.0, center_u = 80, center_v = 60;  // of its cameras
 
 uint16_t centimetres(float metres) {
   return static_cast<uint16_t>(std::lround(std::min(100.0f * metres, 65535.0f)));
@@ -38,6 +41,67 @@ Array flow_picture(const Array& flow) {
         std::isfinite(value) ? static_cast<uint16_t>(std::lround(code)) : uint16_t{0};
   }
   return picture;
+}
+
+/// 128 codes a factor of two, from 2^-30 cd/m^2 on.
+uint16_t stops(float radiance) {
+  if (!(radiance > 0.0f)) return 0;
+  return static_cast<uint16_t>(std::lround(std::clamp(128.0 * (30.0 + std::log2(radiance)), 1.0, 65535.0)));
+}
+
+/// Of every second pixel of every second row: a file as small as the others.
+Array radiance_picture(const Array& hdr) {
+  const int64_t height = hdr.shape[0] / 2, width = hdr.shape[1] / 2;
+  Array picture(DType::u16, {3 * height, width});
+  uint16_t* to = picture.as<uint16_t>().data();
+  for (int64_t channel = 0; channel < 3; ++channel)
+    for (int64_t row = 0; row < height; ++row)
+      for (int64_t column = 0; column < width; ++column)
+        *to++ = stops(hdr.as<float>()[static_cast<size_t>((4 * row * width + 2 * column) * 3 + channel)]);
+  return picture;
+}
+
+/// The twelve edges of a box; not those that reach behind the camera.
+void draw_edges(io::Canvas& canvas, const Pose& sensor_from_box, const float* size, io::Color color) {
+  const auto corner = [&](int bits) {
+    const dvec3 side((bits & 1) - 0.5, (bits >> 1 & 1) - 0.5, (bits >> 2) - 0.5);
+    return sensor_from_box.apply(side * dvec3(size[0], size[1], size[2]));
+  };
+  const auto pixel = [](const dvec3& p) {
+    return 2.0 * dvec2(center_u - focal_px * p.y / p.x, center_v - focal_px * p.z / p.x);
+  };
+  for (int from = 0; from < 8; ++from)
+    for (const int axis : {1, 2, 4}) {
+      const dvec3 a = corner(from), b = corner(from | axis);
+      if ((from & axis) != 0 || std::min(a.x, b.x) < 0.1) continue;
+      canvas.line(pixel(a).x, pixel(a).y, pixel(b).x, pixel(b).y, 1.0, color);
+    }
+}
+
+/// Twice as large as the camera's.
+template <typename Get>
+Array boxes_picture(const Get& get) {
+  const Array& rgb = get("rgb");  // for the size
+  io::Canvas canvas(static_cast<int>(2 * rgb.shape[1]), static_cast<int>(2 * rgb.shape[0]), {0, 0, 0});
+  const auto id = get("box_instance").template as<uint32_t>();
+  const auto size = get("box_size").template as<float>(),
+             visibility = get("box_visibility").template as<float>(),
+             amodal = get("box_amodal").template as<float>();
+  const auto modal = get("box_modal").template as<int32_t>();
+  const auto center = get("box_sensor_center").template as<double>(),
+             orientation = get("box_sensor_orientation").template as<double>();
+  const auto rectangle = [](const auto* r) {
+    const auto at = [&](int i) { return static_cast<int>(std::lround(2.0 * r[i])); };
+    return io::Rect{at(0), at(1), at(2) - at(0), at(3) - at(1)};
+  };
+  for (size_t i = 0; i < id.size(); ++i) {
+    const io::Color color = io::color_of_id(id[i]);
+    canvas.fill(rectangle(&modal[4 * i]), color, 0.6 * double{visibility[i]});
+    canvas.frame(rectangle(&amodal[4 * i]), color);
+    const double *const c = &center[3 * i], *const q = &orientation[4 * i];
+    draw_edges(canvas, {{c[0], c[1], c[2]}, {q[0], q[1], q[2], q[3]}}, &size[3 * i], color);
+  }
+  return canvas.image();
 }
 
 Array range_picture(const Array& points, const Array& rings, const Array& ranges) {
@@ -65,8 +129,11 @@ Array picture_of(const KeptRun& run, int64_t tick, const std::string& sensor, co
                              differences.shape[1], differences.shape[0]);
   }
   if (array == "range") return range_picture(get("points"), get("ring"), get("range"));
+  if (array == "boxes") return boxes_picture(get);
   const Array& found = get(array.c_str());
-  if (array == "depth") return coded<uint16_t>(found.shape, found.as<float>(), centimetres);
+  if (array == "hdr") return radiance_picture(found);
+  if (array == "depth" || array == "depth_ray")
+    return coded<uint16_t>(found.shape, found.as<float>(), centimetres);
   if (array == "flow") return flow_picture(found);
   if (array == "normals")
     return coded<uint8_t>(found.shape, found.as<float>(),
