@@ -77,7 +77,9 @@ class Simulation:
     scenario    the name of an embedded scenario ("city"), a YAML file, or a dict of what such a file has (docs/scenario.md)
     assets      folder in which relative paths are looked for, beside the scenario's own (a dict: the current one)
     seed, ticks, sequences, tolerance_db, effects, environment
-                in place of the scenario's; of effects and environment only what is named, e.g. effects={"diffraction": "on"}
+                in place of the scenario's; of effects and environment only what is named, e.g. effects={"diffraction": "on"},
+                environment={"time": "2026-12-21T08:30:00+01:00"}. Where a scenario's place and time say where sun and moon
+                are, both angles of a sun by hand take their place; one angle alone is an error
     device      index or part of the name of a Vulkan device; empty: $GREATX_DEVICE, else the best
     validation  run under the Vulkan validation layer; a message is a RuntimeError
 
@@ -126,6 +128,8 @@ class Simulation:
     tick_rate_hz = property(lambda self: Fraction(self._facts["tick_rate_hz"]))
     nodes = property(lambda self: self._facts["nodes"], doc="{node: {sensor: kind}}")
     antennas = property(lambda self: self._facts["antennas"], doc="[node/sensor]")
+    place = property(lambda self: self._facts["place"],
+                     doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts them.")
     channels = property(lambda self: self._facts["channels"],
                         doc="{channel: its transmitters, receivers, carrier_hz, subcarriers, max_depth, ...}")
 
@@ -161,6 +165,23 @@ class Simulation:
         whole = {"greatx": 1, "name": "change", "ticks": 1, "tick_rate_hz": str(self.tick_rate_hz), **text}
         _call(function, _text(whole), where, *more)
 
+    def _beside(self, environment: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A change of the environment with what the parser needs beside it: the scenario's place and time, unless a sun by
+        hand takes their place."""
+        place = self.place
+        sun = environment.get("sun")
+        angles = {"azimuth_deg", "elevation_deg"} & set(sun if isinstance(sun, Mapping) else ())
+        if place is None or not {"place", "time", "sun", "moon"} & set(environment):
+            return environment
+        if angles and not {"place", "time"} & set(environment):
+            if len(angles) == 1:
+                raise Error(f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place of the "
+                            "scenario's place and time, which say where the sun is (environment.time moves it), found one")
+            return environment
+        time = place.pop("time")
+        given = environment.get("place", {})
+        return {"time": time, **environment, "place": {**place, **given} if isinstance(given, Mapping) else given}
+
     def _change(self, **fields: Any) -> None:
         given = {name: value for name, value in fields.items() if value is not None}
         keys: List[str] = []
@@ -170,6 +191,8 @@ class Simulation:
                 continue
             for key, inner in value.items():
                 keys += [f"environment.sun.{k}" for k in inner] if key == "sun" else [f"environment.{key}"]
+        if "environment" in given:
+            given["environment"] = self._beside(given["environment"])
         if given:
             self._parsed(self._native.change, "Simulation", given, keys)
 

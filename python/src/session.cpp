@@ -3,12 +3,11 @@
 #include "python/src/session.h"
 
 #include <cmath>
-#include <functional>
-#include <map>
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "python/src/environment.h"
 #include "python/src/map_result.h"
 #include "python/src/path_set.h"
 #include "python/src/stream.h"
@@ -46,30 +45,6 @@ void check_name_is_free(const sim::Scenario& scenario, const std::string& name, 
   taken(scenario.nodes, "node");
   taken(scenario.channels, "channel");
   taken(scenario.scene.objects, "scene's object");
-}
-
-/// Copies the fields of `environment` that a change names. A sun or moon by hand takes the place of one from place and
-/// time, and the other way round.
-void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key) {
-  using E = sim::Environment;
-  static const std::map<std::string, std::function<void(E&, const E&)>> copies{
-      {"sun.azimuth_deg", [](E& a, const E& b) { a.sun_azimuth = b.sun_azimuth, a.place.reset(); }},
-      {"sun.elevation_deg", [](E& a, const E& b) { a.sun_elevation = b.sun_elevation, a.place.reset(); }},
-      {"sun.illuminance_lux", [](E& a, const E& b) { a.sun_illuminance_lux = b.sun_illuminance_lux; }},
-      {"place", [](E& a, const E& b) { a.place = b.place, a.moon.reset(); }},
-      {"time", [](E& a, const E& b) { a.place = b.place, a.moon.reset(); }},
-      {"moon", [](E& a, const E& b) { a.moon = b.moon, a.moon_illuminance_lux = b.moon_illuminance_lux; }},
-      {"sky", [](E& a, const E& b) { a.sky = b.sky; }},
-      {"sky_illuminance_lux", [](E& a, const E& b) { a.sky_illuminance_lux = b.sky_illuminance_lux; }},
-      {"sky_glow_cd_m2", [](E& a, const E& b) { a.sky_glow_cd_m2 = b.sky_glow_cd_m2; }},
-      {"turbidity", [](E& a, const E& b) { a.turbidity = b.turbidity; }},
-      {"temperature_k", [](E& a, const E& b) { a.temperature_k = b.temperature_k; }},
-      {"pressure_hpa", [](E& a, const E& b) { a.pressure_hpa = b.pressure_hpa; }},
-      {"water_vapour_g_m3", [](E& a, const E& b) { a.water_vapour_g_m3 = b.water_vapour_g_m3; }},
-      {"rain_mm_h", [](E& a, const E& b) { a.rain_mm_h = b.rain_mm_h; }},
-      {"fog_g_m3", [](E& a, const E& b) { a.fog_g_m3 = b.fog_g_m3; }},
-      {"fog_height_m", [](E& a, const E& b) { a.fog_height_m = b.fog_height_m; }}};
-  copies.at(key)(to, from);
 }
 
 void check_finite(std::span<const dvec3> points) {
@@ -172,6 +147,7 @@ std::string Session::facts() const {
             {"sequences", scenario_.sequences},
             {"ticks", scenario_.ticks},
             {"tick_rate_hz", scenario_.tick_rate_hz.str()},
+            {"place", place_facts(scenario_.environment)},
             {"nodes", Json::object()},
             {"antennas", antennas_of(scenario_)},
             {"channels", Json::object()}};
