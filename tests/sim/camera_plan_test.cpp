@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is said of cameras before anything is built.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "sim/plan/effect_plan.h"
+
+namespace greatx::sim {
+namespace {
+
+/// What planning a scenario with this sensor, in line 8, comes to.
+std::string message_of(const std::string& sensor) {
+  const std::string text =
+      "greatx: 1\nname: x\nticks: 5\nnodes:\n  - name: car\n"
+      "    trajectory: {type: static, position_m: [0, 0, 1]}\n    sensors:\n      - {name: front, " +
+      sensor + "}\n";
+  const Scenario scenario = parse_scenario(text, "s.yaml", ".");
+  try {
+    make_effect_plan(scenario, {});
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
+  using testing::StartsWith;
+  // 640x480 behind fx 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, where the picture shows
+  // r' = 0.6086: 194.7 px.
+  const std::string message =
+      "s.yaml:8: camera car/front: distortion: expected a model that does not fold within the picture, found "
+      "one that holds up to a radius of 0.9129 (194.7 pixels from the principal point)";
+  const std::string folds = "rate_hz: 30, fov_deg: 90, distortion: {k1: -0.4}";
+  EXPECT_THAT(message_of("type: camera, " + folds), StartsWith(message));
+  EXPECT_THAT(message_of("type: event_camera, " + folds), StartsWith(message));
+  EXPECT_THAT(message_of("type: camera, rate_hz: 30, fov_deg: 90, distortion: {p1: 0.5}"),
+              StartsWith("s.yaml:8: camera car/front: distortion: expected a model that does not fold"));
+  // The same lens before a narrow picture does not fold within it.
+  EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 35, distortion: {k1: -0.4}"), "accepted");
+}
+
+}  // namespace
+}  // namespace greatx::sim
