@@ -289,7 +289,7 @@ void add_pictures(CLI::App& command, Options& options) {
   command
       .add_option("--view", options.view,
                   "auto: obliquely from above, from where most of the paths are in sight; or node/sensor: "
-                  "a camera of the scenario")
+                  "a camera or an event camera of the scenario")
       ->capture_default_str();
   command.add_option("--width", options.width, "of the picture, pixels")
       ->capture_default_str()

@@ -24,6 +24,7 @@ render::CameraDesc camera_desc(const PictureView& view, const std::string& name)
   desc.cx = view.cx;
   desc.cy = view.cy;
   desc.near_m = view.near_m;
+  desc.distortion = view.distortion;
   desc.outputs = {.rgb = false, .depth = true, .instance = false, .semantic = false, .material = false};
   return desc;
 }
@@ -62,6 +63,7 @@ render::CameraImages PictureRenderer::render(render::CameraPass& pass, const Pic
 }
 
 std::vector<float> PictureRenderer::depth(const PictureView& view) {
+  GREATX_CHECK(!view.distortion.any(), "views for looking around have no lens that distorts");
   const auto fits = [&](const render::CameraDesc& desc) {
     return desc.width == view.width && desc.height == view.height && desc.fx == view.fx &&
            desc.fy == view.fy && desc.cx == view.cx && desc.cy == view.cy && desc.near_m == view.near_m;
@@ -78,17 +80,33 @@ render::CameraImages PictureRenderer::picture(const PictureView& view,
                                               std::optional<uint32_t> excluded_body) {
   render::CameraDesc desc = camera_desc(view, "paths picture");
   desc.outputs.rgb = true;
+  desc.automatic_exposure = true;  // by day and by night
   desc.excluded_body = excluded_body;
   render::CameraPass pass(lighting_, desc);
   return render(pass, view);
 }
+
+namespace {
+
+/// Of a camera or an event camera: size, intrinsics, lens; null: another sensor.
+const sim::PinholeConfig* pinhole_of(const sim::SensorConfig& sensor) {
+  if (const auto* camera = std::get_if<sim::CameraConfig>(&sensor.config)) return camera;
+  return std::get_if<sim::EventCameraConfig>(&sensor.config);
+}
+
+bool sees_own_body(const sim::SensorConfig& sensor) {
+  if (const auto* camera = std::get_if<sim::CameraConfig>(&sensor.config)) return camera->see_own_body;
+  return std::get<sim::EventCameraConfig>(sensor.config).see_own_body;
+}
+
+}  // namespace
 
 CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
   std::vector<std::string> cameras;
   for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
     for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor) {
       const sim::SensorConfig& config = scenario.nodes[node].sensors[sensor];
-      if (!std::holds_alternative<sim::CameraConfig>(config.config)) continue;
+      if (pinhole_of(config) == nullptr) continue;
       cameras.push_back(scenario.nodes[node].name + "/" + config.name);
       if (cameras.back() == name) return {node, sensor};
     }
@@ -99,15 +117,16 @@ CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
 ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
                            const sim::Moment& moment, uint32_t width) {
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
-  const auto& config = std::get<sim::CameraConfig>(sensor.config);
+  const sim::PinholeConfig& config = *pinhole_of(sensor);
   PictureView view;
   sim::set_intrinsics(view, config);
   view.near_m = config.near_m;
   view.local_from_sensor =
       world.scene.to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);
   ScenarioView result{view.scaled(width), {}};
+  result.view.set_lens(config.distortion, scenario.nodes[camera.node].name + "/" + sensor.name);
   const uint32_t body = world.body_of_node[camera.node];
-  if (body != 0 && !config.see_own_body) result.excluded_body = body;
+  if (body != 0 && !sees_own_body(sensor)) result.excluded_body = body;
   return result;
 }
 

@@ -37,6 +37,28 @@ double polygon_distance(const dvec2& p, double radius, int corners) {
   return distance - radius * std::cos(pi / corners);
 }
 
+/// Steps [first, last) that are all hidden or all in sight.
+struct Run {
+  int first = 0, last = 0;
+  bool hidden = false;
+};
+
+std::vector<Run> runs_of(const std::vector<bool>& hidden) {
+  std::vector<Run> runs;
+  const int steps = static_cast<int>(hidden.size());
+  for (int first = 0; first < steps;) {
+    int last = first + 1;
+    while (last < steps && hidden[static_cast<size_t>(last)] == hidden[static_cast<size_t>(first)]) ++last;
+    // What flickers for a pixel or two goes with what is before it.
+    if (!runs.empty() && (last - first <= 2 || runs.back().hidden == hidden[static_cast<size_t>(first)]))
+      runs.back().last = last;
+    else
+      runs.push_back({first, last, hidden[static_cast<size_t>(first)]});
+    first = last;
+  }
+  return runs;
+}
+
 }  // namespace
 
 Coverage::Coverage(int width, int height)
@@ -111,13 +133,19 @@ std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float
   const dvec3 forward = view.local_from_sensor.rotate({1, 0, 0}), eye = view.local_from_sensor.position;
   double t0 = 0.0, t1 = 1.0;
   if (!clip(glm::dot(forward, a - eye), glm::dot(forward, b - eye), view.near_m, 1e300, t0, t1)) return {};
-  dvec3 from = view.project(glm::mix(a, b, t0)), to = view.project(glm::mix(a, b, t1));
-  // In the picture, with room for the line's width.
+  const dvec3 from = view.project_straight(glm::mix(a, b, t0)),
+              to = view.project_straight(glm::mix(a, b, t1));
+  // In the picture, with room for the line's width; behind a lens that distorts: in what it sees.
   constexpr double room = 8.0;
+  dvec2 least(-room), most = dvec2(view.width, view.height) + room;
+  const bool distorts = view.distortion.any();
+  if (distorts) {
+    const dvec2 center(view.cx, view.cy), focal(view.fx, view.fy);
+    least = center + focal * view.sees.least;
+    most = center + focal * view.sees.most;
+  }
   double s0 = 0.0, s1 = 1.0;
-  if (!clip(from.x, to.x, -room, view.width + room, s0, s1) ||
-      !clip(from.y, to.y, -room, view.height + room, s0, s1))
-    return {};
+  if (!clip(from.x, to.x, least.x, most.x, s0, s1) || !clip(from.y, to.y, least.y, most.y, s0, s1)) return {};
   const auto at = [&](double s) {  // 1 / depth is linear in the picture
     return dvec3(glm::mix(dvec2(from), dvec2(to), s), 1.0 / glm::mix(1.0 / from.z, 1.0 / to.z, s));
   };
@@ -126,27 +154,24 @@ std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float
   const int steps = std::max(1, static_cast<int>(std::ceil(length)));
   std::vector<bool> hidden(static_cast<size_t>(steps));
   for (int i = 0; i < steps; ++i) {
-    const dvec3 p = at(s0 + (s1 - s0) * (i + 0.5) / steps);
+    dvec3 p = at(s0 + (s1 - s0) * (i + 0.5) / steps);
+    p = dvec3(view.bent(dvec2(p)), p.z);
     const auto x = std::clamp(static_cast<int64_t>(std::floor(p.x)), int64_t{0}, int64_t{view.width} - 1);
     const auto y = std::clamp(static_cast<int64_t>(std::floor(p.y)), int64_t{0}, int64_t{view.height} - 1);
     hidden[static_cast<size_t>(i)] =
         is_hidden(p.z, depth[static_cast<size_t>(y) * view.width + static_cast<size_t>(x)]);
   }
-  std::vector<Stretch> runs;
-  for (int first = 0; first < steps;) {
-    int last = first + 1;
-    while (last < steps && hidden[static_cast<size_t>(last)] == hidden[static_cast<size_t>(first)]) ++last;
-    const auto point = [&](int step) { return dvec2(at(s0 + (s1 - s0) * step / steps)); };
-    // What flickers for a pixel or two goes with what is before it.
-    if (last - first <= 2 && !runs.empty())
-      runs.back().b = point(last);
-    else if (!runs.empty() && runs.back().hidden == hidden[static_cast<size_t>(first)])
-      runs.back().b = point(last);
-    else
-      runs.push_back({point(first), point(last), hidden[static_cast<size_t>(first)]});
-    first = last;
+  std::vector<Stretch> stretches;
+  for (const Run& run : runs_of(hidden)) {
+    const auto point = [&](int step) { return view.bent(dvec2(at(s0 + (s1 - s0) * step / steps))); };
+    // A lens that distorts bends the line: short chords.
+    constexpr int chord = 8;
+    const int pieces = distorts ? (run.last - run.first + chord - 1) / chord : 1;
+    for (int i = 0; i < pieces; ++i)
+      stretches.push_back({point(run.first + (run.last - run.first) * i / pieces),
+                           point(run.first + (run.last - run.first) * (i + 1) / pieces), run.hidden});
   }
-  return runs;
+  return stretches;
 }
 
 }  // namespace greatx::apps

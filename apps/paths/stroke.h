@@ -42,7 +42,7 @@ struct Stretch {
   bool hidden = false;
 };
 /// A stretch from a to b (local coordinates) as the picture shows it: what is behind the camera or outside is cut off, the
-/// rest is split where it goes behind a surface. `depth` [height, width] of the view.
+/// rest is split where it goes behind a surface, and behind a lens that distorts into chords. `depth` [height, width] of the view.
 std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
                                   const dvec3& b);
 

@@ -52,9 +52,29 @@ Sight sight_of(const PictureView& view, std::span<const float> depth, const dvec
 
 }  // namespace
 
-dvec3 PictureView::project(const dvec3& local) const {
+dvec3 PictureView::project_straight(const dvec3& local) const {
   const dvec3 p = local_from_sensor.inverse().apply(local);
   return {cx - fx * p.y / p.x, cy - fy * p.z / p.x, p.x};
+}
+
+dvec2 PictureView::bent(const dvec2& straight) const {
+  if (!distortion.any()) return straight;
+  const dvec2 center(cx, cy), focal(fx, fy);
+  return center + focal * distortion.distort((straight - center) / focal);
+}
+
+dvec3 PictureView::project(const dvec3& local) const {
+  const dvec3 straight = project_straight(local);
+  if (!distortion.any() || straight.z < 0.0) return straight;
+  const dvec2 direction = (dvec2(straight) - dvec2(cx, cy)) / dvec2(fx, fy);
+  if (glm::any(glm::lessThan(direction, sees.least)) || glm::any(glm::greaterThan(direction, sees.most)))
+    return {dvec2(straight), -straight.z};
+  return {bent(dvec2(straight)), straight.z};
+}
+
+void PictureView::set_lens(const render::Distortion& lens, const std::string& name) {
+  distortion = lens;
+  if (lens.any()) sees = render::Lens({name, width, height, fx, fy, cx, cy, lens}).bounds();
 }
 
 PictureView PictureView::scaled(uint32_t new_width) const {

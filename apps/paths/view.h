@@ -11,21 +11,30 @@
 
 #include "apps/paths/facts.h"
 #include "core/vec.h"
+#include "renderer/camera/lens.h"
 
 namespace greatx::apps {
 
-/// A pinhole camera in local coordinates (world - origin); pixel centres at (i + 0.5, j + 0.5), row 0 on top.
+/// A camera in local coordinates (world - origin); pixel centres at (i + 0.5, j + 0.5), row 0 on top.
 struct PictureView {
   Pose local_from_sensor;  ///< x forward, y left, z up
   uint32_t width = 1600, height = 1000;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< pixels
   double near_m = 0.5;
+  render::Distortion distortion;  ///< set_lens() sets it
+  render::LensBounds sees;  ///< of a lens that distorts: beyond it the model may fold back into the picture
 
-  /// Column and row in pixels, and planar depth in metres; behind the camera the depth is negative and the rest means
-  /// nothing.
+  /// Column and row in pixels, and planar depth in metres; behind the camera, or beyond what a lens that distorts sees,
+  /// the depth is negative and the rest means nothing.
   dvec3 project(const dvec3& local) const;
+  /// The same as a pinhole would show it: there what is straight in space is straight, and 1 / depth is linear.
+  dvec3 project_straight(const dvec3& local) const;
+  /// Where the picture shows a point of the pinhole's picture that the lens sees.
+  dvec2 bent(const dvec2& straight) const;
   /// The same view with another number of pixels.
   PictureView scaled(uint32_t new_width) const;
+  /// Puts a lens on, whose size and intrinsics are the view's. Throws UserError naming it if the picture folds.
+  void set_lens(const render::Distortion& lens, const std::string& name);
 };
 
 /// Pixels at the picture's edges that stay free of paths.

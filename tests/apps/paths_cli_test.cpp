@@ -229,6 +229,33 @@ TEST_F(PathsCli, FaultyRequests) {
         "--view: expected auto or a camera of the scenario (it has none), found 'bs/panel'");
 }
 
+TEST_F(PathsCli, AViewMayBeAnEventCameras) {
+  std::string text = scenario;
+  const std::string antenna_alone = "[{name: antenna, type: antenna}]";
+  const std::string eyes =
+      "[{name: antenna, type: antenna}, {name: front, type: camera, rate_hz: 10, width: 64, height: 48, "
+      "fov_deg: 90}, "
+      "{name: dvs, type: event_camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, distortion: {k1: "
+      "-0.05}, "
+      "mount: {rotation_deg: [180, 0, 0]}}]";
+  text.replace(text.find(antenna_alone), antenna_alone.size(), eyes);
+  write("eyes.yaml", text);
+  const auto view = [&](const std::string& name) {
+    return greatx(
+        fmt::format("paths {} -q --png {} --width 320 --view {}", path("eyes.yaml"), path("view.png"), name),
+        "GREATX_CACHE=off GREATX_VALIDATION=1");
+  };
+  const Outcome seen = view("uav/dvs");
+  ASSERT_EQ(seen.code, 0) << seen.err;
+  // Head and foot are the picture's own, 240 rows are the camera's.
+  const std::string png = read_file(path("view.png"));
+  ASSERT_GT(png.size(), 1000u);
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\1\100\0\0\1\154", 8)) << "320 x 364";
+  const Outcome antenna = view("uav/antenna");
+  EXPECT_EQ(antenna.code, 1);
+  EXPECT_THAT(antenna.err, HasSubstr("a camera of the scenario (uav/front, uav/dvs), found 'uav/antenna'"));
+}
+
 TEST_F(PathsCli, ResponsesAreThoseOfARunAndOfNodesPutThere) {
   ASSERT_EQ(paths("-q --tick 5 --cfr " + path("own.npy")).code, 0);
   const Outcome run =

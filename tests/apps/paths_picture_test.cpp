@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/paths/draw.h"
+#include "core/error.h"
 #include "core/random.h"
 #include "tests/apps/sample_paths.h"
 
@@ -36,6 +37,31 @@ TEST(PictureView, ProjectsLikeAPinhole) {
   const dvec3 half = side_view().scaled(100).project({10, 0, 5});
   EXPECT_NEAR(half.x, 55.0, 1e-12);
   EXPECT_NEAR(half.y, 22.5, 1e-12);
+}
+
+/// The side view through a barrel lens.
+PictureView barrel_view() {
+  PictureView view = side_view();
+  view.set_lens({.k1 = -0.08, .p1 = 0.004, .p2 = -0.006}, "eye");
+  return view;
+}
+
+TEST(PictureView, ProjectsThroughItsLens) {
+  const PictureView view = barrel_view();
+  // To the right by 0.3, up by 0.2 of the depth: r^2 = 0.13.
+  const dvec3 p = view.project({30, 0, 20});
+  const double x = 0.3, y = -0.2, radial = 1.0 - 0.08 * 0.13;
+  EXPECT_NEAR(p.x, 100.0 + 100.0 * (x * radial + 0.008 * x * y - 0.006 * (0.13 + 2.0 * x * x)), 1e-9);
+  EXPECT_NEAR(p.y, 50.0 + 100.0 * (y * radial + 0.004 * (0.13 + 2.0 * y * y) - 0.012 * x * y), 1e-9);
+  EXPECT_NEAR(p.z, 100.0, 1e-12);
+  // As large again.
+  PictureView twice = side_view().scaled(400);
+  twice.set_lens(view.distortion, "eye");
+  EXPECT_NEAR(twice.project({30, 0, 20}).x, 2.0 * p.x, 1e-9);
+  // The radial part alone would fold a direction at 3.5 of the depth back to 7 pixels off the axis.
+  const dvec3 folded = view.project({350, 0, 0});
+  EXPECT_LT(folded.z, 0.0);
+  EXPECT_THROW(side_view().scaled(100).set_lens({.k1 = -0.5}, "eye"), UserError);
 }
 
 TEST(PictureView, FitsEveryPointAndTouchesTwoMargins) {
@@ -140,6 +166,38 @@ TEST(Stretches, WhatIsBehindTheCameraOrOutsideIsCutOff) {
   ASSERT_EQ(wide.size(), 1u);
   EXPECT_GE(wide[0].a.x, -9.0);
   EXPECT_LE(wide[0].b.x, 209.0);
+}
+
+TEST(Stretches, ALensBendsThem) {
+  const PictureView view = barrel_view();
+  // A surface at half the depth, over columns of the picture as the lens shows it.
+  std::vector<float> depth(200 * 100, sky);
+  for (size_t y = 0; y < 100; ++y)
+    for (size_t x = 120; x < 140; ++x) depth[y * 200 + x] = 50.0f;
+  const std::vector<Stretch> chords = stretches_of(view, depth, {-1e5, 0, 30}, {1e5, 0, 30});
+  ASSERT_GT(chords.size(), 10u);
+  double hidden_from = 1e9, hidden_to = -1e9;
+  for (size_t i = 0; i < chords.size(); ++i) {
+    const Stretch& c = chords[i];
+    if (i > 0) {
+      EXPECT_EQ(c.a, chords[i - 1].b);
+    }
+    EXPECT_LE(glm::distance(c.a, c.b), 12.0);
+    if (c.hidden) hidden_from = std::min(hidden_from, c.a.x), hidden_to = std::max(hidden_to, c.b.x);
+    // On the picture of the line: the row that the lens gives the point of space that it shows in this column.
+    double low = -160.0, high = 160.0;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (view.bent(dvec2(view.project_straight({middle, 0, 30}))).x < c.b.x ? low : high) = middle;
+    }
+    EXPECT_NEAR(view.bent(dvec2(view.project_straight({low, 0, 30}))).y, c.b.y, 1e-6) << i;
+  }
+  EXPECT_NEAR(hidden_from, 120.0, 1.5);
+  EXPECT_NEAR(hidden_to, 140.0, 1.5);
+  // Right through the picture, and bent: lower at the sides, where the picture is smaller.
+  EXPECT_LT(chords.front().a.x, 1.0);
+  EXPECT_GT(chords.back().b.x, 199.0);
+  EXPECT_GT(chords.front().a.y, view.project({0, 0, 30}).y + 3.0);
 }
 
 TEST(Coverage, OverlapsAreNotDenser) {
