@@ -1,115 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
+//
+// Walls of eight bays and two floors.
 #include "scene/generator/canvas.h"
 #include "scene/generator/textures.h"
+#include "scene/generator/windows.h"
 
 namespace greatx::scene::generator {
 
 namespace {
 
 constexpr int bay_px = facade_bay_px, floor_px = facade_floor_px, wall_px = facade_bay_px * facade_bays;
-
-/// Who is behind a window decides when and how it is lit.
-enum class Use { home, office, shop };
-
-struct WindowStyle {
-  Rgb frame{226, 224, 218};
-  int columns = 2, rows = 1;
-  int frame_px = 3;
-  Use use = Use::home;
-};
-
-Rgb dimmed(const Rgb& c, int percent) {
-  return {c.r * percent / 100, c.g * percent / 100, c.b * percent / 100};
-}
-
-/// Light behind a window of a home, sRGB: bulbs of 2700 to 3500 K, shades, a kitchen, a screen.
-Rgb home_light(uint32_t pick) {
-  static constexpr Rgb lights[] = {{255, 196, 120}, {255, 206, 140}, {240, 170, 92}, {255, 214, 158},
-                                   {196, 128, 66},  {255, 226, 190}, {170, 104, 50}, {96, 124, 190}};
-  return lights[pick % 8];
-}
-
-/// Whether window (x, floor) is lit in `layer`, and its light; black: dark. Offices go out by rooms of three windows.
-Rgb night_light(Use use, int layer, int x, int y, uint32_t seed) {
-  const uint32_t night = seed * 7u + static_cast<uint32_t>(layer) * 101u;
-  switch (use) {
-    case Use::home:
-      return hash(x, y, night) % 100 < (layer == 0 ? 42u : 33u) ? home_light(hash(y, x, night + 1)) : Rgb{};
-    case Use::office: {
-      const int room = x / 3;
-      if (hash(room, y, night) % 100 >= (layer == 0 ? 34u : 22u)) return {};
-      return hash(room, y, night + 2) % 3 == 0 ? Rgb{255, 222, 178} : Rgb{232, 236, 240};
-    }
-    default:
-      return hash(x, y, night) % 100 < 82 ? Rgb{255, 238, 212} : Rgb{90, 80, 70};
-  }
-}
-
-/// A lit pane: brighter towards the lamp above, furniture dark against it.
-void light_pane(Canvas& canvas, int layer, int x0, int y0, int x1, int y1, const Rgb& light, Use use,
-                uint32_t seed) {
-  if (light.r + light.g + light.b == 0) return;
-  const int h = y1 - y0, w = x1 - x0;
-  for (int y = 0; y < h; ++y) {
-    const int percent = use == Use::shop ? 100 - 14 * y / h : 100 - 34 * y / h;
-    canvas.light(layer, x0, y0 + y, x1, y0 + y + 1, dimmed(light, percent));
-  }
-  if (use == Use::office)  // rows of lamps below the ceiling
-    canvas.light(layer, x0, y0 + h / 8, x1, y0 + h / 8 + 3, {255, 255, 250});
-  for (int i = 0; i < 3; ++i) {
-    const int left = x0 + static_cast<int>(hash(i, x0, seed) % static_cast<uint32_t>(std::max(1, w - 6)));
-    const int high = h / 6 + static_cast<int>(hash(i, y0, seed + 1) % static_cast<uint32_t>(h / 4 + 1));
-    const int wide = 5 + static_cast<int>(hash(i, w, seed + 2) % 10);
-    canvas.light(layer, left, y1 - high, std::min(left + wide, x1), y1, dimmed(light, 55));
-  }
-}
-
-/// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the top,
-/// perhaps a curtain or a blind. By night some are lit.
-void window(Canvas& canvas, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed) {
-  canvas.rect(x0, y0, x1, y1, style.frame, 120);
-  const int w = (x1 - x0 - style.frame_px * (style.columns + 1)) / style.columns;
-  const int h = (y1 - y0 - style.frame_px * (style.rows + 1)) / style.rows;
-  // The same in all panes: one household. Shops show what they have.
-  const uint32_t dressing = style.use == Use::shop ? 9u : hash(x0, y0, seed) % 10;
-  const Rgb cloth = hash(x0, y0, seed + 3) % 3 == 0 ? Rgb{122, 96, 80} : Rgb{168, 162, 150};
-  for (int c = 0; c < style.columns; ++c)
-    for (int r = 0; r < style.rows; ++r) {
-      const int px = x0 + style.frame_px + c * (w + style.frame_px),
-                py = y0 + style.frame_px + r * (h + style.frame_px);
-      const int tint = static_cast<int>(hash(c + x0, r + y0, seed) % 5) * 5 - 12;
-      for (int y = 0; y < h; ++y) {
-        const int sky = 34 * (h - y) / h;
-        canvas.rect(px, py + y, px + w, py + y + 1, {40 + sky + tint, 52 + sky + tint, 64 + sky + tint}, 28);
-      }
-      const bool office = style.use != Use::home;
-      for (int layer = 0; layer < lit_pictures; ++layer) {
-        const Rgb light = night_light(style.use, layer, office ? px / 40 : x0, y0, seed);
-        light_pane(canvas, layer, px, py, px + w, py + h, light, style.use, seed + static_cast<uint32_t>(c));
-        if (light.r == 0 || office) continue;
-        if (dressing == 1) canvas.light(layer, px, py, px + w, py + h / 2, dimmed(light, 58));
-        if (dressing == 2 && c == 0) canvas.light(layer, px, py, px + w / 2, py + h, dimmed(light, 62));
-        if (dressing == 3) canvas.light(layer, px, py, px + w, py + h, dimmed(light, 66));
-      }
-      if (dressing == 1 && r == 0) canvas.rect(px, py, px + w, py + h / 2, {176, 170, 156}, 60);  // blind
-      if (dressing == 2 && c == 0) canvas.rect(px, py, px + w / 2, py + h, cloth, 60);
-      if (dressing == 2 && c + 1 == style.columns) canvas.rect(px + w / 2, py, px + w, py + h, cloth, 60);
-      if (dressing == 3) canvas.rect(px, py, px + w, py + h, {150, 148, 142}, 50);  // net curtain
-    }
-  canvas.shade(x0, y0, x1, y0 + 5, -45);
-  canvas.shade(x0, y0, x0 + 3, y1, -30);
-}
-
-/// Soot and rain under a sill.
-void streaks(Canvas& canvas, int x0, int x1, int y, uint32_t seed) {
-  for (int x = x0; x < x1; ++x) {
-    const uint32_t h = hash(x / 2, y, seed);
-    if (h % 4 == 0) canvas.shade(x, y, x + 1, y + 6 + static_cast<int>(h / 4 % 16), -7);
-  }
-}
 
 void bricks(Canvas& canvas, const Rgb& brick, const Rgb& mortar, uint32_t seed) {
   canvas.fill(mortar);
@@ -323,102 +224,6 @@ Picture facade_balcony() {
     canvas.rect(left, top + 98, left + 128, top + 106, {200, 196, 188}, 230);
     canvas.shade(left, top + 106, left + 128, top + 111, -48);
   });
-  return canvas.picture();
-}
-
-Picture shopfront() {
-  Canvas canvas(4 * 256, 180, {132, 126, 118});
-  canvas.use_roughness(220);
-  canvas.blotches(4, 5, 241);
-  static constexpr Rgb fascias[] = {{44, 58, 74}, {112, 34, 30}, {38, 74, 50}, {60, 54, 50}};
-  static constexpr Rgb letters[] = {{224, 214, 186}, {240, 228, 200}, {232, 220, 120}, {214, 150, 70}};
-  static constexpr Rgb goods[] = {
-      {196, 90, 60}, {220, 180, 90}, {90, 130, 170}, {200, 196, 186}, {120, 150, 80}};
-  for (int shop = 0; shop < 4; ++shop) {
-    const int left = 256 * shop;
-    canvas.rect(left + 10, 12, left + 246, 44, fascias[shop], 150);
-    const WindowStyle display{
-        .frame = {48, 48, 50}, .columns = 2, .rows = 1, .frame_px = 4, .use = Use::shop};
-    const WindowStyle door{.frame = {60, 58, 56}, .columns = 2, .rows = 1, .frame_px = 5, .use = Use::shop};
-    const uint32_t seed = 243 + 10 * static_cast<uint32_t>(shop);
-    window(canvas, left + 12, 48, left + 96, 160, display, seed);
-    window(canvas, left + 160, 48, left + 244, 160, display, seed + 2);
-    window(canvas, left + 104, 48, left + 152, 178, door, seed + 4);
-    for (int i = 0; i < 14; ++i) {  // what is for sale
-      const int side = i % 2 == 0 ? 18 : 166, x = left + side + static_cast<int>(hash(i, shop, 248) % 62);
-      const int w = 4 + static_cast<int>(hash(i, shop, 249) % 8),
-                h = 8 + static_cast<int>(hash(i, shop, 250) % 34);
-      const Rgb color = goods[hash(i, shop, 251) % 5];
-      canvas.rect(x, 156 - h, x + w, 156, dimmed(color, 55), 60);
-      for (int layer = 0; layer < lit_pictures; ++layer) canvas.light(layer, x, 156 - h, x + w, 156, color);
-    }
-    for (int letter = 0; letter < 11; ++letter) {
-      const int w = 6 + static_cast<int>(hash(letter, shop, 242) % 6), x = left + 64 + 12 * letter;
-      if (letter == 5 || hash(letter, shop, 244) % 7 == 0) continue;
-      canvas.rect(x, 21, x + w, 35, letters[shop], 150);
-      for (int layer = 0; layer < lit_pictures; ++layer)
-        if ((shop + layer) % 3 != 2) canvas.light(layer, x, 21, x + w, 35, letters[shop]);
-    }
-    canvas.rect(left + 12, 160, left + 96, 176, {96, 90, 84}, 210);
-    canvas.rect(left + 160, 160, left + 244, 176, {96, 90, 84}, 210);
-    if (shop % 2 == 1) {  // an awning
-      for (int stripe = 0; stripe < 9; ++stripe)
-        canvas.rect(left + 12 + 26 * stripe, 44, left + 38 + 26 * stripe, 62,
-                    stripe % 2 == 0 ? fascias[shop] : Rgb{226, 220, 206}, 220);
-      canvas.shade(left + 10, 62, left + 246, 70, -50);
-      for (int layer = 0; layer < lit_pictures; ++layer)
-        canvas.light(layer, left + 12, 44, left + 246, 62, {});
-    } else {
-      canvas.shade(left + 10, 44, left + 246, 50, -40);
-    }
-  }
-  return canvas.picture();
-}
-
-Picture farm_wall() {
-  Canvas canvas(4 * 160, 120, {216, 208, 190});
-  canvas.use_roughness(240);
-  canvas.blotches(40, 9, 251);
-  canvas.blotches(8, 4, 252);
-  for (int bay = 0; bay < 4; ++bay) {
-    const int left = 160 * bay;
-    canvas.rect(left + 54, 28, left + 106, 84, {120, 78, 52}, 220);
-    for (const int x : {28, 108}) {  // shutters
-      canvas.rect(left + x, 30, left + x + 24, 82, {76, 96, 74}, 200);
-      for (int slat = 34; slat < 80; slat += 5)
-        canvas.shade(left + x + 2, slat, left + x + 22, slat + 1, -24);
-    }
-    window(canvas, left + 57, 31, left + 103, 81, {.frame = {228, 224, 214}, .columns = 2, .rows = 2}, 253);
-    canvas.rect(left + 52, 84, left + 108, 88, {170, 162, 148}, 230);
-    streaks(canvas, left + 52, left + 108, 88, 255);
-  }
-  for (int x = 0; x < 640; ++x)  // splashed foot
-    canvas.shade(x, 108 + static_cast<int>(hash(x / 6, 0, 254) % 5), x + 1, 120, -18);
-  return canvas.picture();
-}
-
-Picture dormer() {
-  Canvas canvas(64, 64, {196, 192, 184});
-  canvas.use_roughness(200);
-  window(canvas, 10, 8, 54, 56, {.frame = {232, 230, 224}, .columns = 2, .rows = 1, .frame_px = 3}, 281);
-  canvas.rect(0, 0, 64, 5, {92, 98, 104}, 140);
-  return canvas.picture();
-}
-
-Picture poster() {
-  Canvas canvas(64, 96, {40, 70, 110});
-  const auto paint = [&](int x0, int y0, int x1, int y1, const Rgb& color) {
-    canvas.rect(x0, y0, x1, y1, color);
-    for (int layer = 0; layer < lit_pictures; ++layer) canvas.light(layer, x0, y0, x1, y1, color);
-  };
-  for (int y = 0; y < 96; ++y) paint(0, y, 64, y + 1, {60 + y, 110 + y / 2, 190 - y / 2});
-  for (int dy = -18; dy <= 18; ++dy)
-    for (int dx = -18; dx <= 18; ++dx)
-      if (dx * dx + dy * dy < 330) paint(36 + dx, 38 + dy, 37 + dx, 39 + dy, {244, 196, 88});
-  paint(6, 68, 50, 74, {250, 250, 246});
-  paint(6, 78, 38, 82, {250, 250, 246});
-  paint(0, 0, 64, 3, {36, 38, 40});
-  paint(0, 93, 64, 96, {36, 38, 40});
   return canvas.picture();
 }
 

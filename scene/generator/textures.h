@@ -32,6 +32,14 @@ struct Picture {
 /// The picture called `name` (MaterialSpec::texture); throws ContractError for an unknown name.
 Picture make_texture(const std::string& name);
 
+// Ground: its sizes stand where it is painted.
+Picture asphalt();
+Picture country_road();
+Picture pavement();
+Picture grass();
+Picture pasture();
+Picture crop();
+
 // Façades: two floors of 3.2 m and eight bays of 3.0 m (facade_bay_px each). In each floor the lowest 0.85 m is plain
 // wall, so that a parapet may end there.
 inline constexpr int facade_bay_px = 128, facade_bays = 8, facade_floor_px = 128;
