@@ -97,7 +97,7 @@ Picture pavement() {
 }
 
 Picture grass() {
-  Canvas canvas(256, 256, {84, 104, 50});
+  Canvas canvas(256, 256, {72, 101, 52});
   canvas.blotches(128, 5, 40);
   canvas.blotches(16, 7, 41);
   for (int y = 0; y < 256; ++y)
@@ -109,7 +109,7 @@ Picture grass() {
     const int x = static_cast<int>(hash(i, 0, 44) % 256), y = static_cast<int>(hash(i, 1, 44) % 256);
     const bool dry = hash(i, 2, 44) % 3 == 0;
     for (int dy = 0; dy < 3; ++dy)
-      for (int dx = 0; dx < 3; ++dx) canvas.add(x + dx, y + dy, dry ? Rgb{22, 12, 0} : Rgb{-14, -8, -8});
+      for (int dx = 0; dx < 3; ++dx) canvas.add(x + dx, y + dy, dry ? Rgb{24, 12, 0} : Rgb{-14, -8, -8});
   }
   return canvas.picture();
 }

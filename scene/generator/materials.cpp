@@ -46,7 +46,7 @@ const char* const clay_tiles =
 std::vector<MaterialSpec> make_library() {
   const dvec2 facade(3.0 * facade_bays, 6.4);
   // What a white texel of Picture::lit gives. A warm lit pane has 0.6 of a white one's luminance (docs/generator.md).
-  const vec3 home_light(0.26f), office_light(0.2f), shop_light(0.8f);
+  const vec3 home_light(0.05f), office_light(0.05f), shop_light(0.12f);
   return {
       // name, texture, tile, bays, colour, roughness, metallic, emissive, radio
       {"asphalt", "asphalt", dvec2(16.0, 32.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
@@ -155,14 +155,14 @@ std::vector<MaterialSpec> make_library() {
       {"signal_green", "", dvec2(1.0), 0, vec3(0.02f, 0.4f, 0.2f), 0.3f, 0.0f, vec3(0.01f, 1.7f, 0.6f),
        plastic},
       {"sign_blue", "", dvec2(1.0), 0, vec3(0.02f, 0.09f, 0.42f), 0.5f, 0.0f, vec3(0), sheet_metal},
-      {"neon_red", "", dvec2(1.0), 0, vec3(0.55f, 0.06f, 0.08f), 0.4f, 0.0f, vec3(0.9f, 0.06f, 0.12f),
+      {"neon_red", "", dvec2(1.0), 0, vec3(0.55f, 0.06f, 0.08f), 0.4f, 0.0f, vec3(0.45f, 0.03f, 0.06f),
        plastic},
-      {"neon_blue", "", dvec2(1.0), 0, vec3(0.07f, 0.2f, 0.6f), 0.4f, 0.0f, vec3(0.1f, 0.32f, 1.0f), plastic},
-      {"neon_green", "", dvec2(1.0), 0, vec3(0.06f, 0.42f, 0.2f), 0.4f, 0.0f, vec3(0.05f, 0.4f, 0.16f),
+      {"neon_blue", "", dvec2(1.0), 0, vec3(0.07f, 0.2f, 0.6f), 0.4f, 0.0f, vec3(0.05f, 0.16f, 0.5f), plastic},
+      {"neon_green", "", dvec2(1.0), 0, vec3(0.06f, 0.42f, 0.2f), 0.4f, 0.0f, vec3(0.025f, 0.2f, 0.08f),
        plastic},
-      {"neon_amber", "", dvec2(1.0), 0, vec3(0.7f, 0.4f, 0.08f), 0.4f, 0.0f, vec3(0.6f, 0.3f, 0.06f),
+      {"neon_amber", "", dvec2(1.0), 0, vec3(0.7f, 0.4f, 0.08f), 0.4f, 0.0f, vec3(0.3f, 0.15f, 0.03f),
        plastic},
-      {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.45f), plastic, 0},
+      {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.2f), plastic, 0},
       {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
       {"bench_wood", "boards", dvec2(1.0), 0, vec3(0.45f, 0.28f, 0.14f), 0.8f, 0.0f, vec3(0), timber},
       {"radome", "", dvec2(1.0), 0, vec3(0.8f), 0.5f, 0.0f, vec3(0), radome},

@@ -52,10 +52,10 @@ Lamp make_lamp(LampKind kind) {
     case LampKind::park: {
       const int metal = material("painted_metal");
       lamp.mesh.box(metal, {-0.05, -0.05, -0.2}, {0.05, 0.05, 3.6});
-      lamp.mesh.box(material("lamp_glass_warm"), {-0.13, -0.13, 3.55}, {0.13, 0.13, 3.75});
+      lamp.mesh.box(material("lamp_glass"), {-0.13, -0.13, 3.55}, {0.13, 0.13, 3.75});
       lamp.mesh.prism(metal, metal, regular_polygon(6, 0.3), 3.72, 3.8);
       lamp.light_position = {0.0, 0.0, 3.5};
-      lamp.light = downlight(lamp_color_3000k, 2500.0, 50.0, 84.0, 15.0);
+      lamp.light = downlight(lamp_color_4000k, 2500.0, 50.0, 84.0, 15.0);
       break;
     }
     case LampKind::yard:
