@@ -59,7 +59,7 @@ VkImageMemoryBarrier2 image_barrier(const Image& image, const UseInfo& from, con
   barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image.handle();
-  barrier.subresourceRange = {image.aspect(), mip, mip_count, 0, 1};
+  barrier.subresourceRange = {image.aspect(), mip, mip_count, 0, image.layers()};
   return barrier;
 }
 
@@ -73,7 +73,7 @@ void pipeline_barrier(VkCommandBuffer cmd, const VkImageMemoryBarrier2& barrier)
 VkBufferImageCopy whole_mip(const Image& image, VkDeviceSize offset, uint32_t mip) {
   VkBufferImageCopy region{};
   region.bufferOffset = offset;
-  region.imageSubresource = {image.aspect(), mip, 0, 1};
+  region.imageSubresource = {image.aspect(), mip, 0, image.layers()};
   region.imageExtent = {std::max(1u, image.desc().width >> mip), std::max(1u, image.desc().height >> mip), 1};
   return region;
 }
@@ -102,14 +102,6 @@ Descriptor Descriptor::storage(uint32_t slot, const Image& image) {
   descriptor.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
   descriptor.image_info = {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL};
   return descriptor;
-}
-
-Descriptor Descriptor::texels(uint32_t slot, const TexelBuffer& texels) {
-  Descriptor d;
-  d.slot = slot;
-  d.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-  d.texel_view = texels.view();
-  return d;
 }
 
 Descriptor Descriptor::acceleration(uint32_t slot, const AccelerationStructure& structure) {
@@ -183,7 +175,6 @@ void Cmd::push(std::span<const Descriptor> descriptors) {
     writes[i].descriptorType = descriptors[i].type;
     writes[i].pBufferInfo = &descriptors[i].buffer_info;
     writes[i].pImageInfo = &descriptors[i].image_info;
-    writes[i].pTexelBufferView = &descriptors[i].texel_view;
     if (descriptors[i].structure != VK_NULL_HANDLE) {
       structures[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
                        &descriptors[i].structure};
@@ -291,9 +282,9 @@ void Cmd::generate_mipmaps(Image& image) {
   for (uint32_t mip = 1; mip < image.desc_.mip_levels; ++mip) {
     pipeline_barrier(handle_, image_barrier(image, target, source, mip - 1, 1));
     VkImageBlit blit{};
-    blit.srcSubresource = {image.aspect(), mip - 1, 0, 1};
+    blit.srcSubresource = {image.aspect(), mip - 1, 0, image.layers()};
     blit.srcOffsets[1] = extent(mip - 1);
-    blit.dstSubresource = {image.aspect(), mip, 0, 1};
+    blit.dstSubresource = {image.aspect(), mip, 0, image.layers()};
     blit.dstOffsets[1] = extent(mip);
     vkCmdBlitImage(handle_, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_LINEAR);

@@ -25,6 +25,9 @@ namespace sync {
 inline constexpr Sync none{VK_PIPELINE_STAGE_2_NONE, 0};
 inline constexpr Sync compute_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync compute_read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+/// Whatever compute shaders do to buffers.
+inline constexpr Sync compute{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                              VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync transfer_write{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 inline constexpr Sync transfer_read{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 inline constexpr Sync host_read{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
@@ -45,7 +48,6 @@ struct Descriptor {
   VkDescriptorBufferInfo buffer_info{};
   VkDescriptorImageInfo image_info{};
   VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
-  VkBufferView texel_view = VK_NULL_HANDLE;
 
   static Descriptor buffer(uint32_t slot, const Slice& slice);
   static Descriptor buffer(uint32_t slot, const Buffer& buffer) {
@@ -53,7 +55,6 @@ struct Descriptor {
   }
   static Descriptor sampled(uint32_t slot, const Image& image, const Sampler& sampler);
   static Descriptor storage(uint32_t slot, const Image& image);
-  static Descriptor texels(uint32_t slot, const TexelBuffer& texels);
   static Descriptor acceleration(uint32_t slot, const AccelerationStructure& structure);
 };
 
@@ -143,7 +144,8 @@ class Cmd {
   void end_rendering();
 
   void copy(const Slice& from, const Slice& to);
-  void copy(const Image& from, const Slice& to);  ///< tightly packed, mip 0; image in transfer_source
+  /// All layers of one mip, tightly packed.
+  void copy(const Image& from, const Slice& to);                    ///< mip 0; image in transfer_source
   void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
   void fill(const Slice& slice, uint32_t word);
   /// Fills mips 1.. from mip 0 (image in transfer_target, left in sampled).

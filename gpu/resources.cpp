@@ -96,41 +96,13 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return *this;
 }
 
-TexelBuffer::TexelBuffer(Device& device, std::span<const uint32_t> words, std::string_view name)
-    : device_(&device) {
-  constexpr size_t texel_words = 4;
-  GREATX_CHECK(words.size() % texel_words == 0, "{}: {} words are no whole texels", name, words.size());
-  const size_t texels = words.size() / texel_words;
-  if (texels > device.limits().maxTexelBufferElements)
-    throw_user_error("{}: expected at most {} texels, which is what the device can read, found {}", name,
-                     device.limits().maxTexelBufferElements, texels);
-  buffer_ = upload_buffer(device, std::as_bytes(words), name, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-  VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
-  info.buffer = buffer_.handle();
-  info.format = VK_FORMAT_R32G32B32A32_UINT;
-  info.range = VK_WHOLE_SIZE;
-  GREATX_VK(vkCreateBufferView(device.handle(), &info, nullptr, &view_));
-  device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, reinterpret_cast<uint64_t>(view_), name);
-}
-
-TexelBuffer::~TexelBuffer() {
-  if (view_ != VK_NULL_HANDLE) vkDestroyBufferView(device_->handle(), view_, nullptr);
-}
-TexelBuffer::TexelBuffer(TexelBuffer&& other) noexcept { *this = std::move(other); }
-TexelBuffer& TexelBuffer::operator=(TexelBuffer&& other) noexcept {
-  std::swap(device_, other.device_);
-  std::swap(buffer_, other.buffer_);
-  std::swap(view_, other.view_);
-  return *this;
-}
-
 Image::Image(Device& device, const ImageDesc& desc, std::string_view name) : device_(&device), desc_(desc) {
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = desc.format;
   info.extent = {desc.width, desc.height, 1};
   info.mipLevels = desc.mip_levels;
-  info.arrayLayers = 1;
+  info.arrayLayers = layers();
   info.samples = desc.samples;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = desc.usage;
@@ -144,9 +116,9 @@ Image::Image(Device& device, const ImageDesc& desc, std::string_view name) : dev
 
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   view.image = image_;
-  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+  view.viewType = desc.layers == 0 ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY;
   view.format = desc.format;
-  view.subresourceRange = {aspect_of(desc.format), 0, desc.mip_levels, 0, 1};
+  view.subresourceRange = {aspect_of(desc.format), 0, desc.mip_levels, 0, layers()};
   GREATX_VK(vkCreateImageView(device.handle(), &view, nullptr, &view_));
   device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image_), name);
 }

@@ -63,23 +63,6 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
-/// A buffer in device memory read through the texture units, R32G32B32A32_UINT: one fetch gives four words.
-class TexelBuffer {
- public:
-  TexelBuffer() = default;
-  /// `words` holds whole texels. Throws UserError if the device has no room for so many.
-  TexelBuffer(Device& device, std::span<const uint32_t> words, std::string_view name);
-  ~TexelBuffer();
-  TexelBuffer(TexelBuffer&& other) noexcept;
-  TexelBuffer& operator=(TexelBuffer&& other) noexcept;
-  VkBufferView view() const { return view_; }
-
- private:
-  Device* device_ = nullptr;
-  Buffer buffer_;
-  VkBufferView view_ = VK_NULL_HANDLE;
-};
-
 /// What an image is used for next; layout, stage and access follow from it.
 enum class ImageUse {
   undefined,
@@ -95,11 +78,12 @@ struct ImageDesc {
   VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
   uint32_t width = 1, height = 1;
   uint32_t mip_levels = 1;
+  uint32_t layers = 0;  ///< 0: a plain image; else an array of so many
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };
 
-/// A 2-D image with one view of all its mip levels. Cmd::transition keeps track of its use, in recording
+/// A 2-D image, or an array of such, with one view of all its mip levels and layers. Cmd::transition keeps track of its use, in recording
 /// order.
 class Image {
  public:
@@ -112,6 +96,7 @@ class Image {
   VkImage handle() const { return image_; }
   VkImageView view() const { return view_; }
   const ImageDesc& desc() const { return desc_; }
+  uint32_t layers() const { return desc_.layers == 0 ? 1 : desc_.layers; }
   VkImageAspectFlags aspect() const;
   explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
 

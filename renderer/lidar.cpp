@@ -66,8 +66,9 @@ LidarPass::LidarPass(scene::GpuScene& scene, const LidarDesc& desc, std::string_
   compute.specialization = {desc_.excluded_body.has_value()};
   if (textured) {
     compute.specialization.insert(compute.specialization.end(),
-                                  {desc_.alpha_mask, desc_.textured_reflectance});
-    compute.textures = &scene.textures();
+                                  {desc_.alpha_mask, desc_.textured_reflectance,
+                                   scene.textures().arrays_of(&scene::PbrMaterial::base_color_texture)});
+    compute.textures = &scene.textures().table();
   }
   pipeline_ = gpu::ComputePipeline(device, compute, name_);
 }

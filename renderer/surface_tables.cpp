@@ -45,19 +45,21 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   words.push_back(0u);
 }
 
-void put_material(Words& words, const scene::PbrMaterial& pbr) {
+void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::GpuTextures& textures) {
   const auto pair = [](uint32_t low, uint32_t high) { return low | high << 16; };
-  const auto texture = [](int32_t index) { return static_cast<uint32_t>(index + 1); };
+  const auto texture = [&](int32_t index) { return static_cast<uint32_t>(textures.reference(index) + 1); };
   const auto fraction = [](float x) { return static_cast<uint32_t>(std::lround(x * 65535.0f)); };
   const bool rare = pbr.metallic_roughness_texture >= 0;
   words.push_back(glm::packHalf2x16(vec2(pbr.base_color)));
   words.push_back(pair(glm::packHalf1x16(pbr.base_color.z), rare ? 1 : 0));
   words.push_back(pair(fraction(pbr.metallic), fraction(pbr.roughness)));
-  words.push_back(pair(texture(pbr.base_color_texture), texture(pbr.normal_texture)));
+  words.push_back(texture(pbr.base_color_texture));
   put(words, pbr.emissive);
-  words.push_back(pair(texture(pbr.metallic_roughness_texture), texture(pbr.emissive_texture)));
+  words.push_back(texture(pbr.emissive_texture));
   put(words, pbr.normal_scale);
-  words.resize(words.size() + 3);
+  words.push_back(texture(pbr.normal_texture));
+  words.push_back(texture(pbr.metallic_roughness_texture));
+  words.push_back(0u);
 }
 
 void require_16_bits(const char* what, size_t count) {
@@ -72,15 +74,14 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   const scene::Scene& scene = gpu_scene.scene();
   require_16_bits("bodies", scene.bodies.size());
   require_16_bits("materials", scene.materials.size());
-  require_16_bits("textures", scene.textures.size());
   Words triangles, materials;
   std::vector<uint32_t> primitives(scene.triangle_count());
   std::vector<uvec2> ids(scene.triangle_count() + 1, uvec2(0u));
-  triangles.reserve(4 * shared::triangle_record_texels * (scene.triangle_count() + 1));
+  triangles.reserve(4 * shared::triangle_record_quads * (scene.triangle_count() + 1));
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
     const uint32_t body = scene.instances[primitive.instance].body;
-    GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_texels * (primitive.first_index / 3),
+    GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_quads * (primitive.first_index / 3),
                  "primitive {} does not follow the one before", i);
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
@@ -90,25 +91,28 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
     }
   }
-  for (const scene::Material& material : scene.materials) put_material(materials, material.pbr);
+  for (const scene::Material& material : scene.materials)
+    put_material(materials, material.pbr, gpu_scene.textures());
   // An empty scene still has something to bind.
-  if (triangles.empty()) triangles.resize(4 * shared::triangle_record_texels);
-  if (materials.empty()) materials.resize(4 * shared::material_record_texels);
-  triangles_ = gpu::TexelBuffer(gpu_scene.device(), triangles, "triangle records");
-  materials_ = gpu::TexelBuffer(gpu_scene.device(), materials, "material records");
+  if (triangles.empty()) triangles.resize(4 * shared::triangle_record_quads);
+  if (materials.empty()) materials.resize(4 * shared::material_record_quads);
+  triangles_ =
+      gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(triangles)), "triangle records");
+  materials_ =
+      gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(materials)), "material records");
   triangle_ids_ = gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(ids)), "ids of triangles");
   triangle_primitives_ =
       gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(primitives)), "primitives of triangles");
 }
 
 std::vector<gpu::Binding> SurfaceTables::bindings() {
-  return {{shared::triangle_records_binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
-          {shared::material_records_binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER}};
+  return {{shared::triangle_records_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+          {shared::material_records_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
 }
 
 std::vector<gpu::Descriptor> SurfaceTables::descriptors() const {
-  return {gpu::Descriptor::texels(shared::triangle_records_binding, triangles_),
-          gpu::Descriptor::texels(shared::material_records_binding, materials_)};
+  return {gpu::Descriptor::buffer(shared::triangle_records_binding, triangles_),
+          gpu::Descriptor::buffer(shared::material_records_binding, materials_)};
 }
 
 }  // namespace greatx::render

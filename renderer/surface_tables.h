@@ -14,7 +14,7 @@ namespace greatx::render {
 
 class SurfaceTables {
  public:
-  /// Throws UserError if the scene has 65536 bodies, materials or textures, or more.
+  /// Throws UserError if the scene has 65536 bodies or materials, or more.
   explicit SurfaceTables(const scene::GpuScene& scene);
 
   static std::vector<gpu::Binding> bindings();
@@ -25,7 +25,7 @@ class SurfaceTables {
   const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
 
  private:
-  gpu::TexelBuffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_texels
+  gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
   gpu::Buffer triangle_primitives_, triangle_ids_;
 };
 

@@ -3,8 +3,6 @@
 #include "scene/gpu_scene.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -20,9 +18,8 @@ gpu::Buffer upload(gpu::Device& device, const std::vector<T>& values, std::strin
 
 float luminance(const vec4& color) { return 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b; }
 
-shared::GpuMaterial gpu_material(const Material& material, bool textures) {
+shared::GpuMaterial gpu_material(const Material& material, const GpuTextures& textures) {
   const PbrMaterial& pbr = material.pbr;
-  const auto texture = [&](int32_t index) { return textures ? index : -1; };
   shared::GpuMaterial result{};
   result.base_color = pbr.base_color;
   result.emissive = pbr.emissive;
@@ -34,10 +31,10 @@ shared::GpuMaterial gpu_material(const Material& material, bool textures) {
                  (pbr.double_sided ? shared::material_flag_double_sided : 0u) |
                  (material.reflectance_905nm ? shared::material_flag_reflectance_905nm : 0u) |
                  (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u);
-  result.base_color_texture = texture(pbr.base_color_texture);
-  result.metallic_roughness_texture = texture(pbr.metallic_roughness_texture);
-  result.normal_texture = texture(pbr.normal_texture);
-  result.emissive_texture = texture(pbr.emissive_texture);
+  result.base_color_texture = textures.reference(pbr.base_color_texture);
+  result.metallic_roughness_texture = textures.reference(pbr.metallic_roughness_texture);
+  result.normal_texture = textures.reference(pbr.normal_texture);
+  result.emissive_texture = textures.reference(pbr.emissive_texture);
   result.reflectance_905nm = material.reflectance_905nm.value_or(luminance(pbr.base_color));
   result.reflectance_1550nm = material.reflectance_1550nm.value_or(luminance(pbr.base_color));
   return result;
@@ -60,7 +57,9 @@ bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.o
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options)
     : device_(&device), scene_(&scene), options_(options) {
-  upload_textures();
+  // Without textures the table still has a layout that pipelines are built with.
+  textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
+                          scene.materials);
   upload_geometry();
   if (options.acceleration_structure) build_structures();
 }
@@ -78,8 +77,7 @@ void GpuScene::upload_geometry() {
   facet_of_triangle_ = upload(device, scene_->facet_of_triangle, "facet of triangle");
 
   std::vector<shared::GpuMaterial> materials;
-  for (const Material& material : scene_->materials)
-    materials.push_back(gpu_material(material, options_.textures));
+  for (const Material& material : scene_->materials) materials.push_back(gpu_material(material, textures_));
   materials_ = upload(device, materials, "materials");
 
   std::vector<shared::GpuPrimitive> primitives;
@@ -94,39 +92,6 @@ void GpuScene::upload_geometry() {
       {positions_.address(), normals_.address(), tangents_.address(), uvs_.address(), indices_.address(),
        primitives_.address(), materials_.address(), facet_of_triangle_.address()}};
   addresses_ = upload(device, addresses, "scene addresses");
-}
-
-void GpuScene::upload_textures() {
-  std::vector<VkDescriptorImageInfo> infos;
-  if (options_.textures) {
-    for (const Texture& texture : scene_->textures) {
-      const uint32_t mips = static_cast<uint32_t>(std::bit_width(std::max(texture.width, texture.height)));
-      gpu::ImageDesc desc;
-      desc.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-      desc.width = texture.width;
-      desc.height = texture.height;
-      desc.mip_levels = mips;
-      desc.usage =
-          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-      gpu::Image image(*device_, desc, texture.name);
-      const gpu::Buffer staging(*device_, texture.rgba.size(), gpu::Memory::upload, "texture staging");
-      std::memcpy(staging.slice().mapped, texture.rgba.data(), texture.rgba.size());
-      gpu::submit_setup(*device_, [&](gpu::Cmd& cmd) {
-        cmd.transition(image, gpu::ImageUse::transfer_target, true);
-        cmd.copy(staging.slice(), image);
-        cmd.generate_mipmaps(image);
-      });
-      gpu::SamplerDesc sampler;
-      sampler.repeat_u = texture.repeat_u;
-      sampler.repeat_v = texture.repeat_v;
-      sampler.mipmaps = true;
-      samplers_.emplace_back(*device_, sampler, texture.name);
-      images_.push_back(std::move(image));
-      infos.push_back(
-          {samplers_.back().handle(), images_.back().view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
-    }
-  }
-  textures_ = gpu::TextureTable(*device_, infos, "scene textures");
 }
 
 void GpuScene::build_structures() {

@@ -9,8 +9,8 @@
 
 #include "gpu/acceleration.h"
 #include "gpu/cmd.h"
-#include "gpu/pipeline.h"
 #include "gpu/tick_ring.h"
+#include "scene/gpu_textures.h"
 #include "scene/scene.h"
 #include "shaders/shared/scene.h"
 
@@ -37,7 +37,7 @@ class GpuScene {
   const Scene& scene() const { return *scene_; }
   gpu::Device& device() const { return *device_; }
   const gpu::Tlas& tlas() const { return tlas_; }
-  const gpu::TextureTable& textures() const { return textures_; }
+  const GpuTextures& textures() const { return textures_; }
   const gpu::Buffer& indices() const { return indices_; }
   /// Descriptors of set 0 shared by all passes: scene addresses, TLAS (if there is one), this tick's bodies.
   std::vector<gpu::Descriptor> descriptors() const;
@@ -48,7 +48,6 @@ class GpuScene {
 
  private:
   void upload_geometry();
-  void upload_textures();
   void build_structures();
 
   gpu::Device* device_;
@@ -56,9 +55,7 @@ class GpuScene {
   GpuSceneOptions options_;
   gpu::Buffer positions_, normals_, tangents_, uvs_, indices_, primitives_, materials_, facet_of_triangle_,
       addresses_;
-  std::vector<gpu::Image> images_;
-  std::vector<gpu::Sampler> samplers_;
-  gpu::TextureTable textures_;
+  GpuTextures textures_;
   std::vector<gpu::Blas> blas_;      ///< of the bodies that have triangles
   std::vector<uint32_t> blas_body_;  ///< body of each
   gpu::Tlas tlas_;

@@ -12,15 +12,13 @@
 #include "renderer/camera/edges.h"
 #include "renderer/camera/meter.h"
 #include "renderer/light/lamps.h"
+#include "shaders/shared/film.h"
 
 namespace greatx::render {
 
 namespace {
 
 constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
-constexpr VkFormat color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat luminance_format = VK_FORMAT_R32_SFLOAT;
-constexpr VkFormat seen_format = VK_FORMAT_R32G32_UINT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 
 }  // namespace
@@ -57,6 +55,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
   sort_primitives();
   build_pipelines();
   create_images();
+  create_pictures();
   upload_lens();
   if (desc_.smooth_edges) edges_ = std::make_unique<EdgePass>(*lighting_, desc_);
   if (desc_.outputs.arrays()) develop_ = std::make_unique<DevelopPass>(*lighting_, desc_);
@@ -143,23 +142,27 @@ void CameraPass::build_pipelines() {
   if (!masked_.empty()) {
     draw.vertex_shader = "camera/visibility_masked.vert";
     draw.fragment_shader = "camera/visibility_masked.frag";
-    draw.textures = &scene_->textures();
+    draw.textures = &scene_->textures().table();
+    draw.specialization[shared::spec_base_color_arrays] =
+        scene_->textures().arrays_of(&scene::PbrMaterial::base_color_texture);
     visibility_masked_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility masked");
   }
 
   gpu::ComputeDesc shade;
-  shade.shader = desc_.msaa > 1 ? "camera/shade_multisampled.comp" : "camera/shade.comp";
+  shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
   shade.bindings = scene::GpuScene::bindings(false);
   for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
   for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
   shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
-  shade.bindings.push_back({shared::visibility_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
-  shade.bindings.push_back({shared::shade_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  shade.bindings.push_back({shared::shade_luminance_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
-  shade.bindings.push_back({shared::shade_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  shade.bindings.push_back({shared::visibility_binding, multisampled()
+                                                            ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                            : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  for (const uint32_t slot :
+       {shared::shade_color_binding, shared::shade_luminance_binding, shared::shade_seen_binding})
+    shade.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   shade.push_constant_bytes = sizeof(shared::CameraConstants);
-  shade.textures = &scene_->textures();
+  shade.textures = &scene_->textures().table();
   shade.specialization.resize(shared::shade_spec_count);
   shade.specialization[shared::spec_color] = desc_.outputs.color();
   shade.specialization[shared::spec_luminance] = desc_.outputs.luminance;
@@ -178,42 +181,51 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
   shade.specialization[shared::spec_distortion] = desc_.distortion.any();
   shade.specialization[shared::spec_blend] = desc_.parts;
+  const auto arrays_of = [&](int32_t scene::PbrMaterial::*use) { return scene_->textures().arrays_of(use); };
+  using Pbr = scene::PbrMaterial;
+  shade.specialization[shared::spec_base_color_arrays] = arrays_of(&Pbr::base_color_texture);
+  shade.specialization[shared::spec_metallic_roughness_arrays] = arrays_of(&Pbr::metallic_roughness_texture);
+  shade.specialization[shared::spec_normal_arrays] = arrays_of(&Pbr::normal_texture);
+  shade.specialization[shared::spec_emissive_arrays] = arrays_of(&Pbr::emissive_texture);
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
 }
 
 void CameraPass::create_images() {
-  gpu::Device& device = scene_->device();
-  struct Size {
-    uint32_t width, height;
-  };
-  const Size none{1, 1}, picture{desc_.width, desc_.height}, pinhole{pinhole_->width, pinhole_->height};
-  const auto image = [&](VkFormat format, uint32_t samples, VkImageUsageFlags usage, const char* what,
-                         Size size) {
-    return gpu::Image(device,
+  const auto image = [&](VkFormat format, VkImageUsageFlags usage, const char* what) {
+    return gpu::Image(scene_->device(),
                       {.format = format,
-                       .width = size.width,
-                       .height = size.height,
+                       .width = pinhole_->width,
+                       .height = pinhole_->height,
                        .mip_levels = 1,
-                       .samples = static_cast<VkSampleCountFlagBits>(samples),
+                       .samples = static_cast<VkSampleCountFlagBits>(desc_.msaa),
                        .usage = usage},
                       fmt::format("{} {}", desc_.name, what));
   };
-  constexpr VkImageUsageFlags kept =
-      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  visibility_ =
-      image(visibility_format, desc_.msaa, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-            "visibility", pinhole);
-  depth_ = image(depth_format, desc_.msaa, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth", pinhole);
-  const Size color = desc_.outputs.color() ? picture : none,
-             luminance = desc_.outputs.luminance ? picture : none;
-  color_ = image(color_format, 1, kept, "radiance", color);
-  luminance_ = image(luminance_format, 1, kept, "luminance", luminance);
-  if (desc_.smooth_edges) {
-    shaded_color_ = image(color_format, 1, kept, "radiance with edges", color);
-    shaded_luminance_ = image(luminance_format, 1, kept, "luminance with edges", luminance);
-  }
-  seen_ = image(seen_format, 1, kept, "seen", picture);
-  texel_sampler_ = gpu::Sampler(device, {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
+  const VkImageUsageFlags read = multisampled() ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_STORAGE_BIT;
+  visibility_ = image(visibility_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | read, "visibility");
+  depth_ = image(depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth");
+  texel_sampler_ =
+      gpu::Sampler(scene_->device(), {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
+}
+
+void CameraPass::create_pictures() {
+  constexpr size_t pad = shared::develop_pixels;
+  const size_t pixels = (size_t{desc_.width} * desc_.height + pad - 1) / pad * pad;
+  std::vector<gpu::Buffer*> all;
+  const auto buffer = [&](gpu::Buffer& to, bool wanted, size_t bytes, const char* what) {
+    to = gpu::Buffer(scene_->device(), wanted ? bytes * pixels : 0, gpu::Memory::device,
+                     fmt::format("{} {}", desc_.name, what));
+    all.push_back(&to);
+  };
+  const CameraOutputs& outputs = desc_.outputs;
+  buffer(picture_.color, outputs.color(), sizeof(uvec2), "radiance");
+  buffer(picture_.luminance, outputs.luminance, sizeof(float), "luminance");
+  buffer(shaded_.color, outputs.color() && desc_.smooth_edges, sizeof(uvec2), "radiance with edges");
+  buffer(shaded_.luminance, outputs.luminance && desc_.smooth_edges, sizeof(float), "luminance with edges");
+  buffer(seen_, outputs.ids(), sizeof(uvec2), "seen");
+  gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
+    for (const gpu::Buffer* each : all) cmd.fill(each->slice(), 0);
+  });
 }
 
 void CameraPass::upload_lens() {
@@ -276,13 +288,14 @@ void CameraPass::record(gpu::TickSlot& slot, const Pose& local_from_sensor, cons
                   1.0 / stored_luminance(desc_, *lighting_));
   view.constants.weight = part.weight;
   view.constants.first = part.first;
+  view.constants.size = desc_.width | desc_.height << 16;
   record_visibility(*slot.cmd, view);
   record_shading(slot, view);
   if (!part.last) return;
   if (edges_)
     edges_->record(slot, view, gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_),
-                   {seen_, shaded_color_, color_, shaded_luminance_, luminance_});
-  if (develop_) develop_->record(slot, color_, seen_, frame);
+                   {shaded_, seen_, picture_});
+  if (develop_) develop_->record(slot, picture_.color, seen_, frame);
 }
 
 void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
@@ -316,23 +329,21 @@ void CameraPass::record_visibility(gpu::Cmd& cmd, const CameraView& view) {
 void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
-  cmd.transition(visibility_, gpu::ImageUse::sampled);
-  gpu::Image& color = edges_ ? shaded_color_ : color_;
-  gpu::Image& luminance = edges_ ? shaded_luminance_ : luminance_;
-  const bool fresh = view.constants.first != 0;
-  cmd.transition(color, gpu::ImageUse::storage, fresh);
-  cmd.transition(luminance, gpu::ImageUse::storage, fresh);
-  cmd.transition(seen_, gpu::ImageUse::storage, true);
+  cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // who reads the picture before
+  const Picture& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
   for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
     descriptors.push_back(descriptor);
   descriptors.push_back(gpu::Descriptor::buffer(shared::lights_binding, upload_lamps(slot, view)));
   descriptors.push_back(gpu::Descriptor::sampled(shared::lens_binding, lens_, texel_sampler_));
-  descriptors.push_back(gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_color_binding, color));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_luminance_binding, luminance));
-  descriptors.push_back(gpu::Descriptor::storage(shared::shade_seen_binding, seen_));
+  descriptors.push_back(
+      multisampled() ? gpu::Descriptor::sampled(shared::visibility_binding, visibility_, texel_sampler_)
+                     : gpu::Descriptor::storage(shared::visibility_binding, visibility_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_color_binding, picture.color));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_luminance_binding, picture.luminance));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::shade_seen_binding, seen_));
   cmd.bind(shade_);
   cmd.push(descriptors);
   cmd.constants(view.constants);

@@ -17,6 +17,7 @@
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/lens.h"
+#include "renderer/camera/picture.h"
 #include "renderer/light/lighting.h"
 #include "scene/gpu_scene.h"
 
@@ -26,7 +27,7 @@ namespace greatx::render {
 struct CameraOutputs {
   bool rgb = true, depth = true, instance = true, semantic = true, material = true;
   bool hdr = false;
-  // What stays on the GPU for another pass (luminance_image, seen_image).
+  // What stays on the GPU for another pass (CameraPass::luminance, CameraPass::seen).
   bool luminance = false, seen = false;
   bool color() const { return rgb || hdr; }
   bool ids() const { return depth || instance || semantic || material || seen; }
@@ -123,14 +124,14 @@ class CameraPass {
   CameraImages collect(const gpu::TickSlot& slot) const;
 
   const CameraDesc& desc() const { return desc_; }
-  /// Stored radiance, R16G16B16A16_SFLOAT, in ImageUse::storage after record(); times stored_luminance() is cd/m^2.
-  /// Alpha: share of the pixel that shows the scene and not the sky.
-  gpu::Image& hdr_image() { return color_; }
-  /// Of `outputs.luminance`: cd/m^2, R32_SFLOAT, in ImageUse::storage after record().
-  gpu::Image& luminance_image() { return luminance_; }
-  /// What pixels' centres see: planar depth's bits (sky: +inf), triangle + 1 (0: nothing); R32G32_UINT, in
-  /// ImageUse::storage after record().
-  gpu::Image& seen_image() { return seen_; }
+  // Of the last record(), written by a compute shader: who reads them puts a barrier before.
+  /// Stored radiance: four halves a pixel, red, green, blue, which times stored_luminance() are cd/m^2, and the share of
+  /// the pixel that shows the scene and not the sky.
+  const gpu::Buffer& color() const { return picture_.color; }
+  /// Of `outputs.luminance`: float [height * width], cd/m^2.
+  const gpu::Buffer& luminance() const { return picture_.luminance; }
+  /// What pixels' centres see: uvec2 [height * width], planar depth's bits (sky: +inf), triangle + 1 (0: nothing).
+  const gpu::Buffer& seen() const { return seen_; }
   /// Primitives drawn, and left out because they lie outside the view, by the last record().
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
@@ -143,11 +144,13 @@ class CameraPass {
     dvec3 center{0.0};
     double radius = 0.0;
   };
+  bool multisampled() const { return desc_.msaa > 1; }
   void check() const;
   void bound_primitives();
   void sort_primitives();
   void build_pipelines();
   void create_images();
+  void create_pictures();
   std::vector<uint32_t> visible(std::span<const uint32_t> primitives, const CameraView& view);
   void upload_lens();
   gpu::Slice upload_lamps(gpu::TickSlot& slot, const CameraView& view);
@@ -167,8 +170,9 @@ class CameraPass {
   gpu::Sampler texel_sampler_;
   std::unique_ptr<PinholeView> pinhole_;
   gpu::Image lens_;  ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
-  gpu::Image shaded_color_, shaded_luminance_;  ///< before their edges are smoothed; 1 x 1 if they are not
-  gpu::Image color_, luminance_, seen_;
+  Picture shaded_;   ///< before its edges are smoothed; nothing if they are not
+  Picture picture_;
+  gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted
   std::string visibility_scope_, shade_scope_;

@@ -51,8 +51,8 @@ DevelopPass::DevelopPass(const SceneLighting& lighting, const CameraDesc& desc)
   }
   gpu::ComputeDesc develop;
   develop.shader = "camera/develop.comp";
-  develop.bindings = {{shared::develop_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-                      {shared::develop_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+  develop.bindings = {{shared::develop_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                      {shared::develop_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                       {shared::develop_triangle_ids_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
   develop.push_constant_bytes = sizeof(shared::DevelopConstants);
   develop.specialization.resize(shared::develop_spec_count);
@@ -98,7 +98,8 @@ DevelopPass::Readback DevelopPass::allocate(gpu::TickSlot& slot) const {
   return readback;
 }
 
-void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& seen, const FrameNumber& frame) {
+void DevelopPass::record(gpu::TickSlot& slot, const gpu::Buffer& color, const gpu::Buffer& seen,
+                         const FrameNumber& frame) {
   Readback readback = allocate(slot);
   if (meter_) readback.exposure = meter_->record(slot, color);
   if (readbacks_.size() <= slot.index) readbacks_.resize(slot.index + 1);
@@ -106,12 +107,11 @@ void DevelopPass::record(gpu::TickSlot& slot, gpu::Image& color, gpu::Image& see
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.transition(color, gpu::ImageUse::storage);
-  cmd.transition(seen, gpu::ImageUse::storage);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
   cmd.bind(pipeline_);
   cmd.push(
-      {gpu::Descriptor::storage(shared::develop_color_binding, color),
-       gpu::Descriptor::storage(shared::develop_seen_binding, seen),
+      {gpu::Descriptor::buffer(shared::develop_color_binding, color),
+       gpu::Descriptor::buffer(shared::develop_seen_binding, seen),
        gpu::Descriptor::buffer(shared::develop_triangle_ids_binding, lighting_->surfaces().triangle_ids())});
   shared::DevelopConstants constants{};
   constants.rgb = readback.rgb.address;

@@ -17,7 +17,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
   for (const uint32_t slot :
        {shared::edges_seen_binding, shared::edges_from_binding, shared::edges_to_binding,
         shared::edges_luminance_from_binding, shared::edges_luminance_to_binding})
-    edges.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+    edges.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   edges.push_constant_bytes = sizeof(shared::CameraConstants);
   edges.specialization.resize(shared::shade_spec_count);
   edges.specialization[shared::spec_color] = desc.outputs.color();
@@ -27,24 +27,20 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
 }
 
 void EdgePass::record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
-                      const Images& images) {
+                      const Pictures& pictures) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.transition(images.seen, gpu::ImageUse::storage);
-  cmd.transition(images.color, gpu::ImageUse::storage);
-  cmd.transition(images.luminance, gpu::ImageUse::storage);
-  cmd.transition(images.smooth_color, gpu::ImageUse::storage, true);
-  cmd.transition(images.smooth_luminance, gpu::ImageUse::storage, true);
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);
   std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())
     descriptors.push_back(descriptor);
   descriptors.push_back(lens);
-  descriptors.push_back(gpu::Descriptor::storage(shared::edges_seen_binding, images.seen));
-  descriptors.push_back(gpu::Descriptor::storage(shared::edges_from_binding, images.color));
-  descriptors.push_back(gpu::Descriptor::storage(shared::edges_to_binding, images.smooth_color));
-  descriptors.push_back(gpu::Descriptor::storage(shared::edges_luminance_from_binding, images.luminance));
-  descriptors.push_back(
-      gpu::Descriptor::storage(shared::edges_luminance_to_binding, images.smooth_luminance));
+  for (const auto& [binding, buffer] : {std::pair{shared::edges_seen_binding, &pictures.seen},
+                                        {shared::edges_from_binding, &pictures.from.color},
+                                        {shared::edges_to_binding, &pictures.to.color},
+                                        {shared::edges_luminance_from_binding, &pictures.from.luminance},
+                                        {shared::edges_luminance_to_binding, &pictures.to.luminance}})
+    descriptors.push_back(gpu::Descriptor::buffer(binding, *buffer));
   cmd.bind(pipeline_);
   cmd.push(descriptors);
   cmd.constants(view.constants);

@@ -18,11 +18,14 @@ class EdgePass {
  public:
   /// For colour, luminance or both, as `desc` delivers them. `lighting` outlives this.
   EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
-  /// A picture and where its smooth version goes; 1 x 1 images where `desc` has no such output.
-  struct Images {
-    gpu::Image &seen, &color, &smooth_color, &luminance, &smooth_luminance;
+  /// A picture, what its pixels see (CameraPass::seen), and where its smooth version goes.
+  struct Pictures {
+    const Picture& from;
+    const gpu::Buffer& seen;
+    const Picture& to;
   };
-  void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens, const Images& images);
+  void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
+              const Pictures& pictures);
 
  private:
   const SceneLighting* lighting_;

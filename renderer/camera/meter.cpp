@@ -21,7 +21,7 @@ MeterPass::MeterPass(gpu::Device& device, const CameraDesc& desc, double stored_
     : scope_(desc.name + " meter") {
   gpu::ComputeDesc histogram;
   histogram.shader = "camera/meter.comp";
-  histogram.bindings = {{shared::meter_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
+  histogram.bindings = {{shared::meter_color_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
   histogram.push_constant_bytes = sizeof(shared::MeterConstants);
   histogram_ = gpu::ComputePipeline(device, histogram, scope_);
   gpu::ComputeDesc result;
@@ -38,11 +38,12 @@ MeterPass::MeterPass(gpu::Device& device, const CameraDesc& desc, double stored_
   constants_.step = step;
   constants_.columns = desc.width / step;
   constants_.rows = desc.height / step;
+  constants_.width = desc.width;
   constants_.stored_luminance = static_cast<float>(stored_luminance);
   constants_.compensation_ev = static_cast<float>(desc.compensation_ev);
 }
 
-gpu::Slice MeterPass::record(gpu::TickSlot& slot, gpu::Image& color) {
+gpu::Slice MeterPass::record(gpu::TickSlot& slot, const gpu::Buffer& color) {
   const gpu::Slice result = slot.readback.allocate_for<shared::MeterResult>(1);
   shared::MeterConstants constants = constants_;
   constants.result = result.address;
@@ -51,11 +52,10 @@ gpu::Slice MeterPass::record(gpu::TickSlot& slot, gpu::Image& color) {
   const auto scope = cmd.scope(scope_);
   cmd.barrier(gpu::sync::compute_read, gpu::sync::transfer_write);  // the picture before
   cmd.fill(bins_.slice(), 0);
-  cmd.transition(color, gpu::ImageUse::storage);
-  cmd.barrier(gpu::sync::transfer_write, {gpu::sync::compute_read.stage,
-                                          gpu::sync::compute_read.access | gpu::sync::compute_write.access});
+  cmd.barrier(gpu::sync::transfer_write, gpu::sync::compute);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);  // the colour
   cmd.bind(histogram_);
-  cmd.push({gpu::Descriptor::storage(shared::meter_color_binding, color)});
+  cmd.push({gpu::Descriptor::buffer(shared::meter_color_binding, color)});
   cmd.constants(constants);
   const uint32_t samples = constants.columns * constants.rows;
   cmd.dispatch((samples + shared::meter_group_size - 1) / shared::meter_group_size);

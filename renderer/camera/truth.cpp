@@ -50,7 +50,7 @@ TruthPass::TruthPass(const SceneLighting& lighting, const CameraDesc& desc, cons
   gpu::ComputeDesc truth;
   truth.shader = "camera/truth.comp";
   truth.bindings = scene::GpuScene::bindings(false);
-  truth.bindings.push_back({shared::truth_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  truth.bindings.push_back({shared::truth_seen_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   truth.bindings.push_back({shared::truth_triangle_primitives_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   truth.push_constant_bytes = sizeof(shared::TruthConstants);
   const Distortion& lens = desc.distortion;
@@ -81,7 +81,7 @@ void TruthPass::upload_lens() {
                              desc_.name + " lens");
 }
 
-void TruthPass::record(gpu::TickSlot& slot, gpu::Image& seen, const TruthInstant& now,
+void TruthPass::record(gpu::TickSlot& slot, const gpu::Buffer& seen, const TruthInstant& now,
                        const TruthInstant& next) {
   const size_t pixels = size_t{desc_.width} * desc_.height;
   const auto floats = [&](bool wanted, size_t per_pixel) {
@@ -124,10 +124,10 @@ void TruthPass::record(gpu::TickSlot& slot, gpu::Image& seen, const TruthInstant
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.transition(seen, gpu::ImageUse::storage);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
   cmd.bind(pipeline_);
   std::vector<gpu::Descriptor> descriptors = lighting_->scene().raster_descriptors();
-  descriptors.push_back(gpu::Descriptor::storage(shared::truth_seen_binding, seen));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::truth_seen_binding, seen));
   descriptors.push_back(gpu::Descriptor::buffer(shared::truth_triangle_primitives_binding,
                                                 lighting_->surfaces().triangle_primitives()));
   cmd.push(descriptors);

@@ -39,9 +39,10 @@ class TruthPass {
   /// Builds the pipeline for `outputs`, at least one, of the camera `desc`, whose `outputs.seen` is set. `lighting`
   /// outlives this.
   TruthPass(const SceneLighting& lighting, const CameraDesc& desc, const TruthOutputs& outputs);
-  /// After CameraPass::record of the same tick; `seen` is its seen_image(). `next`: where all is when the camera takes
+  /// After CameraPass::record of the same tick; `seen` is its seen(). `next`: where all is when the camera takes
   /// its next picture; read only for the flow.
-  void record(gpu::TickSlot& slot, gpu::Image& seen, const TruthInstant& now, const TruthInstant& next);
+  void record(gpu::TickSlot& slot, const gpu::Buffer& seen, const TruthInstant& now,
+              const TruthInstant& next);
   /// What was recorded into `slot`, once its submission is done.
   TruthImages collect(const gpu::TickSlot& slot) const;
 

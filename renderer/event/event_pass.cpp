@@ -89,8 +89,8 @@ void EventPass::build_pipelines() {
   if (desc_.differences) {
     gpu::ComputeDesc compute;
     compute.shader = "event/difference.comp";
-    compute.bindings = {{shared::event_previous_binding, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-                        {shared::event_luminance_binding + 1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}};
+    compute.bindings = {{shared::event_previous_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                        {shared::event_luminance_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
     compute.push_constant_bytes = sizeof(shared::DifferenceConstants);
     difference_ = gpu::ComputePipeline(device, compute, difference_scope_);
   }
@@ -98,13 +98,10 @@ void EventPass::build_pipelines() {
   gpu::ComputeDesc compute;
   for (const uint32_t slot :
        {shared::event_model_binding, shared::event_control_binding, shared::event_runs_binding,
-        shared::event_objects_binding, shared::event_motion_binding})
+        shared::event_objects_binding, shared::event_motion_binding, shared::event_luminance_binding,
+        shared::event_seen_binding, shared::event_pixel_binding, shared::event_extra_binding,
+        shared::event_before_binding, shared::event_awake_binding, shared::event_threshold_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
-  for (const uint32_t slot :
-       {shared::event_luminance_binding, shared::event_seen_binding, shared::event_pixel_binding,
-        shared::event_extra_binding, shared::event_before_binding, shared::event_awake_binding,
-        shared::event_threshold_binding})
-    compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
   compute.push_constant_bytes = sizeof(shared::EventConstants);
   compute.specialization.resize(shared::event_spec_count);
   compute.specialization[shared::event_spec_mismatch] = desc_.threshold_sigma > 0.0;
@@ -126,29 +123,17 @@ void EventPass::build_pipelines() {
 
 void EventPass::create_resources() {
   gpu::Device& device = scene_->device();
-  std::vector<gpu::Image*> images;
-  const auto image = [&](gpu::Image& to, VkFormat format, bool wanted, const char* what) {
-    to = gpu::Image(device,
-                    {.format = format,
-                     .width = wanted ? desc_.width : 1,
-                     .height = wanted ? desc_.height : 1,
-                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-                    desc_.name + " " + what);
-    images.push_back(&to);
+  const auto pixels = [&](gpu::Buffer& to, size_t bytes, bool wanted, const char* what) {
+    const size_t size = wanted ? bytes * desc_.width * desc_.height : 0;
+    to = gpu::Buffer(device, size, gpu::Memory::device, desc_.name + " " + what);
   };
   const bool extra = desc_.cutoff_hz > 0.0 || desc_.refractory_s > 0.0;
-  const bool thresholds = desc_.events && (desc_.threshold_sigma > 0.0 || desc_.leak_rate_hz > 0.0);
-  image(previous_, VK_FORMAT_R32_SFLOAT, desc_.differences, "picture before");
-  image(pixels_, VK_FORMAT_R32G32_SINT, desc_.events, "pixels");
-  image(extra_, VK_FORMAT_R32G32_SINT, desc_.events && extra, "pixels' delays");
-  image(before_, VK_FORMAT_R32G32_SINT, desc_.events, "pixels before");
-  image(awake_, VK_FORMAT_R32_SINT, desc_.events && desc_.refractory_s > 0.0, "pixels asleep before");
-  image(thresholds_, VK_FORMAT_R32G32B32A32_SINT, thresholds, "thresholds");
-  image(no_seen_, VK_FORMAT_R32G32_UINT, false, "nothing seen");
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    for (gpu::Image* each : images) cmd.transition(*each, gpu::ImageUse::storage, true);
-  });
-  if (thresholds) upload_thresholds();
+  pixels(previous_, sizeof(float), desc_.differences, "picture before");
+  pixels(pixels_, sizeof(glm::ivec2), desc_.events, "pixels");
+  pixels(extra_, sizeof(glm::ivec2), desc_.events && extra, "pixels' delays");
+  pixels(before_, sizeof(glm::ivec2), desc_.events, "pixels before");
+  pixels(awake_, sizeof(int32_t), desc_.events && desc_.refractory_s > 0.0, "pixels asleep before");
+  upload_thresholds();
   const shared::EventModel block = model();
   model_ = gpu::upload_buffer(device, std::as_bytes(std::span(&block, 1)), desc_.name + " model");
   control_ = gpu::Buffer(device, sizeof(shared::EventControl), gpu::Memory::device, desc_.name + " control",
@@ -156,7 +141,7 @@ void EventPass::create_resources() {
   runs_ =
       gpu::Buffer(device, sizeof(shared::EventRun) * groups(desc_.width, shared::run_pixels) * desc_.height,
                   gpu::Memory::device, desc_.name + " runs");
-  no_motions_ = gpu::Buffer(device, 0, gpu::Memory::device, desc_.name + " no motions");
+  nothing_ = gpu::Buffer(device, 0, gpu::Memory::device, desc_.name + " nothing");
   upload_objects();
 }
 
@@ -177,12 +162,16 @@ shared::EventModel EventPass::model() const {
   block.cx = static_cast<float>(desc_.cx);
   block.cy = static_cast<float>(desc_.cy);
   block.wanted = static_cast<float>(desc_.wanted);
+  const glm::uvec2 key = key_of(desc_, pattern_sequence);
+  block.pattern_seed = key.x;
+  block.pattern_stream = key.y;
   return block;
 }
 
 void EventPass::upload_thresholds() {
   const glm::uvec2 key = key_of(desc_, pattern_sequence);
-  std::vector<glm::ivec4> values(size_t(desc_.width) * desc_.height);
+  const bool wanted = desc_.events && desc_.threshold_sigma > 0.0;
+  std::vector<glm::ivec2> values(wanted ? size_t(desc_.width) * desc_.height : 0);
   for (uint32_t pixel = 0; pixel < values.size(); ++pixel) {
     const glm::uvec4 words = shared::random_bits(key.x, key.y, 0, pixel, 0);
     // Box and Muller's two normal numbers: one for each threshold.
@@ -193,11 +182,10 @@ void EventPass::upload_thresholds() {
           std::clamp(c + desc_.threshold_sigma * normal, least_threshold, largest_threshold));
     };
     values[pixel] = {threshold(desc_.threshold_on, radius * std::cos(angle)),
-                     threshold(desc_.threshold_off, radius * std::sin(angle)), static_cast<int32_t>(words.z),
-                     0};
+                     threshold(desc_.threshold_off, radius * std::sin(angle))};
   }
-  const std::span<const std::byte> texels = std::as_bytes(std::span(values));
-  gpu::upload_image(scene_->device(), thresholds_, std::span(&texels, 1), gpu::ImageUse::storage);
+  thresholds_ =
+      gpu::upload_buffer(scene_->device(), std::as_bytes(std::span(values)), desc_.name + " thresholds");
 }
 
 void EventPass::upload_objects() {
@@ -236,19 +224,18 @@ void EventPass::begin(gpu::TickSlot& slot, const EventInterval& interval) {
     cmd.barrier({VK_PIPELINE_STAGE_2_TRANSFER_BIT | compute_access.stage, compute_access.access},
                 compute_access);
   descriptors_.clear();
-  for (const auto& [binding, image] : {std::pair{shared::event_luminance_binding, &previous_},
-                                       {shared::event_seen_binding, &no_seen_},
-                                       {shared::event_pixel_binding, &pixels_},
-                                       {shared::event_extra_binding, &extra_},
-                                       {shared::event_before_binding, &before_},
-                                       {shared::event_awake_binding, &awake_},
-                                       {shared::event_threshold_binding, &thresholds_}})
-    descriptors_.push_back(gpu::Descriptor::storage(binding, *image));
   for (const auto& [binding, buffer] : {std::pair{shared::event_model_binding, &model_},
                                         {shared::event_control_binding, &control_},
                                         {shared::event_runs_binding, &runs_},
                                         {shared::event_objects_binding, &objects_},
-                                        {shared::event_motion_binding, &no_motions_}})
+                                        {shared::event_pixel_binding, &pixels_},
+                                        {shared::event_extra_binding, &extra_},
+                                        {shared::event_before_binding, &before_},
+                                        {shared::event_awake_binding, &awake_},
+                                        {shared::event_threshold_binding, &thresholds_},
+                                        {shared::event_luminance_binding, &nothing_},
+                                        {shared::event_seen_binding, &nothing_},
+                                        {shared::event_motion_binding, &nothing_}})
     descriptors_.push_back(gpu::Descriptor::buffer(binding, *buffer));
   bind(cmd, begin_, now_.first ? 0 : 1);
   cmd.dispatch(1);
@@ -289,8 +276,8 @@ void EventPass::bind(gpu::Cmd& cmd, const gpu::ComputePipeline& pipeline, uint32
   cmd.constants(constants(index));
 }
 
-void EventPass::step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance, gpu::Image* seen,
-                     std::span<const shared::EventMotion> motions) {
+void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& luminance,
+                     const gpu::Buffer* seen, std::span<const shared::EventMotion> motions) {
   GREATX_CHECK((index == 0) == now_.first && index <= desc_.substeps, "{}: picture {} of {}", desc_.name,
                index, desc_.substeps);
   if (!desc_.events) return;
@@ -298,14 +285,12 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance,
                needs_seen());
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.transition(luminance, gpu::ImageUse::storage);
-  if (seen != nullptr) cmd.transition(*seen, gpu::ImageUse::storage);
   cmd.barrier(gpu::sync::compute_write, compute_access);
   for (gpu::Descriptor& descriptor : descriptors_) {
     if (descriptor.slot == shared::event_luminance_binding)
-      descriptor = gpu::Descriptor::storage(descriptor.slot, luminance);
+      descriptor = gpu::Descriptor::buffer(descriptor.slot, luminance);
     if (descriptor.slot == shared::event_seen_binding && seen != nullptr)
-      descriptor = gpu::Descriptor::storage(descriptor.slot, *seen);
+      descriptor = gpu::Descriptor::buffer(descriptor.slot, *seen);
     if (descriptor.slot == shared::event_motion_binding && !motions.empty())
       descriptor = gpu::Descriptor::buffer(descriptor.slot, slot.upload.put(motions));
   }
@@ -326,14 +311,13 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance,
                                            gpu::sync::condition_read.access | compute_access.access});
 }
 
-void EventPass::end(gpu::TickSlot& slot, gpu::Image& luminance) {
+void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
   gpu::Cmd& cmd = *slot.cmd;
   if (desc_.differences) {
     const auto scope = cmd.scope(difference_scope_);
     const uint32_t words = groups(desc_.width * desc_.height, 4);
     now_.difference = slot.readback.allocate_for<uint32_t>(words);
-    cmd.transition(luminance, gpu::ImageUse::storage);
-    cmd.transition(previous_, gpu::ImageUse::storage);
+    cmd.barrier(gpu::sync::compute_write, compute_access);
     shared::DifferenceConstants constants{};
     constants.picture = now_.difference.address;
     constants.width = desc_.width;
@@ -342,8 +326,8 @@ void EventPass::end(gpu::TickSlot& slot, gpu::Image& luminance) {
     constants.off = static_cast<float>(desc_.difference_off_cd_m2);
     constants.first = now_.first;
     cmd.bind(difference_);
-    cmd.push({gpu::Descriptor::storage(shared::event_previous_binding, previous_),
-              gpu::Descriptor::storage(shared::event_luminance_binding + 1, luminance)});
+    cmd.push({gpu::Descriptor::buffer(shared::event_previous_binding, previous_),
+              gpu::Descriptor::buffer(shared::event_luminance_binding, luminance)});
     cmd.constants(constants);
     cmd.dispatch(groups(words, shared::event_group_size));
   }

@@ -91,12 +91,12 @@ class EventPass {
   gpu::Slice condition(uint32_t index) const;
   /// Instant of the picture, after the beginning of the sequence.
   int64_t time_ns(uint32_t index) const;
-  /// `luminance`: r32f, cd/m^2; `seen`: as CameraPass::seen_image, of `instance` and by_flow, else null; both in
-  /// ImageUse::storage. `motions`: by body, of by_flow.
-  void step(gpu::TickSlot& slot, uint32_t index, gpu::Image& luminance, gpu::Image* seen,
+  /// `luminance`: float [height * width], cd/m^2; `seen`: as CameraPass::seen(), of `instance` and by_flow, else null;
+  /// both written by a compute shader, and read by one until end(). `motions`: by body, of by_flow.
+  void step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& luminance, const gpu::Buffer* seen,
             std::span<const shared::EventMotion> motions);
   /// Ends it; `luminance`: of the last picture.
-  void end(gpu::TickSlot& slot, gpu::Image& luminance);
+  void end(gpu::TickSlot& slot, const gpu::Buffer& luminance);
 
   /// The interval that was recorded into `slot`, once its submission is done.
   EventFrame collect(const gpu::TickSlot& slot);
@@ -123,8 +123,8 @@ class EventPass {
   const scene::GpuScene* scene_;
   EventDesc desc_;
   gpu::ComputePipeline begin_, step_, scan_, emit_, difference_;
-  gpu::Buffer model_, control_, runs_, objects_, no_motions_;
-  gpu::Image pixels_, extra_, before_, awake_, thresholds_, no_seen_, previous_;
+  gpu::Buffer model_, control_, runs_, objects_, nothing_;
+  gpu::Buffer pixels_, extra_, before_, awake_, thresholds_, previous_;
   std::vector<Pending> pending_;  ///< by slot
   Pending now_;                   ///< being recorded
   std::vector<gpu::Descriptor> descriptors_;

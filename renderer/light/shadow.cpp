@@ -62,7 +62,8 @@ gpu::GraphicsPipeline ShadowMaps::pipeline(bool moving, bool masked) const {
   desc.vertex_shader = moving ? "camera/moving_shadow.vert" : "camera/static_shadow.vert";
   if (masked) {
     desc.fragment_shader = "camera/shadow_mask.frag";
-    desc.textures = &scene_->textures();
+    desc.textures = &scene_->textures().table();
+    desc.specialization = {scene_->textures().arrays_of(&scene::PbrMaterial::base_color_texture)};
   }
   desc.bindings = scene::GpuScene::bindings(false);
   if (moving) {

@@ -5,8 +5,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Develops the picture and unpacks depth and ids into tightly packed arrays, eight pixels an invocation and in words of
+// Develops the picture, which is padded to whole invocations as the arrays are, and unpacks depth and ids into tightly packed arrays, eight pixels an invocation and in words of
 // 64 bits, so that the host only copies: on a CPU driver each lane's access to memory costs, whatever its width.
+#include "camera/stored_color.glsl"
 #include "shared/develop.h"
 #include "shared/film.h"
 
@@ -21,8 +22,9 @@ layout(constant_id = develop_spec_metered) const bool metered = true;
 layout(constant_id = develop_spec_flat_field) const bool flat_field_on = true;
 layout(constant_id = develop_spec_noise) const bool noise_on = true;
 
-layout(set = 0, binding = develop_color_binding, rgba16f) uniform readonly image2D color_image;
-layout(set = 0, binding = develop_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
+// Two pixels an element.
+layout(set = 0, binding = develop_color_binding, scalar) readonly buffer ColorBlock { uvec4 picture_color[]; };
+layout(set = 0, binding = develop_seen_binding, scalar) readonly buffer SeenBlock { uvec4 picture_seen[]; };
 layout(set = 0, binding = develop_triangle_ids_binding, scalar) readonly buffer TriangleIdsBlock {
   uint64_t triangle_ids[];
 };
@@ -55,10 +57,11 @@ void main() {
       field[w] = uintBitsToFloat(unpackUint2x32(Pairs(picture.flat_field).v[pairs * group + w]));
   }
 
-  ivec2 at = ivec2(first % picture.width, first / picture.width);
+  uvec4 color_words, seen_words;
   [[unroll]] for (uint i = 0u; i < develop_pixels; ++i) {
     if (want_rgb || want_hdr) {
-      vec3 color = imageLoad(color_image, at).rgb;
+      if ((i & 1u) == 0u) color_words = picture_color[pairs * group + i / 2u];
+      vec3 color = unpack_color((i & 1u) == 0u ? color_words.xy : color_words.zw).rgb;
       if (want_hdr) {
         [[unroll]] for (uint c = 0u; c < 3u; ++c)
           radiance[3u * i + c] = floatBitsToUint(color[c] * picture.radiance_scale);
@@ -72,7 +75,8 @@ void main() {
       }
     }
     if (want_depth || want_ids) {
-      uvec2 seen = imageLoad(seen_image, at).rg;
+      if ((i & 1u) == 0u) seen_words = picture_seen[pairs * group + i / 2u];
+      uvec2 seen = (i & 1u) == 0u ? seen_words.xy : seen_words.zw;
       depths[i] = seen.x;
       if (want_ids) {
         uvec2 ids = unpackUint2x32(triangle_ids[seen.y]);
@@ -80,9 +84,6 @@ void main() {
         codes[i] = ids.y;
       }
     }
-    // The arrays are padded to whole invocations: what lies beyond the picture repeats its last pixel.
-    bool wraps = at.x + 1 == int(picture.width), last = wraps && at.y + 1 == int(picture.height);
-    at = last ? at : wraps ? ivec2(0, at.y + 1) : ivec2(at.x + 1, at.y);
   }
 
   if (want_rgb) {

@@ -8,16 +8,24 @@
 // "Geometry Buffer Anti-Aliasing", 2011).
 #include "camera/effects.glsl"
 #include "camera/lens_ray.glsl"
+#include "camera/picture.glsl"
 #include "camera/triangle.glsl"
 
 layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
-layout(set = 0, binding = edges_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
-layout(set = 0, binding = edges_from_binding, rgba16f) uniform readonly image2D from_color;
-layout(set = 0, binding = edges_to_binding, rgba16f) uniform writeonly image2D to_color;
-layout(set = 0, binding = edges_luminance_from_binding, r32f) uniform readonly image2D from_luminance;
-layout(set = 0, binding = edges_luminance_to_binding, r32f) uniform writeonly image2D to_luminance;
+layout(set = 0, binding = edges_seen_binding, scalar) readonly buffer SeenBlock { uvec2 picture_seen[]; };
+layout(set = 0, binding = edges_from_binding, scalar) readonly buffer FromColorBlock { uvec2 from_color[]; };
+layout(set = 0, binding = edges_to_binding, scalar) writeonly buffer ToColorBlock { uvec2 to_color[]; };
+layout(set = 0, binding = edges_luminance_from_binding, scalar) readonly buffer FromLuminanceBlock {
+  float from_luminance[];
+};
+layout(set = 0, binding = edges_luminance_to_binding, scalar) writeonly buffer ToLuminanceBlock {
+  float to_luminance[];
+};
 
-vec4 shaded(ivec2 at) { return luminance_on ? imageLoad(from_luminance, at) : imageLoad(from_color, at); }
+vec4 shaded(ivec2 at) {
+  uint element = picture_element(at);
+  return luminance_on ? vec4(from_luminance[element]) : unpack_color(from_color[element]);
+}
 
 /// How far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the first.
 float reach(Seen seen, vec3 ray, vec3 step) {
@@ -33,12 +41,10 @@ float reach(Seen seen, vec3 ray, vec3 step) {
 }
 
 ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }
-uvec2 neighbor(ivec2 at, int k, ivec2 size) {
-  return imageLoad(seen_image, clamp(at + step_to(k), ivec2(0), size - 1)).rg;
-}
+uint neighbor(ivec2 at, int k) { return picture_element(clamp(at + step_to(k), ivec2(0), picture_size() - 1)); }
 
 /// The pixel's colour when the triangles of those neighbours whose bits are set in `differing` have their share of it.
-vec4 smoothed(ivec2 at, ivec2 size, uvec2 mine, uint differing, vec4 color) {
+vec4 smoothed(ivec2 at, uvec2 mine, uint differing, vec4 color) {
   vec3 ray = pixel_ray(pinhole_place(at));
   vec4 across = vec4(0.0), down = vec4(0.0);
   vec2 share = vec2(0.0);
@@ -46,7 +52,7 @@ vec4 smoothed(ivec2 at, ivec2 size, uvec2 mine, uint differing, vec4 color) {
     int k = findLSB(differing);
     differing &= differing - 1u;
     ivec2 there = at + step_to(k);
-    uvec2 other = neighbor(at, k, size);
+    uvec2 other = picture_seen[neighbor(at, k)];
     vec3 other_ray = pixel_ray(pinhole_place(there));
     bool nearer = uintBitsToFloat(mine.x) <= uintBitsToFloat(other.x);
     Seen seen = see((nearer ? mine.y : other.y) - 1u);
@@ -64,13 +70,14 @@ vec4 smoothed(ivec2 at, ivec2 size, uvec2 mine, uint differing, vec4 color) {
 }
 
 void main() {
-  ivec2 size = imageSize(seen_image), at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, size))) return;
-  uvec2 mine = imageLoad(seen_image, at).rg;
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (outside_picture(at)) return;
+  uint element = picture_element(at);
+  uvec2 mine = picture_seen[element];
   uint differing = 0u;
-  for (int k = 0; k < 4; ++k) differing |= uint(neighbor(at, k, size).y != mine.y) << k;
+  for (int k = 0; k < 4; ++k) differing |= uint(picture_seen[neighbor(at, k)].y != mine.y) << k;
   vec4 color = shaded(at);
-  if (differing != 0u) color = smoothed(at, size, mine, differing, color);
-  if (color_on) imageStore(to_color, at, color);
-  if (luminance_on) imageStore(to_luminance, at, color);
+  if (differing != 0u) color = smoothed(at, mine, differing, color);
+  if (color_on) to_color[element] = pack_color(color);
+  if (luminance_on) to_luminance[element] = color.x;
 }

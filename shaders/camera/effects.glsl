@@ -23,4 +23,8 @@ layout(constant_id = spec_night_sky) const bool night_sky_on = false;
 layout(constant_id = spec_ambient_occlusion) const bool ambient_occlusion_on = false;
 layout(constant_id = spec_distortion) const bool distortion_on = false;
 layout(constant_id = spec_blend) const bool blend_on = false;
+layout(constant_id = spec_base_color_arrays) const uint base_color_arrays = 0u;
+layout(constant_id = spec_metallic_roughness_arrays) const uint metallic_roughness_arrays = 0u;
+layout(constant_id = spec_normal_arrays) const uint normal_arrays = 0u;
+layout(constant_id = spec_emissive_arrays) const uint emissive_arrays = 0u;
 #endif

@@ -51,10 +51,9 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
     vec3 illuminance = intensity * (attenuation * max(n_dot_l, 0.0));
     diffuse += illuminance;
     bool highlight = specular_on && shiny && attenuation > 0.0 && n_dot_l > 0.0;
-    while (highlight) {
+    if (highlight) {
       vec3 h = normalize(l + v);
       mirrored += illuminance * specular_brdf(r, n_dot_l, clamp(dot(n, h), 0.0, 1.0), clamp(dot(l, h), 0.0, 1.0));
-      highlight = false;
     }
   }
   vec3 albedo = r.diffuse + (shiny ? vec3(0.0) : r.albedo);

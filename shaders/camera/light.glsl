@@ -41,12 +41,11 @@ vec3 sky_irradiance_over_pi(vec3 n) {
 float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv, bool near) {
   float r = near ? 0.5 : 0.0;
   float sum = texture(map, vec3(uv + texel_uv * vec2(-r, -r), depth));
-  while (near) {
+  if (near) {
     sum += texture(map, vec3(uv + texel_uv * vec2(r, -r), depth));
     sum += texture(map, vec3(uv + texel_uv * vec2(-r, r), depth));
     sum += texture(map, vec3(uv + texel_uv * vec2(r, r), depth));
     sum *= 0.25;
-    near = false;
   }
   return sum;
 }
@@ -62,13 +61,12 @@ float tile_visibility(uint i, vec3 p, vec3 n, float pixel_m) {
   float visible = 1.0;
   vec3 q = (p - shadow_tiles[i].center) / shadow_tiles[i].radius;
   bool inside = max(abs(q.x), abs(q.y)) < 1.0 && q.z < 1.0;
-  while (inside) {
+  if (inside) {
     GpuShadowTile tile = shadow_tiles[i];
     q = (shadow_point(p, n, tile.texel_m) - tile.center) / tile.radius;
     float depth = clamp(0.5 * q.z + 0.5, 0.0, 1.0);
     visible = shadow_filter(moving_shadow, tile.uv_center + q.xy * tile.uv_radius, depth,
                             1.0 / lighting.moving_map_size, pixel_m < shadow_near * tile.texel_m);
-    inside = false;
   }
   return visible;
 }
@@ -91,9 +89,8 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
   if (moving_shadows_on) {
     // The tiles' common bounds stand at fixed places: one load for all lanes.
     bool near = all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
-    while (near) {
+    if (near) {
       for (uint i = 0u; i < shadow_tiles_header.count; ++i) visible *= tile_visibility(i, p, n, pixel_m);
-      near = false;
     }
   }
   return visible;
@@ -133,10 +130,9 @@ vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
     vec3 direction = reflect(-v, n);
     vec3 mirrored = sky_irradiance_over_pi(direction);
     bool sharp = roughness < environment_most_roughness;
-    while (sharp) {
+    if (sharp) {
       float rough = smoothstep(environment_most_roughness - 0.1, environment_most_roughness, roughness);
       mirrored = mix(environment_radiance(direction, roughness), mirrored, rough);
-      sharp = false;
     }
     radiance += r.albedo * (mirrored * share + hidden);
   }

@@ -4,15 +4,15 @@
 // Alpha masks (glTF 2.0, 3.9.4).
 #ifndef GREATX_CAMERA_MASK_GLSL
 #define GREATX_CAMERA_MASK_GLSL
-#extension GL_EXT_nonuniform_qualifier : require
 #include "lib/scene.glsl"
-
-layout(set = 1, binding = 0) uniform sampler2D textures[];
+#include "lib/textures.glsl"
 
 bool masked_away(uint material_index, vec2 uv) {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
   GpuMaterial material = scene_material(material_index);
   float alpha = material.base_color.a;
-  if (material.base_color_texture >= 0) alpha *= texture(textures[nonuniformEXT(material.base_color_texture)], uv).a;
+  if (material.base_color_texture >= 0)
+    alpha *= texture_by_gradient(base_color_arrays, uint(material.base_color_texture), uv, dx, dy).a;
   return alpha < material.alpha_cutoff;
 }
 #endif

@@ -5,18 +5,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Histogram of log2 of the luminance on a grid over the picture. Whole numbers are added, so their order does not matter.
+#include "camera/stored_color.glsl"
 #include "shared/film.h"
 
 layout(local_size_x = meter_group_size) in;
-layout(set = 0, binding = meter_color_binding, rgba16f) uniform readonly image2D color_image;
+layout(set = 0, binding = meter_color_binding, scalar) readonly buffer ColorBlock { uvec2 picture_color[]; };
 layout(push_constant, scalar) uniform Constants { MeterConstants meter; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Bins { MeterBin v[]; };
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= meter.columns * meter.rows) return;
-  ivec2 at = ivec2(i % meter.columns, i / meter.columns) * int(meter.step) + int(meter.step / 2u);
-  vec4 seen = imageLoad(color_image, at);
+  uvec2 at = uvec2(i % meter.columns, i / meter.columns) * meter.step + meter.step / 2u;
+  vec4 seen = unpack_color(picture_color[at.y * meter.width + at.x]);
   float luminance = dot(seen.rgb, vec3(0.2126, 0.7152, 0.0722));
   if (!(luminance > 0.0)) return;  // black has no logarithm
   float above = max(log2(luminance) - meter_least_ev, 0.0);

@@ -7,6 +7,7 @@
 #include "camera/lamps.glsl"
 #include "camera/lens_ray.glsl"
 #include "camera/light.glsl"
+#include "camera/picture.glsl"
 #include "camera/sky.glsl"
 #include "camera/surface.glsl"
 
@@ -15,12 +16,12 @@ layout(local_size_x = shade_group_width, local_size_y = shade_group_height) in;
 layout(set = 0, binding = visibility_binding) uniform usampler2DMS visibility;
 const uint sample_count = 4u;
 #else
-layout(set = 0, binding = visibility_binding) uniform usampler2D visibility;
+layout(set = 0, binding = visibility_binding, r32ui) uniform readonly uimage2D visibility;
 const uint sample_count = 1u;
 #endif
-layout(set = 0, binding = shade_color_binding, rgba16f) uniform image2D color_image;
-layout(set = 0, binding = shade_seen_binding, rg32ui) uniform writeonly uimage2D seen_image;
-layout(set = 0, binding = shade_luminance_binding, r32f) uniform image2D luminance_image;
+layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
+layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
+layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock { float picture_luminance[]; };
 
 /// Radiance towards the eye of the triangle around the ray.
 vec3 surface_radiance(Seen seen, vec3 ray) {
@@ -29,10 +30,9 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   if (specular_on) r = reflectance_of(s.base_color, s.metallic, s.roughness, dot(s.n, s.v));
   vec3 radiance = s.glow;
   bool lit = sun_on && dot(s.n, lighting.sun_direction) > 0.0;
-  while (lit) {
+  if (lit) {
     vec3 direct = reflect_light(r, s.n, s.v, lighting.sun_direction, lighting.sun_illuminance);
     radiance += direct * sun_visibility(s.p, s.geometric);
-    lit = false;
   }
   if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
   if (lights_on) radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
@@ -65,14 +65,19 @@ Center rim_of(Seen seen, vec3 ray) {
 
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, imageSize(seen_image)))) return;
+  if (outside_picture(at)) return;
+  uint element = picture_element(at);
   vec2 pixel = pinhole_place(at);
   ivec2 in_pinhole = distortion_on ? ivec2(pixel) : at;  // a conversion costs a CPU driver more than a sum
   vec3 ray = pixel_ray(pixel);
   const float infinity = uintBitsToFloat(0x7f800000u);
 
   uint ids[sample_count];
+#ifdef GREATX_MULTISAMPLED
   for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, in_pinhole, s).r;
+#else
+  ids[0] = imageLoad(visibility, in_pinhole).r;
+#endif
   vec3 radiance = vec3(0.0);
   Center center = Center(infinity, 0u), first = center;
   float sky = 0.0;  // share of the samples
@@ -99,13 +104,13 @@ void main() {
   bool adds = blend_on && camera.first == 0u;  // to what the parts of the exposure before this one left
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
-    if (adds) stored = min(stored + imageLoad(color_image, at), vec4(65504.0));
-    imageStore(color_image, at, stored);
+    if (adds) stored = min(stored + unpack_color(picture_color[element]), vec4(65504.0));
+    picture_color[element] = pack_color(stored);
   }
   if (luminance_on) {
-    vec4 stored = vec4(dot(radiance, vec3(0.2126, 0.7152, 0.0722)));
-    if (adds) stored += imageLoad(luminance_image, at);
-    imageStore(luminance_image, at, stored);
+    float stored = dot(radiance, vec3(0.2126, 0.7152, 0.0722));
+    if (adds) stored += picture_luminance[element];
+    picture_luminance[element] = stored;
   }
-  if (ids_on) imageStore(seen_image, at, uvec4(floatBitsToUint(center.depth), center.id, 0u, 0u));
+  if (ids_on) picture_seen[element] = uvec2(floatBitsToUint(center.depth), center.id);
 }

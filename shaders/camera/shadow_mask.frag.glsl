@@ -4,6 +4,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Casters with holes: leaves out what the alpha mask cuts away.
+#include "shared/camera.h"
+layout(constant_id = shadow_spec_base_color_arrays) const uint base_color_arrays = 0u;
 #include "camera/mask.glsl"
 
 layout(location = 0) flat in uint in_material;

@@ -1,27 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a triangle's material is around a ray. Loops that run once: see triangle.glsl.
+// What a triangle's material is around a ray.
 #ifndef GREATX_CAMERA_SURFACE_GLSL
 #define GREATX_CAMERA_SURFACE_GLSL
-#extension GL_EXT_nonuniform_qualifier : require
 #include "camera/effects.glsl"
 #include "camera/octahedral.glsl"
 #include "camera/triangle.glsl"
+#include "lib/textures.glsl"
 
-layout(set = 1, binding = 0) uniform sampler2D textures[];
-layout(set = 0, binding = material_records_binding) uniform usamplerBuffer material_records;
+layout(set = 0, binding = material_records_binding, scalar) readonly buffer MaterialRecordsBlock {
+  uvec4 material_records[];
+};
 
-uvec4 material_record(uint material, uint texel) {
-  return texelFetch(material_records, int(material * material_record_texels + texel));
-}
+uvec4 material_record(uint material, uint quad) { return material_records[material * material_record_quads + quad]; }
 
 /// Where textures are read, and how wide a pixel is there.
 struct Footprint {
   vec2 uv, dx, dy;
 };
 
-vec4 texel(uint index, Footprint at) { return textureGrad(textures[nonuniformEXT(index)], at.uv, at.dx, at.dy); }
+vec4 texel(uint arrays, uint texture_plus_1, Footprint at) {
+  return texture_by_gradient(arrays, texture_plus_1 - 1u, at.uv, at.dx, at.dy);
+}
 
 struct Surface {
   vec3 p, v;          // from the eye; unit towards it
@@ -54,7 +55,7 @@ Surface surface_at(Seen seen, vec3 ray) {
   if (emissive_on) {
     uvec4 m1 = material_record(seen.material, 1u);
     s.glow = uintBitsToFloat(m1.xyz) * emissive_nits;
-    of_glow = m1.w >> 16;
+    of_glow = m1.w;
   }
   vec3 tangent = vec3(0.0), in_map = vec3(0.0, 0.0, 1.0);
   if (textures_on || normal_maps_on) {
@@ -65,39 +66,31 @@ Surface surface_at(Seen seen, vec3 ray) {
     at.dx = along * (barycentrics(seen, ray + camera.ray_x) - center);
     at.dy = along * (barycentrics(seen, ray + camera.ray_y) - center);
     if (textures_on) {
-      uint of_color = m0.w & 0xffffu;
-      while (of_color != 0u) {
-        s.base_color *= texel(of_color - 1u, at).rgb;
-        of_color = 0u;
-      }
+      uint of_color = m0.w;
+      if (of_color != 0u) s.base_color *= texel(base_color_arrays, of_color, at).rgb;
       bool of_roughness = (m0.y >> 16) != 0u;
-      while (of_roughness) {
-        vec4 mr = texel((material_record(seen.material, 1u).w & 0xffffu) - 1u, at);
+      if (of_roughness) {
+        vec4 mr = texel(metallic_roughness_arrays, material_record(seen.material, 2u).z, at);
         s.metallic *= mr.b;
         s.roughness *= mr.g;
-        of_roughness = false;
       }
-      while (of_glow != 0u) {
-        s.glow *= texel(of_glow - 1u, at).rgb;
-        of_glow = 0u;
-      }
+      if (of_glow != 0u) s.glow *= texel(emissive_arrays, of_glow, at).rgb;
     }
-    uint of_normal = normal_maps_on ? m0.w >> 16 : 0u;
-    while (of_normal != 0u) {
+    uvec2 normal_map = normal_maps_on ? material_record(seen.material, 2u).xy : uvec2(0u);
+    uint of_normal = normal_map.y;
+    if (of_normal != 0u) {
       uvec4 r5 = triangle_record(seen.triangle, 5u);
       tangent = octahedral_direction(r5.x) * weights.x + octahedral_direction(r5.y) * weights.y +
                 octahedral_direction(r5.z) * weights.z;
-      in_map = texel(of_normal - 1u, at).xyz * 2.0 - 1.0;
-      in_map.xy *= uintBitsToFloat(material_record(seen.material, 2u).x);
+      in_map = texel(normal_arrays, of_normal, at).xyz * 2.0 - 1.0;
+      in_map.xy *= uintBitsToFloat(normal_map.x);
       in_map.y = r4.w != 0u ? -in_map.y : in_map.y;
-      of_normal = 0u;
     }
   }
   bool moving = seen.body != 0u;
-  while (moving) {
+  if (moving) {
     n = body_direction(seen.body, n);
     tangent = body_direction(seen.body, tangent);
-    moving = false;
   }
   n = normalize(n);
   if (normal_maps_on) n = normalize(tangent * in_map.x + cross(n, tangent) * in_map.y + n * in_map.z);

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A triangle as the eye sees it. What few pixels need (moving bodies) stands in loops that run once: a device that masks
-// its lanes executes both sides of a branch, but leaves a loop that no lane enters.
+// A triangle as the eye sees it. What few pixels need (moving bodies) stands in branches: a device that masks its lanes
+// jumps over a branch that no lane takes, unless it is short.
 #ifndef GREATX_CAMERA_TRIANGLE_GLSL
 #define GREATX_CAMERA_TRIANGLE_GLSL
 #include "camera/visibility_view.glsl"
 
-layout(set = 0, binding = triangle_records_binding) uniform usamplerBuffer triangle_records;
+layout(set = 0, binding = triangle_records_binding, scalar) readonly buffer TriangleRecordsBlock {
+  uvec4 triangle_records[];
+};
 
-uvec4 triangle_record(uint triangle, uint texel) {
-  return texelFetch(triangle_records, int(triangle * triangle_record_texels + texel));
-}
+uvec4 triangle_record(uint triangle, uint quad) { return triangle_records[triangle * triangle_record_quads + quad]; }
 
 /// Planar depth and barycentrics of the second and third corner along a ray d with dot(d, forward) = 1 are quotients of
 /// functions linear in d (Moeller and Trumbore 1997, sorted by d).
@@ -36,11 +36,10 @@ Seen see(uint triangle) {
   seen.e2 = uintBitsToFloat(r2.xyz);
   seen.vertex_normals = uvec2(r1.w, r2.w);
   bool moving = seen.body != 0u;
-  while (moving) {
+  if (moving) {
     seen.p0 = from_eye(seen.body, a);
     seen.e1 = body_direction(seen.body, seen.e1);
     seen.e2 = body_direction(seen.body, seen.e2);
-    moving = false;
   }
   seen.normal = cross(seen.e1, seen.e2);
   seen.u_numerator = cross(seen.e2, seen.p0);

@@ -21,7 +21,7 @@ layout(constant_id = truth_spec_p2) const float p2 = 0.0;
 layout(constant_id = truth_spec_k3) const float k3 = 0.0;
 layout(constant_id = truth_spec_fold_squared) const float fold_squared = 0.0;
 
-layout(set = 0, binding = truth_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
+layout(set = 0, binding = truth_seen_binding, scalar) readonly buffer SeenBlock { uvec2 picture_seen[]; };
 layout(set = 0, binding = truth_triangle_primitives_binding, scalar) readonly buffer TrianglePrimitivesBlock {
   uint triangle_primitives[];
 };
@@ -94,7 +94,7 @@ void main() {
   uint pixel = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * truth_group_size) + gl_GlobalInvocationID.x;
   if (pixel >= camera.width * camera.height) return;
   ivec2 at = ivec2(pixel % camera.width, pixel / camera.width);
-  uvec2 seen = imageLoad(seen_image, at).rg;
+  uvec2 seen = picture_seen[pixel];
   vec2 position = distorted ? LensTable(camera.lens).v[pixel] : vec2(at) + 0.5;
   vec3 ray = pixel_ray(position);
   bool sky = seen.y == 0u;

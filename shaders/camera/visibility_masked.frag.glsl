@@ -4,6 +4,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which triangle a sample sees, where the alpha mask leaves it.
+#include "shared/camera.h"
+layout(constant_id = spec_base_color_arrays) const uint base_color_arrays = 0u;
 #include "camera/mask.glsl"
 
 layout(location = 0) flat in uint in_triangle;

@@ -9,8 +9,8 @@
 #include "shared/events.h"
 
 layout(local_size_x = event_group_size) in;
-layout(set = 0, binding = event_luminance_binding + 1, r32f) uniform readonly image2D luminance_image;
-layout(set = 0, binding = event_previous_binding, r32f) uniform image2D previous_image;
+layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock { float luminances[]; };
+layout(set = 0, binding = event_previous_binding, scalar) buffer PreviousBlock { float previous[]; };
 layout(push_constant, scalar) uniform Constants { DifferenceConstants difference; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
 
@@ -21,14 +21,13 @@ void main() {
   for (uint i = 0u; i < 4u; ++i) {
     uint pixel = 4u * group + i;
     if (pixel >= count) break;
-    ivec2 at = ivec2(pixel % difference.width, pixel / difference.width);
-    float now = imageLoad(luminance_image, at).r;
+    float now = luminances[pixel];
     if (difference.first == 0u) {
-      float change = now - imageLoad(previous_image, at).r;
+      float change = now - previous[pixel];
       uint value = change >= difference.on ? 1u : -change >= difference.off ? 0xffu : 0u;
       word |= value << (8u * i);
     }
-    imageStore(previous_image, at, vec4(now));
+    previous[pixel] = now;
   }
   Words(difference.picture).v[group] = word;
 }

@@ -17,30 +17,31 @@ void main() {
   if (fired == 0u) return;
   uint slot = runs[run].first, end = slot + runs[run].count;
   uint pixels;
-  ivec2 start = run_start(run, pixels);
+  uvec2 start = run_start(run, pixels);
   Step step = this_step(control.from);
   while (fired != 0u) {
     int i = findLSB(fired);
     fired &= fired - 1u;
-    ivec2 at = start + ivec2(i, 0);
-    ivec2 before = imageLoad(before_image, at).rg;  // signal, crossings
-    ivec3 c = thresholds_at(at);
-    ivec2 after = imageLoad(pixel_image, at).rg;
+    uvec2 at = start + uvec2(i, 0);
+    uint pixel = at.y * model.width + at.x;
+    ivec2 before = befores[pixel];  // signal, crossings
+    ivec2 c = thresholds_at(pixel);
+    ivec2 after = states[pixel];
     int reference = after.x - before.y * (before.y > 0 ? c.x : c.y), to = after.y;
     if (leak_on) {
       int leak = leak_between(step.leaked_from, step.leaked_to, c.x);
       reference += leak;
       to += leak;
     }
-    int awake = refractory_on ? imageLoad(awake_image, at).r : 0;
+    int awake = refractory_on ? awakes[pixel] : 0;
     EventWalk walk = begin_walk(before.x, to, reference, c.x, c.y, step.dt_ns, awake);
-    Shot shot = begin_shot(walk, at);
+    Shot shot = begin_shot(walk, pixel);
     uint instance = 0u;
     if (instance_on) {
-      uint triangle = imageLoad(seen_image, at).g;
+      uint triangle = seen_by_pixel[pixel].y;
       if (triangle != 0u) instance = objects[triangle - 1u].x;
     }
-    uint place = uint(at.y) << 15 | uint(at.x) << 1;
+    uint place = at.y << 15 | at.x << 1;
     int t;
     bool on;
     for (; slot < end && next_event(walk, shot, t, on); ++slot) {

@@ -19,13 +19,13 @@ layout(constant_id = event_spec_adaptive) const uint adaptive = 0u;
 layout(set = 0, binding = event_model_binding, scalar) readonly buffer ModelBlock { EventModel model; };
 layout(set = 0, binding = event_control_binding, scalar) buffer ControlBlock { EventControl control; };
 layout(set = 0, binding = event_runs_binding, scalar) buffer RunsBlock { EventRun runs[]; };
-layout(set = 0, binding = event_luminance_binding, r32f) uniform readonly image2D luminance_image;
-layout(set = 0, binding = event_seen_binding, rg32ui) uniform readonly uimage2D seen_image;
-layout(set = 0, binding = event_pixel_binding, rg32i) uniform iimage2D pixel_image;
-layout(set = 0, binding = event_extra_binding, rg32i) uniform iimage2D extra_image;
-layout(set = 0, binding = event_before_binding, rg32i) uniform iimage2D before_image;
-layout(set = 0, binding = event_awake_binding, r32i) uniform iimage2D awake_image;
-layout(set = 0, binding = event_threshold_binding, rgba32i) uniform readonly iimage2D threshold_image;
+layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock { float luminances[]; };
+layout(set = 0, binding = event_seen_binding, scalar) readonly buffer SeenBlock { uvec2 seen_by_pixel[]; };
+layout(set = 0, binding = event_pixel_binding, scalar) buffer PixelBlock { ivec2 states[]; };
+layout(set = 0, binding = event_extra_binding, scalar) buffer ExtraBlock { ivec2 extras[]; };
+layout(set = 0, binding = event_before_binding, scalar) buffer BeforeBlock { ivec2 befores[]; };
+layout(set = 0, binding = event_awake_binding, scalar) buffer AwakeBlock { int awakes[]; };
+layout(set = 0, binding = event_threshold_binding, scalar) readonly buffer ThresholdBlock { ivec2 thresholds[]; };
 layout(set = 0, binding = event_objects_binding, scalar) readonly buffer ObjectsBlock { uvec2 objects[]; };
 layout(set = 0, binding = event_motion_binding, scalar) readonly buffer MotionBlock { EventMotion motions[]; };
 layout(push_constant, scalar) uniform Constants { EventConstants interval; };
@@ -52,18 +52,15 @@ Step this_step(uint last) {
 uint runs_per_row() { return (model.width + run_pixels - 1u) / run_pixels; }
 
 /// First pixel of a run; `count`: how many it has.
-ivec2 run_start(uint run, out uint count) {
+uvec2 run_start(uint run, out uint count) {
   uint per_row = runs_per_row();
   uint column = run % per_row * run_pixels;
   count = min(run_pixels, model.width - column);
-  return ivec2(column, run / per_row);
+  return uvec2(column, run / per_row);
 }
 
-/// on, off and phase of a pixel.
-ivec3 thresholds_at(ivec2 at) {
-  if (mismatch_on || leak_on) return imageLoad(threshold_image, at).rgb;
-  return ivec3(model.on, model.off, 0);
-}
+/// on and off of a pixel.
+ivec2 thresholds_at(uint pixel) { return mismatch_on ? thresholds[pixel] : ivec2(model.on, model.off); }
 
 /// Events of shot noise, drawn one after the other: a Poisson process begun anew with each step, which changes nothing,
 /// since it has no memory.
@@ -87,12 +84,12 @@ void draw_shot(inout Shot shot, inout EventWalk walk, int after_ns) {
   walk.shot_ns = gap > walk.dt_ns - after_ns ? never_ns : after_ns + gap;
 }
 
-Shot begin_shot(inout EventWalk walk, ivec2 at) {
+Shot begin_shot(inout EventWalk walk, uint pixel) {
   Shot shot;
-  shot.pixel = uint(at.y) * model.width + uint(at.x);
+  shot.pixel = pixel;
   shot.drawn = 0u;
   if (shot_on) {
-    shot.mean_ns = shot_mean_ns(model.shot_rate_hz, relative_intensity(imageLoad(luminance_image, at).r, model.bright));
+    shot.mean_ns = shot_mean_ns(model.shot_rate_hz, relative_intensity(luminances[pixel], model.bright));
     draw_shot(shot, walk, 0);
   }
   return shot;

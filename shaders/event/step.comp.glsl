@@ -10,8 +10,8 @@
 layout(local_size_x = event_group_size) in;
 
 /// How fast what the pixel sees moves over the picture, pixels per nanosecond; without the lens's distortion.
-float flow_at(ivec2 at) {
-  uvec2 seen = imageLoad(seen_image, at).rg;
+float flow_at(uvec2 at, uint pixel) {
+  uvec2 seen = seen_by_pixel[pixel];
   bool sky = seen.y == 0u;
   float depth = sky ? 1.0 : uintBitsToFloat(seen.x);
   EventMotion motion = motions[sky ? 0u : objects[seen.y - 1u].y];
@@ -22,42 +22,43 @@ float flow_at(ivec2 at) {
 }
 
 /// The first picture: nothing happens, the pixel looks at it.
-void look(ivec2 at, int signal) {
+void look(uint pixel, int signal) {
   int reference = signal;
   if (leak_on) {
     // Somewhere below the signal, or all pixels would leak at once.
-    ivec3 c = thresholds_at(at);
-    reference -= int(uint64_t(c.x) * uint64_t(uint(c.z)) >> 32);
+    uint phase = random_bits(model.pattern_seed, model.pattern_stream, 0u, pixel, 0u).z;
+    reference -= int(uint64_t(thresholds_at(pixel).x) * uint64_t(phase) >> 32);
   }
-  imageStore(pixel_image, at, ivec4(reference, signal, 0, 0));
-  if (bandwidth_on || refractory_on) imageStore(extra_image, at, ivec4(signal, 0, 0, 0));
+  states[pixel] = ivec2(reference, signal);
+  if (bandwidth_on || refractory_on) extras[pixel] = ivec2(signal, 0);
 }
 
 void main() {
   uint run = gl_GlobalInvocationID.x;
   if (run >= runs_per_row() * model.height) return;
   uint pixels;
-  ivec2 at = run_start(run, pixels);
+  uvec2 at = run_start(run, pixels);
   bool first = interval.index == 0u;
   Step step = this_step(control.last);
   uint events = 0u, fired = 0u;
   float measured = 0.0;
-  for (uint i = 0u; i < pixels; ++i, ++at.x) {
-    float luminance = imageLoad(luminance_image, at).r;
+  uint pixel = at.y * model.width + at.x;
+  for (uint i = 0u; i < pixels; ++i, ++at.x, ++pixel) {
+    float luminance = luminances[pixel];
     int signal = event_signal(luminance, model.dark);
-    if (adaptive == adaptive_flow) measured = max(measured, flow_at(at));
+    if (adaptive == adaptive_flow) measured = max(measured, flow_at(at, pixel));
     if (first) {
-      look(at, signal);
+      look(pixel, signal);
       continue;
     }
-    ivec2 before = imageLoad(pixel_image, at).rg;
+    ivec2 before = states[pixel];
     ivec2 extra = ivec2(0);
-    if (bandwidth_on || refractory_on) extra = imageLoad(extra_image, at).rg;
+    if (bandwidth_on || refractory_on) extra = extras[pixel];
     int seen = signal;
     if (bandwidth_on)
       signal = low_pass(before.y, extra.x, seen,
                         float(step.dt_ns) * model.angular_cutoff * relative_intensity(luminance, model.bright));
-    ivec3 c = thresholds_at(at);
+    ivec2 c = thresholds_at(pixel);
     if (adaptive == adaptive_brightness) measured = max(measured, float(abs(signal - before.y)) / float(min(c.x, c.y)));
     int leak = leak_on ? leak_between(step.leaked_from, step.leaked_to, c.x) : 0;
     int to = signal + leak;
@@ -66,7 +67,7 @@ void main() {
     int alive = extra.y;
     if (shot_on || refractory_on) {
       EventWalk walk = begin_walk(before.y, to, before.x, c.x, c.y, step.dt_ns, alive);
-      Shot shot = begin_shot(walk, at);
+      Shot shot = begin_shot(walk, pixel);
       int t;
       bool on;
       for (count = 0u; next_event(walk, shot, t, on);) count += 1u;
@@ -75,12 +76,12 @@ void main() {
     if (count > 0u) {
       events += count;
       fired |= 1u << i;
-      imageStore(before_image, at, ivec4(before.y, crossings, 0, 0));
-      if (refractory_on) imageStore(awake_image, at, ivec4(extra.y));
+      befores[pixel] = ivec2(before.y, crossings);
+      if (refractory_on) awakes[pixel] = extra.y;
     }
     int reference = before.x + crossings * (crossings > 0 ? c.x : c.y) - leak;
-    imageStore(pixel_image, at, ivec4(reference, signal, 0, 0));
-    if (bandwidth_on || refractory_on) imageStore(extra_image, at, ivec4(seen, max(alive - step.dt_ns, 0), 0, 0));
+    states[pixel] = ivec2(reference, signal);
+    if (bandwidth_on || refractory_on) extras[pixel] = ivec2(seen, max(alive - step.dt_ns, 0));
   }
   runs[run].count = events;
   runs[run].fired = fired;

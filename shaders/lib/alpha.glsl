@@ -5,10 +5,8 @@
 // texture table.
 #ifndef GREATX_LIB_ALPHA_GLSL
 #define GREATX_LIB_ALPHA_GLSL
-#extension GL_EXT_nonuniform_qualifier : require
 #include "lib/scene.glsl"
-
-layout(set = 1, binding = 0) uniform sampler2D textures[];
+#include "lib/textures.glsl"
 
 vec2 hit_uv(uint triangle, vec2 barycentric) {
   uint first = 3u * triangle;
@@ -20,7 +18,7 @@ vec2 hit_uv(uint triangle, vec2 barycentric) {
 vec4 hit_base_color(GpuMaterial material, uint triangle, vec2 barycentric) {
   vec4 color = material.base_color;
   if (material.base_color_texture >= 0)
-    color *= textureLod(textures[nonuniformEXT(material.base_color_texture)], hit_uv(triangle, barycentric), 0.0);
+    color *= texture_of_level_0(base_color_arrays, uint(material.base_color_texture), hit_uv(triangle, barycentric));
   return color;
 }
 

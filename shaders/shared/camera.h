@@ -15,21 +15,22 @@ const uint lights_binding = 6u;             // storage: words of lamps and their
 const uint environment_binding = 7u;        // sampled: octahedral map of the sky, a roughness per mip level
 const uint static_shadow_binding = 8u;      // sampled with comparison
 const uint moving_shadow_binding = 9u;      // sampled with comparison
-const uint visibility_binding = 10u;        // sampled, unsigned, multisampled or not: triangle + 1
-const uint triangle_records_binding = 11u;  // texels: what shading needs of each triangle
-const uint material_records_binding = 15u;  // texels: what it needs of each material
-const uint shade_color_binding = 12u;       // storage image rgba16f
-const uint shade_luminance_binding = 14u;   // storage image r32f, cd/m^2
-const uint shade_seen_binding = 13u;        // storage image rg32ui: planar depth's bits, triangle + 1
-const uint sky_view_binding = 16u;  // sampled: floor, then shares of the sky at three heights above it
-const uint lens_binding = 17u;      // sampled: where the pinhole picture has the pixels' centres
-// Smoothing edges.
-const uint edges_seen_binding = 4u;            // storage image rg32ui
-const uint edges_from_binding = 5u;            // storage image rgba16f
-const uint edges_to_binding = 6u;              // storage image rgba16f
-const uint edges_luminance_from_binding = 7u;  // storage image r32f
-const uint edges_luminance_to_binding = 8u;    // storage image r32f
-const uint stars_binding = 20u;                // storage: GpuStar [star_cells, star_cells]
+const uint visibility_binding = 10u;        // triangle + 1: storage image r32ui, or multisampled and sampled
+const uint triangle_records_binding = 11u;  // storage: what shading needs of each triangle
+const uint material_records_binding = 15u;  // storage: what it needs of each material
+// Storage, [pixels] (renderer/camera/picture.h).
+const uint shade_color_binding = 12u;      // uvec2: four halves
+const uint shade_seen_binding = 13u;       // uvec2: planar depth's bits, triangle + 1
+const uint shade_luminance_binding = 14u;  // float, cd/m^2
+const uint sky_view_binding = 16u;         // sampled: floor, then shares of the sky at three heights above it
+const uint lens_binding = 17u;             // sampled: where the pinhole picture has the pixels' centres
+// Smoothing edges: storage as above.
+const uint edges_seen_binding = 4u;
+const uint edges_from_binding = 5u;
+const uint edges_to_binding = 6u;
+const uint edges_luminance_from_binding = 7u;
+const uint edges_luminance_to_binding = 8u;
+const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
 
 // Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
 const uint spec_color = 0u;
@@ -49,8 +50,14 @@ const uint spec_night_sky = 13u;
 const uint spec_ambient_occlusion = 14u;
 const uint spec_distortion = 15u;
 const uint spec_blend = 16u;
-const uint spec_moving_bodies = 17u;  // of the visibility pass: off, it draws what never moves
-const uint shade_spec_count = 18u;
+const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
+const uint spec_metallic_roughness_arrays = 18u;
+const uint spec_normal_arrays = 19u;
+const uint spec_emissive_arrays = 20u;
+const uint spec_moving_bodies = 21u;  // of the visibility pass: off, it draws what never moves
+const uint shade_spec_count = 22u;
+// Of the shadow maps' masks.
+const uint shadow_spec_base_color_arrays = 0u;
 
 /// Pixels of the static or moving shadow map's texels below which a pixel looks at nine of them.
 const float shadow_near = 0.75f;
@@ -80,7 +87,7 @@ const float lamp_intensity_unit = 64.0f;
 /// Rougher dielectrics show no highlights of lamps.
 const float lamp_most_roughness = 0.6f;
 
-/// Texels of four words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
+/// Quadruples of words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
 ///   0  first corner; body << 16 | material
 ///   1  edge to the second corner; normal at the first
 ///   2  edge to the third corner; normal at the second
@@ -88,13 +95,14 @@ const float lamp_most_roughness = 0.6f;
 ///   4  ... and to the third; normal at the third; 1 where the normal map is mirrored
 ///   5  tangents at the three corners
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
-const uint triangle_record_texels = 6u;
+const uint triangle_record_quads = 6u;
 /// Of a material's record, low half first:
 ///   0  base colour in halves: red, green; blue, 1 if there is a metallic-roughness texture; metallic, roughness as
-///      fractions of 65535; base-colour texture + 1, normal texture + 1
-///   1  emission in floats; metallic-roughness texture + 1, emissive texture + 1
-///   2  scale of the normal map
-const uint material_record_texels = 3u;
+///      fractions of 65535; base-colour texture
+///   1  emission in floats; emissive texture
+///   2  scale of the normal map; normal texture, metallic-roughness texture
+/// A texture is its reference (scene/gpu_textures.h) + 1, 0 if there is none.
+const uint material_record_quads = 3u;
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
@@ -125,6 +133,7 @@ struct CameraConstants {
   float exposure;  ///< times radiance in cd/m^2 gives what is stored
   float weight;    ///< of this part of the exposure time; 1: the whole
   uint first;      ///< whether it is the first part
+  uint size;       ///< of the picture: width | height << 16
 };
 
 /// Set at construction: key light (sun or moon), sky, haze, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
@@ -196,7 +205,7 @@ struct ShadowConstants {
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::CameraConstants) == 124);
+static_assert(sizeof(greatx::shared::CameraConstants) == 128);
 static_assert(sizeof(greatx::shared::GpuLighting) == 112 + 80 + 40 + 144);
 static_assert(sizeof(greatx::shared::ShadowTilesHeader) == 20);
 static_assert(sizeof(greatx::shared::GpuShadowTile) == 32);

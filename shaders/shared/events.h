@@ -168,18 +168,17 @@ const uint shot_blocks_per_step = 65536u;
 const uint event_model_binding = 0u;      // storage: EventModel
 const uint event_control_binding = 1u;    // storage: EventControl
 const uint event_runs_binding = 2u;       // storage: EventRun [runs]
-const uint event_luminance_binding = 3u;  // storage image r32f, cd/m^2
-const uint event_seen_binding = 4u;       // storage image rg32ui: planar depth's bits, triangle + 1
-const uint event_pixel_binding = 5u;      // storage image rg32i: reference, signal
-const uint event_extra_binding =
-    6u;  // storage image rg32i: input of the low pass, end of the refractory time
-const uint event_before_binding =
-    7u;  // storage image rg32i, of pixels that fired: signal before, signed crossings
-const uint event_awake_binding = 11u;     // storage image r32i: end of the refractory time before
-const uint event_threshold_binding = 8u;  // storage image rgba32i: on, off, phase of the leak
+// Pictures and what pixels keep: [height * width], row by row.
+const uint event_luminance_binding = 3u;  // storage: float, cd/m^2
+const uint event_seen_binding = 4u;       // storage: uvec2: planar depth's bits, triangle + 1
+const uint event_pixel_binding = 5u;      // storage: ivec2: reference, signal
+const uint event_extra_binding = 6u;      // storage: ivec2: input of the low pass, end of the refractory time
+const uint event_before_binding = 7u;     // storage: ivec2, of pixels that fired: signal before, signed crossings
+const uint event_awake_binding = 11u;     // storage: int: end of the refractory time before
+const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding = 3u;   // of the difference pass: storage image r32f, the picture before
+const uint event_previous_binding = 0u;  // of the difference pass: storage: float [height * width], the picture before
 
 // Specialization constants: what is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -217,6 +216,8 @@ struct EventModel {
   float cy;
   float
       wanted;  ///< of adaptive steps: pixels of motion, or change over the threshold, from picture to picture
+  uint pattern_seed;  ///< of what is drawn once for each pixel
+  uint pattern_stream;
 };
 
 /// A run of pixels in one step.
@@ -283,7 +284,7 @@ GREATX_FUNCTION uint64_t leak_at(uint64_t begin, uint64_t during, uint grid, uin
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::EventModel) == 60);
+static_assert(sizeof(greatx::shared::EventModel) == 68);
 static_assert(sizeof(greatx::shared::EventRun) == 12);
 static_assert(sizeof(greatx::shared::EventControl) == 32 + 260);
 static_assert(sizeof(greatx::shared::EventConstants) == 56);

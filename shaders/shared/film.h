@@ -24,12 +24,12 @@ using std::sqrt;
 GREATX_SHARED_BEGIN
 
 // Set 0 of the developing pass.
-const uint develop_color_binding = 0u;  // storage image rgba16f
-const uint develop_seen_binding = 1u;   // storage image rg32ui
+const uint develop_color_binding = 0u;  // storage: uvec4, two pixels' halves
+const uint develop_seen_binding = 1u;   // storage: uvec4, two pixels' depths and triangles
 const uint develop_triangle_ids_binding =
     2u;  // storage: two words of triangle + 1: instance + 1, class | (material + 1) << 16
 // Of the metering passes.
-const uint meter_color_binding = 0u;  // storage image rgba16f
+const uint meter_color_binding = 0u;  // storage: uvec2, a pixel's halves
 
 const uint develop_spec_rgb = 0u;
 const uint develop_spec_hdr = 1u;
@@ -106,7 +106,7 @@ struct MeterConstants {
   uint step;               ///< pixels from sample to sample
   float stored_luminance;  ///< cd/m^2 of a stored 1
   float compensation_ev;
-  uint pad0;
+  uint width;  ///< of the picture
 };
 
 /// Below so many electrons on average the shot noise is Poisson's law itself; above, a corrected normal one.

@@ -24,6 +24,7 @@ const uint lidar_patch_channels = 4u;
 const uint lidar_exclude_body_id = 0u;          // there is an own body that the beams pass through
 const uint lidar_alpha_mask_id = 1u;            // sweep_textured: masks let beams through
 const uint lidar_textured_reflectance_id = 2u;  // sweep_textured: base-colour textures vary the reflectance
+const uint lidar_base_color_arrays_id = 3u;     // sweep_textured: lib/textures.glsl
 
 const uint lidar_no_object = 0u;
 

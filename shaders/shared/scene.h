@@ -19,6 +19,9 @@ const uint material_flag_reflectance_1550nm = 8u;
 const uint static_mask = 1u;
 const uint moving_mask = 2u;
 
+/// Arrays of textures that a shader may ask for one by one (scene/gpu_textures.h).
+const uint most_tried_arrays = 24u;
+
 struct GpuMaterial {
   vec4 base_color;
   vec3 emissive;
@@ -27,7 +30,7 @@ struct GpuMaterial {
   float normal_scale;
   float alpha_cutoff;
   uint flags;
-  int base_color_texture;
+  int base_color_texture;  ///< array << 16 | layer (scene/gpu_textures.h), or -1
   int metallic_roughness_texture;
   int normal_texture;
   int emissive_texture;

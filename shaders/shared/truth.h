@@ -9,7 +9,7 @@
 GREATX_SHARED_BEGIN
 
 // Set 0, beside the scene's own bindings.
-const uint truth_seen_binding = 4u;                 // storage image rg32ui: planar depth's bits, triangle + 1
+const uint truth_seen_binding = 4u;                 // storage, uvec2: planar depth's bits, triangle + 1
 const uint truth_triangle_primitives_binding = 5u;  // storage: the primitive of each triangle
 
 // Specialization constants: what is wanted, whether some body moves, and the lens (float: its bits).

@@ -145,7 +145,7 @@ void CameraSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   if (truth_) {
     TruthMoment next{local_from_sensor, {context.body_poses.begin(), context.body_poses.end()}};
     if (config_.flow) next = next_sample(context);
-    truth_->record(slot, pass_.seen_image(), {local_from_sensor, context.body_poses},
+    truth_->record(slot, pass_.seen(), {local_from_sensor, context.body_poses},
                    {next.local_from_sensor, next.bodies});
   }
   if (boxes_)

@@ -160,7 +160,7 @@ void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     for (uint32_t i = 1; i <= last; ++i)
       take_picture(slot, context, i, i == last ? context.time_s : 1e-9 * double(events_.time_ns(i)));
   }
-  events_.end(slot, camera_.luminance_image());
+  events_.end(slot, camera_.luminance());
   begin_ns_[slot.index] = before_ns;
   last_ns_ = now_ns;
   ++sample_;
@@ -173,7 +173,7 @@ void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, 
   const Motion motion = time_s == context.time_s ? context.nodes[node_] : context.motion_at(node_, time_s);
   camera_.record(slot, world_.scene.to_local(motion.pose) * mount_, {context.sequence, context.tick});
   const bool by_flow = events_.desc().steps == render::EventSteps::by_flow;
-  events_.step(slot, index, camera_.luminance_image(), events_.needs_seen() ? &camera_.seen_image() : nullptr,
+  events_.step(slot, index, camera_.luminance(), events_.needs_seen() ? &camera_.seen() : nullptr,
                by_flow ? motions(context, time_s) : std::vector<shared::EventMotion>());
 }
 

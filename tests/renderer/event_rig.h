@@ -36,12 +36,7 @@ class EventRig {
         pass_(gpu_, desc),
         ring_(device(), 2, 1 << 16, 1 << 20),
         luminance_(std::move(luminance)),
-        image_(device(),
-               {.format = VK_FORMAT_R32_SFLOAT,
-                .width = desc.width,
-                .height = desc.height,
-                .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
-               "luminance") {}
+        picture_(device(), sizeof(float) * desc.width * desc.height, gpu::Memory::device, "luminance") {}
 
   /// Samples at 0, 1, ... times interval_ns: the frames of `count` of them.
   std::vector<render::EventFrame> run(int64_t interval_ns, int64_t count, uint32_t sequence = 0) {
@@ -52,7 +47,7 @@ class EventRig {
       pass_.begin(slot, {std::max<int64_t>(k - 1, 0) * interval_ns, k * interval_ns, k, sequence});
       if (k == 0) picture(slot, 0, 0);
       for (uint32_t i = 1; k > 0 && i <= pass_.desc().substeps; ++i) picture(slot, i, pass_.time_ns(i));
-      pass_.end(slot, image_);
+      pass_.end(slot, picture_);
       ring_.submit(slot);
       ring_.wait(slot);
       frames.push_back(pass_.collect(slot));
@@ -75,11 +70,11 @@ class EventRig {
       for (uint32_t column = 0; column < width; ++column)
         values[size_t(row) * width + column] =
             static_cast<float>(luminance_(column, row, 1e-9 * double(t_ns)));
-    slot.cmd->transition(image_, gpu::ImageUse::transfer_target, true);
-    slot.cmd->copy(staging, image_);
-    slot.cmd->transition(image_, gpu::ImageUse::storage);
+    slot.cmd->barrier(gpu::sync::compute_read, gpu::sync::transfer_write);
+    slot.cmd->copy(staging, picture_.slice());
+    slot.cmd->barrier(gpu::sync::transfer_write, gpu::sync::compute_read);
     const gpu::Condition condition(*slot.cmd, pass_.condition(index));
-    pass_.step(slot, index, image_, nullptr, {});
+    pass_.step(slot, index, picture_, nullptr, {});
   }
 
   scene::Scene scene_;
@@ -87,7 +82,7 @@ class EventRig {
   render::EventPass pass_;
   gpu::TickRing ring_;
   LuminanceAt luminance_;
-  gpu::Image image_;
+  gpu::Buffer picture_;
 };
 
 /// A pixel's events over all frames, absolute times.

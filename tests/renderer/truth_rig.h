@@ -45,7 +45,7 @@ class TruthRig {
     gpu_.record_update(slot, now.bodies);
     lighting_.record(slot, now.bodies);
     camera_.record(slot, now.camera);
-    truth_.record(slot, camera_.seen_image(), {now.camera, now.bodies}, {next.camera, next.bodies});
+    truth_.record(slot, camera_.seen(), {now.camera, now.bodies}, {next.camera, next.bodies});
     ring_.submit(slot);
     return slot;
   }

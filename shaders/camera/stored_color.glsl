@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Colour and share of the scene as a picture stores them: four halves.
+#ifndef GREATX_CAMERA_STORED_COLOR_GLSL
+#define GREATX_CAMERA_STORED_COLOR_GLSL
+uvec2 pack_color(vec4 color) { return uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)); }
+vec4 unpack_color(uvec2 words) { return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y)); }
+#endif

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scene's textures (scene/gpu_textures.h), known by array << 16 | layer. `arrays` says which arrays the texture may
+// be in, a bit each, a specialization constant (GpuTextures::arrays_of); 0: any.
+#ifndef GREATX_LIB_TEXTURES_GLSL
+#define GREATX_LIB_TEXTURES_GLSL
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shared/scene.h"
+
+layout(set = 1, binding = 0) uniform sampler2DArray textures[];
+
+/// Trilinear, by gradients, so that lanes may differ in the texture.
+vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy) {
+  uint array = reference >> 16;
+  vec3 at = vec3(uv, float(reference & 0xffffu));
+  if (arrays == 0u) return textureGrad(textures[nonuniformEXT(array)], at, dx, dy);
+  vec4 value = vec4(1.0);
+  [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)
+    if ((arrays >> i & 1u) != 0u && array == i) value = textureGrad(textures[i], at, dx, dy);
+  return value;
+}
+
+/// Bilinear, of the finest level.
+vec4 texture_of_level_0(uint arrays, uint reference, vec2 uv) {
+  uint array = reference >> 16;
+  vec3 at = vec3(uv, float(reference & 0xffffu));
+  if (arrays == 0u) return textureLod(textures[nonuniformEXT(array)], at, 0.0);
+  vec4 value = vec4(1.0);
+  [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)
+    if ((arrays >> i & 1u) != 0u && array == i) value = textureLod(textures[i], at, 0.0);
+  return value;
+}
+#endif
