@@ -257,11 +257,17 @@ int64_t EventPass::time_ns(uint32_t index) const {
 shared::EventConstants EventPass::constants(uint32_t index) const {
   const glm::uvec2 key = key_of(desc_, now_.interval.sequence);
   shared::EventConstants constants{};
-  constants.leak_begin = turns_at(desc_.leak_rate_hz, now_.interval.begin_ns);
-  constants.leak_interval = turns_at(desc_.leak_rate_hz, now_.interval.end_ns) - constants.leak_begin;
   constants.events = now_.events.address;
   constants.instances = now_.instances.address;
-  constants.interval_ns = static_cast<uint32_t>(now_.interval.end_ns - now_.interval.begin_ns);
+  const auto length = static_cast<uint32_t>(now_.interval.end_ns - now_.interval.begin_ns);
+  const uint64_t leaked = turns_at(desc_.leak_rate_hz, now_.interval.begin_ns),
+                 leak = turns_at(desc_.leak_rate_hz, now_.interval.end_ns) - leaked;
+  const uint32_t before = std::max(index, 1u) - 1;
+  constants.leaked_from = shared::leak_at(leaked, leak, desc_.substeps, before);
+  constants.leaked_to = shared::leak_at(leaked, leak, desc_.substeps, index);
+  constants.from_ns = shared::grid_time(length, desc_.substeps, before);
+  constants.to_ns = shared::grid_time(length, desc_.substeps, index);
+  constants.interval_ns = length;
   constants.grid = desc_.substeps;
   constants.index = index;
   constants.noise_seed = key.x;

@@ -11,6 +11,8 @@ layout(local_size_x = 1) in;
 void main() {
   control.events = 0u;
   control.last = 0u;
+  control.last_ns = interval.from_ns;
+  control.leaked_last = interval.leaked_from;
   control.pictures = 0u;
   control.coarse = 0u;
   control.largest = 0u;

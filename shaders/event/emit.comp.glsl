@@ -7,47 +7,65 @@
 #include "event/pixels.glsl"
 
 layout(local_size_x = event_group_size) in;
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer EventList { uvec2 v[]; };
+/// An event as one number: ns after the interval's start, place above.
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer EventList { uint64_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer InstanceList { uint v[]; };
+
+void write(uint slot, int t_ns, uint place, bool on, uint instance) {
+  EventList(interval.events).v[slot] = words_of(t_ns, int(place | uint(on)));
+  if (instance_on) InstanceList(interval.instances).v[slot] = instance;
+}
 
 void main() {
   uint run = gl_GlobalInvocationID.x;
   if (run >= runs_per_row() * model.height) return;
   uint fired = runs[run].fired;
   if (fired == 0u) return;
-  uint slot = runs[run].first, end = slot + runs[run].count;
+  uint slot = runs[run].first, end = min(slot + runs[run].count, model.capacity);
   uint pixels;
   uvec2 start = run_start(run, pixels);
-  Step step = this_step(control.from);
-  while (fired != 0u) {
-    int i = findLSB(fired);
+  uint first_pixel = start.y * model.width + start.x;
+  Step step = this_step(control.from_ns, control.leaked_from);
+  ivec2 nominal = ivec2(model.on, model.off);
+  while (fired != 0u && slot < end) {
+    uint i = uint(findLSB(fired)), pixel = first_pixel + i;
     fired &= fired - 1u;
-    uvec2 at = start + uvec2(i, 0);
-    uint pixel = at.y * model.width + at.x;
-    ivec2 before = befores[pixel];  // signal, crossings
-    ivec2 c = thresholds_at(pixel);
-    ivec2 after = states[pixel];
+    ivec2 before = pair(befores[pixel]);  // signal, crossings
+    ivec2 c = thresholds_at(pixel, nominal);
+    ivec2 after = pair(states[pixel]);
     int reference = after.x - before.y * (before.y > 0 ? c.x : c.y), to = after.y;
     if (leak_on) {
       int leak = leak_between(step.leaked_from, step.leaked_to, c.x);
       reference += leak;
       to += leak;
     }
-    int awake = refractory_on ? awakes[pixel] : 0;
-    EventWalk walk = begin_walk(before.x, to, reference, c.x, c.y, step.dt_ns, awake);
-    Shot shot = begin_shot(walk, pixel);
     uint instance = 0u;
     if (instance_on) {
-      uint triangle = seen_by_pixel[pixel].y;
+      uint triangle = uint(seen_by_pixel[pixel] >> 32);
       if (triangle != 0u) instance = objects[triangle - 1u].x;
     }
-    uint place = at.y << 15 | at.x << 1;
-    int t;
-    bool on;
-    for (; slot < end && next_event(walk, shot, t, on); ++slot) {
-      if (slot >= model.capacity) return;
-      EventList(interval.events).v[slot] = uvec2(uint(step.from_ns + t), place | uint(on));
-      if (instance_on) InstanceList(interval.instances).v[slot] = instance;
+    uint place = start.y << 15 | (start.x + i) << 1;
+    int awake = refractory_on ? awakes[pixel] : 0;
+    EventWalk walk = walk_crossings(before.x, to, reference, before.y, c.x, c.y, step.dt_ns, awake);
+    if (shot_on || refractory_on) {
+      Shot shot = no_shot();
+      if (shot_on) shot = begin_shot(pixel, luminances[pixel], step.dt_ns);
+      int t;
+      bool on;
+      do {
+        if (next_event(walk, shot, t, on)) {
+          write(slot, step.from_ns + t, place, on, instance);
+          ++slot;
+        }
+      } while (slot < end && events_left(walk, shot));
+    } else {
+      do {  // crossings alone, and one at least
+        int t = part_time(walk.part, walk.whole, walk.inverse, step.dt_ns);
+        write(slot, step.from_ns + t, place, before.y > 0, instance);
+        walk.part += uint(abs(walk.stride));
+        walk.left -= 1;
+        ++slot;
+      } while (slot < end && walk.left > 0);
     }
   }
 }

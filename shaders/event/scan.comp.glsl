@@ -8,12 +8,13 @@
 #include "event/pixels.glsl"
 
 layout(local_size_x = event_scan_size) in;
-shared uint sums[event_scan_size];
+const uint block = 16u;  // lanes
+shared uint sums[event_scan_size], blocks[event_scan_size / block];
 
 /// What the pictures so far allow until the next one, ESIM's rule: what is wanted over how fast it moves or changes.
 void plan_next() {
   float measured = uintBitsToFloat(control.measured);
-  float dt = float(this_step(control.last).dt_ns), moved = measured, per_ns = measured;
+  float dt = float(this_step(control.last_ns, control.leaked_last).dt_ns), moved = measured, per_ns = measured;
   if (adaptive == adaptive_flow)
     moved *= dt;
   else
@@ -28,8 +29,11 @@ void plan_next() {
   if (interval.index > 0u || adaptive == adaptive_flow)
     control.allowed = floatBitsToUint(min(model.wanted / max(per_ns, 1e-30), longest));
   control.measured = 0u;
-  control.from = control.last;
+  control.from_ns = control.last_ns;
+  control.leaked_from = control.leaked_last;
   control.last = interval.index;
+  control.last_ns = interval.to_ns;
+  control.leaked_last = interval.leaked_to;
   if (interval.index == 0u || interval.index == interval.grid) return;
   float spacing = float(interval.interval_ns) / float(interval.grid);
   float ahead = clamp(uintBitsToFloat(control.allowed) / spacing, 1.0, float(interval.grid));
@@ -45,11 +49,18 @@ void main() {
   for (uint r = begin; r < end; ++r) sum += runs[r].count;
   sums[lane] = sum;
   barrier();
-  uint before = control.events, total = 0u;
-  for (uint i = 0u; i < event_scan_size; ++i) {
-    before += i < lane ? sums[i] : 0u;
-    total += sums[i];
+  if (lane < event_scan_size / block) {
+    sum = 0u;
+    for (uint i = 0u; i < block; ++i) sum += sums[lane * block + i];
+    blocks[lane] = sum;
   }
+  barrier();
+  uint before = control.events, total = 0u;
+  for (uint i = 0u; i < event_scan_size / block; ++i) {
+    before += i < lane / block ? blocks[i] : 0u;
+    total += blocks[i];
+  }
+  for (uint i = lane / block * block; i < lane; ++i) before += sums[i];
   for (uint r = begin; r < end; ++r) {
     runs[r].first = before;
     before += runs[r].count;

@@ -37,6 +37,18 @@ const int never_ns = 0x7fffffff;
 /// Intervals last at most that long.
 const int longest_interval_ns = 2000000000;
 
+/// int(x), |x| < 2^31. Shifts and masks, since drivers for CPUs convert floats to integers one lane after the other.
+GREATX_FUNCTION int whole_part(float x) {
+  uint bits = floatBitsToUint(x);
+  uint mantissa = (bits & 0x7fffffu) | 0x800000u;
+  int shift = int((bits >> 23) & 0xffu) - 150;
+  uint size = shift < 0 ? mantissa >> uint(min(-shift, 31)) : mantissa << uint(min(shift, 7));
+  return x < 0.0f ? -int(size) : int(size);
+}
+
+/// The same for x from 0 to 2^22, rounded to one of its neighbours.
+GREATX_FUNCTION int near_whole(float x) { return int(floatBitsToUint(x + 8388608.0f) & 0x7fffffu); }
+
 /// ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7): ln 2 times the exponent, which is exact, and for the mantissa
 /// m in [sqrt 1/2, sqrt 2) the series 2 (s + s^3/3 + ... + s^9/9), s = (m - 1) / (m + 1), whose next term is below 1e-9.
 GREATX_FUNCTION int fixed_log(float x) {
@@ -49,7 +61,9 @@ GREATX_FUNCTION int fixed_log(float x) {
   float s = (m - 1.0f) / (m + 1.0f);
   float q = s * s;
   float p = s * (2.0f + q * (0.66666667f + q * (0.4f + q * (0.28571429f + q * 0.22222222f))));
-  return exponent * 11629080 + int(floor(p * 16777216.0f + 0.5f));
+  float scaled = floor(p * 16777216.0f + 0.5f);  // a whole number below 2^23
+  int part = int(floatBitsToUint(abs(scaled) + 8388608.0f) & 0x7fffffu);
+  return exponent * 11629080 + (scaled < 0.0f ? -part : part);
 }
 
 /// The photoreceptor's signal: ln(dark + luminance), both in cd/m^2. Black stays black, whatever the noise of zero.
@@ -68,7 +82,7 @@ GREATX_FUNCTION float relative_intensity(float luminance, float bright) {
 GREATX_FUNCTION int low_pass(int y0, int u0, int u1, float x) {
   float decay = exp(-x);
   float lag = x < 1e-2f ? 1.0f - x * (0.5f - x * (1.0f / 6.0f)) : (1.0f - decay) / x;
-  return u1 + int(float(y0 - u0) * decay) - int(floor(float(u1 - u0) * lag + 0.5f));
+  return u1 + whole_part(float(y0 - u0) * decay) - whole_part(floor(float(u1 - u0) * lag + 0.5f));
 }
 
 /// Crossings of a step that ends at `signal`: every reference + k on (k = 1, 2, ...) up to it, counted positive, or every
@@ -78,18 +92,29 @@ GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) 
   int above = signal - reference;
   int size = abs(above), c = above > 0 ? on : off;
   // The quotient, without the division of integers that vector units lack: from floats it is one off at most.
-  int n = int(float(size) / float(c));
+  int n = near_whole(float(size) / float(c));
   int rest = size - n * c;
   n += (rest >= c ? 1 : 0) - (rest < 0 ? 1 : 0);
   return above > 0 ? n : -n;
 }
 
-/// Nanoseconds after a step's start at which a signal that goes linearly from `from` to `to` reaches `level`, rounded up:
-/// 1 to dt_ns. `level` lies between them, not at `from`.
+/// Nanoseconds after a step's start at which a signal that goes linearly has changed by `part` of the `whole`, rounded up:
+/// 1 to dt_ns. `inverse`: 1 / whole.
+GREATX_FUNCTION int part_time(uint part, uint whole, float inverse, int dt_ns) {
+  uint64_t product = uint64_t(part) * uint64_t(dt_ns);
+  // Divided in two steps of floats, since vector units lack the division of integers. The first quotient is too small, by
+  // some 3000 at most; the second is one off at most, which comparisons of integers put right.
+  uint first = uint(whole_part(float(part) * (float(dt_ns) * inverse) * (1.0f - 9.5367432e-7f)));
+  uint64_t left = product - uint64_t(first) * uint64_t(whole);
+  uint second = uint(near_whole((float(uint(left >> 32)) * 4294967296.0f + float(uint(left))) * inverse));
+  int64_t rest = int64_t(left - uint64_t(second) * uint64_t(whole));  // above -whole, below 2 whole
+  return int(first + second) + (rest > int64_t(0) ? 1 : 0) + (rest > int64_t(whole) ? 1 : 0);
+}
+
+/// The same for a signal that goes from `from` to `to` and reaches `level`, which lies between them, not at `from`.
 GREATX_FUNCTION int crossing_time(int from, int to, int level, int dt_ns) {
-  uint64_t whole = uint64_t(abs(to - from));
-  uint64_t part = uint64_t(abs(level - from));
-  return int((part * uint64_t(dt_ns) + whole - uint64_t(1)) / whole);
+  uint whole = uint(abs(to - from));
+  return part_time(uint(abs(level - from)), whole, 1.0f / float(whole), dt_ns);
 }
 
 /// Drift of a leaking reference between two instants, for a threshold: `turns` are thresholds leaked since the beginning,
@@ -112,44 +137,50 @@ GREATX_FUNCTION float shot_mean_ns(float rate_hz, float intensity) {
 GREATX_FUNCTION int shot_gap_ns(uint bits, float mean_ns) {
   float u = (float(bits >> 8) + 0.5f) * (1.0f / 16777216.0f);
   float gap = float(-fixed_log(u)) * (1.0f / 16777216.0f) * mean_ns;
-  return gap < 2e9f ? 1 + int(gap) : 2000000001;
+  return gap < 2e9f ? 1 + whole_part(gap) : 2000000001;
 }
 
-/// The events of one pixel within one step, one after the other in order of time.
+/// The crossings of one pixel within one step, one after the other in order of time.
 struct EventWalk {
-  int from;      ///< signal at the step's start
-  int to;        ///< at its end
-  int dt_ns;     ///< length of the step
-  int level;     ///< of the next crossing
-  int stride;    ///< from one crossing to the next, signed
-  int left;      ///< crossings still to come
-  int alive_ns;  ///< no event before this: the pixel is refractory
-  int crossing_ns;
-  int shot_ns;  ///< the next of each kind; never_ns: none
+  int dt_ns;        ///< length of the step
+  uint whole;       ///< size of the signal's change during it
+  float inverse;    ///< 1 / whole
+  uint part;        ///< of it until the next crossing
+  int stride;       ///< from one crossing to the next, signed
+  int left;         ///< crossings still to come
+  int crossing_ns;  ///< the next; never_ns: none
+  int alive_ns;     ///< no event before this: the pixel is refractory
 };
+
+/// `crossings`: as count_crossings gives them for this reference.
+GREATX_FUNCTION EventWalk walk_crossings(int from, int to, int reference, int crossings, int on, int off,
+                                         int dt_ns, int alive_ns) {
+  EventWalk walk;
+  walk.dt_ns = dt_ns;
+  walk.whole = uint(abs(to - from));
+  walk.inverse = 1.0f / float(walk.whole);
+  walk.stride = crossings > 0 ? on : -off;
+  walk.part = uint(abs(reference + walk.stride - from));
+  walk.left = abs(crossings);
+  walk.crossing_ns = never_ns;
+  if (walk.left > 0) walk.crossing_ns = part_time(walk.part, walk.whole, walk.inverse, dt_ns);
+  walk.alive_ns = alive_ns;
+  return walk;
+}
 
 GREATX_FUNCTION EventWalk begin_walk(int from, int to, int reference, int on, int off, int dt_ns,
                                      int alive_ns) {
-  int crossings = count_crossings(reference, to, on, off);
-  EventWalk walk;
-  walk.from = from;
-  walk.to = to;
-  walk.dt_ns = dt_ns;
-  walk.stride = crossings > 0 ? on : -off;
-  walk.level = reference + walk.stride;
-  walk.left = crossings > 0 ? crossings : -crossings;
-  walk.alive_ns = alive_ns;
-  walk.crossing_ns = walk.left > 0 ? crossing_time(from, to, walk.level, dt_ns) : never_ns;
-  walk.shot_ns = never_ns;
-  return walk;
+  return walk_crossings(from, to, reference, count_crossings(reference, to, on, off), on, off, dt_ns,
+                        alive_ns);
 }
 
 /// Takes the next crossing off the walk and returns its time.
 GREATX_FUNCTION int take_crossing(GREATX_INOUT(EventWalk) walk) {
   int t = walk.crossing_ns;
   walk.left -= 1;
-  walk.level += walk.stride;
-  walk.crossing_ns = walk.left > 0 ? crossing_time(walk.from, walk.to, walk.level, walk.dt_ns) : never_ns;
+  walk.part += uint(abs(walk.stride));
+  walk.crossing_ns = never_ns;
+  if (walk.left > 0) walk.crossing_ns = part_time(walk.part, walk.whole, walk.inverse, walk.dt_ns);
   return t;
 }
 
@@ -165,20 +196,22 @@ const uint shot_blocks_per_step = 65536u;
 
 // ---- what the passes share -----------------------------------------------------------------------------------------
 
-const uint event_model_binding = 0u;      // storage: EventModel
-const uint event_control_binding = 1u;    // storage: EventControl
-const uint event_runs_binding = 2u;       // storage: EventRun [runs]
+const uint event_model_binding = 0u;    // storage: EventModel
+const uint event_control_binding = 1u;  // storage: EventControl
+const uint event_runs_binding = 2u;     // storage: EventRun [runs]
 // Pictures and what pixels keep: [height * width], row by row.
 const uint event_luminance_binding = 3u;  // storage: float, cd/m^2
 const uint event_seen_binding = 4u;       // storage: uvec2: planar depth's bits, triangle + 1
 const uint event_pixel_binding = 5u;      // storage: ivec2: reference, signal
 const uint event_extra_binding = 6u;      // storage: ivec2: input of the low pass, end of the refractory time
-const uint event_before_binding = 7u;     // storage: ivec2, of pixels that fired: signal before, signed crossings
+const uint event_before_binding =
+    7u;  // storage: ivec2, of pixels that fired: signal before, signed crossings
 const uint event_awake_binding = 11u;     // storage: int: end of the refractory time before
 const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding = 0u;  // of the difference pass: storage: float [height * width], the picture before
+const uint event_previous_binding =
+    0u;  // of the difference pass: storage: float [height * width], the picture before
 
 // Specialization constants: what is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -229,17 +262,20 @@ struct EventRun {
 
 /// The buffer's head, kept from tick to tick.
 struct EventControl {
-  uint events;    ///< so far in this interval, those beyond the capacity included
-  uint last;      ///< grid index of the last picture taken
-  uint measured;  ///< bits of the largest flow (px/ns) or change (thresholds) since then
-  uint allowed;   ///< bits of the time to the next picture that these allow, ns
-  uint pictures;  ///< in this interval
-  uint coarse;    ///< of those, how many moved or changed more than wanted
-  uint largest;   ///< bits of the largest motion or change between two pictures of this interval
-  uint from;      ///< the picture before the last one
-  uint due[65];   ///< by grid index: whether a picture is taken then
+  uint64_t leaked_last;  ///< thresholds leaked at the last picture taken, 32.32
+  uint64_t leaked_from;  ///< and at the one before it
+  uint events;           ///< so far in this interval, those beyond the capacity included
+  uint last;             ///< grid index of the last picture taken
+  uint measured;         ///< bits of the largest flow (px/ns) or change (thresholds) since then
+  uint allowed;          ///< bits of the time to the next picture that these allow, ns
+  uint pictures;         ///< in this interval
+  uint coarse;           ///< of those, how many moved or changed more than wanted
+  uint largest;          ///< bits of the largest motion or change between two pictures of this interval
+  int last_ns;           ///< the last picture's time
+  int from_ns;           ///< and of the one before it
+  uint due[65];          ///< by grid index: whether a picture is taken then
 };
-const uint event_due_offset = 32u;  ///< bytes
+const uint event_due_offset = 52u;  ///< bytes
 
 /// How a body moves as the camera sees it, optical axes: velocity of the point p is a + w x p, m/s and rad/s.
 struct EventMotion {
@@ -248,11 +284,13 @@ struct EventMotion {
 };
 
 struct EventConstants {
-  uint64_t leak_begin;     ///< thresholds leaked at the interval's start, 32.32
-  uint64_t leak_interval;  ///< and during it
+  uint64_t leaked_from;  ///< thresholds leaked at the instant before, 32.32
+  uint64_t leaked_to;    ///< and at this one
   uint64_t
       events;  ///< address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p
   uint64_t instances;  ///< address of uint [capacity]
+  int from_ns;         ///< the instant before, after the interval's start
+  int to_ns;           ///< this one
   uint interval_ns;
   uint grid;   ///< instants of the interval
   uint index;  ///< of this one, 1 to grid; 0: the first picture, which sets the reference
@@ -286,8 +324,8 @@ GREATX_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::EventModel) == 68);
 static_assert(sizeof(greatx::shared::EventRun) == 12);
-static_assert(sizeof(greatx::shared::EventControl) == 32 + 260);
-static_assert(sizeof(greatx::shared::EventConstants) == 56);
+static_assert(sizeof(greatx::shared::EventControl) == 52 + 260);
+static_assert(sizeof(greatx::shared::EventConstants) == 64);
 static_assert(sizeof(greatx::shared::DifferenceConstants) == 32);
 #endif
 #endif

@@ -151,18 +151,22 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
                                                               : "event cameras step evenly");
 }
 
-/// A lens must be invertible over its whole picture; said here, before anything is built.
+/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is built.
 void check_lenses(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors) {
       const PinholeConfig* camera = std::get_if<CameraConfig>(&sensor.config);
       if (camera == nullptr) camera = std::get_if<EventCameraConfig>(&sensor.config);
-      if (camera == nullptr || !camera->distortion.any()) continue;
+      if (camera == nullptr) continue;
+      const auto* of_light = std::get_if<CameraConfig>(&sensor.config);
+      const bool vignetting = of_light != nullptr && of_light->vignetting.any();
+      if (!camera->distortion.any() && !vignetting) continue;
       render::CameraDesc desc;
       desc.name = node.name + "/" + sensor.name;
       set_pinhole(desc, *camera);
       try {
         render::pinhole_of(desc);
+        if (vignetting) render::flat_field(of_light->vignetting, render::lens_geometry(desc));
       } catch (const UserError& error) {
         throw_user_error_at(sensor.where, "{}", error.what());
       }

@@ -42,5 +42,13 @@ TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
   EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 35, distortion: {k1: -0.4}"), "accepted");
 }
 
+TEST(CameraPlan, AVignettingThatLetsNoLightThroughIsNamedWithFileAndLine) {
+  EXPECT_THAT(
+      message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-2, 0, 0]"),
+      testing::StartsWith("s.yaml:8: camera car/front: vignetting: expected factors above 0 and up to 1"));
+  EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-0.3, 0, 0]"),
+            "accepted");
+}
+
 }  // namespace
 }  // namespace greatx::sim
