@@ -15,8 +15,6 @@ namespace greatx::render {
 
 namespace {
 
-constexpr gpu::Sync compute_access{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
 constexpr uint32_t pattern_sequence = ~0u;  ///< draws that are the sensor's, not a sequence's
 
 constexpr uint32_t groups(uint32_t count, uint32_t size) { return (count + size - 1) / size; }
@@ -56,6 +54,12 @@ void EventPass::check() const {
   constexpr uint32_t largest_edge = 16384;  // 14 bits of an event's place
   require(desc_.width >= 1 && desc_.width <= largest_edge, "width", "1 to 16384", desc_.width);
   require(desc_.height >= 1 && desc_.height <= largest_edge, "height", "1 to 16384", desc_.height);
+  constexpr uint64_t pixel_bytes = 8;  // of the largest that is kept of each
+  const uint64_t pixels = uint64_t{desc_.width} * desc_.height,
+                 most_pixels = scene_->device().limits().maxStorageBufferRange / pixel_bytes;
+  if (pixels > most_pixels)
+    throw_user_error("event camera {}: width, height: expected at most {} pixels on '{}', found {} x {}",
+                     desc_.name, most_pixels, scene_->device().info().name, desc_.width, desc_.height);
   require(desc_.substeps >= 1 && desc_.substeps <= shared::most_substeps, "steps", "1 to 64", desc_.substeps);
   require(desc_.threshold_on >= least_threshold && desc_.threshold_on <= 1.0, "threshold", "0.01 to 1",
           desc_.threshold_on);
@@ -217,12 +221,13 @@ void EventPass::begin(gpu::TickSlot& slot, const EventInterval& interval) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
   if (desc_.adaptive())
-    cmd.barrier({gpu::sync::condition_read.stage | VK_PIPELINE_STAGE_2_TRANSFER_BIT | compute_access.stage,
-                 compute_access.access},
-                compute_access);
+    cmd.barrier(
+        {gpu::sync::condition_read.stage | VK_PIPELINE_STAGE_2_TRANSFER_BIT | gpu::sync::compute.stage,
+         gpu::sync::compute.access},
+        gpu::sync::compute);
   else
-    cmd.barrier({VK_PIPELINE_STAGE_2_TRANSFER_BIT | compute_access.stage, compute_access.access},
-                compute_access);
+    cmd.barrier({VK_PIPELINE_STAGE_2_TRANSFER_BIT | gpu::sync::compute.stage, gpu::sync::compute.access},
+                gpu::sync::compute);
   descriptors_.clear();
   for (const auto& [binding, buffer] : {std::pair{shared::event_model_binding, &model_},
                                         {shared::event_control_binding, &control_},
@@ -240,8 +245,8 @@ void EventPass::begin(gpu::TickSlot& slot, const EventInterval& interval) {
   bind(cmd, begin_, now_.first ? 0 : 1);
   cmd.dispatch(1);
   if (desc_.adaptive())
-    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | compute_access.stage,
-                                           gpu::sync::condition_read.access | compute_access.access});
+    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | gpu::sync::compute.stage,
+                                           gpu::sync::condition_read.access | gpu::sync::compute.access});
 }
 
 gpu::Slice EventPass::condition(uint32_t index) const {
@@ -291,7 +296,7 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& lum
                needs_seen());
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.barrier(gpu::sync::compute_write, compute_access);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
   for (gpu::Descriptor& descriptor : descriptors_) {
     if (descriptor.slot == shared::event_luminance_binding)
       descriptor = gpu::Descriptor::buffer(descriptor.slot, luminance);
@@ -304,17 +309,17 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& lum
   bind(cmd, step_, index);
   cmd.dispatch(groups(runs, shared::event_group_size));
   if (index == 0 && !desc_.adaptive()) return;
-  cmd.barrier(gpu::sync::compute_write, compute_access);
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
   bind(cmd, scan_, index);
   cmd.dispatch(1);
   if (index > 0) {
-    cmd.barrier(gpu::sync::compute_write, compute_access);
+    cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
     bind(cmd, emit_, index);
     cmd.dispatch(groups(runs, shared::event_group_size));
   }
   if (desc_.adaptive())
-    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | compute_access.stage,
-                                           gpu::sync::condition_read.access | compute_access.access});
+    cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | gpu::sync::compute.stage,
+                                           gpu::sync::condition_read.access | gpu::sync::compute.access});
 }
 
 void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
@@ -323,7 +328,7 @@ void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
     const auto scope = cmd.scope(difference_scope_);
     const uint32_t words = groups(desc_.width * desc_.height, 4);
     now_.difference = slot.readback.allocate_for<uint32_t>(words);
-    cmd.barrier(gpu::sync::compute_write, compute_access);
+    cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
     shared::DifferenceConstants constants{};
     constants.picture = now_.difference.address;
     constants.width = desc_.width;

@@ -46,7 +46,7 @@ GREATX_FUNCTION int whole_part(float x) {
   return x < 0.0f ? -int(size) : int(size);
 }
 
-/// The same for x from 0 to 2^22, rounded to one of its neighbours.
+/// A whole number beside x, 0 <= x < 2^23: the nearest, or where the device rounds towards zero the one below.
 GREATX_FUNCTION int near_whole(float x) { return int(floatBitsToUint(x + 8388608.0f) & 0x7fffffu); }
 
 /// ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7): ln 2 times the exponent, which is exact, and for the mantissa
@@ -62,7 +62,7 @@ GREATX_FUNCTION int fixed_log(float x) {
   float q = s * s;
   float p = s * (2.0f + q * (0.66666667f + q * (0.4f + q * (0.28571429f + q * 0.22222222f))));
   float scaled = floor(p * 16777216.0f + 0.5f);  // a whole number below 2^23
-  int part = int(floatBitsToUint(abs(scaled) + 8388608.0f) & 0x7fffffu);
+  int part = near_whole(abs(scaled));
   return exponent * 11629080 + (scaled < 0.0f ? -part : part);
 }
 
@@ -204,14 +204,12 @@ const uint event_luminance_binding = 3u;  // storage: float, cd/m^2
 const uint event_seen_binding = 4u;       // storage: uvec2: planar depth's bits, triangle + 1
 const uint event_pixel_binding = 5u;      // storage: ivec2: reference, signal
 const uint event_extra_binding = 6u;      // storage: ivec2: input of the low pass, end of the refractory time
-const uint event_before_binding =
-    7u;  // storage: ivec2, of pixels that fired: signal before, signed crossings
+const uint event_before_binding = 7u;     // storage: ivec2, where it fired: signal before, signed crossings
 const uint event_awake_binding = 11u;     // storage: int: end of the refractory time before
 const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding =
-    0u;  // of the difference pass: storage: float [height * width], the picture before
+const uint event_previous_binding = 0u;   // of the difference pass: storage: float, the picture before
 
 // Specialization constants: what is off is not compiled.
 const uint event_spec_mismatch = 0u;

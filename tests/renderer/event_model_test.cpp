@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The pixel of an event camera: the shader's own text, run on the CPU, against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -110,6 +111,42 @@ TEST(EventModel, CrossingTimesAreTheQuotientRoundedUp) {
       EXPECT_EQ(t, crossing_time(-from, -to, -level, dt));
     }
   }
+}
+
+TEST(EventModel, QuotientsOfIntegersFromFloatsAreExact) {
+  uint32_t drawn = 0;
+  const auto random = [&] { return random_bits(3, 0, 0, drawn++, 0).x; };
+  const auto up_to = [&](uint32_t bits, uint32_t most) {  // of any size: from 1 on
+    return std::min(most, 1 + (random() & ((1u << (1 + random() % bits)) - 1)));
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const uint32_t whole = up_to(31, 0x7fffffffu);
+    const uint32_t part = i % 4 == 0 ? whole - std::min(whole - 1, random() % 3) : up_to(31, whole);
+    const auto dt = static_cast<int32_t>(up_to(31, uint32_t{longest_interval_ns}));
+    const auto quotient = static_cast<int32_t>((uint64_t{part} * uint32_t(dt) + whole - 1) / whole);
+    ASSERT_EQ(part_time(part, whole, 1.0f / float(whole), dt), quotient) << part << "/" << whole;
+    // A division that is right to three units in the last place is good enough: a GPU's.
+    const float less = std::nextafter(std::nextafter(std::nextafter(1.0f / float(whole), 0.0f), 0.0f), 0.0f),
+                more = std::nextafter(std::nextafter(std::nextafter(1.0f / float(whole), 2.0f), 2.0f), 2.0f);
+    ASSERT_EQ(part_time(part, whole, less, dt), quotient) << part << "/" << whole;
+    ASSERT_EQ(part_time(part, whole, more, dt), quotient) << part << "/" << whole;
+  }
+}
+
+TEST(EventModel, WholePartIsTheConversion) {
+  uint32_t drawn = 0;
+  const auto random = [&] { return random_bits(4, 0, 0, drawn++, 0).x; };
+  for (int i = 0; i < 300000; ++i) {
+    const float x = uintBitsToFloat(random());
+    if (std::abs(x) < 0x1p31f) {
+      ASSERT_EQ(whole_part(x), static_cast<int32_t>(x)) << x;
+    }
+    const uint32_t n = random() & 0x7fffffu;
+    ASSERT_EQ(near_whole(static_cast<float>(n)), int32_t(n));
+  }
+  for (const float x :
+       {0.0f, -0.0f, 0.99999994f, -0.99999994f, 1.0f, 8388607.5f, -16777215.0f, 2147483520.0f})
+    EXPECT_EQ(whole_part(x), static_cast<int32_t>(x)) << x;
 }
 
 TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {

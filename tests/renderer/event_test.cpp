@@ -262,6 +262,10 @@ TEST(Events, BadValuesAreNamed) {
   EXPECT_THAT(message([](EventDesc& d) { d.substeps = 0; }), HasSubstr("steps"));
   EXPECT_THAT(message([](EventDesc& d) { d.capacity = 0; }), HasSubstr("max_events_per_pixel"));
   EXPECT_THAT(message([](EventDesc& d) { d.shot_rate_hz = -1.0; }), HasSubstr("shot_rate_hz"));
+  if (device().limits().maxStorageBufferRange / 8 < 16384u * 16384u) {
+    EXPECT_THAT(message([](EventDesc& d) { d.width = d.height = 16384; }),
+                HasSubstr("width, height: expected at most"));
+  }
 }
 
 }  // namespace
