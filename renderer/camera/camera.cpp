@@ -84,14 +84,6 @@ void CameraPass::check() const {
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
           0);
   require(!desc_.outputs.luminance || !desc_.outputs.color(), "outputs", "luminance or colour, not both", 2);
-  for (const scene::PunctualLight& light : scene_->scene().lights) {
-    const vec3 peak = light.color * light.intensity;
-    const float brightest = std::max({peak.x, peak.y, peak.z}),
-                most_cd = 65504.0f * shared::lamp_intensity_unit;
-    if (!(brightest <= most_cd))
-      throw_user_error("lamp {}: expected an intensity of at most {} cd (or lux), found {}", light.name,
-                       most_cd, brightest);
-  }
   const size_t materials = scene_->scene().materials.size();
   require(!desc_.outputs.material || materials < 65535, "outputs.material",
           "a scene of at most 65534 materials", double(materials));

@@ -7,10 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/gtc/packing.hpp>
-
 #include "core/error.h"
-#include "renderer/octahedral.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
@@ -121,7 +118,6 @@ class Clusters {
 void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, const vec3& position,
               const vec3& direction) {
   const bool directional = light.type == scene::PunctualLight::Type::directional;
-  const vec3 intensity = light.color * light.intensity / shared::lamp_intensity_unit;
   float scale = 0.0f, offset = 1.0f;
   if (light.type == scene::PunctualLight::Type::spot) {
     // KHR_lights_punctual, "Inner and Outer Cone Angles".
@@ -129,15 +125,12 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
     scale = float(1.0 / std::max(0.001, inner - outer));
     offset = float(-outer) * scale;
   }
-  for (int i = 0; i < 3; ++i) words.push_back(std::bit_cast<uint32_t>(position[i]));
   // A lamp without a range gets the window of its reach, so that nothing jumps at the rim of its clusters.
   const double reach = lamp_reach(light);
-  words.push_back(std::bit_cast<uint32_t>(directional ? 0.0f : float(1.0 / std::max(reach * reach, 1e-12))));
-  words.push_back(octahedral_word(direction));
-  words.push_back(glm::packHalf2x16(vec2(intensity)));
-  words.push_back(glm::packHalf2x16(vec2(intensity.z, directional ? 1.0f : 0.0f)));
-  words.push_back(std::bit_cast<uint32_t>(scale));
-  words.push_back(std::bit_cast<uint32_t>(offset));
+  const float window = directional ? -1.0f : float(1.0 / std::max(reach * reach, 1e-12));
+  for (const vec4& quad : {vec4(directional ? -direction : position, window), vec4(direction, scale),
+                           vec4(light.color * light.intensity, offset)})
+    for (int i = 0; i < 4; ++i) words.push_back(std::bit_cast<uint32_t>(quad[i]));
 }
 
 }  // namespace
@@ -182,14 +175,15 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
   size_t entries = 0;
   for (const std::vector<uint32_t>& list : clusters.lists()) entries += list.size();
   counts.entries = static_cast<uint32_t>(entries);
-  const auto first_lamp = static_cast<uint32_t>(words.size() + entries);
-  words.reserve(first_lamp + lamps.size());
+  const size_t first_lamp = (words.size() + entries + 3) / 4;  // quadruples
+  words.reserve(4 * first_lamp + lamps.size());
   for (size_t i = 0; i < grid.size(); ++i) {
     const std::vector<uint32_t>& list = clusters.lists()[i];
     words[shared::lamps_header_words + 2 * i] = static_cast<uint32_t>(words.size());
     words[shared::lamps_header_words + 2 * i + 1] = static_cast<uint32_t>(list.size());
-    for (const uint32_t lamp : list) words.push_back(first_lamp + lamp);
+    for (const uint32_t lamp : list) words.push_back(static_cast<uint32_t>(first_lamp + lamp / 4));
   }
+  words.resize(4 * first_lamp);
   words.insert(words.end(), lamps.begin(), lamps.end());
   return words;
 }

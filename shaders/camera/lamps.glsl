@@ -5,9 +5,9 @@
 #ifndef GREATX_CAMERA_LAMPS_GLSL
 #define GREATX_CAMERA_LAMPS_GLSL
 #include "camera/light.glsl"
-#include "camera/octahedral.glsl"
 
 layout(set = 0, binding = lights_binding, scalar) readonly buffer LampsBlock { uint lamp_words[]; };
+layout(set = 0, binding = lights_binding, scalar) readonly buffer LampQuadsBlock { vec4 lamp_quads[]; };
 
 float lamp_float(uint word) { return uintBitsToFloat(lamp_words[word]); }
 
@@ -34,21 +34,17 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
   vec3 diffuse = vec3(0.0), mirrored = vec3(0.0);
   for (; entry < end; ++entry) {
     uint lamp = lamp_words[entry];
-    vec3 position = vec3(lamp_float(lamp), lamp_float(lamp + 1u), lamp_float(lamp + 2u));
-    float inverse_range_squared = lamp_float(lamp + 3u);
-    vec3 direction = octahedral_direction(lamp_words[lamp + 4u]);
-    vec2 blue_and_kind = unpackHalf2x16(lamp_words[lamp + 6u]);
-    vec3 intensity = vec3(unpackHalf2x16(lamp_words[lamp + 5u]), blue_and_kind.x);
-    bool directional = blue_and_kind.y != 0.0;
-    vec3 to_lamp = directional ? -direction : position - p_eye;
+    vec4 place = lamp_quads[lamp], axis = lamp_quads[lamp + 1u], light = lamp_quads[lamp + 2u];
+    bool directional = place.w < 0.0;
+    vec3 to_lamp = directional ? place.xyz : place.xyz - p_eye;
     float d2 = max(dot(to_lamp, to_lamp), 1e-4);
     float nearness = inversesqrt(d2);
     vec3 l = to_lamp * nearness;
-    float cone = clamp(lamp_float(lamp + 8u) - dot(l, direction) * lamp_float(lamp + 7u), 0.0, 1.0);
-    float ratio = d2 * inverse_range_squared;
+    float cone = clamp(light.w - dot(l, axis.xyz) * axis.w, 0.0, 1.0);
+    float ratio = d2 * place.w;
     float attenuation = directional ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) * nearness * nearness;
     float n_dot_l = dot(n, l);
-    vec3 illuminance = intensity * (attenuation * max(n_dot_l, 0.0));
+    vec3 illuminance = light.rgb * (attenuation * max(n_dot_l, 0.0));
     diffuse += illuminance;
     bool highlight = specular_on && shiny && attenuation > 0.0 && n_dot_l > 0.0;
     if (highlight) {
@@ -57,6 +53,6 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
     }
   }
   vec3 albedo = r.diffuse + (shiny ? vec3(0.0) : r.albedo);
-  return lamp_intensity_unit * (albedo * inverse_pi * diffuse + mirrored);
+  return albedo * inverse_pi * diffuse + mirrored;
 }
 #endif

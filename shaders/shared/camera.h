@@ -68,7 +68,7 @@ const float sky_view_middle = 8.0f;
 const float sky_view_top = 24.0f;
 
 /// Clusters of lamps: tiles of the pinhole picture times slices of planar depth. The words: a header, (first entry,
-/// count) of each cluster, the entries (words where lamps begin), the lamps.
+/// count) of each cluster, the entries (quadruples of words where lamps begin), the lamps.
 const uint lamp_tile_pixels = 32u;
 const uint lamp_slices = 20u;
 const float lamp_slices_per_octave = 2.0f;
@@ -80,10 +80,10 @@ const uint lamps_down_word = 3u;
 const uint lamps_last_column_word = 4u;  // as floats
 const uint lamps_last_row_word = 5u;
 const uint lamps_header_words = 6u;
-/// Of a lamp: position from the eye; 1 / range^2, 0: unlimited; direction, octahedral; intensity over the unit in halves:
-/// red and green, blue and 1 if directional (lux then); scale and offset of the cone.
-const uint lamp_record_words = 9u;
-const float lamp_intensity_unit = 64.0f;
+/// Of a lamp, three quadruples of floats, which an entry counts from the words' beginning: position from the eye (of a
+/// directional light: unit, towards it) and 1 / range^2 (directional: -1); unit direction and the scale of the cone;
+/// intensity, cd (directional: lux), and the offset of the cone.
+const uint lamp_record_quads = 3u;
 /// Rougher dielectrics show no highlights of lamps.
 const float lamp_most_roughness = 0.6f;
 

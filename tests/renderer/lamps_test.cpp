@@ -27,7 +27,7 @@ render::CameraView view_of(uint32_t width = 640, uint32_t height = 480) {
 
 float as_float(uint32_t word) { return std::bit_cast<float>(word); }
 
-/// The lamps (first words of their records) that a pixel at p looks at: shaders/camera/lamps.glsl in C++.
+/// The lamps (first quadruples of their records) that a pixel at p looks at: shaders/camera/lamps.glsl in C++.
 std::set<uint32_t> lamps_at(const std::vector<uint32_t>& words, const render::CameraView& view,
                             const dvec3& p) {
   const vec3 q(p);
@@ -89,7 +89,8 @@ TEST(Lamps, NoPointMissesALampThatReachesIt) {
                            glm::dot(glm::normalize(to), lamp.direction) > std::cos(double(lamp.outer_cone));
       if (!in_cone) continue;
       ++reached;
-      const bool there = std::any_of(found.begin(), found.end(), [&](uint32_t word) {
+      const bool there = std::any_of(found.begin(), found.end(), [&](uint32_t quad) {
+        const size_t word = size_t{4} * quad;
         const vec3 position(as_float(words[word]), as_float(words[word + 1]), as_float(words[word + 2]));
         return position == vec3(lamp.position - view.eye);
       });
