@@ -5,37 +5,26 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <sys/resource.h>
 
+#include "apps/bench/event_row.h"
 #include "apps/bench/measure.h"
 #include "core/srgb.h"
 #include "core/units.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
-#include "sim/moment.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/sensors/camera_desc.h"
+#include "sim/sensors/sensor.h"
+#include "sim/world.h"
 
 namespace greatx::apps {
 
 namespace {
 
-constexpr double day_target_ms = 20.0, night_over_day = 1.5;
+constexpr double day_target_ms = 20.0, night_over_day = 1.5, events_target_ms = 60.0;
 constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
-
-double cpu_ms() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto of = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
-  return of(usage.ru_utime) + of(usage.ru_stime);
-}
-
-/// Where the camera and everything else is at one picture.
-struct Instant {
-  Pose local_from_sensor;
-  std::vector<Pose> bodies;
-};
 
 /// One way to take the picture, with everything it needs.
 class Row {
@@ -51,7 +40,7 @@ class Row {
         ring_(device, 2, 4u << 20, 16u << 20) {}
 
   void shoot(const Instant& instant, bool counts) {
-    const double cpu_before = cpu_ms();
+    const double cpu_before = cpu_milliseconds();
     const Clock::time_point begin = Clock::now();
     gpu::TickSlot& slot = ring_.begin();
     gpu_.record_update(slot, instant.bodies);
@@ -62,12 +51,13 @@ class Row {
     images_ = camera_.collect(slot);
     if (!counts) return;
     times_.push_back(milliseconds_since(begin));
-    cpu_.push_back(cpu_ms() - cpu_before);
+    cpu_.push_back(cpu_milliseconds() - cpu_before);
     lamps_ += camera_.lamps().seen;
   }
   const render::CameraImages& images() const { return images_; }
   const std::string& name() const { return name_; }
-  size_t lamps_placed() const { return scene_->lights.size(); }
+  scene::GpuScene& gpu_scene() { return gpu_; }
+  render::SceneLighting& lighting() { return lighting_; }
 
   /// Adds the squared differences of 8-bit channels to a reference of the same size.
   void compare(const std::vector<uint8_t>& reference) {
@@ -130,17 +120,27 @@ FirstCamera first_camera(const sim::Scenario& scenario) {
   throw_user_error("{}: bench --camera: expected a camera, found none", scenario.name);
 }
 
-std::vector<Instant> instants_of(const sim::Scenario& scenario, const sim::World& world, FirstCamera camera,
-                                 uint32_t count) {
+/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
+std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
+                                              FirstCamera camera, uint32_t count) {
   const auto paths = sim::make_paths(scenario, 0);
   const sim::Clock clock(scenario.tick_rate_hz);
   const Pose mount = sim::mount_pose(scenario.nodes[camera.node].sensors[camera.sensor].mount);
-  std::vector<Instant> instants;
+  std::vector<std::vector<Instant>> intervals;
   for (uint32_t i = 0; i < count; ++i) {
-    const sim::Moment moment = sim::moment_at(world, paths, clock, scenario.ticks * i / count);
-    instants.push_back({world.scene.to_local(moment.motions[camera.node].pose) * mount, moment.bodies});
+    const double begin_s = clock.seconds(scenario.ticks * i / count);
+    std::vector<Instant> instants;
+    for (uint32_t step = 0; step <= EventRow::substeps; ++step) {
+      std::vector<Motion> motions;
+      for (const auto& path : paths)
+        motions.push_back(
+            path->at(begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps));
+      instants.push_back(
+          {world.scene.to_local(motions[camera.node].pose) * mount, sim::body_poses(world, motions)});
+    }
+    intervals.push_back(std::move(instants));
   }
-  return instants;
+  return intervals;
 }
 
 /// Mean of blocks of 4 x 4 pixels of a picture 4 times as large, in linear light and back.
@@ -214,6 +214,7 @@ class Bench {
     without("ambient occlusion", &render::CameraEffects::ambient_occlusion);
     without("specular", &render::CameraEffects::specular);
     add_night();
+    add_events();
     render::CameraDesc large = enlarged(desc_);
     large.msaa = 1;
     large.smooth_edges = false;
@@ -222,10 +223,11 @@ class Bench {
 
   nlohmann::json measure(const CameraBenchOptions& options) {
     const auto warm = static_cast<uint32_t>(options.warm_up);
-    const std::vector<Instant> instants = instants_of(scenario_, world_, camera_, options.pictures + warm);
-    for (uint32_t i = 0; i < instants.size(); ++i) {
-      for (const auto& row : rows_) row->shoot(instants[i], i >= warm);
-      if (i % 8 == 0) compare(instants[i]);
+    const auto intervals = instants_of(scenario_, world_, camera_, options.pictures + warm);
+    for (uint32_t i = 0; i < intervals.size(); ++i) {
+      for (const auto& row : rows_) row->shoot(intervals[i][0], i >= warm);
+      for (const auto& row : event_rows_) row->shoot(intervals[i], i >= warm);
+      if (i % 8 == 0) compare(intervals[i][0]);
     }
     return result();
   }
@@ -253,6 +255,18 @@ class Bench {
       scene::Scene scene = world_.scene;
       scene.lights = lattice_of_lamps(scene, count);
       add(fmt::format("night, {} lamps placed", count), std::move(scene), night, effects, desc);
+    }
+  }
+
+  /// The same view by day, as an event camera sees it; on the first row's scene and light.
+  void add_events() {
+    for (const bool edges : {true, false}) {
+      render::CameraDesc desc = desc_;
+      desc.msaa = 1;
+      desc.smooth_edges = edges;
+      event_rows_.push_back(
+          std::make_unique<EventRow>(fmt::format("events, 4 sub-steps, {}", edges ? "edges" : "none"),
+                                     rows_.front()->gpu_scene(), rows_.front()->lighting(), desc));
     }
   }
 
@@ -286,6 +300,12 @@ class Bench {
       json["ratio"] = median / first;
       result["rows"].push_back(std::move(json));
     }
+    for (const auto& row : event_rows_) {
+      nlohmann::json json = row->result();
+      json["ratio"] = json["tick_ms"]["median"].get<double>() / first;
+      json["target_ms"] = events_target_ms;
+      result["rows"].push_back(std::move(json));
+    }
     return result;
   }
 
@@ -298,6 +318,7 @@ class Bench {
   render::Lighting day_;
   render::CameraEffects effects_;
   std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::unique_ptr<EventRow>> event_rows_;
   std::unique_ptr<Row> reference_;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
 
@@ -23,6 +24,14 @@ inline double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 inline double milliseconds_since(Clock::time_point begin) { return 1e3 * seconds_since(begin); }
+
+/// Of all threads of this process.
+inline double cpu_milliseconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto of = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+  return of(usage.ru_utime) + of(usage.ru_stime);
+}
 
 /// Takes packets and keeps none.
 struct Discard : RecordSink {
