@@ -71,6 +71,11 @@ void CameraPass::check() const {
   require(desc_.width >= 1 && desc_.width <= most, "width", "1 to the device's largest image", desc_.width);
   require(desc_.height >= 1 && desc_.height <= most, "height", "1 to the device's largest image",
           desc_.height);
+  const uint64_t pixels = uint64_t{desc_.width} * desc_.height,
+                 most_pixels = scene_->device().limits().maxStorageBufferRange / sizeof(uvec2);
+  if (pixels > most_pixels)
+    throw_user_error("camera {}: width, height: expected at most {} pixels on '{}', found {} x {}",
+                     desc_.name, most_pixels, scene_->device().info().name, desc_.width, desc_.height);
   require(std::isfinite(desc_.fx) && desc_.fx > 0.0, "fx", "a positive number of pixels", desc_.fx);
   require(std::isfinite(desc_.fy) && desc_.fy > 0.0, "fy", "a positive number of pixels", desc_.fy);
   require(std::isfinite(desc_.cx), "cx", "a number of pixels", desc_.cx);

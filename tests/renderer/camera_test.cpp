@@ -376,6 +376,12 @@ TEST(Camera, RefusesNonsenseByName) {
   EXPECT_THAT(message([](CameraDesc& d) { d.near_m = -1.0; }), testing::HasSubstr("near_m"));
   EXPECT_THAT(message([](CameraDesc& d) { d.msaa = 3; }), testing::HasSubstr("msaa"));
   EXPECT_THAT(message([](CameraDesc& d) { d.width = 0; }), testing::HasSubstr("width"));
+  const VkPhysicalDeviceLimits& limits = device().limits();
+  const uint64_t edge = limits.maxImageDimension2D;
+  if (limits.maxStorageBufferRange / 8 < edge * edge) {
+    EXPECT_THAT(message([&](CameraDesc& d) { d.width = d.height = limits.maxImageDimension2D; }),
+                testing::HasSubstr("camera front: width, height: expected at most"));
+  }
   EXPECT_THAT(message([](CameraDesc& d) { d.exposure_ev100 = 99.0; }), testing::HasSubstr("exposure_ev100"));
   EXPECT_THAT(message([](CameraDesc& d) { d.outputs = {false, false, false, false, false, false}; }),
               testing::HasSubstr("outputs"));
