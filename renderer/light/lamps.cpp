@@ -145,13 +145,13 @@ double lamp_reach(const scene::PunctualLight& light) {
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
                                     std::span<const Pose> body_poses, LampCounts& counts) {
   Clusters clusters(view);
-  std::vector<uint32_t> lamps;  // records of those that are seen
+  std::vector<uint32_t> lamps;  // records of those that are seen, which clusters know by number
   counts = {};
   for (const scene::PunctualLight& light : lights) {
     const Pose& pose = body_poses[light.body];
     const dvec3 position = pose.apply(light.position) - view.eye;
     const dvec3 direction = glm::normalize(pose.rotate(light.direction));
-    const auto record = static_cast<uint32_t>(lamps.size());
+    const uint32_t record = counts.seen;
     if (light.type == scene::PunctualLight::Type::directional) {
       clusters.add_everywhere(record);
     } else {
@@ -181,7 +181,8 @@ std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scen
     const std::vector<uint32_t>& list = clusters.lists()[i];
     words[shared::lamps_header_words + 2 * i] = static_cast<uint32_t>(words.size());
     words[shared::lamps_header_words + 2 * i + 1] = static_cast<uint32_t>(list.size());
-    for (const uint32_t lamp : list) words.push_back(static_cast<uint32_t>(first_lamp + lamp / 4));
+    for (const uint32_t lamp : list)
+      words.push_back(static_cast<uint32_t>(first_lamp + shared::lamp_record_quads * lamp));
   }
   words.resize(4 * first_lamp);
   words.insert(words.end(), lamps.begin(), lamps.end());

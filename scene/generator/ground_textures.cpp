@@ -96,15 +96,24 @@ Picture pavement() {
   return canvas.picture();
 }
 
+namespace {
+
+/// Blades of grass, two pixels long, all over a square picture.
+void blades(Canvas& canvas, int size, uint32_t seed) {
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const int blade = static_cast<int>(hash(x, y / 2, seed) % 5);
+      canvas.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
+    }
+}
+
+}  // namespace
+
 Picture grass() {
   Canvas canvas(256, 256, {72, 101, 52});
   canvas.blotches(128, 5, 40);
   canvas.blotches(16, 7, 41);
-  for (int y = 0; y < 256; ++y)
-    for (int x = 0; x < 256; ++x) {
-      const int blade = static_cast<int>(hash(x, y / 2, 43) % 5);
-      canvas.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
-    }
+  blades(canvas, 256, 43);
   for (int i = 0; i < 240; ++i) {  // weeds and dry tufts
     const int x = static_cast<int>(hash(i, 0, 44) % 256), y = static_cast<int>(hash(i, 1, 44) % 256);
     const bool dry = hash(i, 2, 44) % 3 == 0;
@@ -120,11 +129,7 @@ Picture pasture() {
   canvas.blotches(256, 8, 45);
   canvas.blotches(64, 9, 46);
   canvas.blotches(8, 6, 47);
-  for (int y = 0; y < 512; ++y)
-    for (int x = 0; x < 512; ++x) {
-      const int blade = static_cast<int>(hash(x, y / 2, 48) % 5);
-      canvas.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
-    }
+  blades(canvas, 512, 48);
   for (int i = 0; i < 420; ++i) {  // thistles, flowers, dung
     const int x = static_cast<int>(hash(i, 0, 49) % 512), y = static_cast<int>(hash(i, 1, 49) % 512);
     const uint32_t kind = hash(i, 2, 49) % 6;

@@ -159,7 +159,9 @@ void check_lenses(const Scenario& scenario) {
       if (camera == nullptr) camera = std::get_if<EventCameraConfig>(&sensor.config);
       if (camera == nullptr) continue;
       const auto* of_light = std::get_if<CameraConfig>(&sensor.config);
-      const bool vignetting = of_light != nullptr && of_light->vignetting.any();
+      // A natural one cannot fail.
+      const bool vignetting =
+          of_light != nullptr && of_light->vignetting.any() && !of_light->vignetting.natural;
       if (!camera->distortion.any() && !vignetting) continue;
       render::CameraDesc desc;
       desc.name = node.name + "/" + sensor.name;

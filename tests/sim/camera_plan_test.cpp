@@ -46,8 +46,7 @@ TEST(CameraPlan, AVignettingThatLetsNoLightThroughIsNamedWithFileAndLine) {
   EXPECT_THAT(
       message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-2, 0, 0]"),
       testing::StartsWith("s.yaml:8: camera car/front: vignetting: expected factors above 0 and up to 1"));
-  EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-0.3, 0, 0]"),
-            "accepted");
+  EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-0.3, 0, 0]"), "accepted");
 }
 
 }  // namespace
