@@ -88,12 +88,6 @@ render::CameraImages PictureRenderer::picture(const PictureView& view,
 
 namespace {
 
-/// Of a camera or an event camera: size, intrinsics, lens; null: another sensor.
-const sim::PinholeConfig* pinhole_of(const sim::SensorConfig& sensor) {
-  if (const auto* camera = std::get_if<sim::CameraConfig>(&sensor.config)) return camera;
-  return std::get_if<sim::EventCameraConfig>(&sensor.config);
-}
-
 bool sees_own_body(const sim::SensorConfig& sensor) {
   if (const auto* camera = std::get_if<sim::CameraConfig>(&sensor.config)) return camera->see_own_body;
   return std::get<sim::EventCameraConfig>(sensor.config).see_own_body;
@@ -106,7 +100,7 @@ CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
   for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
     for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor) {
       const sim::SensorConfig& config = scenario.nodes[node].sensors[sensor];
-      if (pinhole_of(config) == nullptr) continue;
+      if (sim::pinhole_config(config) == nullptr) continue;
       cameras.push_back(scenario.nodes[node].name + "/" + config.name);
       if (cameras.back() == name) return {node, sensor};
     }
@@ -117,7 +111,7 @@ CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
 ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
                            const sim::Moment& moment, uint32_t width) {
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
-  const sim::PinholeConfig& config = *pinhole_of(sensor);
+  const sim::PinholeConfig& config = *sim::pinhole_config(sensor);
   PictureView view;
   sim::set_intrinsics(view, config);
   view.near_m = config.near_m;

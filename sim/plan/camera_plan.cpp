@@ -155,8 +155,7 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
 void check_lenses(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors) {
-      const PinholeConfig* camera = std::get_if<CameraConfig>(&sensor.config);
-      if (camera == nullptr) camera = std::get_if<EventCameraConfig>(&sensor.config);
+      const PinholeConfig* camera = pinhole_config(sensor);
       if (camera == nullptr) continue;
       const auto* of_light = std::get_if<CameraConfig>(&sensor.config);
       // A natural one cannot fail.

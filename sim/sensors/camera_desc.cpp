@@ -7,6 +7,11 @@
 
 namespace greatx::sim {
 
+const PinholeConfig* pinhole_config(const SensorConfig& sensor) {
+  if (const auto* camera = std::get_if<CameraConfig>(&sensor.config)) return camera;
+  return std::get_if<EventCameraConfig>(&sensor.config);
+}
+
 void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config) {
   set_intrinsics(desc, config);
   desc.near_m = config.near_m;

@@ -22,6 +22,8 @@ void set_intrinsics(Picture& to, const PinholeConfig& from) {
   to.cx = from.cx;
   to.cy = from.cy;
 }
+/// Of a camera or an event camera: size, intrinsics, lens; null: another sensor.
+const PinholeConfig* pinhole_config(const SensorConfig& sensor);
 /// What cameras and event cameras share: intrinsics, the nearest depth, antialiasing, the lens's distortion.
 void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config);
 
