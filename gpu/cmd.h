@@ -170,9 +170,8 @@ void submit_setup(Device& device, F&& record);
 Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::string_view name,
                      VkBufferUsageFlags extra_usage = 0);
 
-/// Fills an image from the host, mip by mip, tightly packed, in one set-up submission; it is then ready for `use`.
-void upload_image(Device& device, Image& image, std::span<const std::span<const std::byte>> mips,
-                  ImageUse use = ImageUse::sampled);
+/// Fills an image from the host, mip by mip, tightly packed, in one set-up submission; it is then ready to be sampled.
+void upload_image(Device& device, Image& image, std::span<const std::span<const std::byte>> mips);
 
 namespace detail {
 class SetupSubmission {

@@ -83,8 +83,8 @@ struct ImageDesc {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };
 
-/// A 2-D image, or an array of such, with one view of all its mip levels and layers. Cmd::transition keeps track of its use, in recording
-/// order.
+/// A 2-D image, or an array of such, with one view of all its mip levels and layers. Cmd::transition keeps track of its
+/// use, in recording order.
 class Image {
  public:
   Image() = default;

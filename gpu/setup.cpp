@@ -18,8 +18,7 @@ Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::stri
   return buffer;
 }
 
-void upload_image(Device& device, Image& image, std::span<const std::span<const std::byte>> mips,
-                  ImageUse use) {
+void upload_image(Device& device, Image& image, std::span<const std::span<const std::byte>> mips) {
   std::vector<Buffer> staging;
   for (const std::span<const std::byte> texels : mips) {
     staging.emplace_back(device, texels.size(), Memory::upload, "staging");
@@ -28,7 +27,7 @@ void upload_image(Device& device, Image& image, std::span<const std::span<const 
   submit_setup(device, [&](Cmd& cmd) {
     cmd.transition(image, ImageUse::transfer_target, true);
     for (uint32_t mip = 0; mip < staging.size(); ++mip) cmd.copy(staging[mip].slice(), image, mip);
-    cmd.transition(image, use);
+    cmd.transition(image, ImageUse::sampled);
   });
 }
 

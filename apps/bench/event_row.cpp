@@ -11,8 +11,7 @@ namespace greatx::apps {
 namespace {
 
 render::CameraDesc of_luminance(render::CameraDesc desc) {
-  desc.outputs = {.rgb = false, .depth = false, .instance = false, .semantic = false, .material = false};
-  desc.outputs.luminance = true;
+  desc.outputs = render::CameraOutputs::of_luminance(false);
   return desc;
 }
 

@@ -29,6 +29,16 @@ struct CameraOutputs {
   bool hdr = false;
   // What stays on the GPU for another pass (CameraPass::luminance, CameraPass::seen).
   bool luminance = false, seen = false;
+  /// Nothing for the host: what an event camera looks at.
+  static CameraOutputs of_luminance(bool seen) {
+    return {.rgb = false,
+            .depth = false,
+            .instance = false,
+            .semantic = false,
+            .material = false,
+            .luminance = true,
+            .seen = seen};
+  }
   bool color() const { return rgb || hdr; }
   bool ids() const { return depth || instance || semantic || material || seen; }
   bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }

@@ -21,9 +21,7 @@ render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig&
   render::CameraDesc desc;
   desc.name = name + " sub-step";
   set_pinhole(desc, config);
-  desc.outputs = {.rgb = false, .depth = false, .instance = false, .semantic = false, .material = false};
-  desc.outputs.luminance = true;
-  desc.outputs.seen = seen;
+  desc.outputs = render::CameraOutputs::of_luminance(seen);
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   return desc;
 }
