@@ -19,6 +19,9 @@ Moment moment_at(const World& world, const std::vector<std::unique_ptr<Path>>& p
   moment.context.nodes = moment.motions;
   moment.context.body_poses = moment.bodies;
   moment.context.motion_at = [&paths](uint32_t node, double time) { return paths[node]->at(time); };
+  moment.context.body_motion_at = [&world, &paths](uint32_t body, double time) {
+    return body == 0 ? Motion{} : body_motion(world, body, paths[world.node_of_body[body]]->at(time));
+  };
   return moment;
 }
 

@@ -23,7 +23,7 @@ struct Moment {
   TickContext context;
 };
 
-/// The moment of `tick` when the nodes move along `paths`, which outlive it. `previous`: the tick before at which
+/// The moment of `tick` when the nodes move along `paths`; world and paths outlive it. `previous`: the tick before at which
 /// something was due; -1: none.
 Moment moment_at(const World& world, const std::vector<std::unique_ptr<Path>>& paths, const Clock& clock,
                  int64_t tick, int64_t previous = -1);

@@ -86,15 +86,25 @@ World load_world(const Scenario& scenario) {
   world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
   for (const NodeConfig& node : scenario.nodes)
     world.body_of_node.push_back(node.model && !never_moves(node) ? world.scene.body_index(node.name) : 0);
+  world.node_of_body.resize(world.scene.bodies.size());
+  for (uint32_t node = 0; node < world.body_of_node.size(); ++node)
+    if (const uint32_t body = world.body_of_node[node]; body != 0) world.node_of_body[body] = node;
   check_radio(scenario, world.scene);
   return world;
 }
 
+Motion body_motion(const World& world, uint32_t body, const Motion& node) {
+  GREATX_CHECK(body != 0 && body < world.node_of_body.size(), "body {} of {}", body,
+               world.node_of_body.size());
+  Motion motion = node;
+  motion.pose = world.scene.to_local(node.pose);
+  return motion;
+}
+
 std::vector<Pose> body_poses(const World& world, const std::vector<Motion>& node_motions) {
   std::vector<Pose> poses(world.scene.bodies.size());
-  for (size_t node = 0; node < node_motions.size(); ++node)
-    if (const uint32_t body = world.body_of_node[node]; body != 0)
-      poses[body] = world.scene.to_local(node_motions[node].pose);
+  for (uint32_t body = 1; body < poses.size(); ++body)
+    poses[body] = body_motion(world, body, node_motions[world.node_of_body[body]]).pose;
   return poses;
 }
 

@@ -33,6 +33,10 @@ struct TickContext {
   std::span<const Pose> body_poses;  ///< local coordinates, by body
   /// Motion of any node at any other time (a sweep's shots).
   std::function<Motion(uint32_t node, double time_s)> motion_at;
+  /// Motion of any body at any other time: pose in local coordinates, its derivatives those of the body's origin (same
+  /// axes). Body 0 stands still at the identity. At time_s the poses are those of body_poses, to the bit.
+  std::function<Motion(uint32_t body, double time_s)> body_motion_at;
+  Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
 };
 
 /// Figures of a run that show that the modalities see one world.

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where bodies are at the tick and at any other time.
+#include "sim/moment.h"
+
+#include <gtest/gtest.h>
+
+namespace greatx::sim {
+namespace {
+
+/// A node without a mesh before, between and behind those with one: bodies and nodes are numbered apart.
+constexpr const char* three_nodes = R"(greatx: 1
+name: test
+seed: 5
+ticks: 40
+tick_rate_hz: 30000/1001
+scene: {generate: {kind: room}, origin_m: [100, -20, 3]}
+nodes:
+  - {name: bare, trajectory: {type: static, position_m: [1, 2, 1]}}
+  - name: car
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -15, 0]}, {t_s: 1, position_m: [9, 2, 0]}]}
+    model: {generate: {kind: car, variant: hatchback}, position_m: [0, 0, 0.5]}
+  - {name: post, trajectory: {type: static, position_m: [1, 2, 1]}, model: {generate: {kind: mast}}}
+  - name: uav
+    trajectory: {type: bezier, control_points_m: [[0, 0, 1], [1, 0, 1], [2, 1, 1], [3, 1, 1]]}
+    model: {generate: {kind: quadrotor}}
+)";
+
+bool same_bits(const Pose& a, const Pose& b) {
+  return a.position == b.position && a.orientation == b.orientation;
+}
+
+TEST(Moment, BodiesAtTheTicksOwnTimeAreThoseOfTheTickToTheBit) {
+  const Scenario scenario = parse_scenario(three_nodes, "test.yaml", ".");
+  const World world = load_world(scenario);
+  ASSERT_EQ(world.scene.bodies.size(), 3u);
+  const auto paths = make_paths(scenario, 0);
+  const Clock clock(scenario.tick_rate_hz);
+  for (const int64_t tick : {0, 7, 39}) {
+    const Moment moment = moment_at(world, paths, clock, tick), other = moment_at(world, paths, clock, 3);
+    for (uint32_t body = 0; body < world.scene.bodies.size(); ++body) {
+      EXPECT_TRUE(same_bits(moment.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
+      // Whatever tick asks.
+      EXPECT_TRUE(same_bits(other.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
+    }
+  }
+}
+
+TEST(Moment, BodiesFollowTheirNodesBetweenTicks) {
+  const Scenario scenario = parse_scenario(three_nodes, "test.yaml", ".");
+  const World world = load_world(scenario);
+  const auto paths = make_paths(scenario, 0);
+  const Moment moment = moment_at(world, paths, Clock(scenario.tick_rate_hz), 10);
+  EXPECT_TRUE(same_bits(moment.context.body_pose_at(0, 0.1234), Pose{}));
+  for (const auto& [name, node] : {std::pair{"car", 1u}, {"uav", 3u}}) {
+    const uint32_t body = world.scene.body_index(name);
+    const Motion there = paths[node]->at(0.1234), found = moment.context.body_motion_at(body, 0.1234);
+    EXPECT_EQ(found.pose.position, there.pose.position - dvec3(100, -20, 3)) << name;
+    EXPECT_EQ(found.pose.orientation, there.pose.orientation) << name;
+    EXPECT_EQ(found.velocity, there.velocity) << name;
+    EXPECT_EQ(found.angular_velocity, there.angular_velocity) << name;
+    EXPECT_FALSE(same_bits(found.pose, moment.bodies[body])) << name;
+  }
+}
+
+}  // namespace
+}  // namespace greatx::sim
