@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the echoes of a radar are asked for (docs/radar_echoes.md). Plain data.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/antenna/element.h"
+
+namespace greatx::rf {
+
+/// The directions that tubes leave the transmitter in: a sector about boresight (+x) of its frame.
+struct FieldOfView {
+  double azimuth_min = -1.0471975511965976, azimuth_max = 1.0471975511965976;        ///< rad, towards +y
+  double elevation_min = -0.26179938779914946, elevation_max = 0.26179938779914946;  ///< rad, towards +z
+};
+
+struct EchoOptions {
+  FieldOfView field_of_view;
+  uint32_t tubes = 30000;    ///< of the field of view, before subdivision
+  uint32_t max_bounces = 3;  ///< surfaces that a tube meets, 1 to most_bounces
+  /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their distance, metres.
+  double target_tube_m = 0.03;
+  /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says to what).
+  uint32_t target_budget = 16384;
+  bool moving_targets = true;
+  std::vector<uint32_t> targets;  ///< indices into Scene::instances
+
+  /// A surface nearer than this to an end is inside its antenna: an error that names it. Metres.
+  double antenna_radius_m = 0.02;
+
+  bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
+  bool diffuse =
+      false;  ///< rough surfaces scatter what their materials say, with phases fixed to the surface
+  double diffuse_patch_m = 0.25;  ///< side of the patches whose phases are drawn together
+  uint64_t seed = 1;              ///< of those phases
+
+  /// Tubes become one echo if they fall into one cell of delay, delay rate and direction at both ends, by `merge_share` of
+  /// what an output can tell apart: 1/bandwidth, wavelength/frame, `beam_rad`. 0: nothing is merged.
+  double merge_share = 0.125;
+  double bandwidth_hz = 1e9;
+  double beam_rad = 0.1;
+  uint32_t max_echoes = 1u << 16;  ///< the strongest are kept; the rest is counted
+
+  uint32_t threads = 0;  ///< 0: as many as there are cores; the echoes do not depend on it
+};
+
+inline constexpr uint32_t most_bounces = 6;
+
+/// One end of a radar: an element at the origin of its frame, which looks along +x.
+struct EchoEnd {
+  ElementPattern pattern;
+  double slant = 0.0;          ///< rad
+  uint32_t own_body = 0;       ///< rays do not see the body that carries it; 0: none does
+  std::string name = "radar";  ///< for messages
+};
+
+/// Who moves how while a frame lasts. Times in seconds from the frame's start; poses in local coordinates.
+struct EchoMotion {
+  std::function<Pose(double time_s)> transmitter, receiver;
+  /// Body 0 is never asked for. Must be the pose that the scene was traced with at `traced_s`.
+  std::function<Pose(uint32_t body, double time_s)> body;
+  double traced_s = 0.0;
+  uint32_t first_slot = 0;
+  std::vector<double> slot_start_s;  ///< [slots] of this list, ascending
+  double slot_s = 0.0;               ///< the last slot's length
+  double frame_s() const {
+    return slot_start_s.empty() ? 0.0 : slot_start_s.back() + slot_s - slot_start_s.front();
+  }
+};
+
+/// Everything as it is: what stands still.
+EchoMotion at_rest(const Pose& transmitter, const Pose& receiver, const std::vector<Pose>& body_poses);
+
+/// What a search met, for summaries.
+struct EchoStatistics {
+  uint32_t tubes = 0, target_tubes = 0;
+  double target_tube_m = 0.0;   ///< width of tubes on targets that the budget allowed
+  uint64_t contributions = 0;   ///< before merging
+  uint64_t left_out = 0;        ///< echoes beyond EchoOptions::max_echoes
+  double left_out_power = 0.0;  ///< their sum of |amplitude|^2
+};
+
+}  // namespace greatx::rf

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tubes of rays over a field of view: cells of a regular grid in azimuth and elevation, each as a quadrilateral whose sides
+// are arcs of great circles, so that cells tile the directions without gaps and overlaps; cells in which a target may be
+// seen are subdivided n x n, along the same great circles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/radar/echo_options.h"
+#include "scene/scene.h"
+
+namespace greatx::rf {
+
+/// What may be a target: a box that stands somewhere.
+struct TargetBox {
+  scene::Bounds bounds;  ///< in the frame of `pose`
+  Pose pose;             ///< local coordinates
+};
+
+class RayGrid {
+ public:
+  static constexpr uint32_t outside = ~0u;
+
+  /// `local_from_radar`: the transmitter. Throws UserError if the field of view is empty, wider than the sphere, or if there
+  /// are so few tubes that a cell is wider than 0.5 rad.
+  RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets);
+
+  uint32_t size() const { return static_cast<uint32_t>(tubes_.size()); }
+  /// Unit vectors in local axes. Corners in the order of turning from azimuth towards elevation; side i runs from corner i to
+  /// corner i + 1 and looks at neighbour side_neighbour[i].
+  dvec3 axis(uint32_t tube) const;
+  std::array<dvec3, 4> corners(uint32_t tube) const;
+  /// The tubes around: [0, 8), first the four across the sides 0 to 3 (-elevation, +azimuth, +elevation, -azimuth), then
+  /// those across corners 0 to 3 (tube across corner i lies between sides i - 1 and i). `outside` beyond the field of view.
+  /// Next to cells of another subdivision: the one across the middle.
+  std::array<uint32_t, 8> neighbours(uint32_t tube) const;
+  /// Whether two tubes that share a side are equally subdivided: their sides are then one and the same.
+  bool same_level(uint32_t a, uint32_t b) const { return count_[tubes_[a].cell] == count_[tubes_[b].cell]; }
+
+  uint32_t columns() const { return columns_; }
+  uint32_t rows() const { return rows_; }
+  uint32_t target_tubes() const { return target_tubes_; }
+  double target_tube_m() const { return target_tube_m_; }
+
+ private:
+  struct Tube {
+    uint32_t cell = 0;
+    uint16_t x = 0, y = 0;  ///< within its cell
+  };
+  void choose_cells(const EchoOptions& options);
+  void subdivide(const EchoOptions& options, const Pose& local_from_radar,
+                 std::span<const TargetBox> targets);
+  dvec3 vertex(uint32_t column, uint32_t row) const;
+  dvec3 at(uint32_t cell, double x, double y) const;
+
+  FieldOfView view_;
+  dmat3 local_from_radar_{1.0};
+  uint32_t columns_ = 1, rows_ = 1;
+  bool wraps_ = false;
+  std::vector<uint16_t> count_;  ///< [cells] subdivisions along each axis
+  std::vector<uint32_t> first_;  ///< [cells]
+  std::vector<Tube> tubes_;
+  uint32_t target_tubes_ = 0;
+  double target_tube_m_ = 0.0;
+};
+
+}  // namespace greatx::rf

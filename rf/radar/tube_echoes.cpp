@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/tube_echoes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "shaders/shared/radar.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double smallest_share = 1e-9;  ///< of a tube: parts below it are dropped
+constexpr uint32_t most_pieces = 256;    ///< that a diffuse part is cut into
+
+PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3& receiver,
+                       double wavenumber) {
+  return {dvec3(facet.plane_coordinates(source), facet.distance(source)),
+          dvec3(facet.plane_coordinates(receiver), facet.distance(receiver)), wavenumber};
+}
+
+}  // namespace
+
+bool RayHits::met(uint32_t word) { return word != shared::radar_none; }
+uint32_t RayHits::facet(uint32_t word) {
+  return word == shared::radar_none ? VisibleCell::nothing : word & shared::radar_facet_mask;
+}
+bool RayHits::sees_receiver(uint32_t word) {
+  return word != shared::radar_none && (word & shared::radar_sees_receiver) != 0;
+}
+
+Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam) {
+  std::array<dvec2, 4> corners;
+  const std::array<dvec3, 4> directions = grid.corners(tube);
+  for (int i = 0; i < 4; ++i) corners[i] = beam.uv(beam.source + directions[i]);
+  return Polygon(corners);
+}
+
+Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part) {
+  std::array<dvec2, Polygon::capacity> points;
+  for (uint32_t i = 0; i < part.size(); ++i) {
+    const dvec3 direction = beam.along(part[i]);
+    const double reach = beam.reach(facet, direction);
+    if (!(reach > 0.0 && reach < 1e12)) return {};
+    points[i] = facet.plane_coordinates(beam.source + reach * direction);
+  }
+  return Polygon(std::span(points.data(), part.size()));
+}
+
+/// A tube being worked on.
+struct TubeEchoes::Job {
+  uint32_t tube = 0;
+  std::array<uint32_t, 8> ring{};
+  std::array<TubeBeam, most_bounces + 1> beams;  ///< [bounces before]
+  std::array<uint32_t, most_bounces> chain{};
+  Polygon part;  ///< the whole tube
+  RawEchoes* out = nullptr;
+  std::vector<Contribution> contributions;
+  std::vector<uint32_t> facets;
+  std::array<std::vector<VisibleCell>, most_bounces> cells;
+  uint32_t chain_at = ~0u;  ///< of the chain as it is now, in out->chains
+};
+
+TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world,
+                       const EchoField& field, const scene::Scene& scene, const dvec3& source,
+                       const EchoOptions& options)
+    : grid_(grid),
+      hits_(hits),
+      world_(world),
+      field_(field),
+      scene_(scene),
+      source_(source),
+      options_(options),
+      bounces_(hits.bounces()) {
+  GREATX_CHECK(bounces_ <= most_bounces, "{} bounces", bounces_);
+  whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
+  parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
+    const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid.size(), first + chunk);
+    for (uint32_t tube = first; tube < last; ++tube) classify(tube);
+  });
+}
+
+bool TubeEchoes::ring_agrees(uint32_t tube, const std::array<uint32_t, 8>& ring, uint32_t bounce) const {
+  const uint32_t own = hits_.word(tube, bounce);
+  return RayHits::met(own) && std::all_of(ring.begin(), ring.end(), [&](uint32_t other) {
+           return other == RayGrid::outside || hits_.word(other, bounce) == own;
+         });
+}
+
+void TubeEchoes::classify(uint32_t tube) {
+  if (!RayHits::met(hits_.word(tube, 0))) return;
+  const std::array<uint32_t, 8> ring = grid_.neighbours(tube);
+  TubeBeam beam(source_, grid_.axis(tube));
+  const Polygon part = tube_part(grid_, tube, beam);
+  for (uint32_t bounce = 0; bounce < bounces_ && ring_agrees(tube, ring, bounce); ++bounce) {
+    const uint32_t word = hits_.word(tube, bounce);
+    const PosedFacet& facet = world_.facet(RayHits::facet(word));
+    const Polygon piece = on_facet(facet, beam, part);
+    if (piece.empty()) return;
+    Whole& whole = whole_[size_t{tube} * bounces_ + bounce];
+    if (!field_.reflects(RayHits::facet(word))) {
+      whole = Whole::silent;
+      return;
+    }
+    whole = Whole::silent;
+    if (RayHits::sees_receiver(word)) {
+      const PhasePlane plane = phase_plane(facet, beam.source, field_.receiver_at(), field_.wavenumber());
+      whole = integral_form(plane, piece) == IntegralForm::border ? Whole::border : Whole::other;
+    }
+    beam = beam.mirrored(facet);
+  }
+}
+
+RawEchoes TubeEchoes::find() const {
+  const size_t chunks = (grid_.size() + chunk - 1) / chunk;
+  std::vector<RawEchoes> found(chunks);
+  parallel_for(chunks, options_.threads, [&](size_t part) {
+    const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid_.size(), first + chunk);
+    for (uint32_t tube = first; tube < last; ++tube) solve(tube, found[part]);
+  });
+  RawEchoes all;
+  for (RawEchoes& part : found) {
+    const uint32_t shift = static_cast<uint32_t>(all.chains.size());
+    all.chains.insert(all.chains.end(), part.chains.begin(), part.chains.end());
+    for (RawEcho& echo : part.echoes) {
+      echo.first_facet += shift;
+      all.echoes.push_back(echo);
+    }
+  }
+  return all;
+}
+
+void TubeEchoes::solve(uint32_t tube, RawEchoes& out) const {
+  Job job;
+  job.tube = tube;
+  job.ring = grid_.neighbours(tube);
+  const auto empty = [&](uint32_t other) {
+    return other == RayGrid::outside || !RayHits::met(hits_.word(other, 0));
+  };
+  if (empty(tube) && std::all_of(job.ring.begin(), job.ring.end(), empty)) return;
+  job.out = &out;
+  job.beams[0] = TubeBeam(source_, grid_.axis(tube));
+  job.part = tube_part(grid_, tube, job.beams[0]);
+  follow(job, 0, job.part, {}, true);
+}
+
+bool TubeEchoes::same_chain(const Job& job, uint32_t tube, uint32_t length) const {
+  for (uint32_t i = 0; i < length; ++i)
+    if (RayHits::facet(hits_.word(tube, i)) != job.chain[i]) return false;
+  return true;
+}
+
+void TubeEchoes::follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
+                        bool whole) const {
+  if (bounce == bounces_) return;
+  if (whole && whole_[size_t{job.tube} * bounces_ + bounce] != Whole::no)
+    return bounce_off(job, bounce, part, RayHits::facet(hits_.word(job.tube, bounce)), true);
+  std::vector<VisibleCell>& cells = job.cells[bounce];
+  divide(job, bounce, part, start, cells);
+  for (size_t i = 0; i < cells.size(); ++i)
+    if (cells[i].facet != VisibleCell::nothing) bounce_off(job, bounce, cells[i].part, cells[i].facet, false);
+}
+
+void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
+                        std::vector<VisibleCell>& cells) const {
+  job.facets.clear();
+  bool one_instance = same_chain(job, job.tube, bounce) && RayHits::met(hits_.word(job.tube, bounce));
+  const uint32_t own = one_instance ? RayHits::facet(hits_.word(job.tube, bounce)) : VisibleCell::nothing;
+  const auto look = [&](uint32_t tube) {
+    if (tube == RayGrid::outside) return;
+    const uint32_t facet = RayHits::facet(hits_.word(tube, bounce));
+    const bool counts = facet != VisibleCell::nothing && same_chain(job, tube, bounce);
+    if (counts) job.facets.push_back(facet);
+    one_instance = one_instance && counts && scene_.facets[facet].instance == scene_.facets[own].instance;
+  };
+  look(job.tube);
+  for (const uint32_t other : job.ring) look(other);
+  std::sort(job.facets.begin(), job.facets.end());
+  job.facets.erase(std::unique(job.facets.begin(), job.facets.end()), job.facets.end());
+  cells.clear();
+  if (job.facets.empty()) return;
+  find_visible(world_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(), cells);
+  if (!one_instance) return;
+  for (VisibleCell& cell : cells)
+    if (cell.facet == VisibleCell::nothing && cell.part.area() > 1e-6 * job.part.area()) cell.facet = own;
+}
+
+bool TubeEchoes::sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const {
+  const auto asks = [&](uint32_t tube) {
+    return tube != RayGrid::outside && RayHits::facet(hits_.word(tube, bounce)) == facet &&
+           same_chain(job, tube, bounce);
+  };
+  if (asks(job.tube)) return RayHits::sees_receiver(hits_.word(job.tube, bounce));
+  for (const uint32_t other : job.ring)
+    if (asks(other)) return RayHits::sees_receiver(hits_.word(other, bounce));
+  return false;
+}
+
+void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet,
+                            bool whole) const {
+  const PosedFacet& posed = world_.facet(facet);
+  job.chain[bounce] = facet;
+  job.chain_at = ~0u;
+  if (!field_.reflects(facet)) return;
+  if (whole ? RayHits::sees_receiver(hits_.word(job.tube, bounce)) : sees_receiver(job, bounce, facet))
+    send_back(job, bounce, part, facet, whole);
+  if (bounce + 1 == bounces_) return;
+  const TubeBeam& beam = job.beams[bounce];
+  job.beams[bounce + 1] = beam.mirrored(posed);
+  // Rays go on to the side that they came from, which is where the source of before is.
+  const BeamStart start{&posed, facet, posed.distance(beam.source) > 0.0 ? 1.0 : -1.0};
+  follow(job, bounce + 1, part, start, whole);
+  job.chain_at = ~0u;
+}
+
+uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet,
+                                   const Polygon& piece, bool whole) const {
+  const TubeBeam& beam = job.beams[bounce];
+  const std::array<dvec3, 4> corners = grid_.corners(job.tube);
+  uint32_t marks = 0;
+  for (int side = 0; side < 4; ++side) {
+    const uint32_t other = job.ring[side];
+    bool omit = other == RayGrid::outside;
+    if (!omit && whole && grid_.same_level(job.tube, other))
+      omit = whole_[size_t{job.tube} * bounces_ + bounce] == Whole::border &&
+             whole_[size_t{other} * bounces_ + bounce] == Whole::border;
+    if (!omit) continue;
+    const dvec2 a = job.beams[0].uv(source_ + corners[side]),
+                b = job.beams[0].uv(source_ + corners[(side + 1) % 4]);
+    const dvec2 along = b - a;
+    const double length = glm::length(along);
+    if (length == 0.0) continue;
+    const auto lies_on = [&](const dvec2& p) {
+      const dvec2 arm = beam.uv(point_of(facet, p)) - a;
+      return std::abs(along.x * arm.y - along.y * arm.x) < 1e-6 * length * length;
+    };
+    for (uint32_t i = 0; i < piece.size(); ++i)
+      if (lies_on(piece[i]) && lies_on(piece.next(i))) marks |= 1u << i;
+  }
+  return marks;
+}
+
+void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
+  const PosedFacet& posed = world_.facet(facet);
+  const TubeBeam& beam = job.beams[bounce];
+  // The receiver is on the lit side: where the source was before the last surface turned the rays.
+  if (posed.distance(beam.source) * posed.distance(field_.receiver_at()) <= 0.0) return;
+  const Polygon piece = on_facet(posed, beam, part);
+  if (piece.empty()) return;
+  job.contributions.clear();
+  const PhasePlane plane = phase_plane(posed, beam.source, field_.receiver_at(), field_.wavenumber());
+  const uint32_t omitted = omitted_sides(job, bounce, posed, piece, whole);
+  integrate(plane, piece, omitted, job.contributions);
+  for (const Contribution& c : job.contributions) add(job, bounce, posed, c.at, c.value);
+  if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
+}
+
+void TubeEchoes::add(Job& job, uint32_t bounce, const PosedFacet& facet, const dvec2& at,
+                     Complex value) const {
+  const dvec3 point = point_of(facet, at), arm = point - job.beams[bounce].source;
+  const double before = glm::length(arm);
+  const TubeBeam& first = job.beams[0];
+  const dvec3 departure = glm::normalize(first.along(job.beams[bounce].uv(point)));
+  const std::span<const uint32_t> chain(job.chain.data(), bounce + 1);
+  const Complex amplitude = value * field_.density({departure, before, point, chain});
+  if (amplitude == 0.0) return;
+  if (job.chain_at == ~0u) {
+    job.chain_at = static_cast<uint32_t>(job.out->chains.size());
+    job.out->chains.insert(job.out->chains.end(), chain.begin(), chain.end());
+  }
+  const dvec3 back = point - field_.receiver_at();
+  const double after = glm::length(back);
+  job.out->echoes.push_back(
+      {amplitude, departure, back / after, point, before + after, job.chain_at, bounce + 1});
+}
+
+/// Pieces no longer in delay than what the bandwidth tells apart.
+void TubeEchoes::scatter(Job& job, const Polygon& part, uint32_t facet) const {
+  const PosedFacet& posed = world_.facet(facet);
+  if (posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;
+  std::vector<Polygon> pieces{part};
+  const PhasePlane plane = phase_plane(posed, source_, field_.receiver_at(), field_.wavenumber());
+  for (size_t i = 0; i < pieces.size() && pieces.size() < most_pieces;) {
+    double least = 1e300, most = -1e300;
+    dvec2 far(0.0);
+    const dvec2 middle = pieces[i].centroid();
+    for (uint32_t k = 0; k < pieces[i].size(); ++k) {
+      const double length = plane.length(pieces[i][k]);
+      least = std::min(least, length), most = std::max(most, length);
+      if (glm::length(pieces[i][k] - middle) > glm::length(far)) far = pieces[i][k] - middle;
+    }
+    if (most - least < 0.5 * speed_of_light / options_.bandwidth_hz) {
+      ++i;
+      continue;
+    }
+    const HalfPlane cut{far, -glm::dot(far, middle)};
+    const Polygon second = pieces[i].clipped({-cut.normal, -cut.offset});
+    pieces[i] = pieces[i].clipped(cut);
+    pieces.push_back(second);
+  }
+  for (const Polygon& piece : pieces) {
+    const dvec3 point = point_of(posed, piece.centroid()), arm = point - source_,
+                back = point - field_.receiver_at();
+    const double before = glm::length(arm), after = glm::length(back);
+    const Complex amplitude =
+        field_.diffuse({arm / before, before, point, std::span(job.chain.data(), 1)}, piece.area());
+    if (amplitude == 0.0) continue;
+    if (job.chain_at == ~0u) {
+      job.chain_at = static_cast<uint32_t>(job.out->chains.size());
+      job.out->chains.push_back(facet);
+    }
+    job.out->echoes.push_back(
+        {amplitude, arm / before, back / after, point, before + after, job.chain_at, 1});
+  }
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From what the rays have met to what every tube sends back: geometry and fields, fp64, tube by tube.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rf/radar/echo_field.h"
+#include "rf/radar/ray_grid.h"
+#include "rf/radar/tube_integral.h"
+#include "rf/radar/visible_cells.h"
+
+namespace greatx::rf {
+
+/// A place that sends something back, before merging.
+struct RawEcho {
+  Complex amplitude;
+  dvec3 departure{0.0}, arrival{0.0};  ///< as Echo's
+  dvec3 point{0.0};
+  double length_m = 0.0;     ///< transmitter to receiver, unfolded
+  uint32_t first_facet = 0;  ///< of its chain, into RawEchoes::chains
+  uint32_t bounces = 0;
+};
+
+struct RawEchoes {
+  std::vector<RawEcho> echoes;
+  std::vector<uint32_t> chains;
+  std::span<const uint32_t> chain(const RawEcho& echo) const {
+    return std::span(chains).subspan(echo.first_facet, echo.bounces);
+  }
+};
+
+/// What rays have met: [bounce][tube], a facet or nothing, and whether the receiver is seen from there.
+class RayHits {
+ public:
+  RayHits(std::span<const uint32_t> words, uint32_t tubes) : words_(words), tubes_(tubes) {}
+  uint32_t bounces() const { return tubes_ == 0 ? 0 : static_cast<uint32_t>(words_.size() / tubes_); }
+  uint32_t word(uint32_t tube, uint32_t bounce) const { return words_[size_t{bounce} * tubes_ + tube]; }
+  static bool met(uint32_t word);
+  static uint32_t facet(uint32_t word);
+  static bool sees_receiver(uint32_t word);
+
+ private:
+  std::span<const uint32_t> words_;
+  uint32_t tubes_;
+};
+
+/// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and agree on seeing
+/// the receiver: then all of it falls on that facet. Else it is divided by find_visible among the facets that those nine have
+/// met after the same facets before. Each part goes on as a beam of its own.
+///
+/// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine mesh) what is
+/// left uncovered counts as the middle ray's facet.
+class TubeEchoes {
+ public:
+  TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const EchoField& field,
+             const scene::Scene& scene, const dvec3& source, const EchoOptions& options);
+
+  /// All tubes, in their order, on options.threads threads.
+  RawEchoes find() const;
+
+ private:
+  struct Job;
+  static constexpr uint32_t chunk = 128;
+  /// How a whole tube's integral goes at each bounce, so that neighbours know what cancels.
+  enum class Whole : uint8_t { no, silent, border, other };
+  void classify(uint32_t tube);
+  bool ring_agrees(uint32_t tube, const std::array<uint32_t, 8>& ring, uint32_t bounce) const;
+  void solve(uint32_t tube, RawEchoes& out) const;
+  void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start, bool whole) const;
+  void divide(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
+              std::vector<VisibleCell>& cells) const;
+  void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
+  void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
+  void scatter(Job& job, const Polygon& part, uint32_t facet) const;
+  bool sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const;
+  bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
+  uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
+                         bool whole) const;
+  void add(Job& job, uint32_t bounce, const PosedFacet& facet, const dvec2& at, Complex value) const;
+
+  const RayGrid& grid_;
+  const RayHits& hits_;
+  const FacetWorld& world_;
+  const EchoField& field_;
+  const scene::Scene& scene_;
+  dvec3 source_;
+  const EchoOptions& options_;
+  uint32_t bounces_;
+  std::vector<Whole> whole_;  ///< [tubes * bounces]
+};
+
+/// The tube's quadrilateral in its own coordinates.
+Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam);
+/// A part of a beam on a facet, in the facet's plane coordinates; empty where it does not fall on the plane.
+Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part);
+
+}  // namespace greatx::rf

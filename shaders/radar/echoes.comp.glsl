@@ -1,0 +1,64 @@
+#version 460
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One ray per invocation, reflected specularly off every facet that it meets. It finds out what is where; where exactly,
+// and with which phase, is worked out in fp64 on the host.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/radar.h"
+#include "lib/trace.glsl"
+
+layout(local_size_x = radar_group) in;
+
+layout(set = 0, binding = radar_directions_binding, scalar) readonly buffer DirectionsBlock { vec3 directions[]; };
+layout(set = 0, binding = radar_hits_binding, scalar) writeonly buffer HitsBlock { uint hits[]; };
+
+layout(push_constant, scalar) uniform Constants { EchoConstants constants; };
+
+const float infinite_range = 1e30;
+
+Hit next_hit(vec3 origin, vec3 direction, uint facet) {
+  Hit hit = trace_leaving(origin, direction, infinite_range, facet);
+  // Only rays that meet the own body pay for looking at every triangle on their way.
+  if (hit.hit && scene_primitive(hit.primitive).body == constants.source_body)
+    hit = trace_closest_except(origin, 0.0, direction, infinite_range, constants.source_body, facet, false);
+  return hit;
+}
+
+bool sees_receiver(vec3 start, uint facet) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK, start,
+                        0.0, constants.receiver - start, 1.0);
+  while (rayQueryProceedEXT(query)) {
+    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
+    if (primitive.body == constants.source_body || primitive.body == constants.receiver_body) continue;
+    if (scene_facet(candidate_triangle(query, primitive)) != facet) rayQueryConfirmIntersectionEXT(query);
+  }
+  return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+}
+
+void main() {
+  uint ray = gl_GlobalInvocationID.x;
+  if (ray >= constants.rays) return;
+  if (ray == 0u)
+    hits[constants.max_bounces * constants.rays] =
+        constants.monostatic == 0u && sees_receiver(constants.source, no_facet) ? 1u : 0u;
+  vec3 origin = constants.source, direction = directions[ray];
+  uint facet = no_facet, bounce = 0u;
+  for (; bounce < constants.max_bounces; ++bounce) {
+    Hit hit = next_hit(origin, direction, facet);
+    if (!hit.hit) break;
+    facet = scene_facet(hit.triangle);
+    if (facet == no_facet) break;
+    Corners corners = triangle_corners(hit.triangle, scene_primitive(hit.primitive).body);
+    vec3 normal = geometric_normal(corners);
+    if (dot(normal, direction) > 0.0) normal = -normal;
+    origin = offset_origin(hit_point(corners, hit.barycentric), normal);
+    bool seen = bounce == 0u && constants.monostatic != 0u;
+    // From behind the surface nothing is seen; the surface itself may be passed over by name.
+    if (!seen && dot(constants.receiver - origin, normal) > 0.0) seen = sees_receiver(origin, facet);
+    hits[bounce * constants.rays + ray] = facet | (seen ? radar_sees_receiver : 0u);
+    direction = normalize(direction - 2.0 * dot(direction, normal) * normal);
+  }
+  for (; bounce < constants.max_bounces; ++bounce) hits[bounce * constants.rays + ray] = radar_none;
+}
