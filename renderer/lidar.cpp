@@ -67,7 +67,7 @@ LidarPass::LidarPass(scene::GpuScene& scene, const LidarDesc& desc, std::string_
   if (textured) {
     compute.specialization.insert(compute.specialization.end(),
                                   {desc_.alpha_mask, desc_.textured_reflectance,
-                                   scene.textures().arrays_of(&scene::PbrMaterial::base_color_texture)});
+                                   scene.textures().arrays_of(&scene::MaterialTextures::base_color)});
     compute.textures = &scene.textures().table();
   }
   pipeline_ = gpu::ComputePipeline(device, compute, name_);

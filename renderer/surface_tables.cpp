@@ -45,20 +45,22 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   words.push_back(0u);
 }
 
-void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::GpuTextures& textures) {
+void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::MaterialTextures& textures) {
   const auto pair = [](uint32_t low, uint32_t high) { return low | high << 16; };
-  const auto texture = [&](int32_t index) { return static_cast<uint32_t>(textures.reference(index) + 1); };
+  const auto texture = [](scene::TextureReference reference) { return static_cast<uint32_t>(reference + 1); };
   const auto fraction = [](float x) { return static_cast<uint32_t>(std::lround(x * 65535.0f)); };
-  const bool rare = pbr.metallic_roughness_texture >= 0;
+  const uint32_t roughness_in = textures.roughness_in_alpha        ? shared::roughness_in_alpha
+                                : textures.metallic_roughness >= 0 ? shared::roughness_in_texture
+                                                                   : 0u;
   words.push_back(glm::packHalf2x16(vec2(pbr.base_color)));
-  words.push_back(pair(glm::packHalf1x16(pbr.base_color.z), rare ? 1 : 0));
-  words.push_back(pair(fraction(pbr.metallic), fraction(pbr.roughness)));
-  words.push_back(texture(pbr.base_color_texture));
+  words.push_back(pair(glm::packHalf1x16(pbr.base_color.z), roughness_in));
+  words.push_back(pair(fraction(pbr.metallic * textures.metallic), fraction(pbr.roughness)));
+  words.push_back(texture(textures.base_color));
   put(words, pbr.emissive);
-  words.push_back(texture(pbr.emissive_texture));
+  words.push_back(texture(textures.emissive));
   put(words, pbr.normal_scale);
-  words.push_back(texture(pbr.normal_texture));
-  words.push_back(texture(pbr.metallic_roughness_texture));
+  words.push_back(texture(textures.normal));
+  words.push_back(texture(textures.metallic_roughness));
   words.push_back(0u);
 }
 
@@ -91,8 +93,8 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
       put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
     }
   }
-  for (const scene::Material& material : scene.materials)
-    put_material(materials, material.pbr, gpu_scene.textures());
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    put_material(materials, scene.materials[i].pbr, gpu_scene.textures().of_material(i));
   // An empty scene still has something to bind.
   if (triangles.empty()) triangles.resize(4 * shared::triangle_record_quads);
   if (materials.empty()) materials.resize(4 * shared::material_record_quads);

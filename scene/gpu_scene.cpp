@@ -18,7 +18,7 @@ gpu::Buffer upload(gpu::Device& device, const std::vector<T>& values, std::strin
 
 float luminance(const vec4& color) { return 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b; }
 
-shared::GpuMaterial gpu_material(const Material& material, const GpuTextures& textures) {
+shared::GpuMaterial gpu_material(const Material& material, const MaterialTextures& textures) {
   const PbrMaterial& pbr = material.pbr;
   shared::GpuMaterial result{};
   result.base_color = pbr.base_color;
@@ -31,10 +31,7 @@ shared::GpuMaterial gpu_material(const Material& material, const GpuTextures& te
                  (pbr.double_sided ? shared::material_flag_double_sided : 0u) |
                  (material.reflectance_905nm ? shared::material_flag_reflectance_905nm : 0u) |
                  (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u);
-  result.base_color_texture = textures.reference(pbr.base_color_texture);
-  result.metallic_roughness_texture = textures.reference(pbr.metallic_roughness_texture);
-  result.normal_texture = textures.reference(pbr.normal_texture);
-  result.emissive_texture = textures.reference(pbr.emissive_texture);
+  result.base_color_texture = textures.base_color;
   result.reflectance_905nm = material.reflectance_905nm.value_or(luminance(pbr.base_color));
   result.reflectance_1550nm = material.reflectance_1550nm.value_or(luminance(pbr.base_color));
   return result;
@@ -77,7 +74,8 @@ void GpuScene::upload_geometry() {
   facet_of_triangle_ = upload(device, scene_->facet_of_triangle, "facet of triangle");
 
   std::vector<shared::GpuMaterial> materials;
-  for (const Material& material : scene_->materials) materials.push_back(gpu_material(material, textures_));
+  for (size_t i = 0; i < scene_->materials.size(); ++i)
+    materials.push_back(gpu_material(scene_->materials[i], textures_.of_material(i)));
   materials_ = upload(device, materials, "materials");
 
   std::vector<shared::GpuPrimitive> primitives;

@@ -97,7 +97,7 @@ void CameraPass::build_pipelines() {
     draw.fragment_shader = "camera/visibility_masked.frag";
     draw.textures = &scene_->textures().table();
     draw.specialization[shared::spec_base_color_arrays] =
-        scene_->textures().arrays_of(&scene::PbrMaterial::base_color_texture);
+        scene_->textures().arrays_of(&scene::MaterialTextures::base_color);
     visibility_masked_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility masked");
   }
 
@@ -134,12 +134,14 @@ void CameraPass::build_pipelines() {
   shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
   shade.specialization[shared::spec_distortion] = desc_.distortion.any();
   shade.specialization[shared::spec_blend] = desc_.parts;
-  const auto arrays_of = [&](int32_t scene::PbrMaterial::*use) { return scene_->textures().arrays_of(use); };
-  using Pbr = scene::PbrMaterial;
-  shade.specialization[shared::spec_base_color_arrays] = arrays_of(&Pbr::base_color_texture);
-  shade.specialization[shared::spec_metallic_roughness_arrays] = arrays_of(&Pbr::metallic_roughness_texture);
-  shade.specialization[shared::spec_normal_arrays] = arrays_of(&Pbr::normal_texture);
-  shade.specialization[shared::spec_emissive_arrays] = arrays_of(&Pbr::emissive_texture);
+  const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
+    return scene_->textures().arrays_of(use);
+  };
+  shade.specialization[shared::spec_base_color_arrays] = arrays_of(&scene::MaterialTextures::base_color);
+  shade.specialization[shared::spec_metallic_roughness_arrays] =
+      arrays_of(&scene::MaterialTextures::metallic_roughness);
+  shade.specialization[shared::spec_normal_arrays] = arrays_of(&scene::MaterialTextures::normal);
+  shade.specialization[shared::spec_emissive_arrays] = arrays_of(&scene::MaterialTextures::emissive);
   shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
 }
 

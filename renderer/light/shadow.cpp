@@ -63,7 +63,7 @@ gpu::GraphicsPipeline ShadowMaps::pipeline(bool moving, bool masked) const {
   if (masked) {
     desc.fragment_shader = "camera/shadow_mask.frag";
     desc.textures = &scene_->textures().table();
-    desc.specialization = {scene_->textures().arrays_of(&scene::PbrMaterial::base_color_texture)};
+    desc.specialization = {scene_->textures().arrays_of(&scene::MaterialTextures::base_color)};
   }
   desc.bindings = scene::GpuScene::bindings(false);
   if (moving) {

@@ -130,14 +130,19 @@ Raster Canvas::normals() const {
   return result;
 }
 
+Raster Canvas::whole(const std::vector<Rgb>& pixels) const {
+  if (pixels.empty()) return {};
+  Raster result{static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
+  result.rgb.reserve(3 * pixels.size());
+  for (const Rgb& p : pixels)
+    for (const int c : {p.r, p.g, p.b}) result.rgb.push_back(static_cast<uint8_t>(std::clamp(c, 0, 255)));
+  return result;
+}
+
 Picture Canvas::picture() const {
   Picture result;
-  result.color = {static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
-  result.color.rgb.reserve(3 * colors_.size());
-  for (const Rgb& p : colors_)
-    for (const int c : {p.r, p.g, p.b})
-      result.color.rgb.push_back(static_cast<uint8_t>(std::clamp(c, 0, 255)));
-  result.metallic_roughness = halved(surface_);
+  result.color = whole(colors_);
+  result.metallic_roughness = whole(surface_);
   result.normal = normals();
   for (size_t layer = 0; layer < lit_.size(); ++layer) result.lit[layer] = halved(lit_[layer]);
   return result;

@@ -45,11 +45,13 @@ class Canvas {
   void light(int layer, int x0, int y0, int x1, int y1, const Rgb& color);
   /// Height over the plane, in pixels/16; starts a normal picture.
   void raise(int x0, int y0, int x1, int y1, int height);
-  /// What is lit, and roughness, at half the resolution: nobody sees the difference.
+  /// What is lit at half the resolution: nobody sees the difference. Roughness as large as the colour: a renderer may then
+  /// look both up at once.
   Picture picture() const;
 
  private:
   size_t index(int x, int y) const;
+  Raster whole(const std::vector<Rgb>& pixels) const;
   Raster halved(const std::vector<Rgb>& pixels) const;
   Raster normals() const;
 

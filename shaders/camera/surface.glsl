@@ -67,9 +67,13 @@ Surface surface_at(Seen seen, vec3 ray) {
     at.dy = along * (barycentrics(seen, ray + camera.ray_y) - center);
     if (textures_on) {
       uint of_color = m0.w;
-      if (of_color != 0u) s.base_color *= texel(base_color_arrays, of_color, at).rgb;
-      bool of_roughness = (m0.y >> 16) != 0u;
-      if (of_roughness) {
+      uint roughness_in = m0.y >> 16;
+      if (of_color != 0u) {
+        vec4 color = texel(base_color_arrays, of_color, at);
+        s.base_color *= color.rgb;
+        s.roughness *= roughness_in == roughness_in_alpha ? color.a : 1.0;
+      }
+      if (roughness_in == roughness_in_texture) {
         vec4 mr = texel(metallic_roughness_arrays, material_record(seen.material, 2u).z, at);
         s.metallic *= mr.b;
         s.roughness *= mr.g;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures (scene/gpu_textures.h), known by array << 16 | layer. `arrays` says which arrays the texture may
-// be in, a bit each, a specialization constant (GpuTextures::arrays_of); 0: any.
+// The scene's textures (scene/gpu_textures.h), known by references (texture_array_shift). `arrays` says which arrays the
+// texture may be in, a bit each, a specialization constant (GpuTextures::arrays_of); 0: any.
 #ifndef GREATX_LIB_TEXTURES_GLSL
 #define GREATX_LIB_TEXTURES_GLSL
 #extension GL_EXT_nonuniform_qualifier : require
@@ -11,10 +11,22 @@
 
 layout(set = 1, binding = 0) uniform sampler2DArray textures[];
 
+uint texture_array(uint reference) { return reference >> texture_array_shift; }
+
+/// From a texture's own coordinates to those of its layer, where it may lie side by side: powers of two.
+vec2 texture_scale(uint reference) {
+  uvec2 tiles = uvec2(reference >> texture_tiles_u_shift, reference >> texture_tiles_v_shift) & texture_most_log_tiles;
+  return uintBitsToFloat((127u - tiles) << 23);
+}
+vec3 texture_place(uint reference, vec2 uv) { return vec3(uv, float(reference & (texture_most_layers - 1u))); }
+
 /// Trilinear, by gradients, so that lanes may differ in the texture.
 vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy) {
-  uint array = reference >> 16;
-  vec3 at = vec3(uv, float(reference & 0xffffu));
+  uint array = texture_array(reference);
+  vec2 scale = texture_scale(reference);
+  vec3 at = texture_place(reference, uv * scale);
+  dx *= scale;
+  dy *= scale;
   if (arrays == 0u) return textureGrad(textures[nonuniformEXT(array)], at, dx, dy);
   vec4 value = vec4(1.0);
   [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)
@@ -24,8 +36,8 @@ vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy)
 
 /// Bilinear, of the finest level.
 vec4 texture_of_level_0(uint arrays, uint reference, vec2 uv) {
-  uint array = reference >> 16;
-  vec3 at = vec3(uv, float(reference & 0xffffu));
+  uint array = texture_array(reference);
+  vec3 at = texture_place(reference, uv * texture_scale(reference));
   if (arrays == 0u) return textureLod(textures[nonuniformEXT(array)], at, 0.0);
   vec4 value = vec4(1.0);
   [[unroll]] for (uint i = 0u; i < most_tried_arrays; ++i)

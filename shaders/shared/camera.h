@@ -97,12 +97,14 @@ const float lamp_most_roughness = 0.6f;
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
 /// Of a material's record, low half first:
-///   0  base colour in halves: red, green; blue, 1 if there is a metallic-roughness texture; metallic, roughness as
-///      fractions of 65535; base-colour texture
+///   0  base colour in halves: red, green; blue, where else its roughness stands (roughness_in_...; 0: nowhere); metallic,
+///      roughness as fractions of 65535; base-colour texture
 ///   1  emission in floats; emissive texture
 ///   2  scale of the normal map; normal texture, metallic-roughness texture
-/// A texture is its reference (scene/gpu_textures.h) + 1, 0 if there is none.
+/// A texture is its reference (scene/texture_layers.h) + 1, 0 if there is none.
 const uint material_record_quads = 3u;
+const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
+const uint roughness_in_alpha = 2u;    ///< of the base-colour texture
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;

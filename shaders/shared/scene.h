@@ -21,6 +21,14 @@ const uint moving_mask = 2u;
 
 /// Arrays of textures that a shader may ask for one by one (scene/gpu_textures.h).
 const uint most_tried_arrays = 24u;
+/// What a texture is known by (scene/texture_layers.h): its layer in the lowest 12 bits; the binary logarithms of how often
+/// it lies side by side in there along u and v; its array.
+const uint texture_tiles_u_shift = 12u;
+const uint texture_tiles_v_shift = 16u;
+const uint texture_array_shift = 20u;
+const uint texture_most_layers = 1u << texture_tiles_u_shift;
+const uint texture_most_log_tiles = 15u;
+const uint texture_most_arrays = 2047u;
 
 struct GpuMaterial {
   vec4 base_color;
@@ -30,10 +38,7 @@ struct GpuMaterial {
   float normal_scale;
   float alpha_cutoff;
   uint flags;
-  int base_color_texture;  ///< array << 16 | layer (scene/gpu_textures.h), or -1
-  int metallic_roughness_texture;
-  int normal_texture;
-  int emissive_texture;
+  int base_color_texture;  ///< as texture_array_shift says, or -1
   float reflectance_905nm;
   float reflectance_1550nm;
 };
@@ -76,7 +81,7 @@ const uint first_pass_binding = 4u;
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::GpuMaterial) == 72);
+static_assert(sizeof(greatx::shared::GpuMaterial) == 60);
 static_assert(sizeof(greatx::shared::GpuPrimitive) == 24);
 static_assert(sizeof(greatx::shared::GpuBody) == 48);
 static_assert(sizeof(greatx::shared::GpuSceneAddresses) == 64);

@@ -55,39 +55,71 @@ void expect_greys(uint32_t count) {
   for (uint32_t strip = 0; strip < count; ++strip) EXPECT_GT(seen[strip], 60u) << strip;
 }
 
-TEST(Textures, OfOneSizeAreLayersOfOneImage) {
-  const scene::Scene scene = strips(6);
-  const scene::GpuScene gpu(test::device(), scene, {.acceleration_structure = false});
-  const scene::GpuTextures& textures = gpu.textures();
-  EXPECT_EQ(textures.reference(-1), -1);
-  EXPECT_EQ(textures.reference(0) >> 16, textures.reference(5) >> 16);
-  EXPECT_EQ(textures.reference(0) & 0xffff, 0);
-  EXPECT_EQ(textures.reference(5) & 0xffff, 1);
-  for (int32_t i = 1; i < 5; ++i) EXPECT_NE(textures.reference(i) >> 16, textures.reference(0) >> 16);
-  EXPECT_EQ(textures.arrays_of(&scene::PbrMaterial::normal_texture), 0u);
-  if (test::device().info().type == "cpu") {
-    EXPECT_EQ(textures.arrays_of(&scene::PbrMaterial::base_color_texture), 0x1fu);
-  }
-}
-
-TEST(Textures, OfOthersSpaceOrWrappingAreNot) {
-  std::vector<scene::Texture> all(4, grey_texture(8, 8, 100));
-  all[1].srgb = true;
-  all[2].repeat_u = false;
-  all[3].repeat_v = false;
-  const scene::GpuTextures textures(test::device(), all, {});
-  for (int32_t a = 0; a < 4; ++a)
-    for (int32_t b = 0; b < a; ++b) EXPECT_NE(textures.reference(a) >> 16, textures.reference(b) >> 16);
-}
-
 TEST(Textures, ShadersAskAFewImagesOneByOne) { expect_greys(12); }
 
 TEST(Textures, ShadersPickAmongManyImagesByNumber) {
   const uint32_t many = shared::most_tried_arrays + 4;
   const scene::Scene scene = strips(many);
   const scene::GpuScene gpu(test::device(), scene, {.acceleration_structure = false});
-  EXPECT_EQ(gpu.textures().arrays_of(&scene::PbrMaterial::base_color_texture), 0u);
+  EXPECT_EQ(gpu.textures().arrays_of(&scene::MaterialTextures::base_color), 0u);
   expect_greys(many);
+}
+
+/// Noise, sRGB.
+scene::Texture noise(uint32_t width, uint32_t height, uint32_t seed) {
+  scene::Texture texture = grey_texture(width, height, 255);
+  texture.srgb = true;
+  for (size_t i = 0; i < texture.rgba.size(); ++i)
+    if (i % 4 != 3) texture.rgba[i] = static_cast<uint8_t>((i * 2654435761u + seed * 40503u) >> 13);
+  return texture;
+}
+
+/// A floor of 8 m with a small texture many times over, beside a patch with another of 64 x 32 texels.
+scene::Scene floor_and_patch(const scene::Texture& on_floor, const scene::Texture& on_patch) {
+  TinyScene tiny;
+  const auto painted = [&](const scene::Texture& texture) {
+    scene::Material material = test::optical_material("painted", 1.0f);
+    material.pbr.base_color_texture = int32_t(tiny.texture(texture));
+    return tiny.material_as(material);
+  };
+  tiny.object("floor", 0, painted(on_floor)).quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0});
+  tiny.object("patch", 0, painted(on_patch)).quad({9, 9, 0}, {10, 9, 0}, {10, 10, 0}, {9, 10, 0});
+  return tiny.build();
+}
+
+TEST(Textures, LaidSideBySideGiveTheSamePicture) {
+  // The same floor; the patch, out of sight, has a size that the floor's texture divides, or one that it does not.
+  std::vector<std::vector<float>> pictures;
+  for (const uint32_t width : {64u, 68u}) {
+    CameraRig rig(floor_and_patch(noise(16, 8, 1), noise(width, 32, 2)), test::plain_light(),
+                  test::plain_camera(64), test::lambertian());
+    pictures.push_back(rig.shoot(test::look({0.3, 0.2, 2.0}, 30.0, 60.0)).hdr);
+  }
+  double most = 0.0, difference = 0.0;
+  for (size_t i = 0; i < pictures[0].size(); ++i) {
+    most = std::max(most, double(pictures[0][i]));
+    difference = std::max(difference, std::abs(double(pictures[0][i]) - pictures[1][i]));
+  }
+  EXPECT_GT(most, 0.0);
+  EXPECT_LT(difference, 2e-3 * most);  // halves on the way, coordinates scaled by a power of two
+}
+
+TEST(Textures, RoughnessInTheAlphaOfColoursGivesTheSamePicture) {
+  // As large as the colours it goes into their alpha, twice as large it stays a texture of its own.
+  std::vector<std::vector<float>> pictures;
+  for (const uint32_t size : {16u, 32u}) {
+    TinyScene tiny;
+    scene::Material material = test::optical_material("painted", 1.0f);
+    material.pbr.base_color_texture = int32_t(tiny.texture(noise(16, 16, 3)));
+    material.pbr.metallic_roughness_texture = int32_t(tiny.texture(grey_texture(size, size, 77)));
+    material.pbr.metallic = 1.0f;
+    material.pbr.roughness = 0.9f;
+    tiny.object("floor", 0, tiny.material_as(material)).quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0});
+    CameraRig rig(tiny.build(), test::plain_light(), test::plain_camera(64), {.specular = true});
+    pictures.push_back(rig.shoot(test::look({0.3, 0.2, 2.0}, 30.0, 60.0)).hdr);
+  }
+  for (size_t i = 0; i < pictures[0].size(); ++i)
+    ASSERT_NEAR(pictures[0][i], pictures[1][i], 2e-3f * pictures[1][i]) << i;
 }
 
 TEST(Textures, OfSceneWithoutAnyCanStillBeBound) {
