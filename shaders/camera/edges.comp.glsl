@@ -51,19 +51,21 @@ vec4 smoothed(ivec2 at, uvec2 mine, uint differing, vec4 color) {
   while (differing != 0u) {
     int k = findLSB(differing);
     differing &= differing - 1u;
-    ivec2 there = at + step_to(k);
     uvec2 other = picture_seen[neighbor(at, k)];
-    vec3 other_ray = pixel_ray(pinhole_place(there));
-    bool nearer = uintBitsToFloat(mine.x) <= uintBitsToFloat(other.x);
-    Seen seen = see((nearer ? mine.y : other.y) - 1u);
-    float covered = nearer ? reach(seen, ray, other_ray - ray) : reach(seen, other_ray, ray - other_ray);
-    float weight = clamp(nearer ? 0.5 - covered : covered - 0.5, 0.0, 0.5);
     // Triangles of one flat face have no edge between them.
-    if (mine.y != 0u && other.y != 0u && scene_facet(mine.y - 1u) == scene_facet(other.y - 1u)) weight = 0.0;
-    vec4 part = weight * shaded(there);
-    across += k < 2 ? part : vec4(0.0);
-    down += k < 2 ? vec4(0.0) : part;
-    share += k < 2 ? vec2(weight, 0.0) : vec2(0.0, weight);
+    bool edge = mine.y == 0u || other.y == 0u || scene_facet(mine.y - 1u) != scene_facet(other.y - 1u);
+    if (edge) {
+      ivec2 there = at + step_to(k);
+      vec3 other_ray = pixel_ray(pinhole_place(there));
+      bool nearer = uintBitsToFloat(mine.x) <= uintBitsToFloat(other.x);
+      Seen seen = see((nearer ? mine.y : other.y) - 1u);
+      float covered = nearer ? reach(seen, ray, other_ray - ray) : reach(seen, other_ray, ray - other_ray);
+      float weight = clamp(nearer ? 0.5 - covered : covered - 0.5, 0.0, 0.5);
+      vec4 part = weight * shaded(there);
+      across += k < 2 ? part : vec4(0.0);
+      down += k < 2 ? vec4(0.0) : part;
+      share += k < 2 ? vec2(weight, 0.0) : vec2(0.0, weight);
+    }
   }
   // An edge crosses both ways: the axis that it is steeper to tells the share.
   return share.y > share.x ? color * (1.0 - share.y) + down : color * (1.0 - share.x) + across;
