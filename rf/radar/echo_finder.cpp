@@ -28,6 +28,8 @@ void check(const EchoOptions& o) {
     throw_user_error("radar tube on targets: expected more than 0 m, found {}", o.target_tube_m);
   if (!(o.antenna_radius_m >= 0.0))
     throw_user_error("radar antenna: expected a radius of 0 m or more, found {}", o.antenna_radius_m);
+  if (!(o.border_floor_m2 >= 0.0))
+    throw_user_error("radar floor: expected a cross-section of 0 m^2 or more, found {}", o.border_floor_m2);
   if (!(o.merge_share >= 0.0 && o.bandwidth_hz > 0.0 && o.beam_rad > 0.0))
     throw_user_error(
         "radar merging: expected a share >= 0, a bandwidth and a beam > 0, found {}, {} Hz, {} rad",
@@ -178,7 +180,8 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
       monostatic_(!receiver.has_value()),
       options_((check(options), options)),
       world_(scene.scene()),
-      pass_(scene, options.max_bounces) {}
+      trees_(scene.scene()),
+      pass_(scene, options.max_bounces, monostatic_, transmitter.own_body != 0) {}
 
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
   const scene::Scene& scene = scene_->scene();
@@ -206,8 +209,7 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
   pending.grid = std::make_shared<const RayGrid>(options_, transmitter, targets(body_poses));
   std::vector<vec3> directions(pending.grid->size());
   for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
-  EchoRays rays{transmitter.position, receiver.position, transmitter_.own_body, receiver_.own_body,
-                monostatic_};
+  EchoRays rays{transmitter.position, receiver.position, transmitter_.own_body, receiver_.own_body};
   pending.rays = pass_.record(slot, rays, directions);
   return pending;
 }
@@ -246,9 +248,10 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   const TurnedElement transmitter = turned(transmitter_, pending.transmitter);
   const TurnedElement receiver = turned(receiver_, pending.receiver);
   const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
-  const RayHits hits(words, pending.grid->size());
+  RayHits hits(words, pending.grid->size());
+  if (monostatic_) hits.find_seen(*pending.grid, world_, pending.transmitter.position, options_.threads);
   const dvec3& source = pending.transmitter.position;
-  RawEchoes raw = TubeEchoes(*pending.grid, hits, world_, field, scene, source, options_).find();
+  RawEchoes raw = TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, options_).find();
   if (!monostatic_ && pass_.direct(pending.rays)) {
     const dvec3 arm = pending.receiver.position - source;
     const double length = glm::length(arm);
@@ -260,6 +263,7 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   counted.target_tubes = pending.grid->target_tubes();
   counted.target_tube_m = pending.grid->target_tube_m();
   counted.contributions = raw.echoes.size();
+  counted.below_floor = raw.below_floor;
   const Movers movers(scene, world_, raw, motion, source, options_.threads);
   MergeCells cells;
   cells.wavelength_m = surfaces_.wavelength_m();

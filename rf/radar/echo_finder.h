@@ -17,6 +17,7 @@
 #include "rf/radar/echo.h"
 #include "rf/radar/echo_options.h"
 #include "rf/radar/echo_pass.h"
+#include "rf/radar/facet_trees.h"
 #include "rf/radar/ray_grid.h"
 #include "rf/surfaces.h"
 #include "scene/gpu_scene.h"
@@ -67,6 +68,7 @@ class EchoFinder {
   bool monostatic_;
   EchoOptions options_;
   FacetWorld world_;
+  FacetTrees trees_;
   EchoPass pass_;
 };
 

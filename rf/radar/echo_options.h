@@ -34,6 +34,10 @@ struct EchoOptions {
   /// A surface nearer than this to an end is inside its antenna: an error that names it. Metres.
   double antenna_radius_m = 0.02;
 
+  /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body of this
+  /// radar cross-section even for a perfect conductor, m^2. 0: nothing is.
+  double border_floor_m2 = 1e-6;
+
   bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
   bool diffuse =
       false;  ///< rough surfaces scatter what their materials say, with phases fixed to the surface
@@ -82,6 +86,7 @@ struct EchoStatistics {
   uint32_t tubes = 0, target_tubes = 0;
   double target_tube_m = 0.0;   ///< width of tubes on targets that the budget allowed
   uint64_t contributions = 0;   ///< before merging
+  uint64_t below_floor = 0;     ///< edges and corners below EchoOptions::border_floor_m2
   uint64_t left_out = 0;        ///< echoes beyond EchoOptions::max_echoes
   double left_out_power = 0.0;  ///< their sum of |amplitude|^2
 };

@@ -14,13 +14,15 @@ bool finite(const dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
 }  // namespace
 
-EchoPass::EchoPass(scene::GpuScene& scene, uint32_t max_bounces) : scene_(&scene), max_bounces_(max_bounces) {
+EchoPass::EchoPass(scene::GpuScene& scene, uint32_t max_bounces, bool monostatic, bool own_body)
+    : scene_(&scene), max_bounces_(max_bounces) {
   gpu::ComputeDesc compute;
   compute.shader = "radar/echoes.comp";
   compute.bindings = scene::GpuScene::bindings(true);
   for (const uint32_t slot : {shared::radar_directions_binding, shared::radar_hits_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::EchoConstants);
+  compute.specialization = {monostatic ? 1u : 0u, own_body ? 1u : 0u};
   pipeline_ = gpu::ComputePipeline(scene.device(), compute, "radar echoes");
 }
 
@@ -32,9 +34,8 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
   GREATX_CHECK(!directions.empty(), "no rays");
   const auto body = [](uint32_t index) { return index == 0 ? ~0u : index; };
   const uint32_t count = static_cast<uint32_t>(directions.size());
-  const shared::EchoConstants constants{
-      vec3(rays.source),        vec3(rays.receiver),      count, max_bounces_, body(rays.source_body),
-      body(rays.receiver_body), rays.monostatic ? 1u : 0u};
+  const shared::EchoConstants constants{vec3(rays.source), vec3(rays.receiver),    count,
+                                        max_bounces_,      body(rays.source_body), body(rays.receiver_body)};
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope("radar echoes");
   const gpu::Slice upload = slot.upload.put(directions);

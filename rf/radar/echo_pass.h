@@ -19,12 +19,13 @@ struct EchoRays {
   dvec3 source{0.0}, receiver{0.0};  ///< local coordinates
   uint32_t source_body = 0;          ///< that rays pass through; 0: none
   uint32_t receiver_body = 0;        ///< that does not hide the receiver; 0: none
-  bool monostatic = true;
 };
 
 class EchoPass {
  public:
-  EchoPass(scene::GpuScene& scene, uint32_t max_bounces);
+  /// `monostatic`: whether the receiver is seen is asked for first hits alone, of which it always is. `own_body`: rays pass
+  /// through EchoRays::source_body.
+  EchoPass(scene::GpuScene& scene, uint32_t max_bounces, bool monostatic, bool own_body);
 
   /// Where the answers of one batch will be; valid until its slot is begun again.
   struct Pending {

@@ -82,6 +82,7 @@ void RayGrid::choose_cells(const EchoOptions& options) {
 RayGrid::RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets)
     : view_(options.field_of_view), local_from_radar_(glm::mat3_cast(local_from_radar.orientation)) {
   choose_cells(options);
+  set_vertices();
   subdivide(options, local_from_radar, targets);
   first_.resize(count_.size());
   for (uint32_t cell = 0; cell < count_.size(); ++cell) {
@@ -131,18 +132,22 @@ void RayGrid::subdivide(const EchoOptions& options, const Pose& local_from_radar
   }
 }
 
-dvec3 RayGrid::vertex(uint32_t column, uint32_t row) const {
-  const double azimuth = view_.azimuth_min + (view_.azimuth_max - view_.azimuth_min) *
-                                                 (wraps_ ? column % columns_ : column) / columns_;
-  const double elevation = view_.elevation_min + (view_.elevation_max - view_.elevation_min) * row / rows_;
-  return direction_of(azimuth, elevation);
+void RayGrid::set_vertices() {
+  for (uint32_t row = 0; row <= rows_; ++row)
+    for (uint32_t column = 0; column <= columns_; ++column) {
+      const double azimuth = view_.azimuth_min + (view_.azimuth_max - view_.azimuth_min) *
+                                                     (wraps_ ? column % columns_ : column) / columns_;
+      const double elevation =
+          view_.elevation_min + (view_.elevation_max - view_.elevation_min) * row / rows_;
+      vertices_.push_back(local_from_radar_ * direction_of(azimuth, elevation));
+    }
 }
 
 dvec3 RayGrid::at(uint32_t cell, double x, double y) const {
   const uint32_t column = cell % columns_, row = cell / columns_;
   const dvec3 low = (1.0 - x) * vertex(column, row) + x * vertex(column + 1, row);
   const dvec3 high = (1.0 - x) * vertex(column, row + 1) + x * vertex(column + 1, row + 1);
-  return glm::normalize(local_from_radar_ * ((1.0 - y) * low + y * high));
+  return glm::normalize((1.0 - y) * low + y * high);
 }
 
 dvec3 RayGrid::axis(uint32_t tube) const {
@@ -155,6 +160,23 @@ std::array<dvec3, 4> RayGrid::corners(uint32_t tube) const {
   const Tube& t = tubes_[tube];
   const double n = count_[t.cell], x0 = t.x / n, x1 = (t.x + 1) / n, y0 = t.y / n, y1 = (t.y + 1) / n;
   return {at(t.cell, x0, y0), at(t.cell, x1, y0), at(t.cell, x1, y1), at(t.cell, x0, y1)};
+}
+
+uint32_t RayGrid::tube_at(const dvec3& direction) const {
+  const dvec3 d = direction * local_from_radar_;  // by the transpose: into the radar's frame
+  const double turn = 2.0 * pi, azimuths = view_.azimuth_max - view_.azimuth_min;
+  double azimuth = std::fmod(std::atan2(d.y, d.x) - view_.azimuth_min, turn);
+  if (azimuth < 0.0) azimuth += turn;
+  const double x = azimuth / azimuths * columns_;
+  const double y = (std::atan2(d.z, std::hypot(d.x, d.y)) - view_.elevation_min) /
+                   (view_.elevation_max - view_.elevation_min) * rows_;
+  if (!(x >= 0.0 && x < columns_ && y >= 0.0 && y < rows_)) return outside;
+  const uint32_t cell = static_cast<uint32_t>(y) * columns_ + static_cast<uint32_t>(x);
+  const uint32_t n = count_[cell];
+  const auto within = [&](double value) {
+    return std::min(n - 1, static_cast<uint32_t>((value - std::floor(value)) * n));
+  };
+  return first_[cell] + within(y) * n + within(x);
 }
 
 std::array<uint32_t, 8> RayGrid::neighbours(uint32_t tube) const {

@@ -40,6 +40,9 @@ class RayGrid {
   /// those across corners 0 to 3 (tube across corner i lies between sides i - 1 and i). `outside` beyond the field of view.
   /// Next to cells of another subdivision: the one across the middle.
   std::array<uint32_t, 8> neighbours(uint32_t tube) const;
+  /// The tube that a direction (local axes, of any length) lies in; `outside` beyond the field of view. Within the sagitta of
+  /// a cell's sides it may be the one beside.
+  uint32_t tube_at(const dvec3& direction) const;
   /// Whether two tubes that share a side are equally subdivided: their sides are then one and the same.
   bool same_level(uint32_t a, uint32_t b) const { return count_[tubes_[a].cell] == count_[tubes_[b].cell]; }
 
@@ -56,7 +59,10 @@ class RayGrid {
   void choose_cells(const EchoOptions& options);
   void subdivide(const EchoOptions& options, const Pose& local_from_radar,
                  std::span<const TargetBox> targets);
-  dvec3 vertex(uint32_t column, uint32_t row) const;
+  void set_vertices();
+  const dvec3& vertex(uint32_t column, uint32_t row) const {
+    return vertices_[size_t{row} * (columns_ + 1) + column];
+  }
   dvec3 at(uint32_t cell, double x, double y) const;
 
   FieldOfView view_;
@@ -65,6 +71,7 @@ class RayGrid {
   bool wraps_ = false;
   std::vector<uint16_t> count_;  ///< [cells] subdivisions along each axis
   std::vector<uint32_t> first_;  ///< [cells]
+  std::vector<dvec3> vertices_;  ///< [rows + 1, columns + 1], local axes
   std::vector<Tube> tubes_;
   uint32_t target_tubes_ = 0;
   double target_tube_m_ = 0.0;

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
-#include "shaders/shared/radar.h"
 
 namespace greatx::rf {
 namespace {
@@ -23,14 +22,6 @@ PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3
 }
 
 }  // namespace
-
-bool RayHits::met(uint32_t word) { return word != shared::radar_none; }
-uint32_t RayHits::facet(uint32_t word) {
-  return word == shared::radar_none ? VisibleCell::nothing : word & shared::radar_facet_mask;
-}
-bool RayHits::sees_receiver(uint32_t word) {
-  return word != shared::radar_none && (word & shared::radar_sees_receiver) != 0;
-}
 
 Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam) {
   std::array<dvec2, 4> corners;
@@ -65,16 +56,19 @@ struct TubeEchoes::Job {
 };
 
 TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world,
-                       const EchoField& field, const scene::Scene& scene, const dvec3& source,
-                       const EchoOptions& options)
+                       const FacetTrees& trees, const EchoField& field, const scene::Scene& scene,
+                       const dvec3& source, const EchoOptions& options)
     : grid_(grid),
       hits_(hits),
       world_(world),
+      trees_(trees),
       field_(field),
       scene_(scene),
       source_(source),
       options_(options),
-      bounces_(hits.bounces()) {
+      bounces_(hits.bounces()),
+      // sigma = 4 pi |value|^2 / lambda^2
+      floor_m2_(std::sqrt(options.border_floor_m2 * pi) / field.wavenumber()) {
   GREATX_CHECK(bounces_ <= most_bounces, "{} bounces", bounces_);
   whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
   parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
@@ -124,6 +118,7 @@ RawEchoes TubeEchoes::find() const {
   RawEchoes all;
   for (RawEchoes& part : found) {
     const uint32_t shift = static_cast<uint32_t>(all.chains.size());
+    all.below_floor += part.below_floor;
     all.chains.insert(all.chains.end(), part.chains.begin(), part.chains.end());
     for (RawEcho& echo : part.echoes) {
       echo.first_facet += shift;
@@ -182,7 +177,8 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
   job.facets.erase(std::unique(job.facets.begin(), job.facets.end()), job.facets.end());
   cells.clear();
   if (job.facets.empty()) return;
-  find_visible(world_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(), cells);
+  find_visible(world_, trees_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(),
+               cells);
   if (!one_instance) return;
   for (VisibleCell& cell : cells)
     if (cell.facet == VisibleCell::nothing && cell.part.area() > 1e-6 * job.part.area()) cell.facet = own;
@@ -254,7 +250,12 @@ void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint3
   const PhasePlane plane = phase_plane(posed, beam.source, field_.receiver_at(), field_.wavenumber());
   const uint32_t omitted = omitted_sides(job, bounce, posed, piece, whole);
   integrate(plane, piece, omitted, job.contributions);
-  for (const Contribution& c : job.contributions) add(job, bounce, posed, c.at, c.value);
+  for (const Contribution& c : job.contributions) {
+    if (c.border && std::norm(c.value) < floor_m2_ * floor_m2_)
+      ++job.out->below_floor;
+    else
+      add(job, bounce, posed, c.at, c.value);
+  }
   if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
 }
 

@@ -10,6 +10,7 @@
 
 #include "rf/radar/echo_field.h"
 #include "rf/radar/ray_grid.h"
+#include "rf/radar/ray_hits.h"
 #include "rf/radar/tube_integral.h"
 #include "rf/radar/visible_cells.h"
 
@@ -28,24 +29,10 @@ struct RawEcho {
 struct RawEchoes {
   std::vector<RawEcho> echoes;
   std::vector<uint32_t> chains;
+  uint64_t below_floor = 0;
   std::span<const uint32_t> chain(const RawEcho& echo) const {
     return std::span(chains).subspan(echo.first_facet, echo.bounces);
   }
-};
-
-/// What rays have met: [bounce][tube], a facet or nothing, and whether the receiver is seen from there.
-class RayHits {
- public:
-  RayHits(std::span<const uint32_t> words, uint32_t tubes) : words_(words), tubes_(tubes) {}
-  uint32_t bounces() const { return tubes_ == 0 ? 0 : static_cast<uint32_t>(words_.size() / tubes_); }
-  uint32_t word(uint32_t tube, uint32_t bounce) const { return words_[size_t{bounce} * tubes_ + tube]; }
-  static bool met(uint32_t word);
-  static uint32_t facet(uint32_t word);
-  static bool sees_receiver(uint32_t word);
-
- private:
-  std::span<const uint32_t> words_;
-  uint32_t tubes_;
 };
 
 /// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and agree on seeing
@@ -56,8 +43,9 @@ class RayHits {
 /// left uncovered counts as the middle ray's facet.
 class TubeEchoes {
  public:
-  TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const EchoField& field,
-             const scene::Scene& scene, const dvec3& source, const EchoOptions& options);
+  TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
+             const EchoField& field, const scene::Scene& scene, const dvec3& source,
+             const EchoOptions& options);
 
   /// All tubes, in their order, on options.threads threads.
   RawEchoes find() const;
@@ -85,11 +73,13 @@ class TubeEchoes {
   const RayGrid& grid_;
   const RayHits& hits_;
   const FacetWorld& world_;
+  const FacetTrees& trees_;
   const EchoField& field_;
   const scene::Scene& scene_;
   dvec3 source_;
   const EchoOptions& options_;
   uint32_t bounces_;
+  double floor_m2_;           ///< |value| of a contribution
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 

@@ -76,7 +76,8 @@ void add_side(const PhasePlane& plane, const dvec2& a, const dvec2& b, const dve
   if (!turns && slope * slope > limits.stationary * bend && slope * length > pi) {
     // [e^{j phase}/(j slope) (1 - j bend/slope^2)] from a to b: the first correction of integration by parts.
     const auto end = [&](const dvec2& p, double s, double c, double sign) {
-      out.push_back({p, sign * border_density(plane, p, normal) * (-j / s) * (1.0 - j * (c / (s * s)))});
+      out.push_back(
+          {p, sign * border_density(plane, p, normal) * (-j / s) * (1.0 - j * (c / (s * s))), true});
     };
     end(b, slope_b, bend_b, 1.0);
     end(a, slope_a, bend_a, -1.0);
@@ -87,8 +88,10 @@ void add_side(const PhasePlane& plane, const dvec2& a, const dvec2& b, const dve
     const double phase_b = -plane.wavenumber * (plane.length(b) - plane.length(middle));
     // Over the chord of the phase, plus the mean of what the phase leaves above the chord.
     const double chord = 0.5 * (phase_a + phase_b), mean = chord - (2.0 / 3.0) * chord;
-    out.push_back({middle, border_density(plane, middle, normal) * length * sinc(0.5 * (phase_b - phase_a)) *
-                               turned(mean)});
+    out.push_back(
+        {middle,
+         border_density(plane, middle, normal) * length * sinc(0.5 * (phase_b - phase_a)) * turned(mean),
+         true});
     return;
   }
   add_side(plane, a, middle, along, limits, depth - 1, out);
@@ -175,7 +178,7 @@ double PhasePlane::curvature_bound(const dvec2& p, double reach) const {
   double sum = 0.0;
   for (const dvec3& end : {source, receiver}) {
     const double off = std::max(0.0, glm::length(p - dvec2(end)) - reach);
-    sum += 1.0 / std::max(1e-6, std::hypot(off, end.z));
+    sum += 1.0 / std::max(1e-6, std::sqrt(off * off + end.z * end.z));
   }
   return wavenumber * sum;
 }

@@ -42,6 +42,7 @@ struct PhasePlane {
 struct Contribution {
   dvec2 at{0.0};
   Complex value{0.0};
+  bool border = false;  ///< from a side or a corner
 };
 
 struct IntegralLimits {

@@ -37,6 +37,19 @@ struct Box {
   }
 };
 
+/// The planes around a box of the (u, v) plane, and that of the facet that the beam starts from.
+std::array<HalfSpace, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
+  const auto side = [&](const dvec3& normal) { return HalfSpace{normal, -glm::dot(normal, beam.source)}; };
+  std::array<HalfSpace, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
+                                  side(box.high.x * beam.axis - beam.e1),
+                                  side(beam.e2 - box.low.y * beam.axis),
+                                  side(box.high.y * beam.axis - beam.e2),
+                                  {}};
+  if (start.facet != nullptr)
+    spaces[4] = {start.side * start.facet->normal, -start.side * start.facet->offset};
+  return spaces;
+}
+
 /// A triangle as the beam sees it; empty if it does not.
 Polygon seen(const std::array<dvec3, 3>& triangle, const TubeBeam& beam, const BeamStart& start,
              const Box& within) {
@@ -67,12 +80,16 @@ void subtract(Polygon part, const Polygon& cover, uint32_t facet, double smalles
 
 }  // namespace
 
-void find_visible(const FacetWorld& world, const TubeBeam& beam, const BeamStart& start, const Polygon& whole,
-                  std::span<const uint32_t> facets, double smallest, std::vector<VisibleCell>& cells) {
+void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                  const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
+                  double smallest, std::vector<VisibleCell>& cells) {
   cells.assign(1, {whole, VisibleCell::nothing});
   Box within;
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
+  const std::array<HalfSpace, 5> spaces = around(beam, start, within);
+  const std::span<const HalfSpace> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
   std::vector<VisibleCell> next;
+  std::vector<uint32_t> triangles;
   for (const uint32_t facet : facets) {
     if (facet == start.index) continue;
     const PosedFacet& posed = world.facet(facet);
@@ -84,7 +101,8 @@ void find_visible(const FacetWorld& world, const TubeBeam& beam, const BeamStart
         return false;
       return than == VisibleCell::nothing || reach < beam.reach(world.facet(than), direction) * (1.0 - 1e-9);
     };
-    for (uint32_t triangle = 0; triangle < posed.triangle_count; ++triangle) {
+    trees.find(world, facet, used, triangles);
+    for (const uint32_t triangle : triangles) {
       const Polygon cover = seen(world.corners(facet, triangle), beam, start, within);
       if (cover.empty()) continue;
       next.clear();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rf/facet_world.h"
+#include "rf/radar/facet_trees.h"
 #include "rf/radar/polygon.h"
 #include "rf/radar/tube_beam.h"
 
@@ -33,7 +34,8 @@ struct BeamStart {
 /// is left as `nothing`. Of two facets at the same distance the first one counts. Facets that cut through each other are
 /// told apart at the centre of where they overlap.
 /// `smallest`: parts of less area than this are dropped.
-void find_visible(const FacetWorld& world, const TubeBeam& beam, const BeamStart& start, const Polygon& whole,
-                  std::span<const uint32_t> facets, double smallest, std::vector<VisibleCell>& cells);
+void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                  const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
+                  double smallest, std::vector<VisibleCell>& cells);
 
 }  // namespace greatx::rf

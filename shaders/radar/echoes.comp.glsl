@@ -8,6 +8,9 @@
 #include "shared/radar.h"
 #include "lib/trace.glsl"
 
+layout(constant_id = 0) const bool monostatic = false;  // the receiver is where the source is
+layout(constant_id = 1) const bool has_own_body = true;
+
 layout(local_size_x = radar_group) in;
 
 layout(set = 0, binding = radar_directions_binding, scalar) readonly buffer DirectionsBlock { vec3 directions[]; };
@@ -20,7 +23,7 @@ const float infinite_range = 1e30;
 Hit next_hit(vec3 origin, vec3 direction, uint facet) {
   Hit hit = trace_leaving(origin, direction, infinite_range, facet);
   // Only rays that meet the own body pay for looking at every triangle on their way.
-  if (hit.hit && scene_primitive(hit.primitive).body == constants.source_body)
+  if (has_own_body && hit.hit && scene_primitive(hit.primitive).body == constants.source_body)
     hit = trace_closest_except(origin, 0.0, direction, infinite_range, constants.source_body, facet, false);
   return hit;
 }
@@ -42,7 +45,7 @@ void main() {
   if (ray >= constants.rays) return;
   if (ray == 0u)
     hits[constants.max_bounces * constants.rays] =
-        constants.monostatic == 0u && sees_receiver(constants.source, no_facet) ? 1u : 0u;
+        !monostatic && sees_receiver(constants.source, no_facet) ? 1u : 0u;
   vec3 origin = constants.source, direction = directions[ray];
   uint facet = no_facet, bounce = 0u;
   for (; bounce < constants.max_bounces; ++bounce) {
@@ -54,9 +57,9 @@ void main() {
     vec3 normal = geometric_normal(corners);
     if (dot(normal, direction) > 0.0) normal = -normal;
     origin = offset_origin(hit_point(corners, hit.barycentric), normal);
-    bool seen = bounce == 0u && constants.monostatic != 0u;
+    bool seen = monostatic && bounce == 0u;
     // From behind the surface nothing is seen; the surface itself may be passed over by name.
-    if (!seen && dot(constants.receiver - origin, normal) > 0.0) seen = sees_receiver(origin, facet);
+    if (!monostatic && dot(constants.receiver - origin, normal) > 0.0) seen = sees_receiver(origin, facet);
     hits[bounce * constants.rays + ray] = facet | (seen ? radar_sees_receiver : 0u);
     direction = normalize(direction - 2.0 * dot(direction, normal) * normal);
   }

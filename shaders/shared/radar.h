@@ -25,12 +25,11 @@ struct EchoConstants {
   uint max_bounces;
   uint source_body;    // that rays pass through; ~0: none
   uint receiver_body;  // that does not hide the receiver; ~0: none
-  uint monostatic;     // the receiver is where the source is: it is seen from every first hit
 };
 
 GREATX_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(greatx::shared::EchoConstants) == 44);
+static_assert(sizeof(greatx::shared::EchoConstants) == 40);
 #endif
 #endif

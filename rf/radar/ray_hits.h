@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the rays of a radar have met.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/facet_world.h"
+#include "rf/radar/ray_grid.h"
+
+namespace greatx::rf {
+
+/// [bounce][tube]: a facet or nothing, and whether the receiver is seen from there.
+class RayHits {
+ public:
+  static constexpr uint32_t nothing = ~0u;
+
+  /// `words` of EchoPass::collect, [bounces * tubes].
+  RayHits(std::span<const uint32_t> words, uint32_t tubes);
+  /// Of a monostatic radar: from a second or later surface it is seen if its own ray in that direction meets the surface
+  /// first; from what lies beyond the field of view it is not.
+  void find_seen(const RayGrid& grid, const FacetWorld& world, const dvec3& radar, uint32_t threads);
+
+  uint32_t tubes() const { return tubes_; }
+  uint32_t bounces() const { return bounces_; }
+  uint32_t word(uint32_t tube, uint32_t bounce) const { return words_[size_t{bounce} * tubes_ + tube]; }
+  static uint32_t facet(uint32_t word);
+  static bool met(uint32_t word) { return facet(word) != nothing; }
+  static bool sees_receiver(uint32_t word);
+
+ private:
+  std::vector<uint32_t> words_;
+  uint32_t tubes_, bounces_;
+};
+
+}  // namespace greatx::rf
