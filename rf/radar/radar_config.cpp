@@ -30,9 +30,9 @@ Fault check_waveform(const RadarWaveform& w) {
     if (Fault fault = check_positive(field, value)) return fault;
   if (!std::isfinite(w.adc_start_s) || w.adc_start_s < 0.0)
     return RadarFault{"waveform.adc_start_s", fmt::format("expected 0 or more, found {} s", w.adc_start_s)};
-  if (w.samples < 4 || w.samples > 65536)
+  if (w.samples < 16 || w.samples > 65536)
     return RadarFault{"waveform.samples",
-                      fmt::format("expected 4 to 65536 samples a chirp, found {}", w.samples)};
+                      fmt::format("expected 16 to 65536 samples a chirp, found {}", w.samples)};
   if (w.transmitters == 0)
     return RadarFault{"arrays.transmit_m", "expected at least one transmitter, found none"};
   if (w.chirp_s > w.interval_s * rounding)

@@ -120,17 +120,4 @@ ToneKernel::ToneKernel(uint32_t samples) : samples_(samples), grid_(grid_for(sam
     }
 }
 
-int ToneKernel::orders_for(float bend) {
-  // 2 J_k(bend/2) <= 2 (bend/4)^k/k!, the first that is left out, below 1e-6.
-  const float size = std::abs(bend);
-  return size < 2e-6f ? 1 : size < 4e-3f ? 2 : size < 0.0577f ? 3 : size <= largest_bend ? 4 : orders + 1;
-}
-
-std::array<float, ToneKernel::orders> ToneKernel::bessel(float bend) {
-  // Power series, A&S 9.1.10; bend/2 <= 0.12.
-  const float q = 0.25f * bend, qq = q * q;
-  return {1.0f - qq + 0.25f * qq * qq, 2.0f * q * (1.0f - 0.5f * qq + qq * qq / 12.0f),
-          qq * (1.0f - qq / 3.0f), q * qq / 3.0f * (1.0f - 0.25f * qq)};
-}
-
 }  // namespace greatx::rf

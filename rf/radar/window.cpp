@@ -66,6 +66,9 @@ Window::Window(RadarWindow kind, uint32_t size) : coefficients_(coefficients_of(
   }
   gain_ = sum / size;
   bandwidth_ = size * squares / (sum * sum);
+  if (size < 4) return;
+  constexpr int steps = 256;
+  for (int i = 0; i <= steps; ++i) ratios_.push_back(neighbour_ratio(0.5 * i / steps));
 }
 
 std::complex<double> Window::response(double bins) const {
@@ -87,18 +90,26 @@ double Window::noise_correlation(uint32_t bins) const {
   return std::abs(sum) / squares;
 }
 
+double Window::neighbour_ratio(double offset) const { return power(1.0 - offset) / power(offset); }
+
 double Window::peak_offset(double before, double peak, double after) const {
   if (!(peak > 0.0) || size() < 4) return 0.0;
-  const double ratio = std::max(before, after) / peak;
-  const auto ratio_at = [&](double offset) { return power(1.0 - offset) / power(offset); };
-  if (ratio <= ratio_at(0.0)) return 0.0;
-  double low = 0.0, high = 0.5;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (ratio_at(middle) < ratio ? low : high) = middle;
+  const double ratio = std::max(before, after) / peak, sign = after >= before ? 1.0 : -1.0;
+  if (ratio <= ratios_.front()) return 0.0;
+  if (ratio >= ratios_.back()) return 0.5 * sign;
+  const auto above = std::upper_bound(ratios_.begin(), ratios_.end(), ratio);
+  const double step = 0.5 / double(ratios_.size() - 1);
+  double low = step * double(above - ratios_.begin() - 1), high = low + step;
+  double low_fault = *(above - 1) - ratio, high_fault = *above - ratio;
+  // Secants within the bracket.
+  for (int i = 0; i < 4; ++i) {
+    const double middle = low - low_fault * (high - low) / (high_fault - low_fault);
+    const double fault = neighbour_ratio(middle) - ratio;
+    if (fault == 0.0) return sign * middle;
+    (fault < 0.0 ? low : high) = middle;
+    (fault < 0.0 ? low_fault : high_fault) = fault;
   }
-  const double offset = 0.5 * (low + high);
-  return after >= before ? offset : -offset;
+  return sign * (-low_fault < high_fault ? low : high);
 }
 
 }  // namespace greatx::rf

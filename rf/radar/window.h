@@ -34,11 +34,15 @@ class Window {
   /// |correlation| of white noise in two bins that lie `bins` apart.
   double noise_correlation(uint32_t bins) const;
   /// The offset in [-1/2, 1/2] from a peak's bin of the tone whose powers there and in the bins before and after are these:
-  /// the ratio of peak and larger neighbour, solved for exactly. One tone without noise is found to 1e-9 bins.
+  /// the ratio of peak and larger neighbour, solved for exactly. One tone without noise is found to 1e-8 bins.
   double peak_offset(double before, double peak, double after) const;
 
  private:
+  /// Power of the neighbour on a tone's side by that of the peak's bin, rising from offset 0 to 1 at 1/2.
+  double neighbour_ratio(double offset) const;
+
   std::vector<double> coefficients_;
+  std::vector<double> ratios_;  ///< of offsets 0 .. 1/2
   std::vector<float> values_;
   double gain_ = 1.0, bandwidth_ = 1.0;
 };
