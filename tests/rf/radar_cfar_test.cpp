@@ -46,7 +46,6 @@ TEST(RadarCfar, FactorsOfManyLooksHoldTheirProbability) {
   EXPECT_LT(std::abs(by_average - trials * p) / deviation, 4.42);
   EXPECT_LT(std::abs(by_order - trials * p) / deviation, 4.42);
   EXPECT_NEAR(statistic, ordered_statistic_mean(cells, rank, looks), 0.01);
-  EXPECT_NEAR(ordered_statistic_factor(24, 18, 1, 1e-3), ordered_statistic_factor(24, 18, 1, 1e-3), 0.0);
 }
 
 /// Share of cells above their thresholds over frames of nothing but noise, and how many there were.
@@ -87,13 +86,15 @@ TEST(RadarCfar, FalseAlarmsOfNoiseComeAtTheirRate) {
 }
 
 TEST(RadarCfar, WindowsThatCorrelateCellsKeepTheRate) {
-  // The effective number of cells is right to second order alone: within a tenth of the rate.
+  // Few training cells, so that their correlation tells: counted as independent ones they would let half as many alarms again
+  // pass. The effective number is right to second order: within a quarter of the rate.
   RadarSignalConfig config = testing::small_radar();
-  config.processing.cfar.false_alarm = 0.01;
+  config.processing.cfar.false_alarm = 0.002;
+  config.processing.cfar.train_range = config.processing.cfar.train_doppler = 1;
   for (const RadarWindow window : {RadarWindow::hann, RadarWindow::taylor}) {
     config.processing.range_window = config.processing.doppler_window = window;
-    const auto [share, cells] = alarms(config, 60, false);
-    EXPECT_NEAR(share, 0.01, 0.001 + 2 * 4.42 * std::sqrt(0.01 / cells));
+    const auto [share, cells] = alarms(config, 100, false);
+    EXPECT_NEAR(share, 0.002, 0.0005) << cells;
   }
 }
 
