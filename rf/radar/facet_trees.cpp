@@ -53,7 +53,7 @@ void FacetTrees::split(uint32_t node, const scene::Scene& scene, const scene::Fa
   split(left + 1, scene, facet);
 }
 
-void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const HalfSpace> spaces,
+void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const KeptSide> spaces,
                       std::vector<uint32_t>& triangles) const {
   triangles.clear();
   const PosedFacet& posed = world.facet(facet);
@@ -61,7 +61,7 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const H
     for (uint32_t i = 0; i < posed.triangle_count; ++i) triangles.push_back(i);
     return;
   }
-  std::array<HalfSpace, 8> local;
+  std::array<KeptSide, 8> local;
   GREATX_CHECK(spaces.size() <= local.size(), "{} half-spaces", spaces.size());
   for (size_t i = 0; i < spaces.size(); ++i) {
     local[i] = spaces[i];

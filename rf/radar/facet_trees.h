@@ -15,7 +15,7 @@
 namespace greatx::rf {
 
 /// normal . x + offset >= 0.
-struct HalfSpace {
+struct KeptSide {
   dvec3 normal{0.0};
   double offset = 0.0;
 };
@@ -25,7 +25,7 @@ class FacetTrees {
   explicit FacetTrees(const scene::Scene& scene);
   /// Indices of triangles, ascending, below the facet's triangle_count, whose boxes are not wholly outside of one of the
   /// half-spaces (local coordinates).
-  void find(const FacetWorld& world, uint32_t facet, std::span<const HalfSpace> spaces,
+  void find(const FacetWorld& world, uint32_t facet, std::span<const KeptSide> spaces,
             std::vector<uint32_t>& triangles) const;
 
  private:

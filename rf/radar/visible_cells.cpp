@@ -38,9 +38,9 @@ struct Box {
 };
 
 /// The planes around a box of the (u, v) plane, and that of the facet that the beam starts from.
-std::array<HalfSpace, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
-  const auto side = [&](const dvec3& normal) { return HalfSpace{normal, -glm::dot(normal, beam.source)}; };
-  std::array<HalfSpace, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
+std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
+  const auto side = [&](const dvec3& normal) { return KeptSide{normal, -glm::dot(normal, beam.source)}; };
+  std::array<KeptSide, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
                                   side(box.high.x * beam.axis - beam.e1),
                                   side(beam.e2 - box.low.y * beam.axis),
                                   side(box.high.y * beam.axis - beam.e2),
@@ -86,8 +86,8 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
   cells.assign(1, {whole, VisibleCell::nothing});
   Box within;
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
-  const std::array<HalfSpace, 5> spaces = around(beam, start, within);
-  const std::span<const HalfSpace> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
+  const std::array<KeptSide, 5> spaces = around(beam, start, within);
+  const std::span<const KeptSide> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
   std::vector<VisibleCell> next;
   std::vector<uint32_t> triangles;
   for (const uint32_t facet : facets) {
