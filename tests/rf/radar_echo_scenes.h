@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reflectors whose radar cross-sections are known, and what the echoes make of them.
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "core/units.h"
+#include "rf/radar/echo_finder.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tiny_scene.h"
+
+namespace greatx::rf::testing {
+
+inline constexpr double radar_carrier_hz = 77e9;
+inline constexpr double radar_wavelength_m = speed_of_light / radar_carrier_hz;
+
+/// A perfect conductor, but for 1e-7.
+inline RadioSurface conductor() {
+  RadioSurface surface;
+  surface.front = surface.back = {{Complex(1.0, -1e14), 0.0}};
+  return surface;
+}
+
+/// A frame whose +x axis looks from `at` towards `target`.
+inline Pose looking(const dvec3& at, const dvec3& target) {
+  const dvec3 d = target - at;
+  return {at,
+          orientation_from_yaw_pitch_roll(std::atan2(d.y, d.x), -std::atan2(d.z, std::hypot(d.x, d.y)), 0.0)};
+}
+
+/// Sum of all echoes at the carrier; of those of so many bounces.
+inline Complex field_of(const EchoList& list, uint32_t bounces = 0) {
+  Complex sum(0.0);
+  for (const Echo& echo : list.echoes)
+    if (bounces == 0 || echo.bounces == bounces)
+      sum += echo.amplitude *
+             std::polar(1.0, -2.0 * pi * std::remainder(radar_carrier_hz * echo.delay.coefficients[0], 1.0));
+  return sum;
+}
+
+/// dBsm of echoes at distances r1, r2, elements of gain 1.
+inline double section_db(const Complex& field, double r1, double r2) {
+  const double four_pi = 4.0 * pi;
+  return decibels(std::norm(field) * four_pi * four_pi * four_pi * r1 * r1 * r2 * r2 /
+                  (radar_wavelength_m * radar_wavelength_m));
+}
+
+/// Elements without pattern; tubes over a square of `half_m` around what is looked at.
+inline EchoOptions around(double half_m, double distance_m, uint32_t tubes) {
+  EchoOptions options;
+  const double half = std::atan(half_m / distance_m);
+  options.field_of_view = {-half, half, -half, half};
+  options.tubes = tubes;
+  options.merge_share = 0.0;
+  return options;
+}
+
+/// One scene on the device, with every material a conductor unless told otherwise.
+class EchoScene {
+ public:
+  explicit EchoScene(const test::TinyScene& tiny, std::vector<RadioSurface> surfaces = {},
+                     const dvec3& origin = dvec3(0.0))
+      : scene(tiny.build(origin)), gpu(test::device(), scene, {}) {
+    if (surfaces.empty()) surfaces.assign(scene.materials.size(), conductor());
+    surfaces_.emplace(surfaces, radar_carrier_hz);
+  }
+  EchoList find(const EchoOptions& options, const Pose& transmitter, const std::optional<Pose>& receiver = {},
+                EchoStatistics* statistics = nullptr, const EchoEnd& end = {}) {
+    EchoFinder finder(gpu, *surfaces_, end, receiver ? std::optional(end) : std::nullopt, options);
+    return finder.find(transmitter, receiver.value_or(transmitter), std::vector<Pose>(scene.bodies.size()),
+                       statistics);
+  }
+  const RadioSurfaces& surfaces() const { return *surfaces_; }
+
+  scene::Scene scene;
+  scene::GpuScene gpu;
+
+ private:
+  std::optional<RadioSurfaces> surfaces_;
+};
+
+}  // namespace greatx::rf::testing
