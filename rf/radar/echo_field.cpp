@@ -112,11 +112,18 @@ FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const 
   return field;
 }
 
+dvec3 EchoField::mirrored_receiver(uint32_t facet) const {
+  const PosedFacet& mirror = world_.facet(facet);
+  return receiver_at_ - 2.0 * mirror.distance(receiver_at_) * mirror.normal;
+}
+
 Complex EchoField::density(const EchoPoint& point) const {
   dvec3 in;
   const FieldVector field = incident(point, in);
   const PosedFacet& facet = world_.facet(point.chain.back());
-  const dvec3 arm = receiver_at_ - point.point;
+  dvec3 receiver = receiver_at_;
+  if (point.mirror != EchoPoint::none) receiver = mirrored_receiver(point.mirror);
+  const dvec3 arm = receiver - point.point;
   const double distance = glm::length(arm);
   const dvec3 out = arm / distance;
   const Bounce at = bounce(surfaces_, facet, field, in);
@@ -130,7 +137,11 @@ Complex EchoField::density(const EchoPoint& point) const {
   const double wavelength = surfaces_.wavelength_m();
   const Complex scale_by =
       -j * (wavelength / (4.0 * pi)) * (wavenumber_ / (4.0 * pi)) * kept / (point.length_m * distance);
-  return scale_by * received(source, -out);
+  if (point.mirror == EchoPoint::none) return scale_by * received(source, -out);
+  const PosedFacet& mirror = world_.facet(point.mirror);
+  const Bounce over = bounce(surfaces_, mirror, source, out);
+  return scale_by * coherent_share(mirror.material, over.cosine, over.cosine) *
+         received(over.reflected, -over.out);
 }
 
 Complex EchoField::diffuse(const EchoPoint& point, double area_m2) const {

@@ -15,12 +15,15 @@
 
 namespace greatx::rf {
 
-/// One point of a path: transmitter, the facets that reflect, the last one with the point on it, receiver.
+/// One point of a path: transmitter, the facets that reflect, the last one with the point on it, receiver; or from there
+/// over one more facet to the receiver.
 struct EchoPoint {
   dvec3 departure{1, 0, 0};         ///< unit, at the transmitter
   double length_m = 0.0;            ///< from the transmitter to the point, unfolded
   dvec3 point{0.0};                 ///< on the last facet
-  std::span<const uint32_t> chain;  ///< facets met, the last one included
+  std::span<const uint32_t> chain;  ///< facets met, that of the point included
+  static constexpr uint32_t none = ~0u;
+  uint32_t mirror = none;  ///< facet that the way to the receiver is reflected at
 };
 
 /// Time convention e^{+j omega t}. Currents of physical optics on the lit side, J = n x (H_i + H_r) and
@@ -42,6 +45,8 @@ class EchoField {
   Complex direct(const dvec3& transmitter_at) const;
 
   const dvec3& receiver_at() const { return receiver_at_; }
+  /// The receiver's image in a facet's plane.
+  dvec3 mirrored_receiver(uint32_t facet) const;
   double wavenumber() const { return wavenumber_; }
   bool reflects(uint32_t facet) const {
     return !surfaces_.surface(world_.facet(facet).material).front.empty();

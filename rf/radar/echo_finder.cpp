@@ -251,7 +251,8 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   RayHits hits(words, pending.grid->size());
   if (monostatic_) hits.find_seen(*pending.grid, world_, pending.transmitter.position, options_.threads);
   const dvec3& source = pending.transmitter.position;
-  RawEchoes raw = TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, options_).find();
+  RawEchoes raw =
+      TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
   if (!monostatic_ && pass_.direct(pending.rays)) {
     const dvec3 arm = pending.receiver.position - source;
     const double length = glm::length(arm);

@@ -25,6 +25,15 @@ bool RayHits::sees_receiver(uint32_t word) {
   return word != nothing && (word & shared::radar_sees_receiver) != 0;
 }
 
+bool RayHits::seen_about(const RayGrid& grid, uint32_t tube, uint32_t wanted) const {
+  if (facet(word(tube, 0)) == wanted) return true;
+  const auto meets = [&](uint32_t other) {
+    return other != RayGrid::outside && facet(word(other, 0)) == wanted;
+  };
+  const std::array<uint32_t, 8> ring = grid.neighbours(tube);
+  return std::any_of(ring.begin(), ring.end(), meets);
+}
+
 void RayHits::find_seen(const RayGrid& grid, const FacetWorld& world, const dvec3& radar, uint32_t threads) {
   constexpr uint32_t chunk = 512;
   if (bounces_ < 2) return;
@@ -43,7 +52,7 @@ void RayHits::find_seen(const RayGrid& grid, const FacetWorld& world, const dvec
         if (bounce == 0) continue;
         const uint32_t there = grid.tube_at(at - radar);
         own = facet(own);
-        if (there != RayGrid::outside && facet(word(there, 0)) == own) own |= shared::radar_sees_receiver;
+        if (there != RayGrid::outside && seen_about(grid, there, own)) own |= shared::radar_sees_receiver;
       }
     }
   });

@@ -21,8 +21,8 @@ class RayHits {
 
   /// `words` of EchoPass::collect, [bounces * tubes].
   RayHits(std::span<const uint32_t> words, uint32_t tubes);
-  /// Of a monostatic radar: from a second or later surface it is seen if its own ray in that direction meets the surface
-  /// first; from what lies beyond the field of view it is not.
+  /// Of a monostatic radar: from a second or later surface it is seen if one of its own rays about that direction (the
+  /// tube's or one of the eight around it) meets the surface first; from what lies beyond the field of view it is not.
   void find_seen(const RayGrid& grid, const FacetWorld& world, const dvec3& radar, uint32_t threads);
 
   uint32_t tubes() const { return tubes_; }
@@ -33,6 +33,8 @@ class RayHits {
   static bool sees_receiver(uint32_t word);
 
  private:
+  bool seen_about(const RayGrid& grid, uint32_t tube, uint32_t wanted) const;
+
   std::vector<uint32_t> words_;
   uint32_t tubes_, bounces_;
 };

@@ -13,6 +13,7 @@ namespace greatx::rf {
 namespace {
 
 constexpr double smallest_share = 1e-9;  ///< of a tube: parts below it are dropped
+constexpr double mirror_ratio = 3.0;     ///< of extents, from which a surface is a mirror to another
 constexpr uint32_t most_pieces = 256;    ///< that a diffuse part is cut into
 
 PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3& receiver,
@@ -57,7 +58,7 @@ struct TubeEchoes::Job {
 
 TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world,
                        const FacetTrees& trees, const EchoField& field, const scene::Scene& scene,
-                       const dvec3& source, const EchoOptions& options)
+                       const dvec3& source, bool monostatic, const EchoOptions& options)
     : grid_(grid),
       hits_(hits),
       world_(world),
@@ -65,6 +66,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       field_(field),
       scene_(scene),
       source_(source),
+      monostatic_(monostatic),
       options_(options),
       bounces_(hits.bounces()),
       // sigma = 4 pi |value|^2 / lambda^2
@@ -239,7 +241,54 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
   return marks;
 }
 
+bool TubeEchoes::spreads(uint32_t first, uint32_t second) const {
+  const auto extent = [&](uint32_t facet) {
+    const PosedFacet& posed = world_.facet(facet);
+    return std::max(posed.max_u - posed.min_u, posed.max_v - posed.min_v);
+  };
+  return mirror_ratio * extent(first) < extent(second);
+}
+
+void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const {
+  const PosedFacet &posed = world_.facet(job.chain[bounce - 1]), &wall = world_.facet(mirror);
+  const TubeBeam& beam = job.beams[bounce - 1];
+  const dvec3 image = field_.mirrored_receiver(mirror);
+  if (posed.distance(beam.source) * posed.distance(image) <= 0.0) return;
+  const Polygon piece = on_facet(posed, beam, part);
+  if (piece.empty()) return;
+  job.contributions.clear();
+  integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece, 0, job.contributions);
+  for (const Contribution& c : job.contributions) {
+    if (c.border && std::norm(c.value) < floor_m2_ * floor_m2_) {
+      ++job.out->below_floor;
+      continue;
+    }
+    const dvec3 point = point_of(posed, c.at), way = image - point;
+    const double before = glm::distance(point, beam.source), after = glm::length(way);
+    const double share = -wall.distance(point) / glm::dot(wall.normal, way);
+    const dvec3 over = point + share * way;
+    if (!(share > 0.0 && share < 1.0) || !world_.contains(mirror, wall.plane_coordinates(over))) continue;
+    const dvec3 departure = glm::normalize(job.beams[0].along(beam.uv(point)));
+    const Complex amplitude =
+        c.value * field_.density({departure, before, point, std::span(job.chain.data(), bounce), mirror});
+    if (amplitude == 0.0) continue;
+    const dvec3 arrival = glm::normalize(over - field_.receiver_at());
+    const auto push = [&](const dvec3& out, const dvec3& in, const dvec3& last, bool backwards) {
+      std::vector<uint32_t>& chains = job.out->chains;
+      const uint32_t first = static_cast<uint32_t>(chains.size());
+      chains.insert(chains.end(), job.chain.begin(), job.chain.begin() + bounce + 1);
+      if (backwards) std::reverse(chains.begin() + first, chains.end());
+      job.out->echoes.push_back({amplitude, out, in, last, before + after, first, bounce + 1});
+    };
+    push(departure, arrival, over, false);
+    if (monostatic_ && bounce == 1) push(arrival, departure, point, true);
+  }
+}
+
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
+  if (bounce > 0 && spreads(job.chain[bounce - 1], facet)) return send_over(job, bounce, part, facet);
+  // A monostatic radar sees this surface (else nobody would ask): what finds it directly has this path backwards.
+  if (monostatic_ && bounce == 1 && spreads(facet, job.chain[0])) return;
   const PosedFacet& posed = world_.facet(facet);
   const TubeBeam& beam = job.beams[bounce];
   // The receiver is on the lit side: where the source was before the last surface turned the rays.

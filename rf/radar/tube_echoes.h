@@ -39,12 +39,18 @@ struct RawEchoes {
 /// the receiver: then all of it falls on that facet. Else it is divided by find_visible among the facets that those nine have
 /// met after the same facets before. Each part goes on as a beam of its own.
 ///
+/// Where a small surface is followed by a large one (target, wall), the currents are taken on the small one and the large
+/// one is a mirror on the way to the receiver: on the large one the wave of a small surface has no parallel rays, and currents
+/// there would be stronger than they are (by 10 dB in the test). The same path backwards, out over the mirror, is its
+/// reciprocal for a monostatic radar: it is added with it, and not looked for on its own where the small surface is seen
+/// directly, since the tubes that find it there are fine and those about its image are not.
+///
 /// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine mesh) what is
 /// left uncovered counts as the middle ray's facet.
 class TubeEchoes {
  public:
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
-             const EchoField& field, const scene::Scene& scene, const dvec3& source,
+             const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
              const EchoOptions& options);
 
   /// All tubes, in their order, on options.threads threads.
@@ -63,6 +69,9 @@ class TubeEchoes {
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
   void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
+  /// Of two surfaces in turn, whether the first is so small that waves spread from it rather than mirror.
+  bool spreads(uint32_t first, uint32_t second) const;
+  void send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;
   bool sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const;
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
@@ -77,6 +86,7 @@ class TubeEchoes {
   const EchoField& field_;
   const scene::Scene& scene_;
   dvec3 source_;
+  bool monostatic_;
   const EchoOptions& options_;
   uint32_t bounces_;
   double floor_m2_;           ///< |value| of a contribution

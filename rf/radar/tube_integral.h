@@ -46,8 +46,8 @@ struct Contribution {
 };
 
 struct IntegralLimits {
-  double bend = 0.3;         ///< rad
-  double stationary = 40.0;  ///< gradient^2 over curvature from which a piece counts as far from stationary
+  double bend = 0.1;         ///< rad
+  double stationary = 20.0;  ///< gradient^2 over curvature from which a piece counts as far from stationary
 };
 
 enum class IntegralForm : uint8_t { area, border, split };

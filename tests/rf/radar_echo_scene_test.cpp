@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Echoes in scenes: ghosts, what stands in the way, motion, merging, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/rf/radar_echo_scenes.h"
+
+namespace greatx::rf {
+namespace {
+
+using test::TinyScene;
+using ::testing::HasSubstr;
+using namespace rf::testing;
+
+double range_of(const Echo& echo) { return 0.5 * speed_of_light * echo.delay.coefficients[0]; }
+
+/// Power of the echoes of so many bounces whose range lies within `room` of `range_m`.
+double power_at(const EchoList& list, double range_m, double room, uint32_t bounces) {
+  Complex sum(0.0);
+  for (const Echo& echo : list.echoes)
+    if (echo.bounces == bounces && std::abs(range_of(echo) - range_m) < room)
+      sum += echo.amplitude *
+             std::polar(1.0, -2.0 * pi * std::remainder(radar_carrier_hz * echo.delay.coefficients[0], 1.0));
+  return std::norm(sum);
+}
+
+EchoOptions sector(double half_azimuth_deg, double half_elevation_deg, uint32_t tubes) {
+  EchoOptions options;
+  options.field_of_view = {radians(-half_azimuth_deg), radians(half_azimuth_deg),
+                           radians(-half_elevation_deg), radians(half_elevation_deg)};
+  options.tubes = tubes;
+  return options;
+}
+
+/// A corner reflector with its apex at (20, 0, 0) that looks back at the origin, and a wall in the plane y = 6. `hides`: a
+/// screen between the radar and the reflector.
+TinyScene corner_by_a_wall(bool hides = false) {
+  TinyScene tiny;
+  const dvec3 o(20.0, 0.0, 0.0);
+  dvec3 e[3];
+  for (int i = 0; i < 3; ++i)
+    e[i] = o + 0.2 * (dvec3(-1, 0, 0) / std::sqrt(3.0) +
+                      std::sqrt(2.0 / 3.0) *
+                          dvec3(0, std::cos(2.0 * pi * i / 3.0), std::sin(2.0 * pi * i / 3.0)));
+  tiny.object("corner").triangle(o, e[0], e[1]).triangle(o, e[1], e[2]).triangle(o, e[2], e[0]);
+  tiny.object("wall").quad({0, 6, -3}, {30, 6, -3}, {30, 6, 3}, {0, 6, 3});
+  if (hides) tiny.object("screen").quad({8, -2, -2}, {8, 0.5, -2}, {8, 0.5, 2}, {8, -2, 2});
+  return tiny;
+}
+
+/// A target that sends waves from anywhere to anywhere: a ball of facets.
+TinyScene ball_at(const dvec3& center, double radius, TinyScene tiny) {
+  tiny.object("ball");
+  const int n = 24;
+  const auto at = [&](int i, int j) {
+    const double theta = pi * i / n, phi = pi * j / n;
+    return center +
+           radius * dvec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2 * n; ++j) {
+      if (i + 1 < n) tiny.triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      if (i > 0) tiny.triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  return tiny;
+}
+
+TinyScene wall_alone() {
+  TinyScene tiny;
+  tiny.object("wall").quad({0, 6, -3}, {30, 6, -3}, {30, 6, 3}, {0, 6, 3});
+  return tiny;
+}
+
+/// A plate of side 0.1 m at (15, 0, 0) sends what comes from the wall's image of the radar, (0, 12, 0), to the radar: at the
+/// mean of 15 m and 19.21 m, which is behind the wall where it comes in over the wall.
+TEST(RadarEchoScene, GhostsOverAWallAreWhereGeometrySaysBothWays) {
+  const dvec3 center(15, 0, 0), image(0, 12, 0);
+  const dvec3 normal = glm::normalize(glm::normalize(-center) + glm::normalize(image - center));
+  const dvec3 u = 0.05 * glm::normalize(glm::cross(dvec3(0, 0, 1), normal)), v(0, 0, 0.05);
+  TinyScene tiny = wall_alone();
+  tiny.object("plate").quad(center - u - v, center + u - v, center + u + v, center - u + v);
+  EchoScene scene(tiny);
+  EchoOptions options = sector(60.0, 8.0, 20000);
+  options.merge_share = 0.0;
+  options.targets = {1};
+  const EchoList list = scene.find(options, Pose{});
+  const double direct = 15.0, over_wall = std::hypot(15.0, 12.0), ghost = 0.5 * (direct + over_wall);
+  const double half = 0.5 * std::atan2(12.0, 15.0);
+  Complex in_over_wall(0.0), out_over_wall(0.0);
+  for (const Echo& echo : list.echoes) {
+    if (echo.bounces != 2 || std::abs(range_of(echo) - ghost) > 0.05) continue;
+    const Complex field =
+        echo.amplitude *
+        std::polar(1.0, -2.0 * pi * std::remainder(radar_carrier_hz * echo.delay.coefficients[0], 1.0));
+    const bool last_is_wall = echo.instance == 1;
+    (last_is_wall ? in_over_wall : out_over_wall) += field;
+    // The side over the wall points at the image of the plate, the other one at the plate.
+    const dvec3& side = last_is_wall ? echo.arrival : echo.departure;
+    EXPECT_NEAR(degrees(std::atan2(side.y, side.x)), degrees(2.0 * half), 1.0);
+    EXPECT_NEAR((last_is_wall ? echo.departure : echo.arrival).y, 0.0, 0.01);
+  }
+  // lambda/(4 pi) (a^2 cos/lambda)/(r1 r2): physical optics of the plate between the two distances.
+  const double expected = decibels(std::pow(0.01 * std::cos(half) / (4.0 * pi * direct * over_wall), 2));
+  EXPECT_NEAR(decibels(std::norm(out_over_wall)), expected, 0.2);
+  EXPECT_NEAR(decibels(std::norm(in_over_wall)), expected, 0.2);
+}
+
+TEST(RadarEchoScene, WhatIsHiddenIsNotSeen) {
+  EchoOptions options = sector(8.0, 4.0, 20000);
+  EchoScene open(corner_by_a_wall()), hidden(corner_by_a_wall(true));
+  EXPECT_GT(power_at(open.find(options, Pose{}), 20.0, 0.1, 3),
+            1e-11);  // lambda^2 4 pi a^4/(3 lambda^2)/((4 pi)^3 R^4): 2.1e-11
+  EXPECT_EQ(power_at(hidden.find(options, Pose{}), 20.0, 0.1, 3), 0.0);
+  EXPECT_GT(power_at(hidden.find(options, Pose{}), 8.0, 0.1, 1), 1e-11);  // the screen
+}
+
+/// Of a large smooth wall only the glint is left where nothing of its border is seen: lambda/(4 pi 2 R), the image's field.
+TEST(RadarEchoScene, LargeWallReflectsAsItsImageWhateverTheTubes) {
+  TinyScene tiny;
+  tiny.object("wall").quad({10, 40, -40}, {10, -40, -40}, {10, -40, 40}, {10, 40, 40});
+  EchoScene scene(tiny);
+  for (const uint32_t tubes : {300u, 3000u, 30000u}) {
+    const EchoList list = scene.find(sector(50.0, 20.0, tubes), Pose{});
+    EXPECT_NEAR(decibels(std::norm(field_of(list))),
+                decibels(std::pow(radar_wavelength_m / (4.0 * pi * 20.0), 2)), 0.1)
+        << tubes;
+    Complex elsewhere(0.0);
+    for (const Echo& echo : list.echoes)
+      if (range_of(echo) > 10.2) elsewhere += echo.amplitude;
+    EXPECT_LT(decibels(std::norm(elsewhere)), decibels(std::norm(field_of(list))) - 35.0) << tubes;
+  }
+}
+
+/// Ends swapped: where the surface reflects from one to the other, exactly so; beside that physical optics is not reciprocal
+/// (cos(theta_i) against cos(theta_s)).
+TEST(RadarEchoScene, Reciprocity) {
+  TinyScene tiny;
+  tiny.object("plate").quad({0, -0.2, -0.2}, {0, 0.2, -0.2}, {0, 0.2, 0.2}, {0, -0.2, 0.2});
+  EchoScene scene(tiny);
+  const dvec3 a = 60.0 * dvec3(std::cos(0.5), std::sin(0.5), 0.0),
+              b = 45.0 * dvec3(std::cos(0.5), -std::sin(0.5), 0.0);
+  EchoOptions options = sector(1.0, 1.0, 400);
+  options.merge_share = 0.0;
+  const Complex ab = field_of(scene.find(options, looking(a, dvec3(0.0)), looking(b, dvec3(0.0))));
+  const Complex ba = field_of(scene.find(options, looking(b, dvec3(0.0)), looking(a, dvec3(0.0))));
+  EXPECT_LT(std::abs(ab - ba), 2e-3 * std::abs(ab));
+}
+
+TEST(RadarEchoScene, BistaticDirectPathIsFriis) {
+  EchoScene scene(corner_by_a_wall());
+  const EchoList list = scene.find(sector(1.0, 1.0, 10), Pose{{0, -20, 0}, dquat(1, 0, 0, 0)},
+                                   Pose{{30, -20, 0}, dquat(1, 0, 0, 0)});
+  ASSERT_EQ(list.echoes.size(), 1u);
+  EXPECT_EQ(list.echoes[0].bounces, 0u);
+  EXPECT_EQ(list.echoes[0].instance, 0u);
+  EXPECT_NEAR(list.echoes[0].delay.coefficients[0] * speed_of_light, 30.0, 1e-9);
+  EXPECT_NEAR(std::abs(list.echoes[0].amplitude), radar_wavelength_m / (4.0 * pi * 30.0), 1e-15);
+}
+
+TEST(RadarEchoScene, HardCase64NothingHitIsAnEmptyList) {
+  EchoScene scene(corner_by_a_wall());
+  EchoStatistics statistics;
+  const EchoList list = scene.find(sector(20.0, 5.0, 500), looking({0, 0, 0}, {-1, 0, 0}), {}, &statistics);
+  EXPECT_TRUE(list.echoes.empty());
+  EXPECT_TRUE(list.tables.empty());
+  EXPECT_EQ(statistics.contributions, 0u);
+}
+
+TEST(RadarEchoScene, TargetInsideTheAntennaIsRefusedByName) {
+  EchoScene scene(corner_by_a_wall());
+  try {
+    scene.find(sector(20.0, 5.0, 500), looking({10, 5.99, 0}, {10, 6.5, 0}));
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("radar 'radar': expected nothing within 0.02 m of its antenna, found 'wall'"));
+  }
+}
+
+TEST(RadarEchoScene, OptionsOutOfRangeAreRefused) {
+  EchoScene scene(corner_by_a_wall());
+  const auto refused = [&](auto change, const char* message) {
+    EchoOptions options = sector(20.0, 5.0, 500);
+    change(options);
+    try {
+      scene.find(options, Pose{});
+      FAIL() << message;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(message));
+    }
+  };
+  refused([](EchoOptions& o) { o.max_bounces = 0; }, "bounces: expected 1 to 6, found 0");
+  refused([](EchoOptions& o) { o.field_of_view.azimuth_max = -1.0; }, "azimuths");
+  refused([](EchoOptions& o) { o.field_of_view.elevation_max = 2.0; }, "elevations");
+  refused(
+      [](EchoOptions& o) {
+        o.tubes = 1;
+        o.field_of_view = {-3.0, 3.0, -1.0, 1.0};
+      },
+      "tubes");
+  refused([](EchoOptions& o) { o.target_tube_m = 0.0; }, "tube on targets");
+}
+
+TEST(RadarEchoScene, HardCase7FarFromTheOriginNothingChanges) {
+  const dvec3 origin(500000.0, 5400000.0, 100.0);
+  TinyScene here, there;
+  const auto plate = [](TinyScene& tiny, const dvec3& o) {
+    tiny.object("plate").quad(o + dvec3(9, 0.5, -0.5), o + dvec3(9, -0.5, -0.5), o + dvec3(9.25, -0.5, 0.5),
+                              o + dvec3(9.25, 0.5, 0.5));
+  };
+  plate(here, dvec3(0.0)), plate(there, origin);
+  EchoScene near(here), far(there, {}, origin);
+  const EchoOptions options = sector(10.0, 10.0, 500);
+  const Complex a = field_of(near.find(options, Pose{})), b = field_of(far.find(options, Pose{}));
+  EXPECT_LT(std::abs(a - b), 1e-5 * std::abs(a));
+}
+
+TEST(RadarEchoScene, HardCase63ThreadsChangeNoByte) {
+  EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
+  EchoOptions options = sector(60.0, 8.0, 4000);
+  options.targets = {1};
+  std::vector<EchoList> lists;
+  for (const uint32_t threads : {1u, 2u, 16u}) {
+    options.threads = threads;
+    lists.push_back(scene.find(options, Pose{}));
+  }
+  ASSERT_GT(lists[0].echoes.size(), 10u);
+  for (const EchoList& list : lists) {
+    ASSERT_EQ(list.echoes.size(), lists[0].echoes.size());
+    for (size_t i = 0; i < list.echoes.size(); ++i) {
+      EXPECT_EQ(list.echoes[i].amplitude, lists[0].echoes[i].amplitude);
+      EXPECT_EQ(list.echoes[i].delay.coefficients, lists[0].echoes[i].delay.coefficients);
+      EXPECT_EQ(list.echoes[i].point, lists[0].echoes[i].point);
+    }
+  }
+}
+
+/// Field over the band and over an aperture of a beam's width: merged against each tube by itself.
+TEST(RadarEchoScene, MergingStaysWithinItsBound) {
+  EchoScene scene(ball_at({15, 0, 0}, 0.6, wall_alone()));
+  EchoOptions options = sector(60.0, 8.0, 8000);
+  options.targets = {1};
+  options.bandwidth_hz = 1e9;
+  options.beam_rad = 0.1;
+  const EchoList merged = scene.find(options, Pose{});
+  options.merge_share = 0.0;
+  const EchoList all = scene.find(options, Pose{});
+  EXPECT_LT(merged.echoes.size() * 4, all.echoes.size());
+  const auto field = [&](const EchoList& list, double offset_hz, double aperture_m) {
+    Complex sum(0.0);
+    for (const Echo& e : list.echoes)
+      sum +=
+          e.amplitude *
+          std::polar(1.0, -2.0 * pi *
+                              (std::remainder((radar_carrier_hz + offset_hz) * e.delay.coefficients[0], 1.0) -
+                               aperture_m / radar_wavelength_m * e.arrival.y));
+    return sum;
+  };
+  EXPECT_LT(std::abs(field(merged, 0, 0) - field(all, 0, 0)), 1e-6 * std::abs(field(all, 0, 0)));
+  const double half_aperture = 0.5 * radar_wavelength_m / options.beam_rad;
+  for (const double offset : {-0.5e9, 0.5e9})
+    for (const double aperture : {-half_aperture, half_aperture}) {
+      // A member is at most a cell off: phases of pi B share/B and pi share, in the mean a third of their sum.
+      const Complex expected = field(all, offset, aperture);
+      EXPECT_LT(std::abs(field(merged, offset, aperture) - expected), 0.25 * std::abs(field(all, 0, 0)));
+    }
+}
+
+TEST(RadarEchoScene, BeyondTheCapTheWeakestAreCounted) {
+  EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
+  EchoOptions options = sector(10.0, 8.0, 4000);
+  options.merge_share = 0.0;
+  const EchoList all = scene.find(options, Pose{});
+  options.max_echoes = 50;
+  EchoStatistics statistics;
+  const EchoList few = scene.find(options, Pose{}, {}, &statistics);
+  EXPECT_EQ(few.echoes.size(), 50u);
+  EXPECT_EQ(statistics.left_out, all.echoes.size() - 50u);
+  EXPECT_GT(statistics.left_out_power, 0.0);
+}
+
+/// The floor takes edges and corners away that a body of 1 mm^2 would outshine.
+TEST(RadarEchoScene, FloorOfEdgesIsWhatItSays) {
+  TinyScene tiny;
+  tiny.object("plate").quad({10, 0.5, -0.5}, {11, -0.5, -0.5}, {11, -0.5, 0.5}, {10, 0.5, 0.5});
+  EchoScene scene(tiny);
+  EchoOptions options = sector(10.0, 10.0, 500);
+  EchoStatistics statistics;
+  const Complex above = field_of(scene.find(options, Pose{}, {}, &statistics));
+  EXPECT_GT(statistics.below_floor, 0u);
+  options.border_floor_m2 = 0.0;
+  const Complex all = field_of(scene.find(options, Pose{}));
+  const double bound = std::sqrt(double(statistics.below_floor)) *
+                       std::sqrt(1e-6 * std::pow(radar_wavelength_m, 2) / (std::pow(4.0 * pi, 3) * 1e4));
+  EXPECT_LT(std::abs(all - above), bound);
+}
+
+TEST(RadarEchoScene, DiffuseIsOffByDefaultAndHasThePowerOfItsModel) {
+  TinyScene tiny;
+  tiny.object("ground").quad({5, -5, -2}, {25, -5, -2}, {25, 5, -2}, {5, 5, -2});
+  RadioSurface rough = conductor();
+  rough.scattering.coefficient = 0.5;
+  EchoScene scene(tiny, {rough, rough});
+  EchoOptions options = sector(20.0, 25.0, 8000);
+  const auto clutter = [](const EchoList& list) {
+    double power = 0.0;
+    for (const Echo& e : list.echoes)
+      if (range_of(e) > 10.0 && range_of(e) < 12.0) power += std::norm(e.amplitude);
+    return power;
+  };
+  options.merge_share = 0.0;
+  const double off = clutter(scene.find(options, Pose{}));
+  options.diffuse = true;
+  const double on = clutter(scene.find(options, Pose{}));
+  // Lambert: the integral of S^2 cos(theta_s) cos(theta_i)/pi over the ground, cos = 2/R, (lambda/4 pi)^2/R^4; half the
+  // ring of ranges 10 to 12 m lies within |y| < 5 and 20 degrees.
+  double expected = 0.0;
+  for (double x = 5.0; x < 25.0; x += 0.02)
+    for (double y = -5.0; y < 5.0; y += 0.02) {
+      const double r = std::sqrt(x * x + y * y + 4.0);
+      if (r < 10.0 || r > 12.0 || std::abs(std::atan2(y, x)) > radians(20.0)) continue;
+      expected += 0.25 * (2.0 / r) * (2.0 / r) / pi * std::pow(radar_wavelength_m / (4.0 * pi), 2) /
+                  std::pow(r, 4) * 4e-4;
+    }
+  EXPECT_NEAR(decibels(on), decibels(expected), 0.5);
+  EXPECT_LT(off, 0.02 * on);
+}
+
+}  // namespace
+}  // namespace greatx::rf
