@@ -39,7 +39,7 @@ struct CfarPeak {
 /// cells on all sides. The Doppler axis is a circle; at the ends of the range axis the cells that are there serve, with
 /// the factor of their number. Windows make neighbours' noise alike: n cells tell as much as n_eff = n^2/sum_ij |rho_ij|^2
 /// independent ones (a mean of the same variance), which cell averaging counts with; the ordered statistic does with n_eff
-/// and a rank in proportion.
+/// and a rank in proportion: it lets fewer alarms pass then than asked (docs/radar.md).
 class Cfar {
  public:
   /// `looks`: virtual antennas.

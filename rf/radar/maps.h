@@ -44,9 +44,9 @@ class RadarMaps {
   /// Mean over the virtual antennas of |spectrum|^2: W [range, velocity].
   std::vector<float> range_doppler(std::span<const std::complex<float>> spectrum, uint32_t threads) const;
   /// W [range, azimuth], at elevation 0: power of the beam (mean of the virtual antennas, each turned by what its direction
-  /// and, with TDM, its slot's time at the bin's velocity add), summed over all velocities and divided by the Doppler
-  /// window's noise bandwidth, so that a target in direction of the beam counts with its received power whatever its velocity. Bistatic: beams
-  /// of each transmitter's receivers, their mean power.
+  /// and, with TDM, its slot's time at the bin's velocity add), summed over all velocities and divided by the Doppler window's
+  /// noise bandwidth, so that a target in the beam counts with its received power whatever its velocity. Bistatic: beams of
+  /// each transmitter's receivers, their mean power.
   std::vector<float> range_azimuth(std::span<const std::complex<float>> spectrum, uint32_t threads) const;
 
  private:

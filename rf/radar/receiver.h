@@ -40,10 +40,10 @@ uint64_t digitize(const AnalogToDigital& adc, uint32_t threads, std::span<std::c
 
 /// The oscillator's phase over a frame. Its echo comes back tau later, so the beat signal has phi(t) - phi(t - tau): what
 /// changes slowly cancels, the nearer the target the more (range correlation: M. C. Budge, M. P. Burt, "Range correlation
-/// effects in radars", Record of the 1993 IEEE National Radar Conference). A pole's phase is an Ornstein-Uhlenbeck process, drawn exactly
-/// at the samples' times and, between them, from its distribution given both neighbours. Echoes share the phase of the
-/// nearest of delays that grow by a quarter each: their noise is that of a delay within 12 %, so its power within 0.5 dB.
-/// From one ramp to the next the phase is drawn afresh: right where interval_s is many times 1/(2 pi f_p).
+/// effects in radars", Record of the 1993 IEEE National Radar Conference). A pole's phase is an Ornstein-Uhlenbeck process,
+/// drawn exactly at the samples' times and, between them, from its distribution given both neighbours. Echoes share the phase
+/// of the nearest of delays that grow by a quarter each: their noise is that of a delay within 12 %, so its power within 0.5
+/// dB. From one ramp to the next the phase is drawn afresh: right where interval_s is many times 1/(2 pi f_p).
 class PhaseWalk {
  public:
   PhaseWalk(const PhaseNoise& noise, const RadarWaveform& waveform, const RadarSeeds& seeds);
