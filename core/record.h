@@ -122,6 +122,8 @@ enum class FileFormat {
   // Files of a sequence made from its npy_ragged arrays when it ends (docs/events.md).
   hdf5_events,  ///< DSEC's HDF5; arrays: t i64 ns, x u16, y u16, p u8
   text_events,  ///< lines "t x y p", t in seconds; the same arrays
+  pcd,          ///< PCD 0.7, binary; arrays as ply's
+  kitti,        ///< KITTI's velodyne .bin: f32 [n, 4] as it is, no header
 };
 
 /// One file series of a sensor.
@@ -129,7 +131,7 @@ struct OutputSpec {
   std::string name;  ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
   FileFormat format = FileFormat::npy_stack;
   std::vector<std::string>
-      arrays;  ///< names of the ArraySpecs that it holds; ply and the formats of events hold several, all others one
+      arrays;  ///< names of the ArraySpecs that it holds; ply, pcd and the formats of events hold several, all others one
 };
 
 /// What a sensor will deliver, declared before the run.

@@ -34,6 +34,8 @@ constexpr FormatName format_names[] = {
     {FileFormat::ply, "ply", ".ply"},
     {FileFormat::hdf5_events, "hdf5_events", ".h5"},
     {FileFormat::text_events, "text_events", ".txt"},
+    {FileFormat::pcd, "pcd", ".pcd"},
+    {FileFormat::kitti, "kitti", ".bin"},
 };
 const FormatName& row_of(FileFormat format) { return format_names[static_cast<size_t>(format)]; }
 
@@ -57,7 +59,7 @@ constexpr size_t event_array_count = 4;  // t, x, y, p
 
 void check_output(const SensorSpec& sensor, const OutputSpec& output) {
   GREATX_CHECK(!output.arrays.empty(), "{}/{} holds no array", sensor.name, output.name);
-  const size_t most = output.format == FileFormat::ply ? output.arrays.size() : 1;
+  const size_t most = is_cloud(output.format) ? output.arrays.size() : 1;
   GREATX_CHECK(output.arrays.size() == (is_export(output.format) ? event_array_count : most),
                "{}/{} holds {} arrays", sensor.name, output.name, output.arrays.size());
   for (const size_t i : arrays_of(sensor, output)) {
@@ -143,6 +145,7 @@ bool is_stack(FileFormat format) {
 bool is_export(FileFormat format) {
   return format == FileFormat::hdf5_events || format == FileFormat::text_events;
 }
+bool is_cloud(FileFormat format) { return format == FileFormat::ply || format == FileFormat::pcd; }
 bool is_frame(FileFormat format) { return !is_stack(format) && !is_export(format); }
 
 const OutputSpec* ragged_output(const SensorSpec& sensor, const std::string& array) {

@@ -61,6 +61,7 @@ std::string_view name_of(FileFormat format);
 bool is_stack(FileFormat format);   ///< npy_stack or npy_ragged: one file a sequence
 bool is_export(FileFormat format);  ///< one file a sequence, made from its stacks when it ends
 bool is_frame(FileFormat format);   ///< one file a record
+bool is_cloud(FileFormat format);   ///< points with their properties, several arrays in a file
 /// Paths relative to the data set's folder, with '/'.
 std::string sequence_folder(uint32_t sequence);
 std::string stack_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);

@@ -7,6 +7,7 @@
 
 #include "io/exr.h"
 #include "io/npy.h"
+#include "io/pcd.h"
 #include "io/ply.h"
 #include "io/png.h"
 #include "io/recovery.h"
@@ -117,8 +118,14 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
     case FileFormat::exr:
       result = read_exr(path);
       break;
+    case FileFormat::kitti:
+      result = decode_kitti(read_file(path), path.string());
+      break;
     default: {
-      std::map<std::string, Array> properties = decode_ply(read_file(path), path.string());
+      const Bytes file = read_file(path);
+      std::map<std::string, Array> properties = output.format == FileFormat::ply
+                                                    ? decode_ply(file, path.string())
+                                                    : decode_pcd(file, path.string());
       if (array == 0)
         result = points_of(properties, path.string());
       else if (const auto found = properties.find(spec.name); found != properties.end())

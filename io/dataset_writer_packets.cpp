@@ -9,6 +9,7 @@
 #include "io/exr.h"
 #include "io/journal.h"
 #include "io/npy.h"
+#include "io/pcd.h"
 #include "io/ply.h"
 #include "io/png.h"
 
@@ -30,10 +31,14 @@ Bytes encode_frame(const SensorSpec& sensor, const OutputSpec& output, const std
       return encode_png_depth24(first);
     case FileFormat::exr:
       return encode_exr(first);
+    case FileFormat::kitti:
+      return encode_kitti(first);
+    case FileFormat::pcd:
     case FileFormat::ply: {
       std::vector<const Array*> columns;
       for (const size_t i : indices) columns.push_back(&arrays[i]);
-      return encode_ply(output.arrays, columns);
+      return output.format == FileFormat::ply ? encode_ply(output.arrays, columns)
+                                              : encode_pcd(output.arrays, columns);
     }
     default:
       GREATX_CHECK(false, "{} is no format of frames", name_of(output.format));

@@ -3,8 +3,9 @@
 #include "io/ply.h"
 
 #include <charconv>
-#include <cstring>
 #include <sstream>
+
+#include "io/vertex_rows.h"
 
 namespace greatx::io {
 
@@ -24,15 +25,9 @@ std::string_view ply_type(DType dtype) {
   return {};
 }
 
-struct Property {
-  std::string name;
-  DType dtype;
-};
-
 struct Header {
   int64_t vertices = -1;
-  std::vector<Property> properties;
-  size_t stride = 0;
+  std::vector<VertexProperty> properties;
 };
 
 void parse_property(Header& header, const std::string& line, const std::string& file) {
@@ -42,7 +37,6 @@ void parse_property(Header& header, const std::string& line, const std::string& 
   for (const TypeName& candidate : type_names) {
     if (candidate.name != type) continue;
     header.properties.push_back({property, candidate.dtype});
-    header.stride += size_of(candidate.dtype);
     return;
   }
   throw_user_error("{}: expected a property of a PLY type, found \"{}\"", file, line);
@@ -74,34 +68,12 @@ Header parse_header(std::string_view text, const std::string& file) {
 }  // namespace
 
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays) {
-  GREATX_CHECK(!arrays.empty() && names.size() == arrays.size(), "{} names, {} arrays", names.size(),
-               arrays.size());
-  const Array& points = *arrays[0];
-  GREATX_CHECK(points.dtype == DType::f32 && points.shape.size() == 2 && points.shape[1] == 4,
-               "points of {} axes, {}", points.shape.size(), numpy_name(points.dtype));
-  const auto count = static_cast<size_t>(points.shape[0]);
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", count);
-  for (const char* axis : {"x", "y", "z", "intensity"}) header += fmt::format("property float {}\n", axis);
-  size_t stride = 16;
-  for (size_t i = 1; i < arrays.size(); ++i) {
-    GREATX_CHECK(arrays[i]->shape == std::vector<int64_t>{points.shape[0]}, "property {} of {} axes",
-                 names[i], arrays[i]->shape.size());
-    header += fmt::format("property {} {}\n", ply_type(arrays[i]->dtype), names[i]);
-    stride += size_of(arrays[i]->dtype);
-  }
-  header += "end_header\n";
-
-  Bytes file(header.size() + count * stride);
-  std::memcpy(file.data(), header.data(), header.size());
-  size_t column = header.size();
-  for (size_t i = 0; i < arrays.size(); ++i) {
-    const size_t width = i == 0 ? 16 : size_of(arrays[i]->dtype);
-    const std::byte* in = arrays[i]->bytes.data();
-    std::byte* out = file.data() + column;
-    for (size_t vertex = 0; vertex < count; ++vertex, in += width, out += stride) std::memcpy(out, in, width);
-    column += width;
-  }
-  return file;
+  const std::vector<VertexProperty> properties = vertex_properties(names, arrays);
+  std::string header =
+      fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", arrays[0]->shape[0]);
+  for (const VertexProperty& property : properties)
+    header += fmt::format("property {} {}\n", ply_type(property.dtype), property.name);
+  return with_vertex_rows(header + "end_header\n", arrays);
 }
 
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name) {
@@ -111,24 +83,13 @@ std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const s
   const size_t end = text.find(end_mark);
   if (end == text.npos) throw_user_error("{}: expected a PLY file", name);
   const Header header = parse_header(text.substr(0, end), name);
-  const std::byte* const data = file.data() + end + end_mark.size();
-  const size_t found = file.size() - end - end_mark.size();
+  const std::span<const std::byte> data = file.subspan(end + end_mark.size());
   const auto count = static_cast<size_t>(header.vertices);
-  if (header.stride == 0 || found / header.stride != count || found % header.stride != 0) {
-    throw_user_error("{}: expected {} vertices of {} bytes, found {} bytes", name, count, header.stride,
-                     found);
-  }
-  std::map<std::string, Array> arrays;
-  size_t column = 0;
-  for (const Property& property : header.properties) {
-    Array array(property.dtype, {header.vertices});
-    const size_t width = size_of(property.dtype);
-    for (size_t vertex = 0; vertex < count; ++vertex)
-      std::memcpy(array.bytes.data() + vertex * width, data + vertex * header.stride + column, width);
-    column += width;
-    arrays.emplace(property.name, std::move(array));
-  }
-  return arrays;
+  const size_t stride = row_bytes(header.properties);
+  if (stride == 0 || data.size() / stride != count || data.size() % stride != 0)
+    throw_user_error("{}: expected {} vertices of {} bytes, found {} bytes", name, count, stride,
+                     data.size());
+  return vertex_columns(header.properties, count, data);
 }
 
 }  // namespace greatx::io

@@ -244,8 +244,8 @@ void Verifier::check_frame_values(const DatasetReader& reader, uint32_t sequence
   workers_.for_each(rows.size(), [&](size_t r) {
     const SensorSpec& sensor = reader.sensors()[static_cast<size_t>(rows[r].sensor)];
     for (const OutputSpec& output : sensor.outputs) {
-      const bool exact = output.format == FileFormat::exr || output.format == FileFormat::ply ||
-                         output.format == FileFormat::npy_frame;
+      const bool exact = output.format == FileFormat::exr || is_cloud(output.format) ||
+                         output.format == FileFormat::kitti || output.format == FileFormat::npy_frame;
       const std::string path = exact ? frame_path(sequence, sensor, output, rows[r].sample) : "";
       if (!exact || !sound(path)) continue;
       const std::vector<size_t> arrays = arrays_of(sensor, output);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_materials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -58,6 +59,18 @@ float emissive_strength(const json& material, const std::string& what) {
   return static_cast<float>(value);
 }
 
+/// KHR_materials_transmission's factor; 0: none.
+float transmission_of(const json& material, const std::string& what) {
+  const json* extension = extension_of(material, "KHR_materials_transmission");
+  if (!extension || !extension->is_object() || !extension->contains("transmissionFactor")) return 0.0f;
+  const json& factor = (*extension)["transmissionFactor"];
+  const double value = factor.is_number() ? factor.get<double>() : -1.0;
+  if (!(value >= 0.0 && value <= 1.0)) {
+    throw_user_error("{}, transmissionFactor: expected a number from 0 to 1, found {}", what, factor.dump());
+  }
+  return static_cast<float>(value);
+}
+
 void read_alpha(const tinygltf::Material& source, PbrMaterial& pbr, const std::string& what, Model& model) {
   pbr.alpha_cutoff = in_range(source.alphaCutoff, 1e6, what + ", alphaCutoff");
   if (source.alphaMode == "MASK") {
@@ -68,9 +81,11 @@ void read_alpha(const tinygltf::Material& source, PbrMaterial& pbr, const std::s
     const bool textured = pbr.base_color_texture >= 0;
     pbr.alpha_mode = textured ? AlphaMode::mask : AlphaMode::opaque;
     pbr.alpha_cutoff = 0.5f;
+    if (!textured && pbr.transmission == 0.0f) pbr.transmission = std::clamp(1.0f - pbr.base_color.a, 0.0f, 1.0f);
     model.notes.push_back(
         fmt::format("{}: alpha mode BLEND is treated as {}", what,
-                    textured ? "MASK with cutoff 0.5 (it has a texture)" : "OPAQUE (no texture)"));
+                    textured ? "MASK with cutoff 0.5 (it has a texture)"
+                             : "OPAQUE (no texture), but LiDAR's light goes through by 1 - alpha"));
   } else if (source.alphaMode != "OPAQUE" && !source.alphaMode.empty()) {
     throw_user_error("{}: alphaMode '{}', expected OPAQUE, MASK or BLEND", what, source.alphaMode);
   }
@@ -94,6 +109,7 @@ PbrMaterial read_pbr(const tinygltf::Material& source, const json& document, con
                                                  what + ", metallicRoughnessTexture");
   pbr.normal_texture = textures.read(source.normalTexture.index, false, what + ", normalTexture");
   pbr.emissive_texture = textures.read(source.emissiveTexture.index, true, what + ", emissiveTexture");
+  pbr.transmission = transmission_of(document, what);
   read_alpha(source, pbr, what, model);
   if (!std::isfinite(pbr.normal_scale)) throw_user_error("{}: normalTexture.scale is not finite", what);
   if (document.dump().find("KHR_texture_transform") != std::string::npos) {

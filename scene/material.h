@@ -26,6 +26,9 @@ struct PbrMaterial {
   float alpha_cutoff = 0.5f;
   AlphaMode alpha_mode = AlphaMode::opaque;
   bool double_sided = false;
+  /// Of a pane: the part of the light that goes through (KHR_materials_transmission, or 1 - alpha of a BLEND material
+  /// without a texture). LiDAR alone heeds it; cameras see what stands there.
+  float transmission = 0.0f;
   int32_t base_color_texture = -1;          ///< index into Scene::textures; -1: none
   int32_t metallic_roughness_texture = -1;  ///< G roughness, B metallic
   int32_t normal_texture = -1;

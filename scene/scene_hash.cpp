@@ -61,6 +61,7 @@ void feed(Feeder& feeder, const Material& material) {
                 static_cast<uint32_t>(pbr.alpha_mode), static_cast<uint32_t>(pbr.double_sided),
                 pbr.base_color_texture, pbr.metallic_roughness_texture, pbr.normal_texture,
                 pbr.emissive_texture);
+  if (pbr.transmission > 0.0f) feeder.values(pbr.transmission);
   feeder.values(material.reflectance_905nm.value_or(-1.0f), material.reflectance_1550nm.value_or(-1.0f));
   feeder.values(!material.radio ? 0u : material.radio->foliage ? 2u : 1u);
   if (material.radio) feed(feeder, *material.radio);

@@ -197,7 +197,7 @@ void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
 void Simulator::compare_lidar_with_depth(const std::vector<Due>& due) {
   for (const Due& a : due) {
     const auto* lidar = dynamic_cast<const LidarSensor*>(sensors_[a.sensor].get());
-    if (lidar == nullptr || !lidar->instantaneous()) continue;
+    if (lidar == nullptr || !lidar->exact()) continue;
     for (const Due& b : due) {
       const auto* camera = dynamic_cast<const CameraSensor*>(sensors_[b.sensor].get());
       if (camera == nullptr || camera->node() != lidar->node() || camera->images().depth.empty()) continue;

@@ -175,10 +175,36 @@ def read_ply(path: Path) -> np.ndarray:
         raise DatasetError(f"{path}: cannot be read as PLY: {error}") from error
 
 
+def read_pcd(path: Path) -> np.ndarray:
+    """A structured array [n] with a field for each field of a PCD file, version 0.7, binary, one value a field."""
+    data = read_bytes(path)
+    end = data.find(b"\nDATA binary\n")
+    if end < 0:
+        raise DatasetError(f"{path}: is no PCD in binary")
+    lines = [line.split() for line in data[:end].decode("ascii", "replace").splitlines()]
+    header = {words[0]: words[1:] for words in lines if words and not words[0].startswith("#")}
+    try:
+        if set(header["COUNT"]) != {"1"}:
+            raise ValueError(f"COUNT {' '.join(header['COUNT'])}")
+        kind = np.dtype([(name, "<" + code.lower() + size) for name, code, size
+                         in zip(header["FIELDS"], header["TYPE"], header["SIZE"])])
+        return np.frombuffer(data, kind, int(header["POINTS"][0]), end + len(b"\nDATA binary\n"))
+    except (ValueError, KeyError, IndexError, TypeError) as error:
+        raise DatasetError(f"{path}: cannot be read as PCD: {error}") from error
+
+
+def read_kitti(path: Path) -> np.ndarray:
+    """KITTI's velodyne points: float32 [n, 4], x, y, z, reflectance."""
+    data = read_bytes(path)
+    if len(data) % 16:
+        raise DatasetError(f"{path}: expected points of 16 bytes, found {len(data)} bytes")
+    return np.frombuffer(data, "<f4").reshape(-1, 4)
+
+
 def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
     """The arrays of one file of an output, by name, as the sensor measured them."""
-    if output.format == "ply":
-        points = read_ply(path)
+    if output.format in ("ply", "pcd"):
+        points = read_ply(path) if output.format == "ply" else read_pcd(path)
         first = output.arrays[0].name
         try:
             out = {first: np.stack([points[p] for p in ("x", "y", "z", "intensity")], axis=-1)}
@@ -190,6 +216,8 @@ def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
         value = load_npy(path)
     elif output.format == "exr":
         value = read_exr(path)
+    elif output.format == "kitti":
+        value = read_kitti(path)
     else:
         value = read_png(path)
         if output.format == "png_depth24":

@@ -16,10 +16,12 @@ from .errors import DatasetError
 FORMAT = "greatx-dataset"
 FORMAT_VERSION = 1
 #: The file formats of an output, from the one to read first to the one to read last where several hold one array.
-FORMATS = ("npy_stack", "npy_ragged", "npy_frame", "exr", "png", "ply", "png_depth24", "hdf5_events", "text_events")
+FORMATS = ("npy_stack", "npy_ragged", "npy_frame", "exr", "png", "ply", "pcd", "kitti", "png_depth24", "hdf5_events",
+           "text_events")
 #: Of files of a whole sequence for other tools, made from its arrays.
 EXPORT_SUFFIX = {"hdf5_events": ".h5", "text_events": ".txt"}
-SUFFIX = {"npy_frame": ".npy", "exr": ".exr", "png": ".png", "ply": ".ply", "png_depth24": ".png"}
+SUFFIX = {"npy_frame": ".npy", "exr": ".exr", "png": ".png", "ply": ".ply", "pcd": ".pcd", "kitti": ".bin",
+          "png_depth24": ".png"}
 
 
 @dataclasses.dataclass(frozen=True)

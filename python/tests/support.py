@@ -36,7 +36,7 @@ nodes:
       - {name: front, type: camera, rate_hz: 10, width: 31, height: 24, fov_deg: 90,
          outputs: [rgb, depth, ids, hdr, depth_png24], mount: {position_m: [1.2, 0, 1.4]}}
       - {name: lidar, type: lidar, rate_hz: 10, channels: 8, elevation_min_deg: -45, elevation_max_deg: 15,
-         azimuth_steps: 64, max_range_m: 150, mount: {position_m: [0, 0, 2]}}
+         azimuth_steps: 64, max_range_m: 150, mount: {position_m: [0, 0, 2]}, outputs: [points, ply, pcd, kitti]}
       - {name: antenna, type: antenna, mount: {position_m: [0, 0, 1.6]}}
   - name: walker
     trajectory: {type: static, position_m: [-5, 20, 1.5]}

@@ -11,7 +11,7 @@ import numpy as np
 
 import greatx
 import support
-from greatx.frames import read_exr, read_ply, read_png
+from greatx.frames import read_exr, read_kitti, read_pcd, read_ply, read_png
 
 
 def png(lines, width, height, bits, colour):
@@ -109,6 +109,23 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(greatx.DatasetError, "frame: "):
                 read_ply(self.path)
 
+    def test_pcd_and_kitti(self):
+        head = (b"# .PCD v0.7\nVERSION 0.7\nFIELDS x ring\nSIZE 4 2\nTYPE F U\nCOUNT 1 1\nWIDTH 2\nHEIGHT 1\n"
+                b"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA binary\n")
+        self.path.write_bytes(head + struct.pack("<fHfH", 1.5, 7, -2, 9))
+        points = read_pcd(self.path)
+        self.assertEqual((list(points["x"]), list(points["ring"])), ([1.5, -2.0], [7, 9]))
+        for data in (b"", head.replace(b"binary", b"ascii"), head, head.replace(b"COUNT 1", b"COUNT 2"),
+                     self.path.read_bytes()[:-1]):
+            self.path.write_bytes(data)
+            with self.assertRaisesRegex(greatx.DatasetError, "frame: "):
+                read_pcd(self.path)
+        self.path.write_bytes(struct.pack("<8f", *range(8)))
+        np.testing.assert_array_equal(read_kitti(self.path), np.arange(8, dtype=np.float32).reshape(2, 4))
+        self.path.write_bytes(bytes(20))
+        with self.assertRaisesRegex(greatx.DatasetError, "frame: .*20 bytes"):
+            read_kitti(self.path)
+
 
 class OfADataSet(unittest.TestCase):
     def setUp(self):
@@ -143,6 +160,10 @@ class OfADataSet(unittest.TestCase):
         cloud = record.cloud
         np.testing.assert_array_equal(cloud["points"], record.points)
         np.testing.assert_array_equal(cloud["ring"], record.ring)
+        np.testing.assert_array_equal(record.velodyne, record.points)
+        for name, values in record.pcd.items():
+            np.testing.assert_array_equal(values, cloud[name])
+        self.assertTrue(np.all(record.return_number == 1) and np.all(record.return_count >= 1))
         np.testing.assert_allclose(np.linalg.norm(record.points[:, :3], axis=1), record["range"], rtol=1e-5)
 
 

@@ -94,6 +94,23 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
   return committed_hit(query, t_max);
 }
 
+/// The first triangle of one body alone, which moves, without those of one facet (no_facet: none). `masks` as above.
+Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, moving_mask, origin, t_min, direction, t_max);
+  while (rayQueryProceedEXT(query)) {
+    GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
+    if (primitive.body != body) continue;
+    uint triangle = candidate_triangle(query, primitive);
+    bool solid = facet == no_facet || scene_facet(triangle) != facet;
+#ifdef GREATX_TRACE_ALPHA
+    if (masks) solid = solid && alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false));
+#endif
+    if (solid) rayQueryConfirmIntersectionEXT(query);
+  }
+  return committed_hit(query, t_max);
+}
+
 #ifdef GREATX_TRACE_ALPHA
 /// The first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are looked at one by one.
 Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {

@@ -96,7 +96,7 @@ Asks asks_of(const Scenario& scenario) {
         add(asks, static_cast<const PinholeConfig&>(*events));
       } else if (const auto* lidar = std::get_if<LidarConfig>(&sensor.config)) {
         ++asks.lidars;
-        asks.sweep |= lidar->sweep_s > 0.0;
+        asks.sweep |= render::duration_s(lidar->scan) > 0.0;
       }
     }
   }

@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "sim/plan/camera_plan.h"
 #include "sim/plan/effect_planner.h"
-#include "sim/plan/light_plan.h"
+#include "sim/plan/lidar_plan.h"
 
 namespace greatx::sim {
 
@@ -26,32 +26,6 @@ void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
       planner.fixed("scene_motion", offers.moving_triangles,
                     offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
                                             : "no mesh moves: built once, never refitted");
-}
-
-void plan_lidar(EffectPlan& plan, Planner& planner, const Environment& environment, const Offers& offers,
-                const Asks& asks) {
-  const bool lidar = asks.lidars > 0;
-  plan.lidar = planner.fixed("lidar", lidar, lidar ? fmt::format("{} of them", asks.lidars) : "no LiDAR");
-  plan.lidar_alpha_mask = planner.decide("lidar_alpha_mask", lidar && offers.alpha_mask,
-                                         !lidar              ? "no LiDAR"
-                                         : offers.alpha_mask ? "materials have holes"
-                                                             : "no material has holes");
-  plan.lidar_textures =
-      planner.decide("lidar_textures", lidar && offers.reflectance_textures,
-                     !lidar ? "no LiDAR"
-                     : offers.reflectance_textures
-                         ? "textures shade reflectances that come from the base colour"
-                         : "every textured material states its reflectance, or none has a texture");
-  plan.lidar_sweep_motion =
-      planner.decide("lidar_sweep_motion", asks.sweep,
-                     !lidar       ? "no LiDAR"
-                     : asks.sweep ? "shots are spread over sweep_s: each from the pose at its own time"
-                                  : "sweep_s is 0: every shot at the tick");
-  const bool haze = haze_extinction(environment) > 0.0;
-  plan.lidar_haze = planner.decide("lidar_haze", lidar && haze,
-                                   !lidar ? "no LiDAR"
-                                   : haze ? haze_reason(environment)
-                                          : "neither fog nor rain");
 }
 
 }  // namespace
@@ -92,7 +66,13 @@ std::vector<Effect*> EffectPlan::all() {
           &lidar_alpha_mask,
           &lidar_textures,
           &lidar_sweep_motion,
+          &lidar_target_motion,
+          &lidar_divergence,
+          &lidar_glass,
           &lidar_haze,
+          &lidar_backscatter,
+          &lidar_detection,
+          &lidar_range_noise,
           &channel,
           &line_of_sight,
           &reflection,
@@ -124,7 +104,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene)
   Planner planner(scenario);
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);
-  plan_lidar(plan, planner, scenario.environment, offers, asks);
+  plan_lidar(plan, planner, scenario, scene, offers);
   plan_radio(plan, planner, scenario, scene);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
   plan.consistency = planner.decide(

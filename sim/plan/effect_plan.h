@@ -32,7 +32,8 @@ struct EffectPlan {
       punctual_lights, haze, night_sky, smooth_edges, lens_distortion, vignetting, motion_blur, auto_exposure,
       sensor_noise;
   // LiDAR.
-  Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion, lidar_haze;
+  Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion, lidar_target_motion, lidar_divergence,
+      lidar_glass, lidar_haze, lidar_backscatter, lidar_detection, lidar_range_noise;
   // Radio.
   Effect channel, line_of_sight, reflection, moving_reflectors, transmission, diffraction,
       diffraction_lit_region, free_edges, scattering, roughness, gas, rain, fog, foliage, dispersion, doppler,

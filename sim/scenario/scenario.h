@@ -18,6 +18,8 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "core/vec.h"
+#include "renderer/lidar/returns.h"
+#include "renderer/lidar/scan_pattern.h"
 #include "rf/antenna/antenna.h"
 #include "sim/scenario/optics.h"
 #include "sim/scenario/rational.h"
@@ -112,13 +114,17 @@ struct Mount {
 };
 
 struct LidarConfig {
-  std::vector<double> elevations;  ///< rad, one a channel, from the first ring up or down as given
-  uint32_t azimuth_steps = 1024;
-  double azimuth_start = 0.0, azimuth_span = 2.0 * pi;  ///< rad; left is positive
-  double sweep_s = 0.0;                                 ///< duration of one sweep; 0: all shots at the tick
+  render::Scan scan;  ///< elevations from the first ring up or down as given
   double min_range_m = 0.5, max_range_m = 120.0;
   double wavelength_nm = 905.0;  ///< 905 or 1550
   bool see_own_body = false;
+  double divergence = 0.0;  ///< rad, full angle at 1/e^2
+  uint32_t rings = 0;       ///< of sub-rays; 0: one ray a shot
+  render::ReturnChoice returns;
+  render::Receiver receiver;  ///< without the air
+  struct Outputs {
+    bool points = true, ply = true, pcd = false, kitti = false;
+  } outputs;
 };
 
 /// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.

@@ -44,6 +44,7 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, Patt
 void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
 CameraConfig parse_camera(const FieldMap& map);
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
+LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,

@@ -2,31 +2,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sensors/lidar_sensor.h"
 
+#include "core/hash.h"
 #include "core/units.h"
 #include "sim/plan/light_plan.h"
-#include "sim/sensors/sensor_metadata.h"
+#include "sim/sensors/lidar_metadata.h"
+#include "sim/sensors/lidar_targets.h"
 
 namespace greatx::sim {
 
 namespace {
 
-render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan,
-                             const Environment& environment, uint32_t body) {
-  const auto& config = std::get<LidarConfig>(sensor.config);
+std::vector<uint32_t> bodies_of(const World& world, uint32_t node) {
+  std::vector<uint32_t> bodies;
+  for (uint32_t body = 1; body < world.node_of_body.size(); ++body)
+    if (world.node_of_body[body] == node) bodies.push_back(body);
+  return bodies;
+}
+
+render::LidarDesc lidar_desc(const LidarConfig& config, const EffectPlan& plan,
+                             const Environment& environment, const std::vector<uint32_t>& own_bodies) {
   render::LidarDesc desc;
-  desc.elevations = config.elevations;
-  desc.azimuth_steps = config.azimuth_steps;
-  desc.azimuth_start = config.azimuth_start;
-  desc.azimuth_span = config.azimuth_span;
-  desc.sweep_s = config.sweep_s;
+  desc.pattern = render::scan_pattern(config.scan);
   desc.min_range_m = config.min_range_m;
   desc.max_range_m = config.max_range_m;
   desc.wavelength_nm = static_cast<uint32_t>(config.wavelength_nm);
-  if (body != 0 && !config.see_own_body) desc.excluded_body = body;
+  if (own_bodies.size() == 1) desc.excluded_body = own_bodies[0];
+  desc.divergence = config.divergence;
+  if (plan.lidar_divergence.on) desc.rings = config.rings;
+  desc.returns = config.returns;
+  desc.receiver = config.receiver;
+  if (!plan.lidar_range_noise.on) desc.receiver.range_std_m = desc.receiver.rise_m = 0.0;
+  if (!plan.lidar_detection.on) desc.receiver.detection.reset();
+  if (!desc.receiver.detection) desc.receiver.rise_m = 0.0;
+  const double extinction = haze_extinction(environment);
+  if (plan.lidar_haze.on) desc.receiver.extinction_per_m = extinction;
+  if (plan.lidar_backscatter.on && desc.receiver.detection)
+    desc.receiver.backscatter_per_m_sr = extinction / render::lidar_ratio_sr;
   desc.alpha_mask = plan.lidar_alpha_mask.on;
   desc.textured_reflectance = plan.lidar_textures.on;
-  if (plan.lidar_haze.on) desc.extinction_per_m = haze_extinction(environment);
+  desc.glass = plan.lidar_glass.on;
+  desc.target_motion = plan.lidar_target_motion.on || own_bodies.size() > 1;
   return desc;
+}
+
+std::string name_of(const NodeConfig& node, uint32_t sensor) {
+  return node.name + "/" + node.sensors[sensor].name;
 }
 
 }  // namespace
@@ -34,81 +54,71 @@ render::LidarDesc lidar_desc(const SensorConfig& sensor, const EffectPlan& plan,
 LidarSensor::LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
                          const World& world, uint32_t node, uint32_t sensor)
     : world_(world),
+      config_(std::get<LidarConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
+      seed_(scenario.seed),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
-      per_shot_(plan.lidar_sweep_motion.on &&
-                std::get<LidarConfig>(scenario.nodes[node].sensors[sensor].config).sweep_s > 0.0),
-      pass_(gpu_scene,
-            lidar_desc(scenario.nodes[node].sensors[sensor], plan, scenario.environment,
-                       world.body_of_node[node]),
-            scenario.nodes[node].name + "/" + scenario.nodes[node].sensors[sensor].name) {
-  spec_.name = scenario.nodes[node].name + "/" + scenario.nodes[node].sensors[sensor].name;
-  spec_.kind = "lidar";
-  spec_.rate = scenario.nodes[node].sensors[sensor].rate_hz.str();
-  describe();
+      per_shot_(plan.lidar_sweep_motion.on && render::duration_s(config_.scan) > 0.0),
+      target_motion_(plan.lidar_target_motion.on && render::duration_s(config_.scan) > 0.0),
+      own_bodies_(config_.see_own_body ? std::vector<uint32_t>() : bodies_of(world, node)),
+      pass_(gpu_scene, lidar_desc(config_, plan, scenario.environment, own_bodies_),
+            name_of(scenario.nodes[node], sensor)) {
+  describe(scenario.nodes[node].sensors[sensor]);
 }
 
-void LidarSensor::describe() {
-  spec_.arrays = {
-      {"points",
-       DType::f32,
-       {-1, 4},
-       "m",
-       "[return, x y z intensity] in the sensor frame at the shot's own time"},
-      {"ring", DType::u16, {-1}, "1", "[return] channel"},
-      {"time_offset", DType::f32, {-1}, "s", "[return] of the shot after the tick"},
-      {"range", DType::f32, {-1}, "m", "[return] along the beam"},
-      {"power", DType::f32, {-1}, "1", "[return] received over transmitted power"},
-      {"instance", DType::u32, {-1}, "1", "[return] index into instances + 1"},
-      {"material", DType::u32, {-1}, "1", "[return] index into materials + 1"},
-  };
+void LidarSensor::describe(const SensorConfig& sensor) {
+  spec_.name = pass_.name();
+  spec_.kind = "lidar";
+  spec_.rate = sensor.rate_hz.str();
+  spec_.arrays = lidar_arrays();
   std::vector<std::string> all;
   for (const ArraySpec& array : spec_.arrays) all.push_back(array.name);
-  spec_.outputs = {{"points", FileFormat::npy_frame, {"points"}}, {"cloud", FileFormat::ply, all}};
-
-  const render::LidarDesc& desc = pass_.desc();
-  nlohmann::json metadata;
-  for (const double elevation : desc.elevations) metadata["elevations_deg"].push_back(degrees(elevation));
-  metadata["azimuth_steps"] = desc.azimuth_steps;
-  metadata["azimuth_start_deg"] = degrees(desc.azimuth_start);
-  metadata["azimuth_span_deg"] = degrees(desc.azimuth_span);
-  metadata["sweep_s"] = desc.sweep_s;
-  metadata["min_range_m"] = desc.min_range_m;
-  metadata["max_range_m"] = desc.max_range_m;
-  metadata["wavelength_nm"] = desc.wavelength_nm;
-  metadata["extinction_per_m"] = desc.extinction_per_m;
-  metadata["frame"] = "x forward, y left, z up";
+  const LidarConfig::Outputs& outputs = config_.outputs;
+  if (outputs.points) spec_.outputs.push_back({"points", FileFormat::npy_frame, {"points"}});
+  if (outputs.ply) spec_.outputs.push_back({"cloud", FileFormat::ply, all});
+  if (outputs.pcd) spec_.outputs.push_back({"pcd", FileFormat::pcd, all});
+  if (outputs.kitti) spec_.outputs.push_back({"velodyne", FileFormat::kitti, {"points"}});
+  nlohmann::json metadata = lidar_metadata(config_, pass_.desc());
   metadata["body_from_sensor"] = json_of(mount_);
   spec_.metadata_json = metadata.dump();
 }
 
-void LidarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+bool LidarSensor::exact() const {
+  return !per_shot_ && !target_motion_ && pass_.desc().rings == 0 &&
+         pass_.desc().receiver.range_std_m == 0.0 && pass_.desc().receiver.rise_m == 0.0;
+}
+
+std::vector<Pose> LidarSensor::poses(const TickContext& context, const render::ScanPattern& pattern) const {
   std::vector<Pose> poses;
-  if (per_shot_) {
-    poses.reserve(pass_.desc().azimuth_steps);
-    for (uint32_t step = 0; step < pass_.desc().azimuth_steps; ++step)
-      poses.push_back(
-          world_.scene.to_local(context.motion_at(node_, context.time_s + pass_.time_offset_s(step)).pose) *
-          mount_);
-  } else {
-    poses.push_back(world_.scene.to_local(context.nodes[node_].pose) * mount_);
-  }
-  pending_[slot.index] = pass_.record(slot, poses);
+  if (!per_shot_) return {world_.scene.to_local(context.nodes[node_].pose) * mount_};
+  poses.reserve(pattern.times_s.size());
+  for (const double time_s : pattern.times_s)
+    poses.push_back(world_.scene.to_local(context.motion_at(node_, context.time_s + time_s).pose) * mount_);
+  return poses;
+}
+
+render::ShotNoise LidarSensor::noise_of(const TickContext& context) const {
+  return {seed_, fnv1a32(spec_.name), context.sequence, context.tick};
+}
+
+void LidarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  std::shared_ptr<const render::ScanPattern> pattern;
+  if (!render::repeats(config_.scan))
+    pattern = std::make_shared<render::ScanPattern>(render::scan_pattern(config_.scan, context.time_s));
+  const render::ScanPattern& shots = pattern ? *pattern : pass_.pattern();
+  const std::vector<Pose> local_from_sensor = poses(context, shots);
+  render::LidarTargets targets;
+  if (pass_.desc().target_motion)
+    targets =
+        lidar_targets(world_, context,
+                      {own_bodies_, shots.times_s, local_from_sensor, config_.max_range_m, target_motion_});
+  sweeps_[slot.index] = {pass_.record(slot, local_from_sensor, targets, pattern), noise_of(context)};
 }
 
 std::vector<Array> LidarSensor::collect(const gpu::TickSlot& slot) {
-  scan_ = pass_.collect(pending_[slot.index]);
-  const auto count = static_cast<int64_t>(scan_.size());
-  std::vector<Array> arrays;
-  arrays.push_back(
-      Array::of<float>({count, 4}, std::span(count > 0 ? &scan_.points[0].x : nullptr, scan_.size() * 4)));
-  arrays.push_back(Array::of<uint16_t>({count}, scan_.ring));
-  arrays.push_back(Array::of<float>({count}, scan_.time_offset_s));
-  arrays.push_back(Array::of<float>({count}, scan_.range_m));
-  arrays.push_back(Array::of<float>({count}, scan_.power));
-  arrays.push_back(Array::of<uint32_t>({count}, scan_.instance));
-  arrays.push_back(Array::of<uint32_t>({count}, scan_.material));
-  return arrays;
+  const Sweep& sweep = sweeps_[slot.index];
+  scan_ = pass_.collect(sweep.pending, sweep.noise);
+  return arrays_of(scan_);
 }
 
 }  // namespace greatx::sim

@@ -3,15 +3,16 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
-#include "renderer/lidar.h"
+#include "renderer/lidar/lidar_pass.h"
 #include "sim/plan/effect_plan.h"
 #include "sim/sensors/sensor.h"
 #include "sim/world.h"
 
 namespace greatx::sim {
 
-/// A LiDAR on a node: each shot from the pose at its own time.
+/// A LiDAR on a node: each shot from the pose at its own time, at bodies where they are then.
 class LidarSensor : public Sensor {
  public:
   LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
@@ -23,21 +24,30 @@ class LidarSensor : public Sensor {
 
   uint32_t node() const { return node_; }
   const Pose& mount() const { return mount_; }
-  /// All shots at the tick: returns may be compared with pictures of that tick.
-  bool instantaneous() const { return !per_shot_; }
+  /// Whether returns may be compared with pictures of the tick: all shots at the tick, along the axis, without noise.
+  bool exact() const;
   /// The sweep collected last.
   const render::LidarScan& scan() const { return scan_; }
 
  private:
-  void describe();
+  struct Sweep {
+    render::LidarPass::Pending pending;
+    render::ShotNoise noise;
+  };
+  void describe(const SensorConfig& sensor);
+  std::vector<Pose> poses(const TickContext& context, const render::ScanPattern& pattern) const;
+  render::ShotNoise noise_of(const TickContext& context) const;
 
   const World& world_;
+  const LidarConfig& config_;
   uint32_t node_;
+  uint64_t seed_;
   Pose mount_;
-  bool per_shot_;
+  bool per_shot_, target_motion_;
+  std::vector<uint32_t> own_bodies_;  ///< that the beams pass through
   render::LidarPass pass_;
   SensorSpec spec_;
-  std::array<render::LidarPass::Pending, slots_in_flight> pending_;
+  std::array<Sweep, slots_in_flight> sweeps_;
   render::LidarScan scan_;
 };
 

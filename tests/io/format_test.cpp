@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "io/exr.h"
 #include "io/npy.h"
+#include "io/pcd.h"
 #include "io/ply.h"
 #include "io/png.h"
 #include "tests/support/temporary_folder.h"
@@ -262,6 +263,58 @@ TEST(Ply, RoundTrips) {
 TEST(Ply, MayBeEmpty) {
   const Array none(DType::f32, {0, 4});
   EXPECT_EQ(decode_ply(encode_ply({"points"}, {&none}), "x.ply").at("x").element_count(), 0);
+}
+
+TEST(Pcd, FieldsOfEveryTypeComeBack) {
+  const std::vector<float> points{1, 2, 3, 0.5f, -1, -2, -3, 0.25f};
+  const std::vector<uint16_t> ring{7, 65535};
+  const std::vector<uint32_t> instance{1, 4'000'000'000u};
+  const std::vector<double> time{1e-9, 2.5};
+  const Array a = Array::of<float>({2, 4}, points), b = Array::of<uint16_t>({2}, ring),
+              c = Array::of<uint32_t>({2}, instance), d = Array::of<double>({2}, time);
+  const Bytes file = encode_pcd({"points", "ring", "instance", "time"}, {&a, &b, &c, &d});
+  const std::string text(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string header =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity ring instance time\n"
+      "SIZE 4 4 4 4 2 4 8\nTYPE F F F F U U F\nCOUNT 1 1 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA binary\n";
+  ASSERT_TRUE(text.starts_with(header));
+  EXPECT_EQ(file.size(), header.size() + 2 * 30);
+  const std::map<std::string, Array> back = decode_pcd(file, "x.pcd");
+  ASSERT_EQ(back.size(), 7u);
+  EXPECT_EQ(back.at("z").as<float>()[1], -3.0f);
+  EXPECT_EQ(back.at("intensity").as<float>()[0], 0.5f);
+  EXPECT_EQ(back.at("ring").bytes, b.bytes);
+  EXPECT_EQ(back.at("instance").bytes, c.bytes);
+  EXPECT_EQ(back.at("time").bytes, d.bytes);
+  const auto broken = [&](const std::string& what, const std::string& with) {
+    std::string copy = text;
+    copy.replace(copy.find(what), what.size(), with);
+    return std::as_bytes(std::span(copy)).empty()
+               ? Bytes()
+               : Bytes(std::as_bytes(std::span(copy)).begin(), std::as_bytes(std::span(copy)).end());
+  };
+  for (const auto& [what, with] : {std::pair("POINTS 2", "POINTS 3"),
+                                   {"SIZE 4 4", "SIZE 4 3"},
+                                   {"COUNT 1", "COUNT 2"},
+                                   {"DATA binary", "DATA ascii"},
+                                   {"TYPE F", "TYPE F F"},
+                                   {"FIELDS", "FILDS"}})
+    EXPECT_THROW(decode_pcd(broken(what, with), "x.pcd"), UserError) << what;
+  EXPECT_THROW(decode_pcd(std::span(file).first(file.size() - 1), "x.pcd"), UserError);
+  EXPECT_THROW(decode_pcd({}, "x.pcd"), UserError);
+  const Array none(DType::f32, {0, 4}), wide(DType::i64, {2});
+  EXPECT_EQ(decode_pcd(encode_pcd({"points"}, {&none}), "x.pcd").at("x").element_count(), 0);
+  EXPECT_THROW(encode_pcd({"points", "id"}, {&a, &wide}), ContractError);
+}
+
+TEST(Kitti, IsTheArrayItself) {
+  const std::vector<float> points{1, 2, 3, 0.5f, -1, -2, -3, 0.25f};
+  const Array a = Array::of<float>({2, 4}, points);
+  const Bytes file = encode_kitti(a);
+  EXPECT_EQ(file, Bytes(a.bytes.begin(), a.bytes.end()));
+  EXPECT_EQ(decode_kitti(file, "x.bin").bytes, a.bytes);
+  EXPECT_THROW(decode_kitti(std::span(file).first(20), "x.bin"), UserError);
 }
 
 TEST(File, ErrorsNameTheFileAndTheReason) {

@@ -60,6 +60,43 @@ assert offsets.shape == (8,) and offsets[-1] == len(delay) == len(vertices) and 
             0);
 }
 
+TEST(NumPy, ReadsPointCloudsOfOtherTools) {
+  const test::TemporaryFolder folder;
+  {
+    DatasetWriter writer(folder.path() / "set", sample_info());
+    ASSERT_TRUE(write_sample_run(writer, sample_info()));
+  }
+  EXPECT_EQ(python(folder.path(), R"(
+import glob, numpy
+def pcd(path):
+    head, _, data = open(path, "rb").read().partition(b"DATA binary\n")
+    lines = dict(line.split(" ", 1) for line in head.decode("ascii").splitlines() if not line.startswith("#"))
+    kind = numpy.dtype([(name, "<" + code.lower() + size) for name, code, size in
+                        zip(lines["FIELDS"].split(), lines["TYPE"].split(), lines["SIZE"].split())])
+    points = numpy.frombuffer(data, kind)
+    assert lines["VERSION"] == "0.7" and lines["HEIGHT"] == "1" and set(lines["COUNT"].split()) == {"1"}
+    assert len(points) == int(lines["POINTS"]) == int(lines["WIDTH"]) and len(data) == points.nbytes
+    return points
+def ply(path):
+    head, _, data = open(path, "rb").read().partition(b"end_header\n")
+    kinds = {"float": "<f4", "ushort": "<u2"}
+    return numpy.frombuffer(data, [(w[2], kinds[w[1]]) for w in (line.split() for line in head.decode().splitlines())
+                                   if w[0] == "property"])
+files = sorted(glob.glob("set/sequence_*/uav/lidar/pcd/*.pcd"))
+total = 0
+for path in files:
+    points, cloud = pcd(path), ply(path.replace("/pcd/", "/cloud/").replace(".pcd", ".ply"))
+    kitti = numpy.fromfile(path.replace("/pcd/", "/velodyne/").replace(".pcd", ".bin"), numpy.float32).reshape(-1, 4)
+    assert points.dtype.names == ("x", "y", "z", "intensity", "ring", "time") == cloud.dtype.names
+    for name in points.dtype.names:
+        assert numpy.array_equal(points[name], cloud[name]), name
+    assert numpy.array_equal(kitti, numpy.stack([points[name] for name in ("x", "y", "z", "intensity")], -1))
+    total += len(points)
+assert len(files) > 3 and total > 20
+)"),
+            0);
+}
+
 TEST(NumPy, ReadsEveryTypeAndShape) {
   const test::TemporaryFolder folder;
   std::string script = "import numpy\n";

@@ -38,7 +38,10 @@ SensorSpec lidar() {
       {{"points", DType::f32, {-1, 4}, "m", "x, y, z, intensity"},
        {"ring", DType::u16, {-1}, "1", "channel"},
        {"time", DType::f32, {-1}, "s", "offset"}},
-      {{"cloud", FileFormat::ply, {"points", "ring", "time"}}, {"ring", FileFormat::npy_ragged, {"ring"}}},
+      {{"cloud", FileFormat::ply, {"points", "ring", "time"}},
+       {"pcd", FileFormat::pcd, {"points", "ring", "time"}},
+       {"velodyne", FileFormat::kitti, {"points"}},
+       {"ring", FileFormat::npy_ragged, {"ring"}}},
       "{}"};
 }
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/lidar.h"
-
 #include <cmath>
 #include <cstring>
 
@@ -9,73 +7,44 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "core/units.h"
-#include "tests/support/gpu_fixture.h"
-#include "tests/support/tiny_scene.h"
+#include "tests/renderer/lidar_rig.h"
 
 namespace greatx::render {
 namespace {
 
 using test::TinyScene;
 
-struct Sweep {
-  LidarScan scan;
-  std::vector<float> ranges;
-};
+using test::Sweep, test::sweep, test::wall, test::small_scan;
 
-Sweep sweep(const scene::Scene& scene, const LidarDesc& desc, std::span<const Pose> sensor,
-            const std::vector<Pose>& bodies = {Pose{}}) {
-  gpu::Device& device = test::device();
-  scene::GpuScene gpu_scene(device, scene, {});
-  LidarPass pass(gpu_scene, desc);
-  gpu::TickRing ring(device, 1, 1u << 16, 1u << 16);
-  gpu::TickSlot& slot = ring.begin();
-  gpu_scene.record_update(slot, bodies);
-  const LidarPass::Pending pending = pass.record(slot, sensor);
-  ring.submit(slot);
-  ring.wait(slot);
-  return {pass.collect(pending), pass.collect_ranges(pending)};
-}
-
-LidarDesc small_lidar() {
+LidarDesc desc_of(const SpinningScan& scan) {
   LidarDesc desc;
-  for (int i = 0; i < 5; ++i) desc.elevations.push_back(radians(-20.0 + 10.0 * i));
-  desc.azimuth_steps = 41;
-  desc.azimuth_start = radians(-40.0);
-  desc.azimuth_span = radians(82.0);
+  desc.pattern = scan_pattern(scan);
   return desc;
 }
+LidarDesc small_lidar() { return desc_of(small_scan()); }
 
-double azimuth_of(const LidarDesc& desc, uint32_t step) {
-  return desc.azimuth_start + step * desc.azimuth_span / desc.azimuth_steps;
+double azimuth_of(const SpinningScan& scan, uint32_t step) {
+  return scan.azimuth_start + step * scan.azimuth_span / scan.azimuth_steps;
 }
 
-dvec3 beam_of(const LidarDesc& desc, uint32_t step, uint32_t channel) {
-  const double e = desc.elevations[channel], a = azimuth_of(desc, step);
+dvec3 beam_of(const SpinningScan& scan, uint32_t step, uint32_t channel) {
+  const double e = scan.elevations[channel], a = azimuth_of(scan, step);
   return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
-}
-
-/// A wall across the x axis at x = distance, 200 m wide.
-TinyScene wall(double distance, float reflectance = 0.8f) {
-  TinyScene tiny;
-  tiny.object("wall", 0, tiny.material("paint", reflectance))
-      .quad({distance, 100, -100}, {distance, -100, -100}, {distance, -100, 100}, {distance, 100, 100});
-  return tiny;
 }
 
 TEST(Lidar, WallInClosedForm) {
   LidarDesc desc = small_lidar();
-  desc.aperture_diameter_m = 0.04;
-  desc.system_efficiency = 0.7;
-  desc.extinction_per_m = 1e-3;
+  desc.receiver.aperture_diameter_m = 0.04;
+  desc.receiver.system_efficiency = 0.7;
+  desc.receiver.extinction_per_m = 1e-3;
   const Sweep result = sweep(wall(10.0).build(), desc, std::vector{Pose{}});
   const LidarScan& scan = result.scan;
   ASSERT_EQ(scan.size(), 5u * 41u);  // every beam, azimuth step by step
   for (size_t i = 0; i < scan.size(); ++i) {
     const uint32_t step = static_cast<uint32_t>(i / 5), channel = static_cast<uint32_t>(i % 5);
-    ASSERT_EQ(scan.azimuth_step[i], step);
+    ASSERT_EQ(scan.shot[i], i);
     ASSERT_EQ(scan.ring[i], channel);
-    const dvec3 beam = beam_of(desc, step, channel);
+    const dvec3 beam = beam_of(small_scan(), step, channel);
     const double range = 10.0 / beam.x, cosine = beam.x;
     ASSERT_NEAR(scan.range_m[i], range, 1e-6 * range);
     ASSERT_NEAR(scan.points[i].x, 10.0, 2e-5);
@@ -87,15 +56,15 @@ TEST(Lidar, WallInClosedForm) {
     ASSERT_EQ(scan.instance[i], 1u);
     ASSERT_EQ(scan.material[i], 2u);  // material 0 is the default one
     ASSERT_EQ(scan.time_offset_s[i], 0.0f);
+    ASSERT_EQ(scan.share[i], 1.0f);
+    ASSERT_EQ(scan.return_number[i], 1);
+    ASSERT_EQ(scan.return_count[i], 1);
     ASSERT_EQ(result.ranges[channel * 41 + step], scan.range_m[i]);
   }
 }
 
 TEST(Lidar, WavelengthChoosesTheReflectance) {
-  LidarDesc desc = small_lidar();
-  desc.elevations = {0.0};
-  desc.azimuth_steps = 1;
-  desc.azimuth_start = 0.0;
+  LidarDesc desc = test::lidar_along({{1, 0, 0}});
   EXPECT_FLOAT_EQ(sweep(wall(10.0).build(), desc, std::vector{Pose{}}).scan.points[0].w, 0.8f);
   desc.wavelength_nm = 1550;
   EXPECT_FLOAT_EQ(sweep(wall(10.0).build(), desc, std::vector{Pose{}}).scan.points[0].w, 0.4f);
@@ -106,9 +75,9 @@ TEST(Lidar, OnlyHitsWithinTheRangesAreReturned) {
   desc.max_range_m = 10.5;  // cos of elevation and azimuth above 10 / 10.5
   const Sweep result = sweep(wall(10.0).build(), desc, std::vector{Pose{}});
   size_t expected = 0;
-  for (uint32_t step = 0; step < desc.azimuth_steps; ++step) {
+  for (uint32_t step = 0; step < 41; ++step) {
     for (uint32_t channel = 0; channel < 5; ++channel) {
-      const bool within = 10.0 / beam_of(desc, step, channel).x < 10.5;
+      const bool within = 10.0 / beam_of(small_scan(), step, channel).x < 10.5;
       expected += within;
       ASSERT_EQ(std::isinf(result.ranges[channel * 41 + step]), !within);
     }
@@ -124,22 +93,23 @@ TEST(Lidar, OnlyHitsWithinTheRangesAreReturned) {
 
 TEST(Lidar, EveryShotIsTakenFromThePoseAtItsOwnTime) {
   // The sensor flies at 20 m/s towards the wall and yaws at 1 rad/s during the sweep.
-  LidarDesc desc = small_lidar();
-  desc.azimuth_steps = 400;
-  desc.azimuth_start = radians(-30.0);
-  desc.azimuth_span = radians(60.0);
-  desc.sweep_s = 0.1;
+  SpinningScan fan = small_scan();
+  fan.azimuth_steps = 400;
+  fan.azimuth_start = radians(-30.0);
+  fan.azimuth_span = radians(60.0);
+  fan.sweep_s = 0.1;
+  const LidarDesc desc = desc_of(fan);
   std::vector<Pose> poses;
-  for (uint32_t step = 0; step < desc.azimuth_steps; ++step) {
+  for (uint32_t step = 0; step < fan.azimuth_steps; ++step) {
     const double t = step * 0.1 / 400;
     poses.push_back({{20.0 * t, 1.0, 2.0}, orientation_from_yaw_pitch_roll(1.0 * t, 0.0, 0.0)});
   }
   const LidarScan scan = sweep(wall(50.0).build(), desc, poses).scan;
   ASSERT_EQ(scan.size(), 2000u);
   for (size_t i = 0; i < scan.size(); ++i) {
-    const uint32_t step = scan.azimuth_step[i];
-    const double t = step * 0.1 / 400, azimuth = azimuth_of(desc, step),
-                 elevation = desc.elevations[scan.ring[i]];
+    const uint32_t step = scan.shot[i] / 5;
+    const double t = step * 0.1 / 400, azimuth = azimuth_of(fan, step),
+                 elevation = fan.elevations[scan.ring[i]];
     ASSERT_FLOAT_EQ(scan.time_offset_s[i], static_cast<float>(t));
     // In the world the beam points at azimuth + yaw; the point is kept in the sensor's frame of that instant.
     const double range = (50.0 - 20.0 * t) / (std::cos(elevation) * std::cos(azimuth + t));
@@ -160,11 +130,8 @@ TEST(Lidar, OwnBodyIsPassedOverAndNothingElse) {
   tiny.object("other", other).quad({0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
   const scene::Scene scene = tiny.build();
   const std::vector<Pose> bodies{Pose{}, Pose{}, Pose{{5, 0, 0}, {1, 0, 0, 0}}};
-  LidarDesc desc = small_lidar();
-  desc.elevations = {0.0};
-  desc.azimuth_steps = 2;
-  desc.azimuth_start = 0.0;
-  desc.azimuth_span = radians(80.0);  // 0 degrees: the other drone; 40 degrees: the wall
+  // 0 degrees: the other drone; 40 degrees: the wall
+  LidarDesc desc = test::lidar_along({{1, 0, 0}, beam_direction(radians(40.0), 0.0)});
   desc.min_range_m = 0.0;
   const LidarScan seeing = sweep(scene, desc, std::vector{Pose{}}, bodies).scan;
   ASSERT_EQ(seeing.size(), 2u);
@@ -206,11 +173,9 @@ scene::Scene pane_before_wall() {
 }
 
 TEST(Lidar, HolesOfAlphaMasksLetBeamsThroughIfTheEffectIsOn) {
-  LidarDesc desc = small_lidar();
-  desc.elevations = {0.0};
-  desc.azimuth_steps = 2;
-  desc.azimuth_start = radians(20.0);
-  desc.azimuth_span = radians(-80.0);  // 20 degrees: the hole; -20 degrees: the leaf
+  // 20 degrees: the hole; -20 degrees: the leaf
+  LidarDesc desc =
+      test::lidar_along({beam_direction(radians(20.0), 0.0), beam_direction(radians(-20.0), 0.0)});
   const scene::Scene scene = pane_before_wall();
   const LidarScan solid = sweep(scene, desc, std::vector{Pose{}}).scan;
   ASSERT_EQ(solid.size(), 2u);
@@ -249,8 +214,11 @@ TEST(Lidar, UnfitDescriptionsAreRefused) {
   desc.wavelength_nm = 532;
   EXPECT_THROW(LidarPass(gpu_scene, desc), ContractError);
   desc = small_lidar();
-  desc.elevations.clear();
+  desc.pattern = {};
   EXPECT_THROW(LidarPass(gpu_scene, desc), ContractError);
+  SpinningScan empty = small_scan();
+  empty.elevations.clear();
+  EXPECT_THROW(scan_pattern(empty), ContractError);
   desc = small_lidar();
   desc.max_range_m = desc.min_range_m;
   EXPECT_THROW(LidarPass(gpu_scene, desc), ContractError);
@@ -270,9 +238,10 @@ TEST(HardCase, N07_LidarAtUtmCoordinatesGivesTheSameBytes) {
     }
     return tiny.build(offset);
   };
-  LidarDesc desc = small_lidar();
-  desc.azimuth_steps = 256;
-  desc.azimuth_span = 2.0 * pi;
+  SpinningScan around = small_scan();
+  around.azimuth_steps = 256;
+  around.azimuth_span = 2.0 * pi;
+  const LidarDesc desc = desc_of(around);
   const scene::Scene here = scene_at(dvec3(0.0)), there = scene_at(utm);
   const Pose sensor{{1.25, -2.5, 3.0}, orientation_from_yaw_pitch_roll(0.3, 0.1, 0.0)};
   const Sweep near = sweep(here, desc, std::vector{here.to_local(sensor)});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml, or a text of its own) gives exactly
+// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml or to `base`, or a text of its own) gives exactly
 // the message it should, at the right line.
 #include <filesystem>
 #include <fstream>
@@ -49,7 +49,9 @@ TEST(BadScenarios, EachGivesItsMessageAndLine) {
   for (const auto& bad : cases) {
     SCOPED_TRACE(bad["name"].get<std::string>());
     const std::string text =
-        bad.contains("text") ? bad["text"].get<std::string>() : replaced(base, bad["replace"], bad["with"]);
+        bad.contains("text")
+            ? bad["text"].get<std::string>()
+            : replaced(read(folder / bad.value("base", "everything.yaml")), bad["replace"], bad["with"]);
     std::string message = bad["message"];
     if (message.find("{folder}") != std::string::npos)
       message = replaced(message, "{folder}", folder.string());
