@@ -132,7 +132,7 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
     const generator::Picture picture = generator::make_texture(spec.texture);
     const generator::Raster &lit = picture.lit[static_cast<size_t>(spec.lit)],
                             &surface = picture.metallic_roughness;
-    ASSERT_EQ(lit.rgb.size(), surface.rgb.size()) << spec.name;
+    ASSERT_EQ(4 * lit.rgb.size(), surface.rgb.size()) << spec.name;
     ASSERT_EQ(2 * lit.width, picture.color.width) << spec.name;
     size_t panes = 0, lit_panes = 0, glowing_wall = 0;
     double sum = 0.0, peak = 0.0;
@@ -140,7 +140,11 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
       const double nits =
           full_candelas *
           luminance(spec.emissive * vec3(linear(lit.rgb[i]), linear(lit.rgb[i + 1]), linear(lit.rgb[i + 2])));
-      const int roughness = surface.rgb[i + 1];
+      const size_t x = i / 3 % lit.width, y = i / 3 / lit.width;
+      int roughness = 0;  // of the four pixels that the lit one stands for
+      for (const size_t at : {2 * y * surface.width + 2 * x, (2 * y + 1) * surface.width + 2 * x})
+        roughness += surface.rgb[3 * at + 1] + surface.rgb[3 * at + 4];
+      roughness /= 4;
       const bool bright = nits > 1.5;
       panes += roughness < 64;
       lit_panes += roughness < 64 && bright;
