@@ -182,8 +182,12 @@ TEST(Model, MaterialFactorsAndAlpha) {
        {"doubleSided", true}});
   add({{"alphaMode", "MASK"}, {"alphaCutoff", 0.3}});
   add({{"alphaMode", "BLEND"}});
+  add({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}});
+  add({{"alphaMode", "BLEND"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}},
+       {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}}}});
   const Model model = writer.load();
-  ASSERT_EQ(model.materials.size(), 3u);
+  ASSERT_EQ(model.materials.size(), 5u);
   const PbrMaterial& first = model.materials[0].pbr;
   EXPECT_EQ(first.base_color, vec4(0.1f, 0.2f, 0.3f, 0.4f));
   EXPECT_EQ(first.metallic, 0.25f);
@@ -196,6 +200,18 @@ TEST(Model, MaterialFactorsAndAlpha) {
   EXPECT_FALSE(model.materials[1].pbr.double_sided);
   EXPECT_EQ(model.materials[2].pbr.alpha_mode, AlphaMode::opaque);
   EXPECT_TRUE(has_note(model.notes, "BLEND is treated as OPAQUE"));
+  EXPECT_EQ(first.transmission, 0.0f);  // alpha of an opaque material is ignored
+  EXPECT_EQ(model.materials[2].pbr.transmission, 0.0f);
+  EXPECT_EQ(model.materials[3].pbr.transmission, 0.75f);
+  EXPECT_EQ(model.materials[4].pbr.transmission, 0.5f);
+  for (const json& factor : {json(1.5), json(-0.1), json("half")}) {
+    GltfWriter bad;
+    bad.add_triangles(
+        "m", test::unit_quad(), test::quad_indices(),
+        bad.material({{"name", "itu_glass"},
+                      {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", factor}}}}}}));
+    EXPECT_THROW(bad.load(), UserError) << factor;
+  }
 }
 
 /// A textured quad; the image is given by `image`.

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// LiDARs of whole runs: targets at the shot's time, effects of the plan, draws.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/kept_run.h"
+
+namespace greatx::sim {
+namespace {
+
+using test::keep_run;
+using test::KeptRun;
+
+constexpr double speed = 20.0;  ///< m/s, of the car, north
+
+/// A street along y, a LiDAR that stands in it and sees the car go by in the middle of its sweep.
+std::string street(const std::string& lidar, const std::string& more = "") {
+  return "greatx: 1\nname: test\nseed: 5\nticks: 2\ntick_rate_hz: 10\n"
+         "scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}\n"
+         "nodes:\n  - name: mast\n    trajectory: {type: static, position_m: [-2, 0, 2.5], rotation_deg: [0, "
+         "0, 0]}\n"
+         "    sensors:\n      - {name: lidar, type: lidar, rate_hz: 10, channels: 12, elevation_min_deg: "
+         "-40, "
+         "elevation_max_deg: 0, azimuth_start_deg: 180, azimuth_steps: 512" +
+         lidar +
+         "}\n  - name: car\n    trajectory: {type: waypoints, interpolation: linear, points: [{t_s: 0, "
+         "position_m: [2.4, "
+         "-3, 0]}, {t_s: 1, position_m: [2.4, 17, 0]}]}\n    model: {generate: {kind: car, variant: "
+         "hatchback}}\n" +
+         more;
+}
+
+/// How far the returns of the car lie outside of its bounds, put back by its pose at each return's own time.
+struct CarReturns {
+  size_t count = 0;
+  double outside_m = 0.0;
+};
+CarReturns car_returns(const KeptRun& run, size_t packet) {
+  scene::Bounds bounds;
+  for (const scene::Instance& instance : run.instances)
+    if (instance.body != 0) bounds.add(instance.bounds);
+  const auto points = run.array<float>(packet, "mast/lidar", "points"),
+             times = run.array<float>(packet, "mast/lidar", "time_offset");
+  const auto ids = run.array<uint32_t>(packet, "mast/lidar", "instance");
+  CarReturns result;
+  for (size_t i = 0; i < ids.size(); ++i) {
+    if (run.instances.at(ids[i] - 1).body == 0) continue;
+    ++result.count;
+    const double t = 0.1 * static_cast<double>(packet) + double{times[i]};
+    const dvec3 world(points[4 * i] - 2.0, points[4 * i + 1], points[4 * i + 2] + 2.5);
+    const dvec3 body(world.y - (-3.0 + speed * t), 2.4 - world.x, world.z);  // the car looks north
+    for (int axis = 0; axis < 3; ++axis)
+      result.outside_m =
+          std::max({result.outside_m, bounds.min[axis] - body[axis], body[axis] - bounds.max[axis]});
+  }
+  return result;
+}
+
+TEST(LidarRun, ACarThatDrivesIsMetWhereItIsAtEachShot) {
+  const KeptRun moving = keep_run(street(", sweep_s: 0.1"));
+  EXPECT_TRUE(moving.plan.lidar_target_motion.on);
+  const KeptRun frozen = keep_run(street(", sweep_s: 0.1", "effects: {lidar_target_motion: off}\n"));
+  for (size_t packet = 0; packet < 2; ++packet) {
+    const CarReturns exact = car_returns(moving, packet), stale = car_returns(frozen, packet);
+    EXPECT_GT(exact.count, 100u);
+    EXPECT_LT(exact.outside_m, 1e-4);
+    // It is seen about a twentieth of a second after the tick, its front first: most of a metre behind.
+    EXPECT_GT(stale.outside_m, 0.5);
+    EXPECT_LT(stale.outside_m, 0.1 * speed);
+  }
+}
+
+TEST(LidarRun, WithoutASweepEverythingIsAtTheTick) {
+  const KeptRun at_tick = keep_run(street(""));
+  EXPECT_FALSE(at_tick.plan.lidar_target_motion.on);
+  EXPECT_FALSE(at_tick.plan.lidar_sweep_motion.on);
+  EXPECT_LT(car_returns(at_tick, 1).outside_m, 1e-4);
+}
+
+void expect_same(const KeptRun& a, const KeptRun& b) {
+  for (const ArraySpec& array : a.spec("mast/lidar").arrays)
+    for (size_t packet = 0; packet < 2; ++packet)
+      EXPECT_TRUE(a.array(packet, "mast/lidar", array.name).bytes ==
+                  b.array(packet, "mast/lidar", array.name).bytes)
+          << array.name;
+}
+
+const std::string instrument =
+    ", beam: {divergence_mrad: 3, rings: 1}, detection: {range_m: 30}, noise: {range_m: 0.02, rise_m: 0.3}";
+
+TEST(LidarRun, WhatIsSwitchedOffChangesNoByte) {
+  const std::string fog = "environment: {fog_g_m3: 0.1}\n";
+  const KeptRun plain = keep_run(street("", fog + "effects: {lidar_glass: off}\n"));
+  const KeptRun off = keep_run(
+      street(instrument, fog + "effects: {lidar_glass: off, lidar_divergence: off, lidar_detection: off, "
+                               "lidar_range_noise: off, lidar_backscatter: off}\n"));
+  expect_same(plain, off);
+  EXPECT_TRUE(off.plan.lidar_haze.on);
+}
+
+TEST(LidarRun, DrawsAreTheTicksAndTheSensorsAlone) {
+  const KeptRun run = keep_run(street(instrument)), again = keep_run(street(instrument));
+  EXPECT_TRUE(run.plan.lidar_divergence.on && run.plan.lidar_detection.on && run.plan.lidar_range_noise.on);
+  expect_same(run, again);
+  // Another sensor, and starting at the second tick, change nothing.
+  const KeptRun beside = keep_run(
+      street(instrument + "}\n      - {name: camera, type: camera, rate_hz: 10, width: 8, height: 8, "
+                          "fov_deg: 90"));
+  expect_same(run, beside);
+  // The same shot at two ticks has two draws: walls do not move, their ranges do.
+  const auto first = run.array<float>(0, "mast/lidar", "range"),
+             second = run.array<float>(1, "mast/lidar", "range");
+  const size_t count = std::min(first.size(), second.size());
+  EXPECT_GT(count, 500u);
+  EXPECT_FALSE(std::equal(first.begin(), first.begin() + 100, second.begin()));
+}
+
+TEST(LidarRun, ThePlanSaysWhatTheSceneCallsFor) {
+  const KeptRun plain = keep_run(street(""));
+  EXPECT_TRUE(plain.plan.lidar_glass.on);  // of the car
+  EXPECT_THAT(plain.plan.lidar_glass.reason, testing::HasSubstr("lets light through"));
+  for (const Effect* effect :
+       {&plain.plan.lidar_divergence, &plain.plan.lidar_detection, &plain.plan.lidar_range_noise,
+        &plain.plan.lidar_backscatter, &plain.plan.lidar_haze})
+    EXPECT_FALSE(effect->on) << effect->name;
+  const KeptRun rain = keep_run(street(", detection: {range_m: 30}", "environment: {rain_mm_h: 20}\n"));
+  EXPECT_TRUE(rain.plan.lidar_haze.on && rain.plan.lidar_backscatter.on);
+  EXPECT_THAT(rain.plan.lidar_backscatter.bound, testing::HasSubstr("reflectance"));
+}
+
+}  // namespace
+}  // namespace greatx::sim
