@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangles of a facet may a part of a tube fall on? Facets of many triangles (ground) have a tree of boxes.
+// What a facet is made of, for tubes: its triangles joined to convex pieces across the edges that two of them share (a wall's
+// two triangles become its rectangle), so that a tube on a wall is not cut along seams that send nothing back. Which pieces
+// may a part of a tube fall on? Facets of many pieces (ground) have a tree of boxes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,23 +25,33 @@ struct KeptSide {
 
 class FacetTrees {
  public:
+  static constexpr uint32_t most_corners = 8;  ///< of a piece
+
   explicit FacetTrees(const scene::Scene& scene);
-  /// Indices of triangles, ascending, below the facet's triangle_count, whose boxes are not wholly outside of one of the
-  /// half-spaces (local coordinates).
+  /// Indices of pieces, ascending, whose boxes are not wholly outside of one of the half-spaces (local coordinates).
   void find(const FacetWorld& world, uint32_t facet, std::span<const KeptSide> spaces,
-            std::vector<uint32_t>& triangles) const;
+            std::vector<uint32_t>& pieces) const;
+  /// Corners of a piece in local coordinates, in `room` unless its body is the static one.
+  std::span<const dvec3> corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
+                                 std::array<dvec3, most_corners>& room) const;
 
  private:
   static constexpr uint32_t no_tree = ~0u, leaf_size = 4, small_facet = 8;
+  struct Piece {
+    uint32_t first = 0, count = 0;  ///< of corners_
+  };
   struct Node {
-    dvec3 center{0.0}, half{0.0};  ///< in the body's frame
-    uint32_t first = 0,
-             count = 0;  ///< of order_, relative to the facet; an inner node has its children at `left`
+    dvec3 center{0.0}, half{0.0};   ///< in the body's frame
+    uint32_t first = 0, count = 0;  ///< of order_; an inner node has its children at `left`
     uint32_t left = 0;
   };
-  void split(uint32_t node, const scene::Scene& scene, const scene::Facet& facet);
+  scene::Bounds bounds_of(uint32_t piece) const;
+  void split(uint32_t node);
 
-  std::vector<uint32_t> root_;  ///< [facets]
+  std::vector<dvec3> corners_;         ///< in the bodies' frames
+  std::vector<Piece> pieces_;          ///< facet by facet
+  std::vector<uint32_t> first_piece_;  ///< [facets + 1]
+  std::vector<uint32_t> root_;         ///< [facets]
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;
 };

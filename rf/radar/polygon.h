@@ -4,6 +4,7 @@
 // Small convex polygons in a plane, counter-clockwise: parts of tubes. Nothing is allocated.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -23,7 +24,13 @@ class Polygon {
  public:
   static constexpr uint32_t capacity = 24;
 
-  Polygon() = default;
+  Polygon() {}  // the corners stay as they are: polygons are made by the million
+  Polygon(const Polygon& other) { *this = other; }
+  Polygon& operator=(const Polygon& other) {
+    std::copy_n(other.points_.begin(), other.count_, points_.begin());
+    count_ = other.count_;
+    return *this;
+  }
   /// Turned round if the points run clockwise. At most `capacity` points; repeated ones are kept once.
   explicit Polygon(std::span<const dvec2> points);
 

@@ -53,6 +53,7 @@ struct TubeEchoes::Job {
   std::vector<Contribution> contributions;
   std::vector<uint32_t> facets;
   std::array<std::vector<VisibleCell>, most_bounces> cells;
+  VisibleScratch scratch;
   uint32_t chain_at = ~0u;  ///< of the chain as it is now, in out->chains
 };
 
@@ -115,7 +116,9 @@ RawEchoes TubeEchoes::find() const {
   std::vector<RawEchoes> found(chunks);
   parallel_for(chunks, options_.threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid_.size(), first + chunk);
-    for (uint32_t tube = first; tube < last; ++tube) solve(tube, found[part]);
+    Job job;
+    job.out = &found[part];
+    for (uint32_t tube = first; tube < last; ++tube) solve(tube, job);
   });
   RawEchoes all;
   for (RawEchoes& part : found) {
@@ -130,15 +133,13 @@ RawEchoes TubeEchoes::find() const {
   return all;
 }
 
-void TubeEchoes::solve(uint32_t tube, RawEchoes& out) const {
-  Job job;
+void TubeEchoes::solve(uint32_t tube, Job& job) const {
   job.tube = tube;
   job.ring = grid_.neighbours(tube);
   const auto empty = [&](uint32_t other) {
     return other == RayGrid::outside || !RayHits::met(hits_.word(other, 0));
   };
   if (empty(tube) && std::all_of(job.ring.begin(), job.ring.end(), empty)) return;
-  job.out = &out;
   job.beams[0] = TubeBeam(source_, grid_.axis(tube));
   job.part = tube_part(grid_, tube, job.beams[0]);
   follow(job, 0, job.part, {}, true);
@@ -180,7 +181,7 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
   cells.clear();
   if (job.facets.empty()) return;
   find_visible(world_, trees_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(),
-               cells);
+               job.scratch, cells);
   if (!one_instance) return;
   for (VisibleCell& cell : cells)
     if (cell.facet == VisibleCell::nothing && cell.part.area() > 1e-6 * job.part.area()) cell.facet = own;

@@ -63,7 +63,7 @@ class TubeEchoes {
   enum class Whole : uint8_t { no, silent, border, other };
   void classify(uint32_t tube);
   bool ring_agrees(uint32_t tube, const std::array<uint32_t, 8>& ring, uint32_t bounce) const;
-  void solve(uint32_t tube, RawEchoes& out) const;
+  void solve(uint32_t tube, Job& job) const;
   void follow(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start, bool whole) const;
   void divide(Job& job, uint32_t bounce, const Polygon& part, const BeamStart& start,
               std::vector<VisibleCell>& cells) const;

@@ -4,29 +4,35 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace greatx::rf {
 namespace {
 
 constexpr double nearest_m = 1e-5;  ///< of the source: what is nearer is not seen
 
-/// At most a triangle cut by two planes.
-struct Corners3 {
-  std::array<dvec3, 8> points;
+/// A piece cut by two planes: each adds a corner at most.
+struct SpaceCorners {
+  std::array<dvec3, FacetTrees::most_corners + 2> points;
   uint32_t count = 0;
+  SpaceCorners() {}
 };
 
 /// The part where normal . x + offset >= 0.
-Corners3 cut(const Corners3& corners, const dvec3& normal, double offset) {
-  Corners3 kept;
+void cut(SpaceCorners& corners, const dvec3& normal, double offset) {
+  double least = 1e300;
+  for (uint32_t i = 0; i < corners.count; ++i)
+    least = std::min(least, glm::dot(normal, corners.points[i]) + offset);
+  if (least >= 0.0) return;
+  SpaceCorners kept;
   for (uint32_t i = 0; i < corners.count; ++i) {
     const dvec3 &a = corners.points[i], &b = corners.points[i + 1 < corners.count ? i + 1 : 0];
     const double at_a = glm::dot(normal, a) + offset, at_b = glm::dot(normal, b) + offset;
     if (at_a >= 0.0) kept.points[kept.count++] = a;
-    if ((at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0))
+    if (((at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0)) && kept.count < kept.points.size())
       kept.points[kept.count++] = a + (b - a) * (at_a / (at_a - at_b));
   }
-  return kept;
+  corners = kept;
 }
 
 struct Box {
@@ -41,55 +47,79 @@ struct Box {
 std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
   const auto side = [&](const dvec3& normal) { return KeptSide{normal, -glm::dot(normal, beam.source)}; };
   std::array<KeptSide, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
-                                  side(box.high.x * beam.axis - beam.e1),
-                                  side(beam.e2 - box.low.y * beam.axis),
-                                  side(box.high.y * beam.axis - beam.e2),
-                                  {}};
+                                 side(box.high.x * beam.axis - beam.e1),
+                                 side(beam.e2 - box.low.y * beam.axis),
+                                 side(box.high.y * beam.axis - beam.e2),
+                                 {}};
   if (start.facet != nullptr)
     spaces[4] = {start.side * start.facet->normal, -start.side * start.facet->offset};
   return spaces;
 }
 
-/// A triangle as the beam sees it; empty if it does not.
-Polygon seen(const std::array<dvec3, 3>& triangle, const TubeBeam& beam, const BeamStart& start,
-             const Box& within) {
-  Corners3 corners{{triangle[0], triangle[1], triangle[2]}, 3};
-  corners = cut(corners, beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m);
-  if (start.facet != nullptr) {
-    const dvec3 normal = start.side * start.facet->normal;
-    corners = cut(corners, normal, -start.side * start.facet->offset);
-  }
+/// A piece of a facet as the beam sees it; empty if it does not.
+Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
+  SpaceCorners corners;
+  corners.count = static_cast<uint32_t>(piece.size());
+  std::copy(piece.begin(), piece.end(), corners.points.begin());
+  cut(corners, beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m);
+  if (start.facet != nullptr)
+    cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
   if (corners.count < 3) return {};
-  std::array<dvec2, 8> points;
+  std::array<dvec2, FacetTrees::most_corners + 2> points;
   Box box;
   for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
   if (!box.meets(within)) return {};
   return Polygon(std::span(points.data(), corners.count));
 }
 
-/// Takes `cover` out of `part`: what remains, as convex pieces.
-void subtract(Polygon part, const Polygon& cover, uint32_t facet, double smallest,
-              std::vector<VisibleCell>& out) {
-  for (uint32_t i = 0; i < cover.size() && !part.empty(); ++i) {
-    const HalfPlane inside = cover.inside(i);
+/// The half-planes that make up a polygon.
+struct Cover {
+  std::array<HalfPlane, Polygon::capacity> sides;
+  uint32_t count = 0;
+  explicit Cover(const Polygon& polygon) : count(polygon.size()) {
+    for (uint32_t i = 0; i < count; ++i) sides[i] = polygon.inside(i);
+  }
+  /// The sides that cut `part`, a bit each; nothing if all of it is outside.
+  std::optional<uint32_t> cutting(const Polygon& part) const {
+    uint32_t cuts = 0;
+    for (uint32_t side = 0; side < count; ++side) {
+      double least = 1e300, most = -1e300;
+      for (uint32_t i = 0; i < part.size(); ++i) {
+        const double at = sides[side].at(part[i]);
+        least = std::min(least, at), most = std::max(most, at);
+      }
+      if (most <= 0.0) return std::nullopt;
+      if (least < 0.0) cuts |= 1u << side;
+    }
+    return cuts;
+  }
+};
+
+/// What a polygon shares with a cover; `rest`: what is left of it, as convex pieces.
+Polygon divided(Polygon part, const Cover& cover, uint32_t cuts, double smallest,
+                std::vector<Polygon>& rest) {
+  rest.clear();
+  for (uint32_t side = 0; side < cover.count && !part.empty(); ++side) {
+    if (((cuts >> side) & 1u) == 0) continue;
+    const HalfPlane& inside = cover.sides[side];
     const Polygon beyond = part.clipped({-inside.normal, -inside.offset});
-    if (beyond.area() > smallest) out.push_back({beyond, facet});
+    if (beyond.area() > smallest) rest.push_back(beyond);
     part = part.clipped(inside);
   }
+  return part;
 }
 
 }  // namespace
 
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
-                  double smallest, std::vector<VisibleCell>& cells) {
+                  double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells) {
   cells.assign(1, {whole, VisibleCell::nothing});
   Box within;
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
   const std::array<KeptSide, 5> spaces = around(beam, start, within);
   const std::span<const KeptSide> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
-  std::vector<VisibleCell> next;
-  std::vector<uint32_t> triangles;
+  std::array<dvec3, FacetTrees::most_corners> room;
   for (const uint32_t facet : facets) {
     if (facet == start.index) continue;
     const PosedFacet& posed = world.facet(facet);
@@ -101,25 +131,22 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
         return false;
       return than == VisibleCell::nothing || reach < beam.reach(world.facet(than), direction) * (1.0 - 1e-9);
     };
-    trees.find(world, facet, used, triangles);
-    for (const uint32_t triangle : triangles) {
-      const Polygon cover = seen(world.corners(facet, triangle), beam, start, within);
-      if (cover.empty()) continue;
-      next.clear();
-      for (const VisibleCell& cell : cells) {
-        if (cell.facet == facet) {
-          next.push_back(cell);
-          continue;
-        }
-        const Polygon overlap = intersection(cell.part, cover);
-        if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), cell.facet)) {
-          next.push_back(cell);
-          continue;
-        }
-        next.push_back({overlap, facet});
-        subtract(cell.part, cover, cell.facet, smallest, next);
+    trees.find(world, facet, used, scratch.pieces);
+    for (const uint32_t piece : scratch.pieces) {
+      const Polygon outline = seen(trees.corners(world, facet, piece, room), beam, start, within);
+      if (outline.empty()) continue;
+      const Cover cover(outline);
+      const size_t before = cells.size();
+      for (size_t i = 0; i < before; ++i) {
+        const uint32_t behind = cells[i].facet;
+        if (behind == facet) continue;
+        const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
+        if (!cuts) continue;
+        const Polygon overlap = divided(cells[i].part, cover, *cuts, smallest, scratch.rest);
+        if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
+        cells[i] = {overlap, facet};
+        for (const Polygon& rest : scratch.rest) cells.push_back({rest, behind});
       }
-      cells.swap(next);
     }
   }
 }

@@ -30,12 +30,18 @@ struct BeamStart {
   double side = 1.0;  ///< sign of the facet's distance on the beam's side
 };
 
+/// What find_visible works with; kept by the caller so that nothing is allocated tube by tube.
+struct VisibleScratch {
+  std::vector<uint32_t> pieces;
+  std::vector<Polygon> rest;
+};
+
 /// Parts of `whole` (in the beam's coordinates) by what they fall on; what falls on none of `facets` (ascending, each once)
 /// is left as `nothing`. Of two facets at the same distance the first one counts. Facets that cut through each other are
 /// told apart at the centre of where they overlap.
 /// `smallest`: parts of less area than this are dropped.
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
-                  double smallest, std::vector<VisibleCell>& cells);
+                  double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells);
 
 }  // namespace greatx::rf
