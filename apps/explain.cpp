@@ -31,6 +31,9 @@ void run(const Options& options) {
                                  {"switchable", effect->switchable},
                                  {"reason", effect->reason},
                                  {"bound", effect->bound}});
+    json["parts"] = nlohmann::json::array();
+    for (const sim::Part& part : world.parts)
+      json["parts"].push_back({{"name", part.name}, {"rate_hz", part.rate.value_hz()}});
     json["channels"] = nlohmann::json::object();
     for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel)
       for (const auto& [name, text] : sim::channel_notes(scenario, world, plan, channel))
@@ -41,6 +44,11 @@ void run(const Options& options) {
   std::cout << fmt::format("{}: {} triangles, {} facets, {} instances, {} bodies\n", scenario.name,
                            world.scene.triangle_count(), world.scene.facets.size(),
                            world.scene.instances.size(), world.scene.bodies.size());
+  for (const sim::Part& part : world.parts)
+    std::cout << fmt::format("  turns {:<24} {:+.6g} Hz about ({:.3f}, {:.3f}, {:.3f}) of its node\n",
+                             part.name, part.rate.value_hz(), world.scene.bodies[part.body].joint->axis.x,
+                             world.scene.bodies[part.body].joint->axis.y,
+                             world.scene.bodies[part.body].joint->axis.z);
   for (const sim::Effect* effect : plan.all())
     std::cout << fmt::format("  {:<4} {:<24}{} {}{}\n", effect->on ? "on" : "off", effect->name,
                              effect->switchable ? " " : "*", effect->reason,

@@ -93,6 +93,7 @@ void info(const InfoCommand& command) {
                            scene.lights.size(), scene.textures.size());
   std::cout << fmt::format("  {:.2f} x {:.2f} x {:.2f} m around ({:.2f}, {:.2f}, {:.2f})\n", size.x, size.y,
                            size.z, center.x, center.y, center.z);
+  std::cout << fmt::format("  nodes {}\n", scene::node_names(model));
   for (const scene::Material& material : scene.materials) {
     const std::string radio = describe(material.radio);
     const vec4& color = material.pbr.base_color;

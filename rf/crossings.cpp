@@ -38,7 +38,8 @@ std::vector<shared::GpuFoliageBox> foliage_boxes(const scene::Scene& scene, cons
     if (bounds[body].empty()) continue;
     const dvec3 magnitude = glm::max(glm::abs(bounds[body].min), glm::abs(bounds[body].max));
     const dvec3 room(0.1 + 1e-5 * std::max({magnitude.x, magnitude.y, magnitude.z}));
-    boxes.push_back({vec3(bounds[body].min - room), vec3(bounds[body].max + room), body});
+    boxes.push_back(
+        {vec3(bounds[body].min - room), vec3(bounds[body].max + room), body, scene.owner_of(body)});
   }
   return boxes;
 }

@@ -27,10 +27,16 @@ FacetWorld::FacetWorld(const scene::Scene& scene) : motions_(std::max<size_t>(1,
   body_facets_.reserve(scene.facets.size());
   triangles_.reserve(scene.facet_triangles.size());
   for (const scene::Facet& facet : scene.facets) add(scene, facet);
+  for (uint32_t body = 0; body <= motions_.size(); ++body) {
+    const auto first = std::ranges::lower_bound(facets_, body, {}, &PosedFacet::body);
+    first_facet_.push_back(static_cast<uint32_t>(first - facets_.begin()));
+  }
 }
 
 void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
   const size_t index = facets_.size();
+  GREATX_CHECK(facets_.empty() || facets_.back().body <= facet.body,
+               "facet {} of body {} after one of body {}", index, facet.body, facets_.back().body);
   GREATX_CHECK(facet.triangle_count > 0 &&
                    facet.first_triangle + size_t{facet.triangle_count} <= scene.facet_triangles.size(),
                "facet {}: triangles {} + {} of {}", index, facet.first_triangle, facet.triangle_count,
@@ -49,6 +55,7 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
 
   PosedFacet posed;
   posed.body = facet.body;
+  posed.owner = facet.body < scene.bodies.size() ? scene.owner_of(facet.body) : facet.body;
   posed.material = facet.material;
   posed.first_triangle = static_cast<uint32_t>(triangles_.size());
   dvec2 low(1e300), high(-1e300), weighted(0.0);
@@ -105,8 +112,7 @@ void FacetWorld::pose(uint32_t index, const Pose& local_from_body) {
 void FacetWorld::move(uint32_t body, const Motion& motion) {
   GREATX_CHECK(body > 0 && body < motions_.size(), "body {} of {} cannot move", body, motions_.size());
   motions_[body] = motion;
-  for (uint32_t index = 0; index < facet_count(); ++index)
-    if (facets_[index].body == body) pose(index, motion.pose);
+  for (uint32_t index = first_facet_[body]; index < first_facet_[body + 1]; ++index) pose(index, motion.pose);
 }
 
 bool FacetWorld::contains(uint32_t index, const dvec2& at) const {

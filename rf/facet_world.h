@@ -25,6 +25,7 @@ struct PosedFacet {
   /// facet's extent plus 1e-13 of its coordinates (some 500 roundings).
   double tolerance_m = 0.0;
   uint32_t body = 0, material = 0;
+  uint32_t owner = 0;  ///< scene::Scene::owner_of(body)
   uint32_t first_triangle = 0, triangle_count = 0;
 
   double distance(const dvec3& point) const { return glm::dot(normal, point) - offset; }
@@ -71,7 +72,8 @@ class FacetWorld {
   std::vector<PosedFacet> facets_;
   std::vector<PlanarTriangle> triangles_;
   std::vector<std::array<dvec3, 3>> corners_;  ///< [triangles_], in the body's frame
-  std::vector<Motion> motions_;  ///< [bodies]
+  std::vector<Motion> motions_;                ///< [bodies]
+  std::vector<uint32_t> first_facet_;          ///< [bodies + 1]: each body's facets are a range
 };
 
 }  // namespace greatx::rf

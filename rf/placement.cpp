@@ -190,7 +190,7 @@ void Surroundings::touch(const Shell& shell, const dvec3& point, Placement& plac
 Placement Surroundings::of(const dvec3& point, std::span<const Pose> body_poses, uint32_t own_body) const {
   Placement placement;
   for (const Shell& shell : shells_) {
-    if (shell.body != 0 && shell.body == own_body) continue;
+    if (shell.body != 0 && scene_->owner_of(shell.body) == own_body) continue;
     GREATX_CHECK(shell.body < body_poses.size() || shell.body == 0, "body {} of {} poses", shell.body,
                  body_poses.size());
     const dvec3 at = shell.body == 0 ? point : body_poses[shell.body].inverse().apply(point);

@@ -23,15 +23,48 @@ dmat4 linear_of(const dmat4& affine) {
   return linear;
 }
 
-/// Where a mesh goes: world_from_mesh about `reference`, a point of the world, or body_from_mesh for a moving body. The
-/// large numbers of a position in UTM cancel here, in fp64, before anything is multiplied by them.
-dmat4 place(const Placement& placement, const ModelInstance& instance, const dvec3& reference) {
+/// The linear part of a placement.
+dmat4 scaled_axes(const Placement& placement) {
   dmat4 scaled = glm::mat4_cast(placement.pose.orientation);
   for (int axis = 0; axis < 3; ++axis) scaled[axis] *= placement.scale[axis];
-  const dvec3 offset = placement.moving ? placement.pose.position : placement.pose.position - reference;
-  dmat4 placed = scaled * linear_of(instance.model_from_mesh);
-  placed[3] = dvec4(offset + glm::dmat3(scaled) * dvec3(instance.model_from_mesh[3]), 1.0);
-  return placed;
+  return scaled;
+}
+
+/// What goes into one body: the model_from_... transforms of a placement become body_from_...
+class Frame {
+ public:
+  /// world_from_model about `reference`, a point of the world, or body_from_model for a moving body. The large numbers of
+  /// a position in UTM cancel here, in fp64, before anything is multiplied by them.
+  Frame(const Placement& placement, const dvec3& reference)
+      : scaled_(scaled_axes(placement)),
+        offset_(placement.moving ? placement.pose.position : placement.pose.position - reference) {}
+  /// part_from_model: the axes stay, the origin goes to that of `node`.
+  Frame(const Placement& placement, const ModelNode& node)
+      : scaled_(scaled_axes(placement)), model_origin_(node.model_from_node[3]) {}
+
+  dmat4 place(const dmat4& model_from_mesh) const {
+    dmat4 placed = scaled_ * linear_of(model_from_mesh);
+    placed[3] = dvec4(offset_ + glm::dmat3(scaled_) * (dvec3(model_from_mesh[3]) - model_origin_), 1.0);
+    return placed;
+  }
+
+ private:
+  dmat4 scaled_;
+  dvec3 offset_{0.0}, model_origin_{0.0};
+};
+
+/// The joint of a part in its owner's frame. Throws UserError if its transforms leave the axis no direction.
+Joint joint_of(const Placement& placement, const PartPlacement& part, uint32_t owner) {
+  const ModelNode& node = placement.model->nodes[part.node];
+  const dmat4 body_from_node = Frame(placement, dvec3(0.0)).place(node.model_from_node);
+  const dvec3 axis_y_up(part.axis.x, part.axis.z, -part.axis.y);
+  const dvec3 axis = glm::dmat3(body_from_node) * axis_y_up;
+  const double length = glm::length(axis);
+  if (!(length > 0.0 && std::isfinite(length)))
+    throw_user_error("object '{}' ({}): part '{}': its axis [{}, {}, {}] has no direction left",
+                     placement.name, placement.model->file.string(), part.name, part.axis.x, part.axis.y,
+                     part.axis.z);
+  return {owner, dvec3(body_from_node[3]), axis / length};
 }
 
 void check_placement(const Placement& placement) {
@@ -44,6 +77,11 @@ void check_placement(const Placement& placement) {
     throw_user_error("object '{}' ({}): scale [{}, {}, {}]: expected finite numbers other than 0",
                      placement.name, placement.model->file.string(), scale.x, scale.y, scale.z);
   }
+  GREATX_CHECK(placement.moving || placement.parts.empty(), "parts of '{}', which never moves",
+               placement.name);
+  for (const PartPlacement& part : placement.parts)
+    GREATX_CHECK(part.node < placement.model->nodes.size(), "part '{}': node {} of {}", part.name, part.node,
+                 placement.model->nodes.size());
   const dquat& turn = placement.pose.orientation;
   if (!finite(placement.pose.position) || !(std::abs(glm::length(turn) - 1.0) < 1e-6)) {
     throw_user_error("object '{}' ({}): its pose is not finite or its quaternion not of length 1",
@@ -57,8 +95,9 @@ dvec3 default_origin(const std::vector<Placement>& placements) {
   Bounds bounds;
   for (const Placement& placement : placements) {
     if (placement.moving) continue;
+    const Frame world(placement, dvec3(0.0));
     for (const ModelInstance& instance : placement.model->instances) {
-      const dmat4 world_from_mesh = place(placement, instance, dvec3(0.0));
+      const dmat4 world_from_mesh = world.place(instance.model_from_mesh);
       for (const ModelPrimitive& primitive : placement.model->meshes[instance.mesh].primitives) {
         for (const uint32_t index : primitive.indices) {
           bounds.add(dvec3(world_from_mesh * dvec4(dvec3(primitive.positions[index]), 1.0)));
@@ -81,14 +120,50 @@ class Builder {
     scene_.bodies.push_back(body);
   }
 
-  /// Into the body added last.
+  /// Into the body added last, without what belongs to the parts.
   void add(const Placement& placement) {
+    add(placement, Frame(placement, scene_.origin), [&](uint32_t node) {
+      return std::ranges::none_of(placement.parts, [&](const PartPlacement& part) {
+        return node >= part.node && node < placement.model->nodes[part.node].end;
+      });
+    });
+  }
+
+  /// The parts of the placement whose own body is `owner`, each in a body of its own.
+  void add_parts(const Placement& placement, uint32_t owner) {
+    for (const PartPlacement& part : placement.parts) {
+      const ModelNode& node = placement.model->nodes[part.node];
+      add_body(placement.name + "/" + part.name);
+      scene_.bodies.back().joint = joint_of(placement, part, owner);
+      add(placement, Frame(placement, node),
+          [&](uint32_t other) { return other >= part.node && other < node.end; });
+      Bounds& reach = scene_.bodies[owner].reach;
+      reach.add(scene_.bodies[owner].bounds);
+      reach.add(reach_of(scene_.bodies.back()));
+    }
+  }
+
+  void finish() {
+    scene_.bounds = scene_.bodies.front().bounds;
+    note_faults();
+    scene_.hash = hash_of(scene_);
+  }
+
+ private:
+  uint32_t current_body() const { return static_cast<uint32_t>(scene_.bodies.size() - 1); }
+
+  /// What of a placement's model is on the nodes that `belongs` says.
+  template <typename Belongs>
+  void add(const Placement& placement, const Frame& frame, const Belongs& belongs) {
     const Model& model = *placement.model;
-    for (const ModelInstance& instance : model.instances) add_instance(placement, instance);
-    for (PunctualLight light : model.lights) {
-      ModelInstance carrier;
-      carrier.model_from_mesh[3] = dvec4(light.position, 1.0);
-      const dmat4 placed = place(placement, carrier, scene_.origin);
+    for (const ModelInstance& instance : model.instances)
+      if (belongs(instance.node)) add_instance(placement, frame, instance);
+    for (size_t i = 0; i < model.lights.size(); ++i) {
+      if (!belongs(model.nodes_of_lights[i])) continue;
+      PunctualLight light = model.lights[i];
+      dmat4 carrier(1.0);
+      carrier[3] = dvec4(light.position, 1.0);
+      const dmat4 placed = frame.place(carrier);
       light.position = dvec3(placed[3]);
       light.direction = glm::normalize(glm::dmat3(placed) * light.direction);
       light.body = current_body();
@@ -100,8 +175,25 @@ class Builder {
     }
   }
 
-  void finish() {
-    scene_.bounds = scene_.bodies.front().bounds;
+  /// Of a part, in its owner's frame: every place that its corners come to in a turn.
+  Bounds reach_of(const Body& body) const {
+    const Joint& joint = *body.joint;
+    Bounds reach;
+    for (uint32_t p = body.first_primitive; p < body.first_primitive + body.primitive_count; ++p) {
+      const Primitive& primitive = scene_.primitives[p];
+      for (uint32_t i = 0; i < primitive.index_count; ++i) {
+        const dvec3 corner(scene_.positions[scene_.indices[primitive.first_index + i]]);
+        const dvec3 along = glm::dot(corner, joint.axis) * joint.axis;
+        const dvec3 extent =
+            glm::length(corner - along) * glm::sqrt(glm::max(1.0 - joint.axis * joint.axis, 0.0));
+        reach.add(joint.position + along - extent);
+        reach.add(joint.position + along + extent);
+      }
+    }
+    return reach;
+  }
+
+  void note_faults() {
     if (collapsed_ > 0) {
       scene_.notes.push_back(fmt::format(
           "{} triangles are too small for fp32 at their distance from the local origin: rays and pictures "
@@ -113,11 +205,7 @@ class Builder {
       scene_.notes.push_back(
           fmt::format("{} primitives with a normal map have no texture coordinates", unmapped_));
     }
-    scene_.hash = hash_of(scene_);
   }
-
- private:
-  uint32_t current_body() const { return static_cast<uint32_t>(scene_.bodies.size() - 1); }
 
   std::string unique_name(const Placement& placement, const ModelInstance& instance) {
     const std::string wanted = placement.name.empty() ? instance.name : placement.name + "/" + instance.name;
@@ -129,7 +217,7 @@ class Builder {
     return name;
   }
 
-  void add_instance(const Placement& placement, const ModelInstance& instance) {
+  void add_instance(const Placement& placement, const Frame& frame, const ModelInstance& instance) {
     const Model& model = *placement.model;
     const ModelMesh& mesh = model.meshes[instance.mesh];
     Instance result;
@@ -138,7 +226,7 @@ class Builder {
     result.body = current_body();
     const std::string what =
         fmt::format("{}: mesh '{}', placed as '{}'", model.file.string(), mesh.name, result.name);
-    const dmat4 body_from_mesh = place(placement, instance, scene_.origin);
+    const dmat4 body_from_mesh = frame.place(instance.model_from_mesh);
     // By material: facets may cross primitives, but not instances.
     std::map<uint32_t, FacetWork> work;
     for (size_t index = 0; index < mesh.primitives.size(); ++index) {
@@ -266,6 +354,7 @@ Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& 
     }
     builder.add_body(placement.name);
     builder.add(placement);
+    builder.add_parts(placement, static_cast<uint32_t>(scene.bodies.size() - 1));
   }
   builder.finish();
   return scene;

@@ -10,6 +10,13 @@
 
 namespace greatx::scene {
 
+/// A node of a moving model, with all that hangs on it, that turns about an axis through its origin.
+struct PartPlacement {
+  std::string name;
+  uint32_t node = 0;          ///< into Model::nodes; not the descendant of another part's
+  dvec3 axis{0.0, 0.0, 1.0};  ///< in the node's own frame, but z up: glTF's (x, y, z) is (x, -z, y) here
+};
+
 /// A model put into the world.
 struct Placement {
   std::string name;  ///< prefix of its instances' names; may be empty
@@ -18,6 +25,9 @@ struct Placement {
   dvec3 scale{1.0};
   bool moving = false;                          ///< true: becomes a body of its own, called `name`
   std::optional<SemanticClass> semantic_class;  ///< overrides the file's
+  /// Of a moving body: each becomes a body called NAME/PART behind it. The axis of a part goes where the model's transforms
+  /// take its direction; under a mirroring scale it turns right-handed about that still.
+  std::vector<PartPlacement> parts;
 };
 
 struct BuildOptions {

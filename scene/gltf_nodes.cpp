@@ -27,6 +27,7 @@ struct Visit {
   int node = -1;
   dmat4 model_from_parent{1.0};
   std::optional<SemanticClass> inherited;
+  int parent = -1;  ///< into Model::nodes
 };
 
 class NodeReader {
@@ -38,11 +39,19 @@ class NodeReader {
     std::vector<Visit> stack;
     const std::vector<int> roots = root_nodes();
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-      stack.push_back({*root, z_up_from_y_up(), {}});
+      stack.push_back({*root, z_up_from_y_up(), {}, -1});
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
       this->visit(visit, stack);
+    }
+    // Of a node without children, itself; then each one's last descendant ends its parent too.
+    for (size_t i = model_.nodes.size(); i-- > 0;) {
+      model_.nodes[i].end = std::max(model_.nodes[i].end, static_cast<uint32_t>(i + 1));
+      if (parents_[i] >= 0) {
+        uint32_t& end = model_.nodes[static_cast<size_t>(parents_[i])].end;
+        end = std::max(end, model_.nodes[i].end);
+      }
     }
     note_unlabeled();
   }
@@ -101,11 +110,14 @@ class NodeReader {
     const tinygltf::Node& node = file_.model.nodes[index];
     const dmat4 model_from_node = visit.model_from_parent * local_transform(node, what);
     const auto semantic_class = class_of(index, visit.inherited, what);
+    const int here = static_cast<int>(model_.nodes.size());
+    model_.nodes.push_back({node_name(index), model_from_node, 0});
+    parents_.push_back(visit.parent);
     if (node.mesh >= 0) add_instance(index, model_from_node, semantic_class, what);
     add_light(index, model_from_node, what);
     note_ignored(node, what);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-      stack.push_back({*child, model_from_node, semantic_class});
+      stack.push_back({*child, model_from_node, semantic_class, here});
     }
   }
 
@@ -188,7 +200,8 @@ class NodeReader {
     }
     if (!semantic_class) unlabeled_.push_back(node_name(index));
     model_.instances.push_back({node_name(index), static_cast<uint32_t>(mesh), model_from_node,
-                                semantic_class.value_or(SemanticClass::unlabeled)});
+                                semantic_class.value_or(SemanticClass::unlabeled),
+                                static_cast<uint32_t>(model_.nodes.size() - 1)});
   }
 
   /// KHR_lights_punctual: a light shines along its node's -z.
@@ -211,6 +224,7 @@ class NodeReader {
     light.direction = glm::normalize(direction);
     set_light(source, light, what + ", light '" + light.name + "'");
     model_.lights.push_back(light);
+    model_.nodes_of_lights.push_back(static_cast<uint32_t>(model_.nodes.size() - 1));
   }
 
   static void set_light(const tinygltf::Light& source, PunctualLight& light, const std::string& what) {
@@ -267,6 +281,7 @@ class NodeReader {
   const GltfFile& file_;
   Model& model_;
   std::vector<bool> visited_;
+  std::vector<int> parents_;  ///< [Model::nodes]
   std::vector<std::string> unlabeled_;
 };
 

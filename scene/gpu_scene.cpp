@@ -82,7 +82,8 @@ void GpuScene::upload_geometry() {
   for (const Primitive& primitive : scene_->primitives) {
     const Instance& instance = scene_->instances[primitive.instance];
     primitives.push_back({primitive.first_index, primitive.first_index / 3, primitive.material,
-                          primitive.instance, static_cast<uint32_t>(instance.semantic_class), instance.body});
+                          primitive.instance, static_cast<uint32_t>(instance.semantic_class), instance.body,
+                          scene_->owner_of(instance.body)});
   }
   primitives_ = upload(device, primitives, "primitives");
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/model.h"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/ranges.h>
@@ -76,6 +77,17 @@ Model model_of(const GltfFile& file, const LoadOptions& options) {
 }
 
 }  // namespace
+
+std::string node_names(const Model& model) {
+  constexpr size_t most = 20;
+  std::vector<std::string> names;
+  for (const ModelNode& node : model.nodes)
+    if (std::ranges::find(names, node.name) == names.end()) names.push_back(node.name);
+  const size_t left_out = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - left_out);
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     left_out > 0 ? fmt::format(" and {} more", left_out) : "");
+}
 
 Model load_model(const std::filesystem::path& file, const LoadOptions& options) {
   const std::string name = file.string();

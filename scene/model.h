@@ -27,23 +27,36 @@ struct ModelMesh {
   std::vector<ModelPrimitive> primitives;
 };
 
+/// A node of the file, with a mesh or without.
+struct ModelNode {
+  std::string name;  ///< the file's, else its mesh's, else "node_" and its number; may not be unique
+  dmat4 model_from_node{1.0};  ///< includes y-up to z-up
+  uint32_t end = 0;            ///< its descendants follow it, up to this one
+};
+
 /// A node with a mesh, placed in the model's frame (x east, y north, z up).
 struct ModelInstance {
   std::string name;
   uint32_t mesh = 0;
   dmat4 model_from_mesh{1.0};  ///< includes y-up to z-up; may have non-uniform or negative scale
   SemanticClass semantic_class = SemanticClass::unlabeled;
+  uint32_t node = 0;  ///< into Model::nodes
 };
 
 struct Model {
   std::filesystem::path file;
   std::vector<ModelMesh> meshes;
+  std::vector<ModelNode> nodes;  ///< that the scene reaches, parents before their children, depth first
   std::vector<ModelInstance> instances;
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  std::vector<PunctualLight> lights;  ///< in the model's frame
+  std::vector<PunctualLight> lights;      ///< in the model's frame
+  std::vector<uint32_t> nodes_of_lights;  ///< [lights], into nodes
   std::vector<std::string> notes;
 };
+
+/// The names of a model's nodes, each once, as many as a message bears: "hull, wheel and 3 more".
+std::string node_names(const Model& model);
 
 struct LoadOptions {
   /// YAML that maps material names or globs to radio properties; empty: none.

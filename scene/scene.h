@@ -6,7 +6,8 @@
 //   Model  = one glTF file, as parsed (model.h)
 //   Scene  = models placed in the world (build.h): flat arrays, ready for upload
 //     body 0          everything that never moves, already in local coordinates (world - origin)
-//     body 1, 2, ...  one per moving object, in its own frame; a pose per tick places it
+//     body 1, 2, ...  one per moving object, in its own frame; a pose per tick places it; behind it one for each of its
+//                     parts that turn, whose owner it is
 //     instance        one object with a name, a semantic class and an id on every pixel and return
 //     primitive       a range of triangles of one instance with one material; one geometry of the body's BLAS
 //     facet           coplanar, connected triangles of one body with one material, merged (rf works on these)
@@ -17,6 +18,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,10 +89,21 @@ struct Instance {
   Bounds bounds;  ///< in the body's frame
 };
 
+/// How a part sits on the body that carries it: its frame has the carrier's axes, until it turns about `axis`.
+struct Joint {
+  uint32_t owner = 0;         ///< the carrier, a body before it that is no part itself
+  dvec3 position{0.0};        ///< of the part's origin in its owner's frame, metres
+  dvec3 axis{0.0, 0.0, 1.0};  ///< unit, in both frames
+  /// owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
+  Pose pose(double angle) const { return {position, glm::angleAxis(angle, axis)}; }
+};
+
 struct Body {
-  std::string name;  ///< "static", or the node's name
+  std::string name;  ///< "static", or the node's name, or of a part NODE/PART
   uint32_t first_primitive = 0, primitive_count = 0;
-  Bounds bounds;  ///< in the body's frame
+  Bounds bounds;               ///< in the body's frame
+  std::optional<Joint> joint;  ///< of a part
+  Bounds reach;  ///< of a body with parts: its own and all of theirs, however they are turned; else empty
 };
 
 /// KHR_lights_punctual, in the body's frame.
@@ -148,6 +161,16 @@ struct Scene {
   dvec3 to_local(const dvec3& world) const { return world - origin; }
   Pose to_local(const Pose& world) const { return {world.position - origin, world.orientation}; }
   size_t triangle_count() const { return indices.size() / 3; }
+  /// The body that `body` is a part of; itself, if it is none. A sensor that does not see what carries it sees no body of
+  /// that owner.
+  uint32_t owner_of(uint32_t body) const {
+    const std::optional<Joint>& joint = bodies[body].joint;
+    return joint ? joint->owner : body;
+  }
+  /// Bounds of a body with all its parts however they are turned, in its frame.
+  const Bounds& reach_of(uint32_t body) const {
+    return bodies[body].reach.empty() ? bodies[body].bounds : bodies[body].reach;
+  }
   /// The body called `name`; throws ContractError if there is none.
   uint32_t body_index(const std::string& name) const;
 };

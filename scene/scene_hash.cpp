@@ -102,6 +102,7 @@ std::string hash_of(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     feeder.text(body.name).values(body.first_primitive, body.primitive_count);
     feed(feeder, body.bounds);
+    if (body.joint) feeder.text("part").values(body.joint->owner, body.joint->position, body.joint->axis);
   }
   feed_facets(feeder, scene);
   feeder.count(scene.materials.size());

@@ -95,7 +95,7 @@ void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz) {
 void Simulator::start(uint32_t sequence, int64_t first_tick) {
   GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
   sequence_ = sequence;
-  paths_ = make_paths(scenario_, sequence);
+  courses_ = make_courses(scenario_, world_, sequence);
   due_ticks_ = 0;
   for (next_tick_ = schedule_.next(0, scenario_.ticks); next_tick_ < std::min(first_tick, scenario_.ticks);
        ++due_ticks_)
@@ -122,7 +122,7 @@ void Simulator::replay(int64_t end) {
 }
 
 Moment Simulator::moment_at(int64_t tick) const {
-  Moment moment = sim::moment_at(world_, paths_, clock_, tick, schedule_.previous(tick));
+  Moment moment = sim::moment_at(world_, courses_, clock_, tick, schedule_.previous(tick));
   moment.context.sequence = sequence_;
   return moment;
 }

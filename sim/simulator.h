@@ -86,7 +86,7 @@ class Simulator {
   std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, crossings, probe
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<SensorSpec> specs_;
-  std::vector<std::unique_ptr<Path>> paths_;
+  Courses courses_;
   std::unique_ptr<InFlight> pending_;
   uint32_t sequence_ = 0;
   int64_t next_tick_ = 0;

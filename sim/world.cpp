@@ -8,6 +8,7 @@
 #include "rf/surfaces.h"
 #include "scene/build.h"
 #include "scene/generator/generate.h"
+#include "sim/parts.h"
 
 namespace greatx::sim {
 
@@ -39,7 +40,9 @@ dquat orientation_of(const dvec3& yaw_pitch_roll) {
   return orientation_from_yaw_pitch_roll(yaw_pitch_roll.x, yaw_pitch_roll.y, yaw_pitch_roll.z);
 }
 
-bool never_moves(const NodeConfig& node) { return std::holds_alternative<StaticTrajectory>(node.trajectory); }
+bool never_moves(const NodeConfig& node) {
+  return std::holds_alternative<StaticTrajectory>(node.trajectory) && node.parts.empty();
+}
 
 /// A material without a row at the carrier is an error of the scenario, before anything runs.
 void check_radio(const Scenario& scenario, const scene::Scene& scene) {
@@ -51,6 +54,21 @@ void check_radio(const Scenario& scenario, const scene::Scene& scene) {
       throw_user_error_at(channel.where, "channels[{}].carrier_hz: channel '{}': {}", i, channel.name,
                           error.what());
     }
+  }
+}
+
+/// Who carries each body, and which part it is; `parts` have their names, and nodes their bodies.
+void find_bodies(World& world) {
+  const scene::Scene& scene = world.scene;
+  world.node_of_body.resize(scene.bodies.size());
+  world.part_of_body.resize(scene.bodies.size(), World::no_part);
+  for (uint32_t node = 0; node < world.body_of_node.size(); ++node)
+    if (const uint32_t body = world.body_of_node[node]; body != 0) world.node_of_body[body] = node;
+  for (uint32_t i = 0; i < world.parts.size(); ++i) {
+    Part& part = world.parts[i];
+    part.body = scene.body_index(part.name);
+    world.part_of_body[part.body] = i;
+    world.node_of_body[part.body] = world.node_of_body[scene.owner_of(part.body)];
   }
 }
 
@@ -72,40 +90,36 @@ World load_world(const Scenario& scenario) {
                           {object.position_m, orientation_of(object.rotation)},
                           object.scale,
                           false,
-                          semantic_class(object.semantic_class, object.model.where)});
+                          semantic_class(object.semantic_class, object.model.where),
+                          {}});
   }
   for (const NodeConfig& node : scenario.nodes) {
     if (!node.model) continue;
     models.push_back(load(*node.model, scenario.scene));
     Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
-    if (const auto* fixed = std::get_if<StaticTrajectory>(&node.trajectory))
-      pose = Pose{fixed->position_m, orientation_of(fixed->rotation)} * pose;
-    placements.push_back({node.name, &models.back(), pose, node.model_scale, !never_moves(node),
-                          semantic_class(node.semantic_class, node.where)});
+    if (never_moves(node)) {
+      const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
+      pose = Pose{fixed.position_m, orientation_of(fixed.rotation)} * pose;
+    }
+    placements.push_back({node.name,
+                          &models.back(),
+                          pose,
+                          node.model_scale,
+                          !never_moves(node),
+                          semantic_class(node.semantic_class, node.where),
+                          {}});
+    for (FoundPart& part : find_parts(node, models.back())) {
+      world.parts.push_back(
+          {node.name + "/" + part.placement.name, 0, part.config->rate, part.config->phase});
+      placements.back().parts.push_back(std::move(part.placement));
+    }
   }
   world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
   for (const NodeConfig& node : scenario.nodes)
     world.body_of_node.push_back(node.model && !never_moves(node) ? world.scene.body_index(node.name) : 0);
-  world.node_of_body.resize(world.scene.bodies.size());
-  for (uint32_t node = 0; node < world.body_of_node.size(); ++node)
-    if (const uint32_t body = world.body_of_node[node]; body != 0) world.node_of_body[body] = node;
+  find_bodies(world);
   check_radio(scenario, world.scene);
   return world;
-}
-
-Motion body_motion(const World& world, uint32_t body, const Motion& node) {
-  GREATX_CHECK(body != 0 && body < world.node_of_body.size(), "body {} of {}", body,
-               world.node_of_body.size());
-  Motion motion = node;
-  motion.pose = world.scene.to_local(node.pose);
-  return motion;
-}
-
-std::vector<Pose> body_poses(const World& world, const std::vector<Motion>& node_motions) {
-  std::vector<Pose> poses(world.scene.bodies.size());
-  for (uint32_t body = 1; body < poses.size(); ++body)
-    poses[body] = body_motion(world, body, node_motions[world.node_of_body[body]]).pose;
-  return poses;
 }
 
 }  // namespace greatx::sim

@@ -12,9 +12,9 @@
 #include "core/units.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
+#include "sim/moment.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/clock.h"
-#include "sim/scenario/trajectory.h"
 #include "sim/sensors/camera_desc.h"
 #include "sim/sensors/sensor.h"
 #include "sim/world.h"
@@ -123,7 +123,7 @@ FirstCamera first_camera(const sim::Scenario& scenario) {
 /// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
                                               FirstCamera camera, uint32_t count) {
-  const auto paths = sim::make_paths(scenario, 0);
+  const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const sim::Clock clock(scenario.tick_rate_hz);
   const Pose mount = sim::mount_pose(scenario.nodes[camera.node].sensors[camera.sensor].mount);
   std::vector<std::vector<Instant>> intervals;
@@ -131,12 +131,9 @@ std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, con
     const double begin_s = clock.seconds(scenario.ticks * i / count);
     std::vector<Instant> instants;
     for (uint32_t step = 0; step <= EventRow::substeps; ++step) {
-      std::vector<Motion> motions;
-      for (const auto& path : paths)
-        motions.push_back(
-            path->at(begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps));
-      instants.push_back(
-          {world.scene.to_local(motions[camera.node].pose) * mount, sim::body_poses(world, motions)});
+      const double time_s = begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps;
+      instants.push_back({world.scene.to_local(courses.paths[camera.node]->at(time_s).pose) * mount,
+                          sim::body_poses(world, courses, time_s)});
     }
     intervals.push_back(std::move(instants));
   }

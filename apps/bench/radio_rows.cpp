@@ -73,14 +73,14 @@ nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const 
   std::vector<rf::AntennaArray> receivers;
   for (const std::string& name : config.receivers)
     receivers.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
-  const auto trajectories = sim::make_paths(scenario, 0);
+  const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const rf::ChannelGrid grid{config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers,
                              config.time_samples, config.time_spacing_s};
   std::vector<double> stages[4];
   const Until until(options);
   for (int64_t tick = 0; tick < scenario.ticks && !until.enough(stages[0].size()); ++tick) {
     const sim::Moment moment =
-        sim::moment_at(world, trajectories, sim::Clock(scenario.tick_rate_hz), tick, tick - 1);
+        sim::moment_at(world, courses, sim::Clock(scenario.tick_rate_hz), tick, tick - 1);
     if (tick == 0) channel.start(moment.context);
     gpu::TickSlot& slot = ring.begin();
     gpu_scene.record_update(slot, moment.bodies);
@@ -150,8 +150,8 @@ nlohmann::json search_row(const ScenarioOptions& options) {
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   const sim::ChannelConfig& channel = scenario.channels[0];
   const rf::RadioModel model(world.scene, channel.carrier_hz, sim::radio_effects(plan, scenario));
-  const auto trajectories = sim::make_paths(scenario, 0);
-  const sim::Moment moment = sim::moment_at(world, trajectories, sim::Clock(scenario.tick_rate_hz), 0);
+  const sim::Courses courses = sim::make_courses(scenario, world, 0);
+  const sim::Moment moment = sim::moment_at(world, courses, sim::Clock(scenario.tick_rate_hz), 0);
   rf::BeamSearchOptions search_options;
   search_options.max_depth = channel.max_depth;
   search_options.max_transmissions = plan.transmission.on ? channel.walls() : 0;

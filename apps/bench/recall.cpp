@@ -54,7 +54,7 @@ Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
   rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(c.world.scene, sim::radio_effects(plan, scenario)));
   sim::ChannelPaths paths(gpu_scene, crossings, plan, scenario, c.world, 0);
   paths.set_points(c.receivers);
-  const auto motions = sim::make_paths(scenario, 0);
+  const sim::Courses motions = sim::make_courses(scenario, c.world, 0);
   const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(scenario.tick_rate_hz), 0);
 
   Answer answer;
@@ -95,7 +95,7 @@ Case make_case(const RecallOptions& options, const std::string& name) {
   const sim::EffectPlan plan = sim::make_effect_plan(c.scenario, c.world.scene);
   const rf::FacetKinds kinds = rf::facet_kinds(c.world.scene, sim::radio_effects(plan, c.scenario));
   const rf::FacetWorld world(c.world.scene);
-  const auto motions = sim::make_paths(c.scenario, 0);
+  const sim::Courses motions = sim::make_courses(c.scenario, c.world, 0);
   const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(c.scenario.tick_rate_hz), 0);
   std::vector<dvec3> local;
   for (const dvec3& receiver : c.receivers) local.push_back(c.world.scene.to_local(receiver));

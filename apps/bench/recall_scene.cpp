@@ -72,6 +72,7 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
   const auto paths = sim::make_paths(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
     sim::NodeConfig& node = scenario.nodes[i];
+    node.parts.clear();
     if (std::holds_alternative<sim::StaticTrajectory>(node.trajectory)) continue;
     const Pose pose = paths[i]->at(0.0).pose;
     node.trajectory = sim::StaticTrajectory{pose.position, angles_of(pose.orientation)};

@@ -76,7 +76,8 @@ struct CameraDesc {
   Vignetting vignetting;             ///< of rgb
   std::optional<SensorNoise> noise;  ///< of rgb
   CameraOutputs outputs;
-  std::optional<uint32_t> excluded_body;  ///< the body that carries the camera, if it shall not see it
+  std::optional<uint32_t>
+      excluded_body;  ///< the body that carries the camera, if it shall not see it and its parts
 };
 
 LensGeometry lens_geometry(const CameraDesc& desc);

@@ -65,10 +65,11 @@ void CameraPass::sort_primitives() {
   const scene::Scene& scene = scene_->scene();
   for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
     const scene::Primitive& primitive = scene.primitives[i];
-    if (desc_.excluded_body && scene.instances[primitive.instance].body == *desc_.excluded_body) continue;
+    const uint32_t body = scene.instances[primitive.instance].body;
+    if (desc_.excluded_body && scene.owner_of(body) == *desc_.excluded_body) continue;
     const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
     const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
-    const bool moves = scene.instances[primitive.instance].body != 0;
+    const bool moves = body != 0;
     (masked ? masked_ : moves ? moving_ : still_).push_back(i);
     textured_ |=
         pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;

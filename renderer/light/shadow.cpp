@@ -139,14 +139,16 @@ void ShadowMaps::build_moving(bool alpha_mask) {
   const scene::Scene& scene = scene_->scene();
   bool any_opaque = false, any_masked = false;
   for (uint32_t b = 1; options_.moving_casters && b < scene.bodies.size(); ++b) {
-    const scene::Body& body = scene.bodies[b];
-    if (body.primitive_count == 0) continue;
+    if (scene.owner_of(b) != b || scene.reach_of(b).empty()) continue;
     Caster caster;
     caster.body = b;
-    caster.center = body.bounds.center();
-    caster.radius = std::max(0.5 * glm::length(body.bounds.size()), 1e-3);
-    for (uint32_t i = body.first_primitive; i < body.first_primitive + body.primitive_count; ++i)
-      (alpha_mask && is_masked(scene, i) ? caster.masked : caster.opaque).push_back(i);
+    caster.center = scene.reach_of(b).center();
+    caster.radius = std::max(0.5 * glm::length(scene.reach_of(b).size()), 1e-3);
+    for (uint32_t part = b; part < scene.bodies.size() && scene.owner_of(part) == b; ++part) {
+      const scene::Body& body = scene.bodies[part];
+      for (uint32_t i = body.first_primitive; i < body.first_primitive + body.primitive_count; ++i)
+        (alpha_mask && is_masked(scene, i) ? caster.masked : caster.opaque).push_back(i);
+    }
     any_opaque |= !caster.opaque.empty();
     any_masked |= !caster.masked.empty();
     casters_.push_back(std::move(caster));

@@ -190,8 +190,8 @@ std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) con
     const scene::Instance& instance = scene.instances[i];
     const bool named =
         std::find(options_.targets.begin(), options_.targets.end(), i) != options_.targets.end();
-    const bool moving =
-        options_.moving_targets && instance.body != 0 && instance.body != transmitter_.own_body;
+    const bool moving = options_.moving_targets && instance.body != 0 &&
+                        scene.owner_of(instance.body) != transmitter_.own_body;
     if (named || moving)
       boxes.push_back({instance.bounds, instance.body == 0 ? Pose{} : body_poses[instance.body]});
   }

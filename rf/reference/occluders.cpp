@@ -63,7 +63,7 @@ Occluders::Occluders(const scene::Scene& scene, const FacetWorld& world, std::sp
 bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   if (index == stretch.facet_a || index == stretch.facet_b) return true;
   const PosedFacet& facet = world_->facet(index);
-  if (facet.body == stretch.body_a || facet.body == stretch.body_b) return true;
+  if (facet.owner == stretch.body_a || facet.owner == stretch.body_b) return true;
   const double corner = largest(first_corners_[index]);
   const auto in_plane = [&](const dvec3& end) {
     return std::abs(facet.distance(end)) <= 1e-4 + 0x1p-22 * std::max(largest(end), corner);

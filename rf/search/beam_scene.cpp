@@ -154,7 +154,7 @@ void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
   BeamFacet facet;
   facet.index = index;
   facet.kind = kind;
-  facet.body = posed.body;
+  facet.owner = posed.owner;
   facet.normal = posed.normal;
   facet.offset = posed.offset;
   facet.tolerance_m = posed.tolerance_m;

@@ -25,7 +25,7 @@ struct BeamPolygon {
 struct BeamFacet {
   uint32_t index = 0;  ///< in the FacetWorld
   FacetKind kind = FacetKind::opaque;
-  uint32_t body = 0;
+  uint32_t owner = 0;  ///< PosedFacet::owner
   uint32_t first_polygon = 0, polygon_count = 0;
   uint32_t first_wedge = 0, wedge_count = 0;
   dvec3 normal{0.0};  ///< unit

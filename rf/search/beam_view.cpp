@@ -99,7 +99,7 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
     polygons_.resize(view.first_polygon);
     return;
   }
-  view.hides = facet.body != transparent_body;
+  view.hides = facet.owner != transparent_body;
   find_start(view, facet);
   facets_.push_back(view);
 }

@@ -52,7 +52,7 @@ uint32_t Seams::passed(const BeamScene& scene, const dvec3& point, const dvec3& 
   uint32_t walls = 0;
   for (const uint32_t index : near) {
     const BeamFacet& cover = scene.facet(index);
-    if (cover.index == facet || (ignored_body != 0 && cover.body == ignored_body)) continue;
+    if (cover.index == facet || (ignored_body != 0 && cover.owner == ignored_body)) continue;
     if (glm::length(glm::cross(cover.normal, world.facet(facet).normal)) < least_sine) continue;
     const double a = glm::dot(cover.normal, point) - cover.offset;
     const double b = glm::dot(cover.normal, other) - cover.offset;

@@ -77,15 +77,15 @@ Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   return committed_hit(query, t_max);
 }
 
-/// The same without the triangles of one body and of one facet (no_body, no_facet: none), exactly: they are passed over
-/// one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
+/// The same without the triangles of one body, its parts included, and of one facet (no_body, no_facet: none), exactly: they
+/// are passed over one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
 Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     uint triangle = candidate_triangle(query, primitive);
-    bool solid = primitive.body != body && (facet == no_facet || scene_facet(triangle) != facet);
+    bool solid = primitive.owner != body && (facet == no_facet || scene_facet(triangle) != facet);
 #ifdef GREATX_TRACE_ALPHA
     if (masks) solid = solid && alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false));
 #endif

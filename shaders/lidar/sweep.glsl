@@ -53,7 +53,7 @@ Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
 #endif
     hit = trace_closest(origin, t_min, direction, constants.max_range);
   // Only beams that meet the own body pay for looking at every triangle on their way.
-  if (exclude_body && hit.hit && scene_primitive(hit.primitive).body == constants.excluded_body)
+  if (exclude_body && hit.hit && scene_primitive(hit.primitive).owner == constants.excluded_body)
     hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body, no_facet,
                                alpha_mask);
   return hit;

@@ -23,7 +23,7 @@ const float infinite_range = 1e30;
 Hit next_hit(vec3 origin, vec3 direction, uint facet) {
   Hit hit = trace_leaving(origin, direction, infinite_range, facet);
   // Only rays that meet the own body pay for looking at every triangle on their way.
-  if (has_own_body && hit.hit && scene_primitive(hit.primitive).body == constants.source_body)
+  if (has_own_body && hit.hit && scene_primitive(hit.primitive).owner == constants.source_body)
     hit = trace_closest_except(origin, 0.0, direction, infinite_range, constants.source_body, facet, false);
   return hit;
 }
@@ -34,7 +34,7 @@ bool sees_receiver(vec3 start, uint facet) {
                         0.0, constants.receiver - start, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (primitive.body == constants.source_body || primitive.body == constants.receiver_body) continue;
+    if (primitive.owner == constants.source_body || primitive.owner == constants.receiver_body) continue;
     if (scene_facet(candidate_triangle(query, primitive)) != facet) rayQueryConfirmIntersectionEXT(query);
   }
   return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;

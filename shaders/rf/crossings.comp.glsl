@@ -96,7 +96,7 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
 /// Whether what is met at `at` along a ray, 0 to 1, ends the segment. Walls that do not are added, so is foliage.
 bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at, inout Walls walls,
            inout Depth depth) {
-  if (primitive.body == segment.body_a || primitive.body == segment.body_b) return false;
+  if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) return false;
   uint facet = scene_facet(triangle);
   if (facet == rf_none) return true;
   if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a || facet == segment.other_b)
@@ -159,7 +159,7 @@ bool ends_in_foliage(GpuSegment segment, vec3 direction) {
   if ((segment.walls & crossings_end_in_foliage) != 0u) return true;
   for (uint i = 0u; i < constants.foliage_boxes; ++i) {
     GpuFoliageBox box = foliage[i];
-    if (box.body == 0u || box.body == segment.body_a || box.body == segment.body_b) continue;
+    if (box.body == 0u || box.owner == segment.body_a || box.owner == segment.body_b) continue;
     vec2 inside = inside_box(box, segment.a, direction);
     if (inside.x <= inside.y && ((inside.x <= 0.0 && inside.y >= 0.0) || (inside.x <= 1.0 && inside.y >= 1.0)))
       return true;
@@ -172,7 +172,7 @@ vec2 line_through_foliage(GpuSegment segment, vec3 d) {
   vec2 part = vec2(0.0, 1.0);
   for (uint i = 0u; i < constants.foliage_boxes; ++i) {
     GpuFoliageBox box = foliage[i];
-    if (box.body != 0u && (box.body == segment.body_a || box.body == segment.body_b)) continue;
+    if (box.body != 0u && (box.owner == segment.body_a || box.owner == segment.body_b)) continue;
     vec2 inside = inside_box(box, segment.a, d);
     if (inside.x <= inside.y) part = vec2(min(part.x, inside.x), max(part.y, inside.y));
   }
@@ -185,7 +185,7 @@ Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
-    if (primitive.body == segment.body_a || primitive.body == segment.body_b) continue;
+    if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) continue;
     uint facet = scene_facet(candidate_triangle(query, primitive));
     if (facet == rf_none || planes[facet].kind != facet_kind_foliage) continue;
     add_crossing(depth, posed_plane(facet, primitive.body), ray.direction,

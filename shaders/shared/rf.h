@@ -71,6 +71,7 @@ struct GpuFacetPlane {
 struct GpuFoliageBox {
   vec3 low, high;
   uint body;
+  uint owner;  // as GpuPrimitive's
 };
 
 struct CrossingConstants {
@@ -94,6 +95,6 @@ GREATX_SHARED_END
 static_assert(sizeof(greatx::shared::CandidateConstants) == 28);
 static_assert(sizeof(greatx::shared::GpuSegment) == 56);
 static_assert(sizeof(greatx::shared::GpuFacetPlane) == 32);
-static_assert(sizeof(greatx::shared::GpuFoliageBox) == 28);
+static_assert(sizeof(greatx::shared::GpuFoliageBox) == 32);
 #endif
 #endif

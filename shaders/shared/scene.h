@@ -50,6 +50,7 @@ struct GpuPrimitive {
   uint instance;
   uint semantic_class;
   uint body;
+  uint owner;  ///< scene::Scene::owner_of(body): what a sensor that does not see its own body compares
 };
 
 /// Where a body is at this tick: rows of local_from_body, and of the tick before (for motion).
@@ -82,7 +83,7 @@ GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::GpuMaterial) == 60);
-static_assert(sizeof(greatx::shared::GpuPrimitive) == 24);
+static_assert(sizeof(greatx::shared::GpuPrimitive) == 28);
 static_assert(sizeof(greatx::shared::GpuBody) == 48);
 static_assert(sizeof(greatx::shared::GpuSceneAddresses) == 64);
 #endif

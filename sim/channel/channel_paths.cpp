@@ -87,12 +87,8 @@ void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
 
 ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
   Bodies bodies;
-  for (uint32_t node = 0; node < context.nodes.size(); ++node)
-    if (const uint32_t body = world_.body_of_node[node]; body != 0) {
-      Motion motion = context.nodes[node];
-      motion.pose = world_.scene.to_local(motion.pose);
-      bodies.emplace_back(body, motion);
-    }
+  for (uint32_t body = 1; body < world_.scene.bodies.size(); ++body)
+    bodies.emplace_back(body, context.body_motion_at(body, context.time_s));
   return bodies;
 }
 

@@ -19,8 +19,8 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, 
       world_(world),
       gpu_scene_(device, world.scene, options),
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
-      trajectories_(make_paths(scenario, instant.sequence)),
-      moment_(moment_at(world, trajectories_, Clock(scenario.tick_rate_hz), instant.tick)),
+      courses_(make_courses(scenario, world, instant.sequence)),
+      moment_(moment_at(world, courses_, Clock(scenario.tick_rate_hz), instant.tick)),
       crossings_(gpu_scene_, rf::facet_kinds(world.scene, radio_effects(plan, scenario))),
       radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)) {
   for (uint32_t t = 0; t < scenario.channels[channel].transmitters.size(); ++t)
@@ -35,8 +35,8 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, 
 }
 
 void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
-  trajectories_ = make_paths(scenario_, sequence);
-  moment_ = moment_at(world_, trajectories_, Clock(scenario_.tick_rate_hz), tick);
+  courses_ = make_courses(scenario_, world_, sequence);
+  moment_ = moment_at(world_, courses_, Clock(scenario_.tick_rate_hz), tick);
   started_ = false;  // as if a sequence began here
 }
 

@@ -72,7 +72,7 @@ class ChannelSnapshot {
   const World& world_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
-  std::vector<std::unique_ptr<Path>> trajectories_;
+  Courses courses_;
   Moment moment_;
   rf::CrossingPass crossings_;
   std::shared_ptr<RadioWorld> radio_;

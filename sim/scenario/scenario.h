@@ -23,6 +23,7 @@
 #include "rf/antenna/antenna.h"
 #include "sim/scenario/optics.h"
 #include "sim/scenario/rational.h"
+#include "sim/scenario/rotation.h"
 
 namespace greatx::sim {
 
@@ -146,12 +147,22 @@ struct SensorConfig {
   SourceLocation where;
 };
 
+/// Parts of a node's model that turn on it at a constant rate: rotors, wheels.
+struct PartConfig {
+  std::vector<std::string> nodes;  ///< the model's glTF nodes by name, '*', '?' and [] as in file names
+  dvec3 axis{0.0, 0.0, 1.0};    ///< through the glTF node's origin, in its own frame, z up; any length but 0
+  TurnRate rate;                ///< right-handed about the axis
+  std::optional<double> phase;  ///< rad, at tick 0; none: drawn for each glTF node and sequence
+  SourceLocation where;
+};
+
 struct NodeConfig {
   std::string name;
   Trajectory trajectory;
   std::optional<ModelSource> model;  ///< a mesh that follows the node
   Mount model_mount;                 ///< body_from_model
   dvec3 model_scale{1.0};
+  std::vector<PartConfig> parts;  ///< of the model
   std::optional<std::string> semantic_class;
   std::vector<SensorConfig> sensors;
   SourceLocation where;

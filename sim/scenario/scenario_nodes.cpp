@@ -12,6 +12,37 @@
 namespace greatx::sim {
 namespace {
 
+/// `rate_hz` or `rpm`; any ratio to the tick rate, as long as it can be reckoned with in integers.
+TurnRate parse_turn_rate(const FieldMap& map, const Rational& tick_rate_hz) {
+  map.exclude("rate_hz", "rpm");
+  const bool per_minute = map.has("rpm");
+  const Field field = per_minute ? *map.find("rpm") : map.require("rate_hz", "turns a second (or 'rpm')");
+  TurnRate rate = field.turn_rate("a rate other than 0 such as 90, -87.5 or 1000/7");
+  const auto hz = per_minute ? quotient(rate.hz, {60, 1}) : rate.hz;
+  if (!hz || !quotient(*hz, tick_rate_hz))
+    field.fail(
+        fmt::format("a rate whose ratio to the tick rate, {} Hz, fits 64-bit integers", tick_rate_hz.str()));
+  return {*hz, rate.negative};
+}
+
+PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
+  const FieldMap map(field, {"nodes", "axis", "rate_hz", "rpm", "phase_deg"});
+  PartConfig part;
+  part.where = field.where();
+  const Field nodes = map.require("nodes", "the name of a node of the model, or a list of such");
+  if (nodes.is_list())
+    for (const Field& item : nodes.list("names", 1)) part.nodes.push_back(item.text());
+  else
+    part.nodes.push_back(nodes.text());
+  if (const auto f = map.find("axis")) {
+    part.axis = f->vector3();
+    if (part.axis == dvec3(0.0)) f->fail("an axis other than [0, 0, 0]");
+  }
+  part.rate = parse_turn_rate(map, tick_rate_hz);
+  if (const auto f = map.find("phase_deg")) part.phase = radians(f->number());
+  return part;
+}
+
 NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rate_hz,
                       std::vector<NodeReference>& references, PatternFiles& patterns) {
   const FieldMap map(field, {"name", "trajectory", "model", "class", "sensors"});
@@ -22,11 +53,13 @@ NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rat
   if (node.name == "static") name.fail("a name other than 'static', which is the world that never moves");
   node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, references);
   if (const auto f = map.find("model")) {
-    const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale"});
+    const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale", "parts"});
     node.model = parse_model_source(model);
     if (const auto g = model.find("position_m")) node.model_mount.position_m = g->vector3();
     if (const auto g = model.find("rotation_deg")) node.model_mount.rotation = g->angles_deg();
     if (const auto g = model.find("scale")) node.model_scale = parse_scale(*g);
+    if (const auto g = model.find("parts"))
+      for (const Field& item : g->list("parts")) node.parts.push_back(parse_part(item, tick_rate_hz));
   }
   if (const auto f = map.find("class")) {
     node.semantic_class = parse_semantic_class(*f);

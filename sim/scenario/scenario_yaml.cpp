@@ -160,6 +160,15 @@ Rational Field::rational(const std::string& expected) const {
   return *value;
 }
 
+TurnRate Field::turn_rate(const std::string& expected) const {
+  std::string_view text = node_.IsScalar() ? std::string_view(node_.Scalar()) : std::string_view();
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  const auto size = Rational::parse(text);
+  if (!size) fail(expected);
+  return {*size, negative};
+}
+
 dvec3 Field::vector3() const {
   if (!node_.IsSequence() || node_.size() != 3) fail("a list of 3 numbers");
   const std::vector<Field> items = list("numbers");

@@ -20,6 +20,7 @@
 #include "core/error.h"
 #include "core/vec.h"
 #include "sim/scenario/rational.h"
+#include "sim/scenario/rotation.h"
 
 namespace greatx::sim {
 
@@ -50,6 +51,8 @@ class Field {
   uint32_t integer32(uint32_t low, uint32_t high) const { return static_cast<uint32_t>(integer(low, high)); }
   /// A positive rational number, from a number or a text such as 30000/1001; `expected` describes it.
   Rational rational(const std::string& expected) const;
+  /// The same with a sign, '-' or none.
+  TurnRate turn_rate(const std::string& expected) const;
   dvec3 vector3() const;
   dvec3 angles_deg() const;  ///< yaw, pitch, roll in degrees; returned in rad
   /// The index of the text in `choices`.

@@ -37,6 +37,14 @@ Pose optical_from_sensor() {
   return {dvec3(0.0), glm::quat_cast(glm::dmat3(dvec3(0, 0, 1), dvec3(-1, 0, 0), dvec3(0, -1, 0)))};
 }
 
+/// sensor_from_body. Positions by their difference from the eye, so that large coordinates cancel.
+Pose from_sensor(const Pose& local_from_sensor, uint32_t body, std::span<const Pose> bodies) {
+  const Pose local_from_body = body == 0 ? Pose{} : bodies[body],
+             sensor_from_local = local_from_sensor.inverse();
+  return {sensor_from_local.rotate(local_from_body.position - local_from_sensor.position),
+          glm::normalize(sensor_from_local.orientation * local_from_body.orientation)};
+}
+
 double area(const dvec4& rectangle) {
   return std::max(0.0, rectangle.z - rectangle.x) * std::max(0.0, rectangle.w - rectangle.y);
 }
@@ -136,8 +144,9 @@ Boxes::Boxes(const scene::Scene& scene, const render::CameraDesc& camera,
   for (uint32_t first = 0, end = 0; first < instances; first = end) {
     Object object;
     object.first_instance = first;
-    object.body = scene.instances[first].body;
-    for (end = first + 1; object.body != 0 && end < instances && scene.instances[end].body == object.body;)
+    object.body = scene.owner_of(scene.instances[first].body);
+    for (end = first + 1;
+         object.body != 0 && end < instances && scene.owner_of(scene.instances[end].body) == object.body;)
       ++end;
     object.instance_count = end - first;
     const std::span parts(primitives.begin() + first, end - first);
@@ -170,7 +179,10 @@ SemanticClass Boxes::class_of(std::span<const std::vector<uint32_t>> parts) cons
 void Boxes::add_geometry(Object& object, std::span<const std::vector<uint32_t>> parts) const {
   std::map<uint32_t, uint32_t> vertex_of;  // by the scene's
   for (const std::vector<uint32_t>& part : parts)
-    for (const uint32_t p : part)
+    for (const uint32_t p : part) {
+      const uint32_t body = scene_.instances[scene_.primitives[p].instance].body;
+      if (object.pieces.empty() || object.pieces.back().body != body)
+        object.pieces.push_back({body, static_cast<uint32_t>(object.vertices.size())});
       for (uint32_t i = 0; i < scene_.primitives[p].index_count; ++i) {
         const uint32_t vertex = scene_.indices[scene_.primitives[p].first_index + i];
         const auto [entry, is_new] =
@@ -178,13 +190,17 @@ void Boxes::add_geometry(Object& object, std::span<const std::vector<uint32_t>> 
         if (is_new) object.vertices.emplace_back(scene_.positions[vertex]);
         object.indices.push_back(entry->second);
       }
+    }
   if (object.vertices.empty()) return;
   if (object.body == 0) {
     object.body_from_box = upright_box(object.vertices, object.size);
     return;
   }
   scene::Bounds bounds;
-  for (const dvec3& vertex : object.vertices) bounds.add(vertex);
+  if (object.pieces.size() == 1 && object.pieces[0].body == object.body)
+    for (const dvec3& vertex : object.vertices) bounds.add(vertex);
+  else
+    bounds = scene_.reach_of(object.body);
   object.body_from_box.position = bounds.center();
   object.size = bounds.size();
 }
@@ -229,11 +245,19 @@ bool Boxes::outside(const Object& object, const Pose& optical_from_body) const {
   return beyond_all != 0;
 }
 
-void Boxes::project(const Object& object, const Pose& optical_from_body, ObjectBox& box) {
-  const glm::dmat3 turn = glm::mat3_cast(optical_from_body.orientation);
+void Boxes::place(const Object& object, const Pose& local_from_sensor, std::span<const Pose> bodies) {
   optical_.resize(object.vertices.size());
-  for (size_t i = 0; i < optical_.size(); ++i)
-    optical_[i] = turn * object.vertices[i] + optical_from_body.position;
+  for (size_t piece = 0; piece < object.pieces.size(); ++piece) {
+    const auto [body, first] = object.pieces[piece];
+    const size_t end =
+        piece + 1 < object.pieces.size() ? object.pieces[piece + 1].first_vertex : object.vertices.size();
+    const Pose optical_from_body = optical_from_sensor() * from_sensor(local_from_sensor, body, bodies);
+    const glm::dmat3 turn = glm::mat3_cast(optical_from_body.orientation);
+    for (size_t i = first; i < end; ++i) optical_[i] = turn * object.vertices[i] + optical_from_body.position;
+  }
+}
+
+void Boxes::project(const Object& object, ObjectBox& box) {
   const double near = projection_.near_m();
   const double infinity = std::numeric_limits<double>::infinity();
   box.unclipped = {infinity, infinity, -infinity, -infinity};
@@ -264,22 +288,19 @@ void Boxes::project(const Object& object, const Pose& optical_from_body, ObjectB
 std::vector<ObjectBox> Boxes::find(const Pose& local_from_sensor, std::span<const Pose> bodies,
                                    std::span<const uint32_t> instances) {
   count_seen(instances);
-  const Pose sensor_from_local = local_from_sensor.inverse();
   std::vector<ObjectBox> found;
   for (uint32_t i = 0; i < objects_.size(); ++i) {
     const Object& object = objects_[i];
     const Seen& seen = seen_[i];
     const Pose local_from_body = object.body == 0 ? Pose{} : bodies[object.body];
-    // Positions by their difference from the eye, so that large coordinates cancel.
-    const Pose sensor_from_body{
-        sensor_from_local.rotate(local_from_body.position - local_from_sensor.position),
-        glm::normalize(sensor_from_local.orientation * local_from_body.orientation)};
+    const Pose sensor_from_body = from_sensor(local_from_sensor, object.body, bodies);
     const Pose optical_from_body = optical_from_sensor() * sensor_from_body;
     if (seen.pixels == 0 && outside(object, optical_from_body)) continue;
     ObjectBox box;
     box.object = i;
     coverage_.clear();
-    project(object, optical_from_body, box);
+    place(object, local_from_sensor, bodies);
+    project(object, box);
     if (seen.pixels > 0) {
       box.visible = seen.pixels;
       for (size_t side = 0; side < 4; ++side) box.modal[side] = static_cast<int32_t>(seen.bounds[side]);

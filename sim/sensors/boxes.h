@@ -37,16 +37,22 @@ struct ObjectBox {
 
 class Boxes {
  public:
-  /// What gets a box: a moving body with all its instances, or an instance of the static world.
+  /// What gets a box: a moving body with all its instances and parts, or an instance of the static world. The box of a body
+  /// with parts that turn holds them however they are turned, so that its size does not change; rectangles and pixels are
+  /// those of the parts as they stand.
   struct Object {
     uint32_t first_instance = 0, instance_count = 1;
     scene::SemanticClass semantic_class = scene::SemanticClass::unlabeled;
     uint32_t body = 0;
     Pose body_from_box;
     dvec3 size{0.0};  ///< along the box's x, y, z
-    // Geometry as it is drawn, in the body's frame.
-    std::vector<dvec3> vertices;
+    // Geometry as it is drawn.
+    std::vector<dvec3> vertices;    ///< in the frame of their piece's body
     std::vector<uint32_t> indices;  ///< into vertices, three a triangle
+    struct Piece {
+      uint32_t body = 0, first_vertex = 0;
+    };
+    std::vector<Piece> pieces;  ///< vertices up to the next one's are of its body; the body's own first
   };
 
   /// Objects of `classes` (names); none given: of every class but ground, road, pavement, lane_marking, building, roof,
@@ -71,15 +77,17 @@ class Boxes {
   void add_geometry(Object& object, std::span<const std::vector<uint32_t>> parts) const;
   void count_seen(std::span<const uint32_t> instances);
   bool outside(const Object& object, const Pose& optical_from_body) const;
-  void project(const Object& object, const Pose& optical_from_body, ObjectBox& box);
+  /// Sets optical_.
+  void place(const Object& object, const Pose& local_from_sensor, std::span<const Pose> bodies);
+  void project(const Object& object, ObjectBox& box);
 
   const scene::Scene& scene_;
   Projection projection_;
   std::vector<Object> objects_;
   std::vector<uint32_t> object_of_id_;  ///< by instance + 1: object + 1; 0: none
   // Of the picture at hand.
-  std::vector<Seen> seen_;  ///< by object
-  std::vector<dvec3> optical_;
+  std::vector<Seen> seen_;      ///< by object
+  std::vector<dvec3> optical_;  ///< the object's vertices as the camera has them
   Coverage coverage_;
 };
 

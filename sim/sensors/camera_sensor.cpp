@@ -114,10 +114,9 @@ void CameraSensor::describe(const CameraConfig& config, size_t instances) {
 
 TruthMoment CameraSensor::next_sample(const TickContext& context) const {
   const int64_t next = times_.tick_of(times_.sample_at(context.tick) + 1);
-  std::vector<Motion> motions;
-  for (uint32_t node = 0; node < context.nodes.size(); ++node)
-    motions.push_back(context.motion_at(node, clock_.seconds(next)));
-  return {world_.scene.to_local(motions[node_].pose) * mount_, body_poses(world_, motions)};
+  const double time_s = clock_.seconds(next);
+  return {world_.scene.to_local(context.motion_at(node_, time_s).pose) * mount_,
+          context.body_poses_at(time_s)};
 }
 
 /// The instants of an exposure around the tick, evenly; the tick itself, whose depth and ids are the picture's, last.

@@ -196,6 +196,12 @@ std::vector<shared::EventMotion> EventSensor::motions(const TickContext& context
     const dvec3 there = m.velocity + glm::cross(m.angular_velocity, camera.position - m.pose.position);
     motions[body] = {optical(there - velocity), optical(m.angular_velocity - carrier.angular_velocity)};
   }
+  const dvec3 local = world_.scene.to_local(camera.position);
+  for (const Part& part : world_.parts) {
+    const Motion m = context.body_motion_at(part.body, time_s);
+    const dvec3 there = m.velocity + glm::cross(m.angular_velocity, local - m.pose.position);
+    motions[part.body] = {optical(there - velocity), optical(m.angular_velocity - carrier.angular_velocity)};
+  }
   return motions;
 }
 

@@ -37,6 +37,13 @@ struct TickContext {
   /// axes). Body 0 stands still at the identity. At time_s the poses are those of body_poses, to the bit.
   std::function<Motion(uint32_t body, double time_s)> body_motion_at;
   Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
+  /// Of all bodies.
+  std::vector<Pose> body_poses_at(double at_s) const {
+    if (at_s == time_s) return {body_poses.begin(), body_poses.end()};
+    std::vector<Pose> poses;
+    for (uint32_t body = 0; body < body_poses.size(); ++body) poses.push_back(body_pose_at(body, at_s));
+    return poses;
+  }
 };
 
 /// Figures of a run that show that the modalities see one world.

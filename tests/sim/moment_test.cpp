@@ -35,10 +35,10 @@ TEST(Moment, BodiesAtTheTicksOwnTimeAreThoseOfTheTickToTheBit) {
   const Scenario scenario = parse_scenario(three_nodes, "test.yaml", ".");
   const World world = load_world(scenario);
   ASSERT_EQ(world.scene.bodies.size(), 3u);
-  const auto paths = make_paths(scenario, 0);
+  const Courses courses = make_courses(scenario, world, 0);
   const Clock clock(scenario.tick_rate_hz);
   for (const int64_t tick : {0, 7, 39}) {
-    const Moment moment = moment_at(world, paths, clock, tick), other = moment_at(world, paths, clock, 3);
+    const Moment moment = moment_at(world, courses, clock, tick), other = moment_at(world, courses, clock, 3);
     for (uint32_t body = 0; body < world.scene.bodies.size(); ++body) {
       EXPECT_TRUE(same_bits(moment.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
       // Whatever tick asks.
@@ -50,12 +50,12 @@ TEST(Moment, BodiesAtTheTicksOwnTimeAreThoseOfTheTickToTheBit) {
 TEST(Moment, BodiesFollowTheirNodesBetweenTicks) {
   const Scenario scenario = parse_scenario(three_nodes, "test.yaml", ".");
   const World world = load_world(scenario);
-  const auto paths = make_paths(scenario, 0);
-  const Moment moment = moment_at(world, paths, Clock(scenario.tick_rate_hz), 10);
+  const Courses courses = make_courses(scenario, world, 0);
+  const Moment moment = moment_at(world, courses, Clock(scenario.tick_rate_hz), 10);
   EXPECT_TRUE(same_bits(moment.context.body_pose_at(0, 0.1234), Pose{}));
   for (const auto& [name, node] : {std::pair{"car", 1u}, {"uav", 3u}}) {
     const uint32_t body = world.scene.body_index(name);
-    const Motion there = paths[node]->at(0.1234), found = moment.context.body_motion_at(body, 0.1234);
+    const Motion there = courses.paths[node]->at(0.1234), found = moment.context.body_motion_at(body, 0.1234);
     EXPECT_EQ(found.pose.position, there.pose.position - dvec3(100, -20, 3)) << name;
     EXPECT_EQ(found.pose.orientation, there.pose.orientation) << name;
     EXPECT_EQ(found.velocity, there.velocity) << name;

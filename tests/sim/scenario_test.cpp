@@ -110,6 +110,16 @@ TEST(Scenario, EverythingMoves) {
   EXPECT_EQ(bus.center_line_m.size(), 3u);
   EXPECT_EQ(bus.width_m, 4.0);
   EXPECT_EQ(bus.legs, 8);
+  ASSERT_EQ(s.nodes[5].parts.size(), 2u);
+  const PartConfig &first = s.nodes[5].parts[0], &second = s.nodes[5].parts[1];
+  EXPECT_EQ(first.nodes, (std::vector<std::string>{"rotor_0", "rotor_2"}));
+  EXPECT_EQ(first.axis, dvec3(0, 0, 1));
+  EXPECT_EQ(first.rate.hz, (Rational{90, 1}));
+  EXPECT_FALSE(first.rate.negative || first.phase);
+  EXPECT_EQ(second.nodes, std::vector<std::string>{"rotor_[13]"});
+  EXPECT_EQ(second.rate.hz, (Rational{1000, 7}));
+  EXPECT_TRUE(second.rate.negative);
+  EXPECT_EQ(second.phase, radians(45.0));
 }
 
 TEST(Scenario, EverythingSenses) {

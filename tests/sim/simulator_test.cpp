@@ -81,6 +81,15 @@ TEST(Simulator, OneSubmissionATickAndWholePackets) {
   }
 }
 
+TEST(HardCase, N64_WithoutASensorNothingIsDueAndNothingComes) {
+  const KeptRun r = keep_run(head + "nodes:\n" + uav("", uav_model));
+  EXPECT_EQ(r.statistics.ticks, 0);
+  EXPECT_EQ(r.counters.submits, 0u);
+  EXPECT_TRUE(r.packets.empty());
+  EXPECT_EQ(r.statistics.consistency.depth.count(), 0u);
+  EXPECT_EQ(r.statistics.consistency.line_of_sight.count(), 0u);
+}
+
 TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
   std::string yaml = head + city + "nodes:\n" + uav(camera + lidar);
   yaml.replace(yaml.find("ticks: 3"), 8, "ticks: 9");
