@@ -3,7 +3,7 @@
 //
 // How a radar's frame is made, stage by stage (data flows one way):
 //
-//   rays over the field of view ─► EchoPass (GPU): hits, bounce by bounce, of every ray tube
+//   rays over the field of view ─► EchoPass (GPU; EchoTracer where that is a CPU): hits, bounce by bounce, of every ray tube
 //     ─► physical optics of each tube (fp64, host): what it sends back to the receiver
 //     ─► Echo list: tubes merged into scatterers                              ── library radar_echoes ends here
 //     ─► beat signal, cube [rx, tx, chirp, sample] ─► noise                   ── library radar: needs no device

@@ -180,8 +180,13 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
       monostatic_(!receiver.has_value()),
       options_((check(options), options)),
       world_(scene.scene()),
-      trees_(scene.scene()),
-      pass_(scene, options.max_bounces, monostatic_, transmitter.own_body != 0) {}
+      trees_(scene.scene()) {
+  const bool on_cpu = scene.device().info().type == "cpu";
+  if (options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu))
+    tracer_.emplace(scene.scene(), trees_);
+  else
+    pass_.emplace(scene, options.max_bounces, monostatic_, transmitter.own_body != 0);
+}
 
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
   const scene::Scene& scene = scene_->scene();
@@ -207,10 +212,10 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
   pending.transmitter = transmitter, pending.receiver = receiver;
   pending.body_poses.assign(body_poses.begin(), body_poses.end());
   pending.grid = std::make_shared<const RayGrid>(options_, transmitter, targets(body_poses));
+  if (!pass_) return pending;
   std::vector<vec3> directions(pending.grid->size());
   for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
-  EchoRays rays{transmitter.position, receiver.position, transmitter_.own_body, receiver_.own_body};
-  pending.rays = pass_.record(slot, rays, directions);
+  pending.rays = pass_->record(slot, rays_of(pending), directions);
   return pending;
 }
 
@@ -243,17 +248,23 @@ void EchoFinder::check_antenna(const Pending& pending, std::span<const uint32_t>
 EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {
   const scene::Scene& scene = scene_->scene();
   pose_world(pending.body_poses);
-  const std::span<const uint32_t> words = pass_.collect(pending.rays);
-  check_antenna(pending, words);
   const TurnedElement transmitter = turned(transmitter_, pending.transmitter);
   const TurnedElement receiver = turned(receiver_, pending.receiver);
   const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
+  const auto reflects = [&](uint32_t facet) { return field.reflects(facet); };
+  EchoTracer::Answer traced;
+  if (tracer_)
+    traced = tracer_->trace(world_, rays_of(pending), *pending.grid, options_.max_bounces, monostatic_,
+                            reflects, options_.threads);
+  const std::span<const uint32_t> words = tracer_ ? traced.words : pass_->collect(pending.rays);
+  const bool direct = tracer_ ? traced.direct : pass_->direct(pending.rays);
+  check_antenna(pending, words);
   RayHits hits(words, pending.grid->size());
   if (monostatic_) hits.find_seen(*pending.grid, world_, pending.transmitter.position, options_.threads);
   const dvec3& source = pending.transmitter.position;
   RawEchoes raw =
       TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
-  if (!monostatic_ && pass_.direct(pending.rays)) {
+  if (!monostatic_ && direct) {
     const dvec3 arm = pending.receiver.position - source;
     const double length = glm::length(arm);
     raw.echoes.push_back({field.direct(source), arm / length, -arm / length, source, length, 0, 0});

@@ -6,7 +6,8 @@
 // shaped cavity", IEEE Trans. Antennas Propag. 37(2), 1989).
 //
 //   record   RayGrid: tubes over the field of view, finer where targets are ─► EchoPass: what each ray meets (GPU)
-//   collect  TubeEchoes: fields and phase integrals of every tube, fp64 ─► merge ─► delay tracks ─► EchoList
+//   collect  (EchoTracer: the same on the host, where the device is a CPU)
+//            TubeEchoes: fields and phase integrals of every tube, fp64 ─► merge ─► delay tracks ─► EchoList
 #pragma once
 
 #include <memory>
@@ -17,6 +18,7 @@
 #include "rf/radar/echo.h"
 #include "rf/radar/echo_options.h"
 #include "rf/radar/echo_pass.h"
+#include "rf/radar/echo_tracer.h"
 #include "rf/radar/facet_trees.h"
 #include "rf/radar/ray_grid.h"
 #include "rf/surfaces.h"
@@ -36,7 +38,7 @@ class EchoFinder {
     std::shared_ptr<const RayGrid> grid;
     Pose transmitter, receiver;
     std::vector<Pose> body_poses;
-    EchoPass::Pending rays;
+    EchoPass::Pending rays;  ///< nothing if the host traces
   };
 
   /// Records the rays among the scene as scene.record_update(slot, body_poses) left it. Poses in local coordinates.
@@ -59,6 +61,10 @@ class EchoFinder {
 
  private:
   std::vector<TargetBox> targets(std::span<const Pose> body_poses) const;
+  EchoRays rays_of(const Pending& pending) const {
+    return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
+            receiver_.own_body};
+  }
   void pose_world(std::span<const Pose> body_poses);
   void check_antenna(const Pending& pending, std::span<const uint32_t> hits) const;
 
@@ -69,7 +75,8 @@ class EchoFinder {
   EchoOptions options_;
   FacetWorld world_;
   FacetTrees trees_;
-  EchoPass pass_;
+  std::optional<EchoPass> pass_;  ///< one of the two
+  std::optional<EchoTracer> tracer_;
 };
 
 }  // namespace greatx::rf

@@ -20,6 +20,13 @@ struct FieldOfView {
   double elevation_min = -0.26179938779914946, elevation_max = 0.26179938779914946;  ///< rad, towards +z
 };
 
+/// Who traces the rays. Both meet the same facets but where a ray passes within roundings of an edge.
+enum class EchoTracing : uint8_t {
+  automatic,  ///< the device, if it is no CPU
+  device,     ///< EchoPass
+  host        ///< EchoTracer
+};
+
 struct EchoOptions {
   FieldOfView field_of_view;
   uint32_t tubes = 30000;    ///< of the field of view, before subdivision
@@ -51,6 +58,7 @@ struct EchoOptions {
   double beam_rad = 0.1;
   uint32_t max_echoes = 1u << 16;  ///< the strongest are kept; the rest is counted
 
+  EchoTracing tracing = EchoTracing::automatic;
   uint32_t threads = 0;  ///< 0: as many as there are cores; the echoes do not depend on it
 };
 

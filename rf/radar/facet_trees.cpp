@@ -139,7 +139,7 @@ void FacetTrees::split(uint32_t node) {
 
 std::span<const dvec3> FacetTrees::corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
                                            std::array<dvec3, most_corners>& room) const {
-  const std::span<const dvec3> own = std::span(corners_).subspan(pieces_[piece].first, pieces_[piece].count);
+  const std::span<const dvec3> own = corners(piece);
   const uint32_t body = world.facet(facet).body;
   if (body == 0) return own;
   const Pose& pose = world.motion(body).pose;

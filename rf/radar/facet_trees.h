@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,13 @@ class FacetTrees {
   /// Indices of pieces, ascending, whose boxes are not wholly outside of one of the half-spaces (local coordinates).
   void find(const FacetWorld& world, uint32_t facet, std::span<const KeptSide> spaces,
             std::vector<uint32_t>& pieces) const;
+  /// All pieces of a facet, and the corners of one in the frame of its body, counter-clockwise about the normal.
+  std::ranges::iota_view<uint32_t, uint32_t> pieces(uint32_t facet) const {
+    return {first_piece_[facet], first_piece_[facet + 1]};
+  }
+  std::span<const dvec3> corners(uint32_t piece) const {
+    return std::span(corners_).subspan(pieces_[piece].first, pieces_[piece].count);
+  }
   /// Corners of a piece in local coordinates, in `room` unless its body is the static one.
   std::span<const dvec3> corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
                                  std::array<dvec3, most_corners>& room) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Echoes in scenes: ghosts, what stands in the way, motion, merging, and what is refused.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -216,6 +218,32 @@ TEST(RadarEchoScene, HardCase7FarFromTheOriginNothingChanges) {
   const EchoOptions options = sector(10.0, 10.0, 500);
   const Complex a = field_of(near.find(options, Pose{})), b = field_of(far.find(options, Pose{}));
   EXPECT_LT(std::abs(a - b), 1e-5 * std::abs(a));
+}
+
+TEST(RadarEchoScene, DeviceAndHostMeetTheSame) {
+  EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
+  EchoOptions options = sector(60.0, 8.0, 4000);
+  options.targets = {1};
+  const Pose radar{{0.013, -0.021, 0.017}};  // in no plane of symmetry: no ray along an edge
+  const std::vector<std::optional<Pose>> receivers{std::nullopt, Pose{{2, 3, 1}}};
+  for (const std::optional<Pose>& receiver : receivers) {
+    options.tracing = EchoTracing::device;
+    const EchoList device = scene.find(options, radar, receiver);
+    options.tracing = EchoTracing::host;
+    const EchoList host = scene.find(options, radar, receiver);
+    ASSERT_GT(device.echoes.size(), 10u);
+    EXPECT_NEAR(double(host.echoes.size()), double(device.echoes.size()),
+                0.002 * double(device.echoes.size()));
+    for (const uint32_t bounces : {1u, 2u, 3u})
+      EXPECT_LT(std::abs(field_of(host, bounces) - field_of(device, bounces)),
+                1e-4 * std::abs(field_of(device, bounces)))
+          << bounces << " bounces";
+    const auto direct = [](const EchoList& list) {
+      return std::count_if(list.echoes.begin(), list.echoes.end(),
+                           [](const Echo& e) { return e.bounces == 0; });
+    };
+    EXPECT_EQ(direct(host), direct(device));
+  }
 }
 
 TEST(RadarEchoScene, HardCase63ThreadsChangeNoByte) {
