@@ -69,9 +69,9 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       source_(source),
       monostatic_(monostatic),
       options_(options),
-      bounces_(hits.bounces()),
-      // sigma = 4 pi |value|^2 / lambda^2
-      floor_m2_(std::sqrt(options.border_floor_m2 * pi) / field.wavenumber()) {
+      bounces_(hits.bounces()) {
+  // sigma = 4 pi |value|^2 / lambda^2
+  limits_.floor = std::sqrt(options.border_floor_m2 * pi) / field.wavenumber();
   GREATX_CHECK(bounces_ <= most_bounces, "{} bounces", bounces_);
   whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
   parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
@@ -258,12 +258,9 @@ void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint3
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return;
   job.contributions.clear();
-  integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece, 0, job.contributions);
+  job.out->below_floor += integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece, 0,
+                                    job.contributions, limits_);
   for (const Contribution& c : job.contributions) {
-    if (c.border && std::norm(c.value) < floor_m2_ * floor_m2_) {
-      ++job.out->below_floor;
-      continue;
-    }
     const dvec3 point = point_of(posed, c.at), way = image - point;
     const double before = glm::distance(point, beam.source), after = glm::length(way);
     const double share = -wall.distance(point) / glm::dot(wall.normal, way);
@@ -299,13 +296,8 @@ void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint3
   job.contributions.clear();
   const PhasePlane plane = phase_plane(posed, beam.source, field_.receiver_at(), field_.wavenumber());
   const uint32_t omitted = omitted_sides(job, bounce, posed, piece, whole);
-  integrate(plane, piece, omitted, job.contributions);
-  for (const Contribution& c : job.contributions) {
-    if (c.border && std::norm(c.value) < floor_m2_ * floor_m2_)
-      ++job.out->below_floor;
-    else
-      add(job, bounce, posed, c.at, c.value);
-  }
+  job.out->below_floor += integrate(plane, piece, omitted, job.contributions, limits_);
+  for (const Contribution& c : job.contributions) add(job, bounce, posed, c.at, c.value);
   if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
 }
 

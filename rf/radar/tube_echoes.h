@@ -89,7 +89,7 @@ class TubeEchoes {
   bool monostatic_;
   const EchoOptions& options_;
   uint32_t bounces_;
-  double floor_m2_;           ///< |value| of a contribution
+  IntegralLimits limits_;
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 

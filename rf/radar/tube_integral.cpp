@@ -62,22 +62,53 @@ Complex border_density(const PhasePlane& plane, const dvec2& p, const dvec2& nor
   return -j * (glm::dot(g, normal) / squared) * (1.0 + j * divergence);
 }
 
+/// The border of one piece being worked out.
+struct Border {
+  const PhasePlane& plane;
+  const IntegralLimits& limits;
+  double most_bend = 0.0;  ///< bound of the curvature on the piece
+  std::vector<Contribution>& out;
+  uint64_t below = 0;
+
+  void add(const dvec2& at, Complex value) {
+    if (std::norm(value) < limits.floor * limits.floor)
+      ++below;
+    else
+      out.push_back({at, value, true});
+  }
+  /// Whether both ends of a side are far from stationary and below the floor, without working them out: |density| is at most
+  /// (1 + 3 bend/gradient^2)/gradient, what an end makes of it that times (1 + bend/slope^2)/slope.
+  bool faint(double slope, double gradient, double length) const {
+    const double squared = slope * slope;
+    if (!(limits.floor > 0.0 && squared > limits.stationary * most_bend && slope * length > pi)) return false;
+    const double most = (1.0 + 3.0 * most_bend / (gradient * gradient)) * (1.0 + most_bend / squared);
+    return most < limits.floor * gradient * slope;
+  }
+};
+
 /// One side from a to b, along the unit vector `along`.
-void add_side(const PhasePlane& plane, const dvec2& a, const dvec2& b, const dvec2& along,
-              const IntegralLimits& limits, int depth, std::vector<Contribution>& out) {
+void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along, int depth) {
+  const PhasePlane& plane = border.plane;
+  const IntegralLimits& limits = border.limits;
   const dvec2 normal(along.y, -along.x), middle = 0.5 * (a + b);
   const double length = glm::dot(b - a, along);
-  const double slope_a = glm::dot(plane.gradient(a), along), slope_b = glm::dot(plane.gradient(b), along);
+  const dvec2 gradient_a = plane.gradient(a), gradient_b = plane.gradient(b);
+  const double slope_a = glm::dot(gradient_a, along), slope_b = glm::dot(gradient_b, along);
+  const double slope = std::min(std::abs(slope_a), std::abs(slope_b));
+  const bool turns = slope_a * slope_b <= 0.0;  // the phase has an extremum on the way
+  const double gradient =
+      std::sqrt(std::min(glm::dot(gradient_a, gradient_a), glm::dot(gradient_b, gradient_b)));
+  if (!turns && border.faint(slope, gradient, length)) {
+    border.below += 2;
+    return;
+  }
   const double bend_a = quadratic(plane.curvature(a), along), bend_b = quadratic(plane.curvature(b), along);
   const double bend_middle = quadratic(plane.curvature(middle), along);
   const double bend = std::max({std::abs(bend_a), std::abs(bend_b), std::abs(bend_middle)});
-  const double slope = std::min(std::abs(slope_a), std::abs(slope_b));
-  const bool turns = slope_a * slope_b <= 0.0;  // the phase has an extremum on the way
   if (!turns && slope * slope > limits.stationary * bend && slope * length > pi) {
     // [e^{j phase}/(j slope) (1 - j bend/slope^2)] from a to b: the first correction of integration by parts.
     const auto end = [&](const dvec2& p, double s, double c, double sign) {
-      out.push_back(
-          {p, sign * border_density(plane, p, normal) * (-j / s) * (1.0 - j * (c / (s * s))), true});
+      border.add(p, sign * border_density(plane, p, normal) * (-j / s) * (1.0 - j * (c / (s * s))));
     };
     end(b, slope_b, bend_b, 1.0);
     end(a, slope_a, bend_a, -1.0);
@@ -88,24 +119,25 @@ void add_side(const PhasePlane& plane, const dvec2& a, const dvec2& b, const dve
     const double phase_b = -plane.wavenumber * (plane.length(b) - plane.length(middle));
     // Over the chord of the phase, plus the mean of what the phase leaves above the chord.
     const double chord = 0.5 * (phase_a + phase_b), mean = chord - (2.0 / 3.0) * chord;
-    out.push_back(
-        {middle,
-         border_density(plane, middle, normal) * length * sinc(0.5 * (phase_b - phase_a)) * turned(mean),
-         true});
+    border.add(middle, border_density(plane, middle, normal) * length * sinc(0.5 * (phase_b - phase_a)) *
+                           turned(mean));
     return;
   }
-  add_side(plane, a, middle, along, limits, depth - 1, out);
-  add_side(plane, middle, b, along, limits, depth - 1, out);
+  add_side(border, a, middle, along, depth - 1);
+  add_side(border, middle, b, along, depth - 1);
 }
 
-void add_border(const PhasePlane& plane, const Polygon& piece, uint32_t omitted, const IntegralLimits& limits,
-                std::vector<Contribution>& out) {
+uint64_t add_border(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
+                    const IntegralLimits& limits, std::vector<Contribution>& out) {
+  const dvec2 centroid = piece.centroid();
+  Border border{plane, limits, plane.curvature_bound(centroid, reach_of(piece, centroid)), out};
   for (uint32_t i = 0; i < piece.size(); ++i) {
     if ((omitted >> i) & 1u) continue;
     const dvec2 side = piece.next(i) - piece[i];
     const double length = glm::length(side);
-    if (length > 0.0) add_side(plane, piece[i], piece.next(i), side / length, limits, 24, out);
+    if (length > 0.0) add_side(border, piece[i], piece.next(i), side / length, 24);
   }
+  return border.below;
 }
 
 /// Halves across the direction of the farthest corner. Sides keep their mark.
@@ -141,15 +173,18 @@ Halves halves_of(const Polygon& piece, uint32_t omitted) {
   return halves;
 }
 
-void integrate_piece(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
-                     const IntegralLimits& limits, int depth, std::vector<Contribution>& out) {
-  if (piece.empty()) return;
+uint64_t integrate_piece(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
+                         const IntegralLimits& limits, int depth, std::vector<Contribution>& out) {
+  if (piece.empty()) return 0;
   const IntegralForm form = depth == 0 ? IntegralForm::area : integral_form(plane, piece, limits);
-  if (form == IntegralForm::area) return add_area(plane, piece, out);
+  if (form == IntegralForm::area) {
+    add_area(plane, piece, out);
+    return 0;
+  }
   if (form == IntegralForm::border) return add_border(plane, piece, omitted, limits, out);
   const Halves halves = halves_of(piece, omitted);
-  integrate_piece(plane, halves.first, halves.omitted_first, limits, depth - 1, out);
-  integrate_piece(plane, halves.second, halves.omitted_second, limits, depth - 1, out);
+  const uint64_t below = integrate_piece(plane, halves.first, halves.omitted_first, limits, depth - 1, out);
+  return below + integrate_piece(plane, halves.second, halves.omitted_second, limits, depth - 1, out);
 }
 
 }  // namespace
@@ -194,9 +229,9 @@ IntegralForm integral_form(const PhasePlane& plane, const Polygon& piece, const 
   return IntegralForm::split;
 }
 
-void integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
-               std::vector<Contribution>& out, const IntegralLimits& limits) {
-  integrate_piece(plane, piece, omitted, limits, 40, out);
+uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
+                   std::vector<Contribution>& out, const IntegralLimits& limits) {
+  return integrate_piece(plane, piece, omitted, limits, 40, out);
 }
 
 Complex linear_phase_integral(const Polygon& piece, const dvec2& centroid, const dvec2& gradient) {

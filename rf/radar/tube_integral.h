@@ -48,15 +48,17 @@ struct Contribution {
 struct IntegralLimits {
   double bend = 0.1;         ///< rad
   double stationary = 20.0;  ///< gradient^2 over curvature from which a piece counts as far from stationary
+  double floor = 0.0;        ///< of a border's contribution, m^2
 };
 
 enum class IntegralForm : uint8_t { area, border, split };
 IntegralForm integral_form(const PhasePlane& plane, const Polygon& piece, const IntegralLimits& limits = {});
 
 /// Appends the contributions. `omitted`: bit i set: side i of the piece is left out of the border form (its other side is
-/// known to cancel it, or it is no edge but where the field of view ends).
-void integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
-               std::vector<Contribution>& out, const IntegralLimits& limits = {});
+/// known to cancel it, or it is no edge but where the field of view ends). Contributions of the border that are smaller than
+/// `limits.floor` are not appended; returns how many there were.
+uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
+                   std::vector<Contribution>& out, const IntegralLimits& limits = {});
 
 /// Gordon's integral of e^{j gradient . (x - centroid)} over a polygon.
 Complex linear_phase_integral(const Polygon& piece, const dvec2& centroid, const dvec2& gradient);
