@@ -188,4 +188,36 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const K
   std::sort(pieces.begin(), pieces.end());
 }
 
+bool FacetTrees::contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const {
+  const PosedFacet& posed = world.facet(facet);
+  if (root_[facet] == no_tree) return world.contains(facet, posed.plane_coordinates(point));
+  const Pose pose = posed.body == 0 ? Pose{} : world.motion(posed.body).pose.inverse();
+  const dvec3 at = pose.apply(point), normal = pose.rotate(posed.normal);
+  const auto inside = [&](uint32_t piece) {
+    const std::span<const dvec3> outline = corners(piece);
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const dvec3 side = outline[i + 1 < outline.size() ? i + 1 : 0] - outline[i];
+      if (glm::dot(normal, glm::cross(side, at - outline[i])) < -1e-9 * glm::dot(side, side)) return false;
+    }
+    return true;
+  };
+  std::array<uint32_t, 64> stack;
+  uint32_t depth = 0;
+  stack[depth++] = root_[facet];
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    // Boxes of a plane may be flat: a point of the plane is off it by roundings.
+    const dvec3 off = glm::abs(at - node.center) - node.half;
+    if (std::max({off.x, off.y, off.z}) > 1e-5) continue;
+    if (node.left != 0) {
+      stack[depth++] = node.left;
+      stack[depth++] = node.left + 1;
+      continue;
+    }
+    for (uint32_t i = 0; i < node.count; ++i)
+      if (inside(order_[node.first + i])) return true;
+  }
+  return false;
+}
+
 }  // namespace greatx::rf

@@ -42,6 +42,8 @@ class FacetTrees {
   /// Corners of a piece in local coordinates, in `room` unless its body is the static one.
   std::span<const dvec3> corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
                                  std::array<dvec3, most_corners>& room) const;
+  /// FacetWorld::contains for a point in local coordinates, by the tree if there is one: 1e-9 of a side beyond it is inside.
+  bool contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const;
 
  private:
   static constexpr uint32_t no_tree = ~0u, leaf_size = 4, small_facet = 8;

@@ -121,6 +121,9 @@ RawEchoes TubeEchoes::find() const {
     for (uint32_t tube = first; tube < last; ++tube) solve(tube, job);
   });
   RawEchoes all;
+  size_t echoes = 0, chains = 0;
+  for (const RawEchoes& part : found) echoes += part.echoes.size(), chains += part.chains.size();
+  all.echoes.reserve(echoes + 1), all.chains.reserve(chains);
   for (RawEchoes& part : found) {
     const uint32_t shift = static_cast<uint32_t>(all.chains.size());
     all.below_floor += part.below_floor;
@@ -265,7 +268,7 @@ void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint3
     const double before = glm::distance(point, beam.source), after = glm::length(way);
     const double share = -wall.distance(point) / glm::dot(wall.normal, way);
     const dvec3 over = point + share * way;
-    if (!(share > 0.0 && share < 1.0) || !world_.contains(mirror, wall.plane_coordinates(over))) continue;
+    if (!(share > 0.0 && share < 1.0) || !trees_.contains(world_, mirror, over)) continue;
     const dvec3 departure = glm::normalize(job.beams[0].along(beam.uv(point)));
     const Complex amplitude =
         c.value * field_.density({departure, before, point, std::span(job.chain.data(), bounce), mirror});
