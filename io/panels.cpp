@@ -18,8 +18,8 @@ struct Maker {
 };
 constexpr Maker makers[] = {
     {"camera", true, add_camera_panels}, {"event_camera", true, add_event_panels},
-    {"lidar", true, add_lidar_panels},   {"csi", false, add_csi_panels},
-    {"pose", false, add_pose_panels},
+    {"lidar", true, add_lidar_panels},   {"radar", true, add_radar_panels},
+    {"csi", false, add_csi_panels},      {"pose", false, add_pose_panels},
 };
 
 /// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.

@@ -59,10 +59,12 @@ void add_panels(const PanelSource& source, Panels& panels);
 /// Whether sensors of the kind are drawn moment by moment.
 bool has_frame_panels(std::string_view kind);
 
-// The makers, one for each kind (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp, csi_panels.cpp, pose_panel.cpp).
+// The makers, one for each kind (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp, radar_panels.cpp,
+// csi_panels.cpp, pose_panel.cpp).
 void add_camera_panels(const PanelSource& source, Panels& panels);
 void add_event_panels(const PanelSource& source, Panels& panels);
 void add_lidar_panels(const PanelSource& source, Panels& panels);
+void add_radar_panels(const PanelSource& source, Panels& panels);
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
 

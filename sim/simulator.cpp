@@ -14,6 +14,7 @@
 #include "sim/sensors/event_sensor.h"
 #include "sim/sensors/lidar_sensor.h"
 #include "sim/sensors/pose_sensor.h"
+#include "sim/sensors/radar_sensor.h"
 
 namespace greatx::sim {
 
@@ -76,6 +77,8 @@ void Simulator::add_sensors() {
         add(std::make_unique<EventSensor>(*passes_->stage, scenario_, node, i), configs[i].rate_hz);
       else if (std::holds_alternative<LidarConfig>(configs[i].config))
         add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
+      else if (std::holds_alternative<RadarConfig>(configs[i].config))
+        add(std::make_unique<RadarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
     }
   }
   for (uint32_t i = 0; i < scenario_.channels.size(); ++i)

@@ -44,17 +44,29 @@ bool never_moves(const NodeConfig& node) {
   return std::holds_alternative<StaticTrajectory>(node.trajectory) && node.parts.empty();
 }
 
-/// A material without a row at the carrier is an error of the scenario, before anything runs.
+/// A material without a row at a carrier is an error of the scenario, before anything runs.
 void check_radio(const Scenario& scenario, const scene::Scene& scene) {
+  const auto check = [&](double carrier_hz, const SourceLocation& where, const std::string& field,
+                         const std::string& what) {
+    try {
+      const rf::RadioSurfaces surfaces(scene, carrier_hz);
+    } catch (const UserError& error) {
+      throw_user_error_at(where, "{}: {}: {}", field, what, error.what());
+    }
+  };
   for (size_t i = 0; i < scenario.channels.size(); ++i) {
     const ChannelConfig& channel = scenario.channels[i];
-    try {
-      const rf::RadioSurfaces surfaces(scene, channel.carrier_hz);
-    } catch (const UserError& error) {
-      throw_user_error_at(channel.where, "channels[{}].carrier_hz: channel '{}': {}", i, channel.name,
-                          error.what());
-    }
+    check(channel.carrier_hz, channel.where, fmt::format("channels[{}].carrier_hz", i),
+          fmt::format("channel '{}'", channel.name));
   }
+  for (size_t n = 0; n < scenario.nodes.size(); ++n)
+    for (size_t s = 0; s < scenario.nodes[n].sensors.size(); ++s) {
+      const SensorConfig& sensor = scenario.nodes[n].sensors[s];
+      if (const auto* radar = std::get_if<RadarConfig>(&sensor.config))
+        check(radar->signal.waveform.carrier_hz, sensor.where,
+              fmt::format("nodes[{}].sensors[{}].waveform.carrier_hz", n, s),
+              fmt::format("radar '{}'", sensor.name));
+    }
 }
 
 /// Who carries each body, and which part it is; `parts` have their names, and nodes their bodies.
@@ -80,6 +92,14 @@ World load_world(const Scenario& scenario) {
                         "channel '{}': scene.optical_only says that materials may lack radio properties; "
                         "expected false in a scenario with channels",
                         scenario.channels[0].name);
+  if (scenario.scene.optical_only)
+    for (const NodeConfig& node : scenario.nodes)
+      for (const SensorConfig& sensor : node.sensors)
+        if (std::holds_alternative<RadarConfig>(sensor.config))
+          throw_user_error_at(sensor.where,
+                              "radar '{}': scene.optical_only says that materials may lack radio properties; "
+                              "expected false in a scenario with radars",
+                              sensor.name);
   World world;
   std::deque<scene::Model> models;  // placements point at them
   std::vector<scene::Placement> placements;

@@ -17,14 +17,14 @@ const char* const concrete_wall =
 const char* const concrete_ground =
     R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1})";
 const char* const brick_wall =
-    R"({"itu":"brick","thickness_m":0.3,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+    R"({"itu":"brick","extrapolate":true,"thickness_m":0.3,"scattering_coefficient":0.3,"cross_polarization":0.1})";
 // Double glazing, outer pane first.
 const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
                             R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.016},)"
                             R"({"itu":"glass","thickness_m":0.006}],"scattering_coefficient":0.05})";
 const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
 const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
-const char* const asphalt_ground = R"({"itu":"asphalt_concrete","scattering_coefficient":0.2})";
+const char* const asphalt_ground = R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
 // The table's row for soil ends at 10 GHz; its formula is carried on above that, and the file says so.
 const char* const soil =
     R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
@@ -41,7 +41,7 @@ const char* const carbon_fibre =
 // Fresh water near 20 C at a few GHz; not frequency-dependent as Debye's model would be.
 const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5})";
 const char* const clay_tiles =
-    R"({"itu":"brick","thickness_m":0.03,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+    R"({"itu":"brick","extrapolate":true,"thickness_m":0.03,"scattering_coefficient":0.3,"cross_polarization":0.1})";
 
 std::vector<MaterialSpec> make_library() {
   const dvec2 facade(3.0 * facade_bays, 6.4);

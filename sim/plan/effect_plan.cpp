@@ -12,16 +12,17 @@
 #include "sim/plan/camera_plan.h"
 #include "sim/plan/effect_planner.h"
 #include "sim/plan/lidar_plan.h"
+#include "sim/plan/radar_plan.h"
 
 namespace greatx::sim {
 
 namespace {
 
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
-  const bool rays = plan.lidar.on || plan.channel.on || plan.consistency.on;
+  const bool rays = plan.lidar.on || plan.radar.on || plan.channel.on || plan.consistency.on;
   plan.acceleration_structure =
       planner.fixed("acceleration_structure", rays,
-                    rays ? "LiDAR, radio or the consistency check trace rays" : "nothing traces rays");
+                    rays ? "LiDAR, radar, radio or the consistency check trace rays" : "nothing traces rays");
   plan.scene_motion =
       planner.fixed("scene_motion", offers.moving_triangles,
                     offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
@@ -73,6 +74,12 @@ std::vector<Effect*> EffectPlan::all() {
           &lidar_backscatter,
           &lidar_detection,
           &lidar_range_noise,
+          &radar,
+          &radar_roughness,
+          &radar_clutter,
+          &radar_noise,
+          &radar_phase_noise,
+          &radar_quantisation,
           &channel,
           &line_of_sight,
           &reflection,
@@ -105,6 +112,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene)
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);
   plan_lidar(plan, planner, scenario, scene, offers);
+  plan_radar(plan, planner, scenario, scene);
   plan_radio(plan, planner, scenario, scene);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
   plan.consistency = planner.decide(

@@ -34,6 +34,8 @@ struct EffectPlan {
   // LiDAR.
   Effect lidar, lidar_alpha_mask, lidar_textures, lidar_sweep_motion, lidar_target_motion, lidar_divergence,
       lidar_glass, lidar_haze, lidar_backscatter, lidar_detection, lidar_range_noise;
+  // Radar.
+  Effect radar, radar_roughness, radar_clutter, radar_noise, radar_phase_noise, radar_quantisation;
   // Radio.
   Effect channel, line_of_sight, reflection, moving_reflectors, transmission, diffraction,
       diffraction_lit_region, free_edges, scattering, roughness, gas, rain, fog, foliage, dispersion, doppler,

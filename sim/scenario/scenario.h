@@ -20,8 +20,9 @@
 #include "core/vec.h"
 #include "renderer/lidar/returns.h"
 #include "renderer/lidar/scan_pattern.h"
-#include "rf/antenna/antenna.h"
+#include "sim/scenario/antenna.h"
 #include "sim/scenario/optics.h"
+#include "sim/scenario/radar.h"
 #include "sim/scenario/rational.h"
 #include "sim/scenario/rotation.h"
 
@@ -128,22 +129,11 @@ struct LidarConfig {
   } outputs;
 };
 
-/// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.
-struct AntennaConfig {
-  rf::ElementPattern pattern;
-  rf::Polarization polarization = rf::Polarization::v;
-  double single_slant = 0.0;  ///< rad, of Polarization::single
-  rf::ArrayPlane plane = rf::ArrayPlane::yz;
-  uint32_t rows = 1, columns = 1;
-  double row_spacing_wl = 0.5, column_spacing_wl = 0.5;
-  std::vector<dvec3> elements_wl;  ///< if there are any, they take the place of rows and columns
-};
-
 struct SensorConfig {
   std::string name;
   Mount mount;
-  std::variant<CameraConfig, EventCameraConfig, LidarConfig, AntennaConfig> config;
-  Rational rate_hz;  ///< of cameras and LiDARs; antennas fire with their channel
+  std::variant<CameraConfig, EventCameraConfig, LidarConfig, RadarConfig, AntennaConfig> config;
+  Rational rate_hz;  ///< of all but antennas, which fire with their channel
   SourceLocation where;
 };
 

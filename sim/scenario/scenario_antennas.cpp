@@ -81,12 +81,31 @@ void parse_layout(const FieldMap& map, AntennaConfig& antenna) {
 
 }  // namespace
 
+const Keys antenna_keys{"pattern",    "pattern_file", "polarization", "slant_deg",      "polarization_model",
+                        "plane",      "rows",         "columns",      "row_spacing_wl", "column_spacing_wl",
+                        "elements_wl"};
+
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded) {
   AntennaConfig antenna;
   parse_pattern(map, antenna, loaded);
   parse_polarization(map, antenna);
   parse_layout(map, antenna);
   return antenna;
+}
+
+rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz) {
+  const double wavelength = speed_of_light / carrier_hz;
+  rf::AntennaArray array;
+  array.pattern = config.pattern;
+  array.polarization = config.polarization;
+  array.single_slant = config.single_slant;
+  array.plane = config.plane;
+  array.rows = config.rows;
+  array.columns = config.columns;
+  array.row_spacing_m = config.row_spacing_wl * wavelength;
+  array.column_spacing_m = config.column_spacing_wl * wavelength;
+  for (const dvec3& element : config.elements_wl) array.positions_m.push_back(element * wavelength);
+  return array;
 }
 
 }  // namespace greatx::sim

@@ -124,6 +124,8 @@ std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>
     field.fail(expected, fmt::format("'{}', a camera", name));
   if (std::holds_alternative<LidarConfig>(sensor.config))
     field.fail(expected, fmt::format("'{}', a LiDAR", name));
+  if (std::holds_alternative<RadarConfig>(sensor.config))
+    field.fail(expected, fmt::format("'{}', a radar", name));
   return name;
 }
 
@@ -281,6 +283,7 @@ std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rat
       if (nodes[i].name == name) item.fail("every node's name once", fmt::format("a second '{}'", name));
   }
   check_references(references, nodes);
+  resolve_illuminators(nodes);
   return nodes;
 }
 

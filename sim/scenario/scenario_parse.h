@@ -45,7 +45,12 @@ void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
 CameraConfig parse_camera(const FieldMap& map);
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
 LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
+/// What an antenna is, without what every sensor has.
+extern const Keys antenna_keys;
 AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
+RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns);
+/// Gives bistatic radars the antennas that transmit for them.
+void resolve_illuminators(std::vector<NodeConfig>& nodes);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
                                           const std::vector<NodeConfig>& nodes);

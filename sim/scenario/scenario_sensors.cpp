@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nodes[].sensors[]: what all have.
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -25,26 +26,43 @@ const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "c
                    "cy",    "near_m", "antialiasing", "distortion", "outputs"};
 
 /// The keys of each kind, in the order of parse_sensor's.
-const Keys keys_of_kind[] = {
-    fired + pinhole +
-        Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
-    fired + pinhole +
-        Keys{"steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s", "cutoff_hz",
-             "difference", "max_events_per_pixel"},
-    fired + Keys{"channels", "elevation_min_deg", "elevation_max_deg", "elevations_deg", "azimuth_steps",
-                 "azimuth_start_deg", "azimuth_span_deg", "sweep_s", "min_range_m", "max_range_m",
-                 "wavelength_nm", "raster", "rosette", "shots_file", "beam", "returns", "receiver", "detection",
-                 "noise", "outputs"},
-    Keys{"name", "type", "mount", "pattern", "pattern_file", "polarization", "slant_deg",
-         "polarization_model", "plane", "rows", "columns", "row_spacing_wl", "column_spacing_wl",
-         "elements_wl"}};
+std::array<Keys, 5> keys_of_kind() {
+  return {fired + pinhole +
+              Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
+          fired + pinhole +
+              Keys{"steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s", "cutoff_hz",
+                   "difference", "max_events_per_pixel"},
+          fired + Keys{"channels",
+                       "elevation_min_deg",
+                       "elevation_max_deg",
+                       "elevations_deg",
+                       "azimuth_steps",
+                       "azimuth_start_deg",
+                       "azimuth_span_deg",
+                       "sweep_s",
+                       "min_range_m",
+                       "max_range_m",
+                       "wavelength_nm",
+                       "raster",
+                       "rosette",
+                       "shots_file",
+                       "beam",
+                       "returns",
+                       "receiver",
+                       "detection",
+                       "noise",
+                       "outputs"},
+          fired + Keys{"waveform", "transmit", "receive", "illuminator", "power_dbm", "field_of_view",
+                       "echoes", "receiver", "processing", "outputs"},
+          Keys{"name", "type", "mount"} + antenna_keys};
+}
 
 }  // namespace
 
 SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns) {
-  enum { camera, event_camera, lidar, antenna };
-  const size_t kind = kind_of(field, "type", {"camera", "event_camera", "lidar", "antenna"});
-  const FieldMap map(field, keys_of_kind[kind]);
+  enum { camera, event_camera, lidar, radar, antenna };
+  const size_t kind = kind_of(field, "type", {"camera", "event_camera", "lidar", "radar", "antenna"});
+  const FieldMap map(field, keys_of_kind()[kind]);
   SensorConfig sensor;
   sensor.where = field.where();
   const Field name = map.require("name", "a name");
@@ -57,6 +75,7 @@ SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, Patt
   if (kind == camera) sensor.config = parse_camera(map);
   if (kind == event_camera) sensor.config = parse_event_camera(map, sensor.rate_hz);
   if (kind == lidar) sensor.config = parse_lidar(map, sensor.rate_hz);
+  if (kind == radar) sensor.config = parse_radar(map, patterns);
   if (kind == antenna) sensor.config = parse_antenna(map, patterns);
   return sensor;
 }

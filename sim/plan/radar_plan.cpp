@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/plan/radar_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "rf/roughness.h"
+
+namespace greatx::sim {
+
+namespace {
+
+/// What the scenario's radars ask for, all together.
+struct RadarAsks {
+  size_t radars = 0;
+  double shortest_wavelength_m = 1e9;
+  bool noise = false, phase_noise = false, adc = false;
+};
+
+RadarAsks radar_asks(const Scenario& scenario) {
+  RadarAsks asks;
+  for (const NodeConfig& node : scenario.nodes) {
+    for (const SensorConfig& sensor : node.sensors) {
+      const auto* radar = std::get_if<RadarConfig>(&sensor.config);
+      if (radar == nullptr) continue;
+      ++asks.radars;
+      asks.shortest_wavelength_m =
+          std::min(asks.shortest_wavelength_m, radar->signal.waveform.wavelength_m());
+      const rf::RadarReceiver& receiver = radar->signal.receiver;
+      asks.noise |= receiver.noise_figure_db.has_value();
+      asks.phase_noise |= receiver.phase_noise.has_value();
+      asks.adc |= receiver.adc.has_value();
+    }
+  }
+  return asks;
+}
+
+/// What the scene's surfaces offer.
+struct RadarOffers {
+  double roughness_m = 0.0;  ///< the largest
+  std::string roughest;
+  bool scattering = false;
+};
+
+RadarOffers radar_offers(const scene::Scene& scene) {
+  RadarOffers offers;
+  for (const scene::Primitive& primitive : scene.primitives) {
+    const scene::Material& material = scene.materials[primitive.material];
+    if (!material.radio) continue;
+    offers.scattering |= material.radio->scattering_coefficient > 0.0;
+    if (material.radio->roughness_m <= offers.roughness_m) continue;
+    offers.roughness_m = material.radio->roughness_m;
+    offers.roughest = material.name;
+  }
+  return offers;
+}
+
+}  // namespace
+
+void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
+                const scene::Scene& scene) {
+  const RadarAsks asks = radar_asks(scenario);
+  const RadarOffers offers = radar_offers(scene);
+  const bool radar = asks.radars > 0;
+  const auto decide = [&](const char* name, bool needed, const std::string& yes, const std::string& no,
+                          const std::string& bound = "") {
+    return planner.decide(name, radar && needed, !radar ? "no radar" : needed ? yes : no, bound);
+  };
+  plan.radar = planner.fixed("radar", radar, radar ? fmt::format("{} of them", asks.radars) : "no radar");
+  // Ament's factor of both fields at normal incidence, the most there can be.
+  const double most_db =
+      offers.roughness_m > 0.0
+          ? -20.0 * std::log10(rf::roughness_factor(
+                        rf::RoughnessModel::ament,
+                        rf::roughness_parameter(offers.roughness_m, 1.0, asks.shortest_wavelength_m)))
+          : 0.0;
+  plan.radar_roughness = decide(
+      "radar_roughness", most_db > scenario.tolerance_db,
+      fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
+      offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
+      radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
+  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for it.
+  plan.radar_clutter = planner.decide(
+      "radar_clutter", false,
+      !radar ? "no radar"
+      : !offers.scattering
+          ? "no material scatters"
+          : "surfaces answer as if smooth (effects: {radar_clutter: on} to have what they scatter)");
+  plan.radar_noise =
+      decide("radar_noise", asks.noise, "a receiver has a noise figure", "no receiver has one");
+  plan.radar_phase_noise =
+      decide("radar_phase_noise", asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
+  plan.radar_quantisation =
+      decide("radar_quantisation", asks.adc, "a converter has steps", "no converter is described");
+}
+
+}  // namespace greatx::sim

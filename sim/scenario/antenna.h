@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Antennas as a scenario says them.
+#pragma once
+
+#include <vector>
+
+#include "core/vec.h"
+#include "rf/antenna/antenna.h"
+
+namespace greatx::sim {
+
+/// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.
+struct AntennaConfig {
+  rf::ElementPattern pattern;
+  rf::Polarization polarization = rf::Polarization::v;
+  double single_slant = 0.0;  ///< rad, of Polarization::single
+  rf::ArrayPlane plane = rf::ArrayPlane::yz;
+  uint32_t rows = 1, columns = 1;
+  double row_spacing_wl = 0.5, column_spacing_wl = 0.5;
+  std::vector<dvec3> elements_wl;  ///< if there are any, they take the place of rows and columns
+};
+
+rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz);
+
+}  // namespace greatx::sim
