@@ -197,8 +197,10 @@ std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) con
         std::find(options_.targets.begin(), options_.targets.end(), i) != options_.targets.end();
     const bool moving = options_.moving_targets && instance.body != 0 &&
                         scene.owner_of(instance.body) != transmitter_.own_body;
-    if (named || moving)
-      boxes.push_back({instance.bounds, instance.body == 0 ? Pose{} : body_poses[instance.body]});
+    if (!named && !moving) continue;
+    scene::Bounds bounds = instance.bounds;
+    if (instance.body != 0) bounds.add(scene.reach_of(instance.body));  // with the parts that it carries
+    boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body]});
   }
   return boxes;
 }

@@ -68,7 +68,7 @@ inline constexpr uint32_t most_bounces = 6;
 struct EchoEnd {
   ElementPattern pattern;
   double slant = 0.0;          ///< rad
-  uint32_t own_body = 0;       ///< rays do not see the body that carries it; 0: none does
+  uint32_t own_body = 0;       ///< rays do not see the body that carries it, nor its parts; 0: none does
   std::string name = "radar";  ///< for messages
 };
 

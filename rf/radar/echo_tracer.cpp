@@ -48,7 +48,7 @@ EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, uint32_t index
 EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     Build work;
-    Tree tree{0, body, {}};
+    Tree tree{0, body, scene.owner_of(body), {}};
     for (uint32_t facet = 0; facet < scene.facets.size(); ++facet) {
       if (scene.facets[facet].body != body) continue;
       for (const uint32_t index : trees.pieces(facet)) {
@@ -213,7 +213,7 @@ void EchoTracer::meet_all(const FacetWorld& world, Query& query, const Hidden& h
   for (const Tree& tree : trees_) {
     if (tree.body == 0) {
       meet(tree.root, query);
-    } else if (tree.body != hidden[0] && tree.body != hidden[1]) {
+    } else if (tree.owner != hidden[0] && tree.owner != hidden[1]) {
       const Pose& pose = world.motion(tree.body).pose;
       const double radius = 0.5 * glm::length(tree.bounds.size());
       const dvec3 arm = pose.apply(tree.bounds.center()) - query.origin;

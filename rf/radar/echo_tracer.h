@@ -51,7 +51,7 @@ class EchoTracer {
     double offset = 0.0;
   };
   struct Tree {
-    uint32_t root = 0, body = 0;
+    uint32_t root = 0, body = 0, owner = 0;
     scene::Bounds bounds;
   };
   struct Build;
@@ -62,7 +62,7 @@ class EchoTracer {
     uint32_t leaving = ~0u, facet = ~0u;
     bool any = false;
   };
-  using Hidden = std::array<uint32_t, 2>;  ///< bodies that are passed through; 0: none
+  using Hidden = std::array<uint32_t, 2>;  ///< owners of bodies that are passed through; 0: none
 
   Piece piece_of(const scene::Facet& facet, uint32_t index, std::span<const dvec3> corners);
   uint32_t build(Build& work, uint32_t first, uint32_t count);

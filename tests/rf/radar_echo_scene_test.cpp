@@ -220,6 +220,33 @@ TEST(RadarEchoScene, HardCase7FarFromTheOriginNothingChanges) {
   EXPECT_LT(std::abs(a - b), 1e-5 * std::abs(a));
 }
 
+TEST(RadarEchoScene, PartsOfTheOwnBodyAreNotSeen) {
+  TinyScene tiny;
+  const uint32_t carrier = tiny.body("carrier"), part = tiny.body("part");
+  const auto plate = [](TinyScene& to, double x, double half) {
+    to.quad({x, half, -half}, {x, -half, -half}, {x, -half, half}, {x, half, half});
+  };
+  plate(tiny.object("target"), 20.0, 3.0);
+  plate(tiny.object("carrier", carrier), -1.0, 0.5);
+  plate(tiny.object("blade", part), 2.0, 0.5);
+  scene::Scene scene = tiny.build();
+  scene.bodies[part].joint = scene::Joint{carrier};
+  scene::GpuScene gpu(test::device(), scene, {});
+  const RadioSurfaces surfaces(std::vector<RadioSurface>(scene.materials.size(), conductor()),
+                               radar_carrier_hz);
+  EchoOptions options = sector(20.0, 20.0, 1000);
+  for (const EchoTracing tracing : {EchoTracing::device, EchoTracing::host})
+    for (const uint32_t own : {0u, carrier}) {
+      options.tracing = tracing;
+      EchoEnd end;
+      end.own_body = own;
+      EchoFinder finder(gpu, surfaces, end, std::nullopt, options);
+      const EchoList list = finder.find(Pose{}, Pose{}, std::vector<Pose>(scene.bodies.size()));
+      ASSERT_FALSE(list.echoes.empty());
+      for (const Echo& echo : list.echoes) EXPECT_NEAR(echo.point.x, own == 0 ? 2.0 : 20.0, 1e-9);
+    }
+}
+
 TEST(RadarEchoScene, DeviceAndHostMeetTheSame) {
   EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
   EchoOptions options = sector(60.0, 8.0, 4000);
