@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "apps/commands.h"
+#include "io/animation.h"
 #include "io/contact_sheet.h"
 #include "io/summary.h"
 
@@ -16,7 +18,8 @@ void add_inspect(CLI::App& app) {
       app.add_subcommand("inspect", "summarise a data set and draw its contact sheet; compare several");
   struct Options {
     std::vector<std::string> folders;
-    std::string picture;
+    std::string picture, animation;
+    size_t frames = 36;
     uint32_t sequence = 0;
     bool json = false;
   };
@@ -26,6 +29,11 @@ void add_inspect(CLI::App& app) {
       ->required();
   command->add_option("--sequence", options->sequence, "the sequence to draw")->capture_default_str();
   command->add_option("--picture", options->picture, "where the contact sheet goes [DIR/contact_sheet.png]");
+  CLI::Option* const animated =
+      command->add_option("--animation", options->animation, "also write an animated picture, FILE.webp");
+  command->add_option("--frames", options->frames, "of the animation, at most")
+      ->capture_default_str()
+      ->needs(animated);
   command->add_flag("--json", options->json, "print one JSON object a data set");
   command->callback([options] {
     std::vector<io::DatasetReader> readers;
@@ -35,11 +43,21 @@ void add_inspect(CLI::App& app) {
     const std::filesystem::path picture =
         options->picture.empty() ? std::filesystem::path(options->folders[0]) / "contact_sheet.png"
                                  : std::filesystem::path(options->picture);
+    if (readers.size() > 1 && !options->animation.empty())
+      throw_user_error("inspect: --animation shows one data set, found {}", readers.size());
+    std::optional<io::AnimationFile> shown;
+    if (!options->animation.empty())
+      shown = io::write_animation(readers[0], options->animation, options->frames, options->sequence);
     io::write_contact_sheet(readers, picture, options->sequence);
     for (const io::DatasetReader& reader : readers)
       std::cout << (options->json ? io::to_json(io::summarize(reader)) + "\n"
                                   : io::to_text(io::summarize(reader)));
-    if (!options->json) std::cout << "contact sheet: " << picture.string() << '\n';
+    if (options->json) return;
+    std::cout << "contact sheet: " << picture.string() << '\n';
+    if (shown)
+      std::cout << fmt::format("animation: {}, {} frames of {} x {} pixels, {:.3g} s, {:.2f} MB\n",
+                               options->animation, shown->frames, shown->width, shown->height,
+                               1e-3 * shown->duration_ms, 1e-6 * static_cast<double>(shown->bytes));
   });
 }
 
