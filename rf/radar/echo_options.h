@@ -29,12 +29,12 @@ enum class EchoTracing : uint8_t {
 
 struct EchoOptions {
   FieldOfView field_of_view;
-  uint32_t tubes = 30000;    ///< of the field of view, before subdivision
+  uint32_t tubes = 6000;     ///< of the field of view, before subdivision
   uint32_t max_bounces = 3;  ///< surfaces that a tube meets, 1 to most_bounces
   /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their distance, metres.
   double target_tube_m = 0.03;
   /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says to what).
-  uint32_t target_budget = 16384;
+  uint32_t target_budget = 4096;
   bool moving_targets = true;
   std::vector<uint32_t> targets;  ///< indices into Scene::instances
 
@@ -43,7 +43,7 @@ struct EchoOptions {
 
   /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body of this
   /// radar cross-section even for a perfect conductor, m^2. 0: nothing is.
-  double border_floor_m2 = 1e-6;
+  double border_floor_m2 = 1e-5;
 
   bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
   bool diffuse =

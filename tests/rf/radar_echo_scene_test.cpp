@@ -250,6 +250,7 @@ TEST(RadarEchoScene, PartsOfTheOwnBodyAreNotSeen) {
 TEST(RadarEchoScene, DeviceAndHostMeetTheSame) {
   EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
   EchoOptions options = sector(60.0, 8.0, 4000);
+  options.border_floor_m2 = 1e-6;  // with what comes over three bounces
   options.targets = {1};
   const Pose radar{{0.013, -0.021, 0.017}};  // in no plane of symmetry: no ray along an edge
   const std::vector<std::optional<Pose>> receivers{std::nullopt, Pose{{2, 3, 1}}};
