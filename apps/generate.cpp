@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/consistency_files.h"
 #include "apps/progress.h"
 #include "apps/session.h"
 #include "apps/summary.h"
@@ -74,6 +75,9 @@ void run(const Options& options) {
   const bool complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
   device.wait_idle();
   check_validation(device);
+  if (complete)
+    io::write_file_atomically(std::filesystem::path(options.output) / io::consistency_file,
+                              consistency_csv(simulator.statistics().rows));
 
   nlohmann::json summary = summary_of(simulator.statistics(), device, seconds_since(begin));
   summary["first_packet_seconds"] = first_packet_s;

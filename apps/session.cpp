@@ -8,6 +8,7 @@
 #include "assets/assets.h"
 #include "core/hash.h"
 #include "scene/scene.h"
+#include "sim/instance_boxes.h"
 
 namespace greatx::apps {
 
@@ -92,8 +93,16 @@ io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& wo
   run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
   run["semantic_classes"] = scene::semantic_class_names();
   run["instances"] = nlohmann::json::array();
-  for (const scene::Instance& instance : scene.instances)
+  const std::vector<sim::InstanceBox> boxes = sim::instance_boxes(world);
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
     run["instances"].push_back({{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
+    nlohmann::json& entry = run["instances"].back();
+    if (boxes[i].node) entry["node"] = scenario.nodes[*boxes[i].node].name;
+    if (!boxes[i].box.empty())
+      entry["box_m"] = {{boxes[i].box.min.x, boxes[i].box.min.y, boxes[i].box.min.z},
+                        {boxes[i].box.max.x, boxes[i].box.max.y, boxes[i].box.max.z}};
+  }
   run["materials"] = nlohmann::json::array();
   for (const scene::Material& material : scene.materials) run["materials"].push_back(material.name);
   run["effects"] = nlohmann::json::object();

@@ -47,8 +47,9 @@ nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Devic
   };
   summary["consistency"] = {
       {"depth_vs_ray", errors(statistics.consistency.depth)},
-      {"lidar_vs_depth", errors(statistics.consistency.lidar)},
-      {"line_of_sight_delay_vs_distance", errors(statistics.consistency.line_of_sight)}};
+      {sim::lidar_figure, errors(statistics.consistency.lidar)},
+      {sim::sight_figure, errors(statistics.consistency.line_of_sight)},
+      {sim::radar_figure, errors(statistics.consistency.radar)}};
   return summary;
 }
 

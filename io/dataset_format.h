@@ -21,8 +21,10 @@ inline constexpr const char* dataset_file = "dataset.json";
 inline constexpr const char* scenario_file = "scenario.yaml";
 inline constexpr const char* manifest_file = "manifest.json";
 inline constexpr const char* journal_file = "journal.txt";  ///< only while the data set is unfinished
-/// What `greatx inspect` may leave beside the data; not part of the manifest.
-inline constexpr const char* companion_files[] = {"contact_sheet.png"};
+/// What the run found to agree, by record; beside the data, since it is whole only when they are.
+inline constexpr const char* consistency_file = "consistency.csv";
+/// What `greatx generate` and `greatx inspect` may leave beside the data; not part of the manifest.
+inline constexpr const char* companion_files[] = {"contact_sheet.png", "animation.webp", consistency_file};
 
 /// What does not change during a run. Two runs whose DatasetInfo agree give the same bytes on the same device, so it
 /// must not hold wall-clock times, host names or paths.

@@ -22,7 +22,6 @@ namespace {
 
 constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
 constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever another one is
-constexpr size_t lidar_comparisons = 1024;
 
 }  // namespace
 
@@ -186,7 +185,7 @@ void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
                               sensors_[due.sensor]->collect(*in_flight.slot)});
     ++statistics_.records[specs_[due.sensor].name];
   }
-  if (plan_.consistency.on) compare_lidar_with_depth(in_flight.due);
+  compare(packet);
   for (const gpu::PassTime& pass : in_flight.slot->timestamps.read()) {
     PassTotal& total = statistics_.passes[pass.name];
     ++total.count;
@@ -197,23 +196,61 @@ void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
   ++statistics_.packets;
 }
 
-void Simulator::compare_lidar_with_depth(const std::vector<Due>& due) {
-  for (const Due& a : due) {
+void Simulator::compare(const Packet& packet) {
+  for (const Record& record : packet.records)
+    if (const auto* channel = dynamic_cast<const ChannelSensor*>(sensors_[record.sensor].get()))
+      keep(sight_figure, packet, record.sensor, poses_sensor, channel->sights(), nullptr);
+  if (!plan_.consistency.on) return;
+  compare_lidar_with_depth(packet);
+  compare_radars(packet);
+}
+
+/// `total`: of the run; null, if the sensor has it itself.
+void Simulator::keep(const char* figure, const Packet& packet, uint32_t sensor, uint32_t other,
+                     const ErrorStatistics& errors, ErrorStatistics* total) {
+  if (errors.count() == 0) return;
+  if (total != nullptr) total->add(errors);
+  statistics_.rows.push_back({figure, sequence_, packet.tick, specs_[sensor].name, specs_[other].name,
+                              errors.count(), errors.max()});
+}
+
+void Simulator::compare_lidar_with_depth(const Packet& packet) {
+  for (const Record& a : packet.records) {
     const auto* lidar = dynamic_cast<const LidarSensor*>(sensors_[a.sensor].get());
     if (lidar == nullptr || !lidar->exact()) continue;
-    for (const Due& b : due) {
+    for (const Record& b : packet.records) {
       const auto* camera = dynamic_cast<const CameraSensor*>(sensors_[b.sensor].get());
       if (camera == nullptr || camera->node() != lidar->node() || camera->images().depth.empty()) continue;
       if (camera->desc().distortion.any()) continue;  // the comparison is that of a pinhole camera
       const Pose camera_from_lidar = camera->mount().inverse() * lidar->mount();
       const render::LidarScan& scan = lidar->scan();
       const size_t stride = std::max<size_t>(1, scan.size() / lidar_comparisons);
+      ErrorStatistics errors;
       for (size_t i = 0; i < scan.size(); i += stride) {
         const dvec3 point = camera_from_lidar.apply(dvec3(scan.points[i]));
         const auto error = lidar_against_depth(camera->desc(), camera->images(), point, scan.instance[i]);
-        if (error) statistics_.consistency.lidar.add(*error);
+        if (error) errors.add(*error);
       }
+      keep(lidar_figure, packet, a.sensor, b.sensor, errors, &statistics_.consistency.lidar);
     }
+  }
+}
+
+void Simulator::compare_radars(const Packet& packet) {
+  const auto view = [&](const Record& record) {
+    const SensorSpec* const spec = &specs_[record.sensor];
+    return RecordView{*spec, [spec, arrays = &record.arrays](const std::string& name) {
+                        const auto found = std::ranges::find(spec->arrays, name, &ArraySpec::name);
+                        GREATX_CHECK(found != spec->arrays.end(), "{} has no array {}", spec->name, name);
+                        return (*arrays)[static_cast<size_t>(found - spec->arrays.begin())];
+                      }};
+  };
+  for (const Record& record : packet.records) {
+    const auto* radar = dynamic_cast<const RadarSensor*>(sensors_[record.sensor].get());
+    if (radar == nullptr || !radar->config().outputs.detections) continue;
+    if (boxes_.empty()) boxes_ = instance_boxes(world_);
+    keep(radar_figure, packet, record.sensor, poses_sensor,
+         compare_radar(view(record), view(packet.records.front()), boxes_), &statistics_.consistency.radar);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "scene/gpu_scene.h"
 #include "sim/moment.h"
 #include "sim/plan/effect_plan.h"
+#include "sim/record_consistency.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/schedule.h"
@@ -40,6 +41,7 @@ struct RunStatistics {
   std::vector<std::pair<std::string, std::string>>
       notes;  ///< (name, text): how candidates were found, what holds
   Consistency consistency;
+  std::vector<ConsistencyRow> rows;  ///< the same by record, of what is written
 };
 
 class Simulator {
@@ -72,11 +74,16 @@ class Simulator {
   void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
   void record_ahead(gpu::TickSlot& slot);
   void collect(const InFlight& in_flight, RecordSink& sink);
-  void compare_lidar_with_depth(const std::vector<Due>& due);
+  void compare(const Packet& packet);
+  void compare_lidar_with_depth(const Packet& packet);
+  void compare_radars(const Packet& packet);
+  void keep(const char* figure, const Packet& packet, uint32_t sensor, uint32_t other,
+            const ErrorStatistics& errors, ErrorStatistics* total);
 
   const Scenario& scenario_;
   const World& world_;
   const EffectPlan& plan_;
+  std::vector<InstanceBox> boxes_;  ///< of instances, if there is a radar
   gpu::Device& device_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;

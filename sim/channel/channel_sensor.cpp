@@ -124,12 +124,13 @@ const ElementPaths* ChannelSensor::elements_of(size_t receiver, size_t transmitt
 }
 
 void ChannelSensor::check_sights(const Results& results) {
+  sights_ = {};
   for (const ChannelPaths::Result& result : results)
     for (const ChannelPaths::Link& link : result.links)
       for (const rf::Path& path : link.paths)
         if (path.interactions.empty())
-          line_of_sight_errors_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) /
-                                    link.distance_m);
+          sights_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
+  line_of_sight_errors_.add(sights_);
 }
 
 void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {

@@ -37,6 +37,8 @@ class ChannelSensor : public Sensor {
   void report(Consistency& consistency) const override {
     consistency.line_of_sight.add(line_of_sight_errors_);
   }
+  /// Of the record collected last.
+  const ErrorStatistics& sights() const { return sights_; }
   void count(std::map<std::string, uint64_t>& counters) const override;
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
@@ -84,7 +86,7 @@ class ChannelSensor : public Sensor {
   std::vector<LinkColumn> link_columns_;
   std::vector<PathColumn> path_columns_;
   SensorSpec spec_;
-  ErrorStatistics line_of_sight_errors_;
+  ErrorStatistics line_of_sight_errors_, sights_;
 };
 
 }  // namespace greatx::sim

@@ -51,6 +51,7 @@ struct Consistency {
   ErrorStatistics depth;          ///< interior pixels against the ray through their centre
   ErrorStatistics lidar;          ///< returns against the depth picture of a camera on the same node
   ErrorStatistics line_of_sight;  ///< c * delay of direct paths against the distance
+  ErrorStatistics radar;          ///< ranges of detections against the boxes of their instances
 };
 
 class Sensor {

@@ -138,6 +138,14 @@ TEST_F(Cli, GenerateVerifyInspect) {
   EXPECT_TRUE(nlohmann::json::parse(inspected.out).contains("sensors"));
   EXPECT_TRUE(fs::exists(folder_ / "a/contact_sheet.png"));
   EXPECT_EQ(greatx("verify " + path("a")).code, 0) << "the contact sheet is no foreign file";
+  const Outcome animated =
+      greatx(fmt::format("inspect {0} --frames 2 --animation {0}/animation.webp", path("a")));
+  EXPECT_EQ(animated.code, 0) << animated.err;
+  EXPECT_THAT(animated.out, HasSubstr("animation.webp, 2 frames of "));
+  EXPECT_EQ(greatx("verify " + path("a")).code, 0) << "nor is the animation";
+  EXPECT_THAT(greatx(fmt::format("inspect {} --animation {}", path("a"), path("a.gif"))).err,
+              HasSubstr("ends in .webp, found"));
+  EXPECT_EQ(greatx(fmt::format("inspect {} --frames 2", path("a"))).code, 1) << "of what animation?";
 
   fs::resize_file(folder_ / "a/sequence_0000/uav/camera/rgb/000002.png", 100);
   const Outcome damaged = greatx("verify " + path("a"));
