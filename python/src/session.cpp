@@ -31,7 +31,7 @@ std::vector<std::string> antennas_of(const sim::Scenario& scenario) {
 }
 
 const char* kind_of(const sim::SensorConfig& sensor) {
-  constexpr const char* kinds[] = {"camera", "event_camera", "lidar", "antenna"};
+  constexpr const char* kinds[] = {"camera", "event_camera", "lidar", "radar", "antenna"};
   static_assert(std::size(kinds) == std::variant_size_v<decltype(sensor.config)>);
   return kinds[sensor.config.index()];
 }
