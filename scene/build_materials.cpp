@@ -18,8 +18,8 @@ bool equal(const Texture& left, const Texture& right) {
 bool equal(const PbrMaterial& left, const PbrMaterial& right) {
   const auto key = [](const PbrMaterial& pbr) {
     return std::tie(pbr.metallic, pbr.roughness, pbr.normal_scale, pbr.alpha_cutoff, pbr.alpha_mode,
-                    pbr.double_sided, pbr.transmission, pbr.base_color_texture, pbr.metallic_roughness_texture,
-                    pbr.normal_texture, pbr.emissive_texture);
+                    pbr.double_sided, pbr.transmission, pbr.base_color_texture,
+                    pbr.metallic_roughness_texture, pbr.normal_texture, pbr.emissive_texture);
   };
   return key(left) == key(right) && left.base_color == right.base_color && left.emissive == right.emissive;
 }

@@ -114,8 +114,8 @@ json parse_json(const std::string& name, std::string_view text) {
 
 void check_required_extensions(const std::string& name, const json& document) {
   static constexpr std::array supported = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                           "KHR_materials_transmission",
-                                           "KHR_mesh_quantization", "GREATX_radio_material"};
+                                           "KHR_materials_transmission", "KHR_mesh_quantization",
+                                           "GREATX_radio_material"};
   if (!document.contains("extensionsRequired")) return;
   for (const json& extension : document["extensionsRequired"]) {
     const std::string text = extension;

@@ -81,7 +81,8 @@ void read_alpha(const tinygltf::Material& source, PbrMaterial& pbr, const std::s
     const bool textured = pbr.base_color_texture >= 0;
     pbr.alpha_mode = textured ? AlphaMode::mask : AlphaMode::opaque;
     pbr.alpha_cutoff = 0.5f;
-    if (!textured && pbr.transmission == 0.0f) pbr.transmission = std::clamp(1.0f - pbr.base_color.a, 0.0f, 1.0f);
+    if (!textured && pbr.transmission == 0.0f)
+      pbr.transmission = std::clamp(1.0f - pbr.base_color.a, 0.0f, 1.0f);
     model.notes.push_back(
         fmt::format("{}: alpha mode BLEND is treated as {}", what,
                     textured ? "MASK with cutoff 0.5 (it has a texture)"

@@ -47,8 +47,8 @@ void note_ignored_extensions(const GltfFile& file, Model& model) {
   std::vector<std::string> ignored;
   for (const std::string& extension : file.model.extensionsUsed) {
     if (extension != "KHR_lights_punctual" && extension != "KHR_materials_emissive_strength" &&
-        extension != "KHR_materials_transmission" &&
-        extension != "KHR_mesh_quantization" && extension != "GREATX_radio_material") {
+        extension != "KHR_materials_transmission" && extension != "KHR_mesh_quantization" &&
+        extension != "GREATX_radio_material") {
       ignored.push_back(extension);
     }
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/consistency.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace greatx::sim {
@@ -61,6 +62,18 @@ std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
   if (!plane) return std::nullopt;
   const double depth = 1.0 / plane->at(column - (i + 0.5), row - (j + 0.5));
   return std::abs(depth - z) / z;
+}
+
+ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
+                                    const Pose& camera_from_lidar, std::span<const float> xyzi,
+                                    std::span<const uint32_t> instances) {
+  ErrorStatistics errors;
+  const size_t stride = std::max<size_t>(1, instances.size() / lidar_comparisons);
+  for (size_t i = 0; i < instances.size(); i += stride) {
+    const dvec3 point = camera_from_lidar.apply(dvec3(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]));
+    if (const auto error = lidar_against_depth(camera, images, point, instances[i])) errors.add(*error);
+  }
+  return errors;
 }
 
 }  // namespace greatx::sim

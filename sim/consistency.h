@@ -11,6 +11,7 @@
 
 #include "core/vec.h"
 #include "renderer/camera/camera.h"
+#include "sim/error_statistics.h"
 
 namespace greatx::sim {
 
@@ -37,5 +38,10 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row);
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
                                           const render::CameraImages& images, const dvec3& point_in_camera,
                                           uint32_t instance);
+/// The same for some of a sweep's returns, evenly over it: at most twice `lidar_comparisons`. `xyzi` [4 n], `instances` [n].
+inline constexpr size_t lidar_comparisons = 1024;
+ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
+                                    const Pose& camera_from_lidar, std::span<const float> xyzi,
+                                    std::span<const uint32_t> instances);
 
 }  // namespace greatx::sim

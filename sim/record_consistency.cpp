@@ -136,16 +136,7 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
   const Pose camera_from_lidar =
       pose_of(about.at("body_from_sensor")).inverse() * pose_of(metadata_of(lidar).at("body_from_sensor"));
   const Array points = lidar.array("points"), instance = lidar.array("instance");
-  const std::span<const float> xyzi = points.as<float>();
-  const std::span<const uint32_t> ids = instance.as<uint32_t>();
-  ErrorStatistics errors;
-  const size_t stride = std::max<size_t>(1, ids.size() / lidar_comparisons);
-  for (size_t i = 0; i < ids.size(); i += stride) {
-    const dvec3 point(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]);
-    if (const auto error = lidar_against_depth(desc, images, camera_from_lidar.apply(point), ids[i]))
-      errors.add(*error);
-  }
-  return errors;
+  return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>());
 }
 
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses) {

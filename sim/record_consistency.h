@@ -38,9 +38,6 @@ struct RecordView {
   std::function<Array(const std::string& name)> array;
 };
 
-/// At most so many returns of a sweep are compared, evenly over it.
-inline constexpr size_t lidar_comparisons = 1024;
-
 /// Returns of a LiDAR (all shots at the tick) against the depth picture of a pinhole camera on the same node:
 /// lidar_against_depth() for each.
 ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera);

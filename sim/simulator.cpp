@@ -224,13 +224,9 @@ void Simulator::compare_lidar_with_depth(const Packet& packet) {
       if (camera->desc().distortion.any()) continue;  // the comparison is that of a pinhole camera
       const Pose camera_from_lidar = camera->mount().inverse() * lidar->mount();
       const render::LidarScan& scan = lidar->scan();
-      const size_t stride = std::max<size_t>(1, scan.size() / lidar_comparisons);
-      ErrorStatistics errors;
-      for (size_t i = 0; i < scan.size(); i += stride) {
-        const dvec3 point = camera_from_lidar.apply(dvec3(scan.points[i]));
-        const auto error = lidar_against_depth(camera->desc(), camera->images(), point, scan.instance[i]);
-        if (error) errors.add(*error);
-      }
+      const std::span<const float> points(scan.size() > 0 ? &scan.points[0].x : nullptr, 4 * scan.size());
+      const ErrorStatistics errors =
+          lidar_against_depth(camera->desc(), camera->images(), camera_from_lidar, points, scan.instance);
       keep(lidar_figure, packet, a.sensor, b.sensor, errors, &statistics_.consistency.lidar);
     }
   }

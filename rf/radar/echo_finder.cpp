@@ -266,9 +266,9 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   const dvec3& source = pending.transmitter.position;
   RawEchoes raw =
       TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
-  if (!monostatic_ && direct) {
-    const dvec3 arm = pending.receiver.position - source;
-    const double length = glm::length(arm);
+  const dvec3 arm = pending.receiver.position - source;
+  // Two elements at one place (of other polarizations) have no way from one to the other.
+  if (const double length = glm::length(arm); !monostatic_ && direct && length > 0.0) {
     raw.echoes.push_back({field.direct(source), arm / length, -arm / length, source, length, 0, 0});
   }
 

@@ -24,7 +24,8 @@ const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
                             R"({"itu":"glass","thickness_m":0.006}],"scattering_coefficient":0.05})";
 const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
 const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
-const char* const asphalt_ground = R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
+const char* const asphalt_ground =
+    R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
 // The table's row for soil ends at 10 GHz; its formula is carried on above that, and the file says so.
 const char* const soil =
     R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";

@@ -9,7 +9,8 @@
 GREATX_SHARED_BEGIN
 
 const uint radar_directions_binding = first_pass_binding;  // vec3[rays], unit, local axes
-const uint radar_hits_binding = first_pass_binding + 1u;   // uint[max_bounces * rays + 1]: a bounce's rays side by side;
+const uint radar_hits_binding =
+    first_pass_binding + 1u;  // uint[max_bounces * rays + 1]: a bounce's rays side by side;
 // then whether the source itself sees the receiver
 const uint radar_group = 64u;
 

@@ -12,21 +12,14 @@ namespace greatx::sim {
 
 namespace {
 
-std::vector<uint32_t> bodies_of(const World& world, uint32_t node) {
-  std::vector<uint32_t> bodies;
-  for (uint32_t body = 1; body < world.node_of_body.size(); ++body)
-    if (world.node_of_body[body] == node) bodies.push_back(body);
-  return bodies;
-}
-
 render::LidarDesc lidar_desc(const LidarConfig& config, const EffectPlan& plan,
-                             const Environment& environment, const std::vector<uint32_t>& own_bodies) {
+                             const Environment& environment, uint32_t unseen_body) {
   render::LidarDesc desc;
   desc.pattern = render::scan_pattern(config.scan);
   desc.min_range_m = config.min_range_m;
   desc.max_range_m = config.max_range_m;
   desc.wavelength_nm = static_cast<uint32_t>(config.wavelength_nm);
-  if (own_bodies.size() == 1) desc.excluded_body = own_bodies[0];
+  if (unseen_body != 0) desc.excluded_body = unseen_body;
   desc.divergence = config.divergence;
   if (plan.lidar_divergence.on) desc.rings = config.rings;
   desc.returns = config.returns;
@@ -41,7 +34,7 @@ render::LidarDesc lidar_desc(const LidarConfig& config, const EffectPlan& plan,
   desc.alpha_mask = plan.lidar_alpha_mask.on;
   desc.textured_reflectance = plan.lidar_textures.on;
   desc.glass = plan.lidar_glass.on;
-  desc.target_motion = plan.lidar_target_motion.on || own_bodies.size() > 1;
+  desc.target_motion = plan.lidar_target_motion.on && render::duration_s(config.scan) > 0.0;
   return desc;
 }
 
@@ -59,9 +52,8 @@ LidarSensor::LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, con
       seed_(scenario.seed),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       per_shot_(plan.lidar_sweep_motion.on && render::duration_s(config_.scan) > 0.0),
-      target_motion_(plan.lidar_target_motion.on && render::duration_s(config_.scan) > 0.0),
-      own_bodies_(config_.see_own_body ? std::vector<uint32_t>() : bodies_of(world, node)),
-      pass_(gpu_scene, lidar_desc(config_, plan, scenario.environment, own_bodies_),
+      unseen_body_(config_.see_own_body ? 0 : world.body_of_node[node]),
+      pass_(gpu_scene, lidar_desc(config_, plan, scenario.environment, unseen_body_),
             name_of(scenario.nodes[node], sensor)) {
   describe(scenario.nodes[node].sensors[sensor]);
 }
@@ -84,7 +76,7 @@ void LidarSensor::describe(const SensorConfig& sensor) {
 }
 
 bool LidarSensor::exact() const {
-  return !per_shot_ && !target_motion_ && pass_.desc().rings == 0 &&
+  return !per_shot_ && !pass_.desc().target_motion && pass_.desc().rings == 0 &&
          pass_.desc().receiver.range_std_m == 0.0 && pass_.desc().receiver.rise_m == 0.0;
 }
 
@@ -110,8 +102,7 @@ void LidarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   render::LidarTargets targets;
   if (pass_.desc().target_motion)
     targets =
-        lidar_targets(world_, context,
-                      {own_bodies_, shots.times_s, local_from_sensor, config_.max_range_m, target_motion_});
+        lidar_targets(world_, context, {unseen_body_, shots.times_s, local_from_sensor, config_.max_range_m});
   sweeps_[slot.index] = {pass_.record(slot, local_from_sensor, targets, pattern), noise_of(context)};
 }
 

@@ -43,8 +43,8 @@ class LidarSensor : public Sensor {
   uint32_t node_;
   uint64_t seed_;
   Pose mount_;
-  bool per_shot_, target_motion_;
-  std::vector<uint32_t> own_bodies_;  ///< that the beams pass through
+  bool per_shot_;
+  uint32_t unseen_body_;  ///< that the beams pass through, with its parts; 0: none
   render::LidarPass pass_;
   SensorSpec spec_;
   std::array<Sweep, slots_in_flight> sweeps_;

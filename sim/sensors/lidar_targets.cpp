@@ -21,6 +21,7 @@ class Target {
     const scene::Bounds& bounds = world.scene.bodies[body].bounds;
     middle_ = bounds.center();
     radius_m_ = 0.5 * glm::length(bounds.size());
+    still_ = !world.scene.bodies[body].joint;
   }
 
   /// Looks at some of the times.
@@ -65,9 +66,7 @@ class Target {
     const size_t last = view_.times_s.size() - 1;
     return i == last ? last + 1 : std::min(i + stride, last);
   }
-  Pose pose_at(size_t i) const {
-    return view_.moving ? context_.body_pose_at(body_, context_.time_s + view_.times_s[i]) : at_tick_;
-  }
+  Pose pose_at(size_t i) const { return context_.body_pose_at(body_, context_.time_s + view_.times_s[i]); }
 
   const TickContext& context_;
   const SweepView& view_;
@@ -85,14 +84,14 @@ render::LidarTargets lidar_targets(const World& world, const TickContext& contex
   bool moving = false;
   for (uint32_t body = 1; body < world.scene.bodies.size(); ++body) {
     if (world.scene.bodies[body].primitive_count == 0) continue;
-    if (std::find(view.unseen.begin(), view.unseen.end(), body) != view.unseen.end()) continue;
+    if (view.unseen_body != 0 && world.scene.owner_of(body) == view.unseen_body) continue;
     Target target(world, context, view, body);
     target.look();
     if (!target.near()) continue;
     moving |= !target.still();
     near.push_back(target);
   }
-  render::LidarTargets targets{moving || view.unseen.size() > 1, {}};
+  render::LidarTargets targets{moving, {}};
   if (targets.apart)
     for (const Target& target : near) targets.bodies.push_back(target.result());
   return targets;

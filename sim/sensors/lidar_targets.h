@@ -15,16 +15,16 @@ namespace greatx::sim {
 
 /// What a LiDAR asks of the bodies.
 struct SweepView {
-  std::vector<uint32_t> unseen;       ///< bodies that its beams pass through
+  uint32_t unseen_body = 0;           ///< that its beams pass through, with its parts; 0: none
   std::span<const double> times_s;    ///< of the shots after the tick, ascending
   std::span<const Pose> local_poses;  ///< of the sensor at those times, or one for all
   double max_range_m = 0.0;
-  bool moving = true;  ///< bodies stand where they are at the shot's time; false: at the tick
 };
 
-/// Every body that a beam may meet, with its motion over the sweep. Not apart if none moves meanwhile and at most one is
-/// unseen: then they all stand where they are at the tick. A body is left out if it stays more than 10 m beyond the
-/// range at every sixteenth of the times, and has no motion if it stands at all of those where it is at the tick.
+/// Every body that a beam may meet, with its motion over the sweep. Not apart if none moves meanwhile: then they all stand
+/// where they are at the tick. A body is left out if it stays more than 10 m beyond the range at every sixteenth of the
+/// times. It has no motion if it stands at all of those where it is at the tick; a part that turns always has one, since it
+/// may have turned whole turns from one of those times to the next.
 render::LidarTargets lidar_targets(const World& world, const TickContext& context, const SweepView& view);
 
 }  // namespace greatx::sim

@@ -25,12 +25,13 @@ RadarConfig planned(RadarConfig config, const EffectPlan& plan) {
   return config;
 }
 
-double slant_of(const AntennaConfig& antenna, double carrier_hz) {
-  return array_of(antenna, carrier_hz).slant(0);
+bool same_element(const rf::EchoEnd& a, const rf::EchoEnd& b) {
+  return a.pattern.shape == b.pattern.shape && a.pattern.model == b.pattern.model &&
+         a.pattern.table == b.pattern.table && a.slant == b.slant;
 }
 
-rf::RadarGain gain_of(const AntennaConfig& antenna, double carrier_hz) {
-  return [pattern = antenna.pattern, slant = slant_of(antenna, carrier_hz)](const dvec3& direction) {
+rf::RadarGain gain_of(const rf::EchoEnd& end) {
+  return [pattern = end.pattern, slant = end.slant](const dvec3& direction) {
     const rf::Jones field = rf::element_field(pattern, slant, direction);
     return std::norm(field.theta) + std::norm(field.phi);
   };
@@ -68,17 +69,12 @@ RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, con
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       transmitter_(transmitter_of(scenario)),
       receiver_{node, config_.see_own_body ? 0 : world.body_of_node[node], mount_},
-      finder_(gpu_scene, rf::RadioSurfaces(world.scene, config_.signal.waveform.carrier_hz),
-              {config_.transmit.pattern, slant_of(config_.transmit, config_.signal.waveform.carrier_hz),
-               transmitter_.body, name_},
-              config_.signal.bistatic || config_.transmit.pattern.shape != config_.receive.pattern.shape
-                  ? std::optional(rf::EchoEnd{config_.receive.pattern,
-                                              slant_of(config_.receive, config_.signal.waveform.carrier_hz),
-                                              receiver_.body, name_})
+      finder_(gpu_scene, rf::RadioSurfaces(world.scene, config_.signal.waveform.carrier_hz), transmit_end(),
+              config_.signal.bistatic || !same_element(transmit_end(), receive_end())
+                  ? std::optional(receive_end())
                   : std::nullopt,
               echo_options(plan, scenario)),
-      processor_(name_, config_.signal, gain_of(config_.transmit, config_.signal.waveform.carrier_hz),
-                 gain_of(config_.receive, config_.signal.waveform.carrier_hz)) {
+      processor_(name_, config_.signal, gain_of(transmit_end()), gain_of(receive_end())) {
   describe(scenario.nodes[node].sensors[sensor]);
 }
 
@@ -87,6 +83,11 @@ RadarSensor::Carrier RadarSensor::transmitter_of(const Scenario& scenario) const
   if (!config_.signal.bistatic) return {node_, body(node_), mount_};
   const SensorPlace place = sensor_place(scenario, config_.illuminator);
   return {place.node, body(place.node), mount_pose(scenario.nodes[place.node].sensors[place.sensor].mount)};
+}
+
+rf::EchoEnd RadarSensor::end_of(const AntennaConfig& antenna, uint32_t own_body) const {
+  const double slant = array_of(antenna, config_.signal.waveform.carrier_hz).slant(0);
+  return {antenna.pattern, slant, own_body, name_};
 }
 
 rf::EchoOptions RadarSensor::echo_options(const EffectPlan& plan, const Scenario& scenario) const {
@@ -150,11 +151,8 @@ void RadarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     Update update;
     update.motion = motion(context, u);
     const double at_s = update.motion.traced_s;
-    std::vector<Pose> bodies(context.body_poses.begin(), context.body_poses.end());
-    if (u > 0) {
-      for (uint32_t body = 1; body < bodies.size(); ++body) bodies[body] = update.motion.body(body, at_s);
-      gpu_scene_.record_update(slot, bodies);
-    }
+    const std::vector<Pose> bodies = context.body_poses_at(context.time_s + at_s);
+    if (u > 0) gpu_scene_.record_update(slot, bodies);
     const Pose transmitter = update.motion.transmitter(at_s), receiver = update.motion.receiver(at_s);
     update.attitude = {transmitter.orientation, receiver.orientation};
     update.rays = finder_.record(slot, transmitter, receiver, bodies);

@@ -50,6 +50,10 @@ class RadarSensor : public Sensor {
     dvec3 baseline_m{0.0};
   };
   Carrier transmitter_of(const Scenario& scenario) const;
+  /// With the slant of its one polarization.
+  rf::EchoEnd end_of(const AntennaConfig& antenna, uint32_t own_body) const;
+  rf::EchoEnd transmit_end() const { return end_of(config_.transmit, transmitter_.body); }
+  rf::EchoEnd receive_end() const { return end_of(config_.receive, receiver_.body); }
   rf::EchoOptions echo_options(const EffectPlan& plan, const Scenario& scenario) const;
   rf::EchoMotion motion(const TickContext& context, uint32_t update) const;
   void describe(const SensorConfig& sensor);

@@ -130,6 +130,22 @@ TEST(RadarEchoRcs, PlateAcrossBothItsSides) {
   EXPECT_NEAR(section_db(field_of(list), range_m, range_m), expected, 0.01);
 }
 
+/// One place, two polarizations: not monostatic for the search, but no way leads from one element to the other.
+TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
+  EchoScene scene(plate());
+  const Pose at = looking(from(5.0, 0.0), dvec3(0.0));
+  const EchoEnd vertical, horizontal{.pattern = {}, .slant = 0.5 * pi};
+  const auto field = [&](const EchoEnd& receiver) {
+    EchoFinder finder(scene.gpu, scene.surfaces(), vertical, receiver, exact(0.09, 100));
+    const EchoList list = finder.find(at, at, std::vector<Pose>(scene.scene.bodies.size()));
+    for (const Echo& echo : list.echoes) EXPECT_GT(echo.bounces, 0u);
+    return field_of(list);
+  };
+  const Complex alone = field_of(scene.find(exact(0.09, 100), at));
+  EXPECT_LT(std::abs(field(vertical) - alone), 1e-6 * std::abs(alone));
+  EXPECT_LT(std::abs(field(horizontal)), 1e-6 * std::abs(alone));
+}
+
 /// Physical optics with the field across the plane of incidence: cos(theta_i) from the currents, and the phases of both ways.
 TEST(RadarEchoRcs, BistaticPlate) {
   EchoScene scene(plate());
