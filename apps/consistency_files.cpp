@@ -72,7 +72,7 @@ class Recomputer {
     const SensorSpec &a = *sensor(row.sensor), &b = *sensor(row.other);
     std::string absent;
     if (row.figure == sim::lidar_figure) {
-      absent = unwritten(a, {"points", "instance"});
+      absent = unwritten(a, {"points", "instance", "material"});
       if (absent.empty()) absent = unwritten(b, {"depth"});
       // Boxes alone make a run look at instances, too, which are not kept then.
       const bool boxes =

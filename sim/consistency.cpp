@@ -48,16 +48,16 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
 }
 
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
-                                          const render::CameraImages& images, const dvec3& point_in_camera,
-                                          uint32_t instance) {
-  const double z = point_in_camera.x;
+                                          const render::CameraImages& images, const ReturnedPoint& point) {
+  const double z = point.in_camera.x;
   if (z <= camera.near_m) return std::nullopt;
-  const double column = camera.cx - camera.fx * point_in_camera.y / z;
-  const double row = camera.cy - camera.fy * point_in_camera.z / z;
+  const double column = camera.cx - camera.fx * point.in_camera.y / z;
+  const double row = camera.cy - camera.fy * point.in_camera.z / z;
   if (!(column >= 0.0 && row >= 0.0 && column < images.width && row < images.height)) return std::nullopt;
   const auto i = static_cast<uint32_t>(column), j = static_cast<uint32_t>(row);
-  if (!images.instance.empty() && images.instance[size_t{j} * images.width + i] != instance)
-    return std::nullopt;
+  const size_t pixel = size_t{j} * images.width + i;
+  if (!images.instance.empty() && images.instance[pixel] != point.instance) return std::nullopt;
+  if (!images.material.empty() && images.material[pixel] != point.material) return std::nullopt;
   const std::optional<InverseDepthPlane> plane = interior_plane(images, i, j);
   if (!plane) return std::nullopt;
   const double depth = 1.0 / plane->at(column - (i + 0.5), row - (j + 0.5));
@@ -66,12 +66,14 @@ std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
 
 ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
                                     const Pose& camera_from_lidar, std::span<const float> xyzi,
-                                    std::span<const uint32_t> instances) {
+                                    std::span<const uint32_t> instances,
+                                    std::span<const uint32_t> materials) {
   ErrorStatistics errors;
   const size_t stride = std::max<size_t>(1, instances.size() / lidar_comparisons);
   for (size_t i = 0; i < instances.size(); i += stride) {
     const dvec3 point = camera_from_lidar.apply(dvec3(xyzi[4 * i], xyzi[4 * i + 1], xyzi[4 * i + 2]));
-    if (const auto error = lidar_against_depth(camera, images, point, instances[i])) errors.add(*error);
+    if (const auto error = lidar_against_depth(camera, images, {point, instances[i], materials[i]}))
+      errors.add(*error);
   }
   return errors;
 }

@@ -33,15 +33,20 @@ std::vector<glm::uvec2> probe_pixels(uint32_t width, uint32_t height, uint32_t c
 /// multiple of it at which a ray hits.
 dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row);
 
-/// Relative difference between a LiDAR return (sensor-frame position, seen from the same tick) and the picture, at the
-/// place where it falls; empty where it falls outside or on no interior pixel of the same instance.
+/// A LiDAR's return: where, in the camera's sensor frame, and what it is of (indices + 1).
+struct ReturnedPoint {
+  dvec3 in_camera{0.0};
+  uint32_t instance = 0, material = 0;
+};
+/// Relative difference between a return of the same tick and the picture, at the place where it falls; empty where it falls
+/// outside or on no interior pixel of the same instance and material (the camera sees the pane that the beam went through).
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
-                                          const render::CameraImages& images, const dvec3& point_in_camera,
-                                          uint32_t instance);
-/// The same for some of a sweep's returns, evenly over it: at most twice `lidar_comparisons`. `xyzi` [4 n], `instances` [n].
+                                          const render::CameraImages& images, const ReturnedPoint& point);
+/// The same for some of a sweep's returns, evenly over it: at most twice `lidar_comparisons`. `xyzi` [4 n] in the LiDAR's
+/// frame, `instances`, `materials` [n].
 inline constexpr size_t lidar_comparisons = 1024;
 ErrorStatistics lidar_against_depth(const render::CameraDesc& camera, const render::CameraImages& images,
                                     const Pose& camera_from_lidar, std::span<const float> xyzi,
-                                    std::span<const uint32_t> instances);
+                                    std::span<const uint32_t> instances, std::span<const uint32_t> materials);
 
 }  // namespace greatx::sim

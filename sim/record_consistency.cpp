@@ -135,8 +135,10 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
   const render::CameraImages images = images_of(camera, desc);
   const Pose camera_from_lidar =
       pose_of(about.at("body_from_sensor")).inverse() * pose_of(metadata_of(lidar).at("body_from_sensor"));
-  const Array points = lidar.array("points"), instance = lidar.array("instance");
-  return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>());
+  const Array points = lidar.array("points"), instance = lidar.array("instance"),
+              material = lidar.array("material");
+  return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>(),
+                             material.as<uint32_t>());
 }
 
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses) {

@@ -73,7 +73,8 @@ void Simulator::add_sensors() {
         add(std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, i),
             configs[i].rate_hz);
       else if (std::holds_alternative<EventCameraConfig>(configs[i].config))
-        add(std::make_unique<EventSensor>(*passes_->stage, scenario_, node, i), configs[i].rate_hz);
+        add(std::make_unique<EventSensor>(*passes_->stage, shared_camera(node, i), scenario_, node, i),
+            configs[i].rate_hz);
       else if (std::holds_alternative<LidarConfig>(configs[i].config))
         add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
       else if (std::holds_alternative<RadarConfig>(configs[i].config))
@@ -87,6 +88,17 @@ void Simulator::add_sensors() {
     specs_.push_back(sensor->spec());
     looks_ahead_ |= sensor->looks_ahead();
   }
+}
+
+/// The camera whose pixels an event camera has; null: none. It has been added before.
+const CameraSensor* Simulator::shared_camera(uint32_t node, uint32_t sensor) const {
+  const NodeConfig& config = scenario_.nodes[node];
+  const std::string& name = std::get<EventCameraConfig>(config.sensors[sensor].config).camera;
+  if (name.empty()) return nullptr;
+  const auto found = std::ranges::find_if(
+      sensors_, [&](const auto& other) { return other->spec().name == config.name + "/" + name; });
+  GREATX_CHECK(found != sensors_.end(), "{}: no camera '{}'", config.name, name);
+  return dynamic_cast<const CameraSensor*>(found->get());
 }
 
 void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz) {
@@ -225,8 +237,8 @@ void Simulator::compare_lidar_with_depth(const Packet& packet) {
       const Pose camera_from_lidar = camera->mount().inverse() * lidar->mount();
       const render::LidarScan& scan = lidar->scan();
       const std::span<const float> points(scan.size() > 0 ? &scan.points[0].x : nullptr, 4 * scan.size());
-      const ErrorStatistics errors =
-          lidar_against_depth(camera->desc(), camera->images(), camera_from_lidar, points, scan.instance);
+      const ErrorStatistics errors = lidar_against_depth(camera->desc(), camera->images(), camera_from_lidar,
+                                                         points, scan.instance, scan.material);
       keep(lidar_figure, packet, a.sensor, b.sensor, errors, &statistics_.consistency.lidar);
     }
   }

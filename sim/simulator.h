@@ -25,6 +25,8 @@
 
 namespace greatx::sim {
 
+class CameraSensor;
+
 /// GPU time of one pass over the run so far.
 struct PassTotal {
   uint64_t count = 0;
@@ -70,6 +72,7 @@ class Simulator {
   Moment moment_at(int64_t tick) const;
   void add_sensors();
   void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
+  const CameraSensor* shared_camera(uint32_t node, uint32_t sensor) const;
   void replay(int64_t end);
   void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
   void record_ahead(gpu::TickSlot& slot);

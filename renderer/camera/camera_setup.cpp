@@ -44,7 +44,6 @@ void CameraPass::check() const {
           desc_.exposure_ev100);
   require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
           0);
-  require(!desc_.outputs.luminance || !desc_.outputs.color(), "outputs", "luminance or colour, not both", 2);
   const size_t materials = scene_->scene().materials.size();
   require(!desc_.outputs.material || materials < 65535, "outputs.material",
           "a scene of at most 65534 materials", double(materials));

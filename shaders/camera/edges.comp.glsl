@@ -22,9 +22,18 @@ layout(set = 0, binding = edges_luminance_to_binding, scalar) writeonly buffer T
   float to_luminance[];
 };
 
-vec4 shaded(ivec2 at) {
+/// What is wanted of a pixel; the other is nothing.
+struct Shaded {
+  vec4 color;
+  float luminance;
+};
+
+Shaded shaded(ivec2 at) {
   uint element = picture_element(at);
-  return luminance_on ? vec4(from_luminance[element]) : unpack_color(from_color[element]);
+  Shaded pixel = Shaded(vec4(0.0), 0.0);
+  if (color_on) pixel.color = unpack_color(from_color[element]);
+  if (luminance_on) pixel.luminance = from_luminance[element];
+  return pixel;
 }
 
 /// How far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the first.
@@ -43,10 +52,10 @@ float reach(Seen seen, vec3 ray, vec3 step) {
 ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }
 uint neighbor(ivec2 at, int k) { return picture_element(clamp(at + step_to(k), ivec2(0), picture_size() - 1)); }
 
-/// The pixel's colour when the triangles of those neighbours whose bits are set in `differing` have their share of it.
-vec4 smoothed(ivec2 at, uvec2 mine, uint differing, vec4 color) {
+/// The pixel when the triangles of those neighbours whose bits are set in `differing` have their share of it.
+Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
   vec3 ray = pixel_ray(pinhole_place(at));
-  vec4 across = vec4(0.0), down = vec4(0.0);
+  Shaded across = Shaded(vec4(0.0), 0.0), down = across;
   vec2 share = vec2(0.0);
   while (differing != 0u) {
     int k = findLSB(differing);
@@ -61,14 +70,20 @@ vec4 smoothed(ivec2 at, uvec2 mine, uint differing, vec4 color) {
       Seen seen = see((nearer ? mine.y : other.y) - 1u);
       float covered = nearer ? reach(seen, ray, other_ray - ray) : reach(seen, other_ray, ray - other_ray);
       float weight = clamp(nearer ? 0.5 - covered : covered - 0.5, 0.0, 0.5);
-      vec4 part = weight * shaded(there);
-      across += k < 2 ? part : vec4(0.0);
-      down += k < 2 ? vec4(0.0) : part;
-      share += k < 2 ? vec2(weight, 0.0) : vec2(0.0, weight);
+      Shaded other_pixel = shaded(there);
+      vec2 part = k < 2 ? vec2(weight, 0.0) : vec2(0.0, weight);
+      across.color += part.x * other_pixel.color;
+      across.luminance += part.x * other_pixel.luminance;
+      down.color += part.y * other_pixel.color;
+      down.luminance += part.y * other_pixel.luminance;
+      share += part;
     }
   }
   // An edge crosses both ways: the axis that it is steeper to tells the share.
-  return share.y > share.x ? color * (1.0 - share.y) + down : color * (1.0 - share.x) + across;
+  bool steep = share.y > share.x;
+  float rest = 1.0 - (steep ? share.y : share.x);
+  return Shaded(pixel.color * rest + (steep ? down.color : across.color),
+                pixel.luminance * rest + (steep ? down.luminance : across.luminance));
 }
 
 void main() {
@@ -78,8 +93,8 @@ void main() {
   uvec2 mine = picture_seen[element];
   uint differing = 0u;
   for (int k = 0; k < 4; ++k) differing |= uint(picture_seen[neighbor(at, k)].y != mine.y) << k;
-  vec4 color = shaded(at);
-  if (differing != 0u) color = smoothed(at, mine, differing, color);
-  if (color_on) to_color[element] = pack_color(color);
-  if (luminance_on) to_luminance[element] = color.x;
+  Shaded pixel = shaded(at);
+  if (differing != 0u) pixel = smoothed(at, mine, differing, pixel);
+  if (color_on) to_color[element] = pack_color(pixel.color);
+  if (luminance_on) to_luminance[element] = pixel.luminance;
 }

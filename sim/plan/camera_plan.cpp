@@ -92,6 +92,7 @@ Asks asks_of(const Scenario& scenario) {
         add(asks, *camera);
       } else if (const auto* events = std::get_if<EventCameraConfig>(&sensor.config)) {
         ++asks.event_cameras;
+        asks.shared_pixels += events->camera.empty() ? 0 : 1;
         asks.adaptive_events |= events->steps != EventCameraConfig::Steps::fixed;
         add(asks, static_cast<const PinholeConfig&>(*events));
       } else if (const auto* lidar = std::get_if<LidarConfig>(&sensor.config)) {
@@ -142,9 +143,12 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
   plan.normals = output("normals", asks.normals);
   plan.flow = output("flow", asks.flow);
   plan.boxes = output("boxes", asks.boxes);
-  plan.event_camera = planner.fixed(
-      "event_camera", asks.event_cameras > 0,
-      asks.event_cameras > 0 ? fmt::format("{} of them", asks.event_cameras) : "no event camera");
+  plan.event_camera =
+      planner.fixed("event_camera", asks.event_cameras > 0,
+                    asks.event_cameras == 0   ? "no event camera"
+                    : asks.shared_pixels == 0 ? fmt::format("{} of them", asks.event_cameras)
+                                              : fmt::format("{} of them, {} with the pixels of a camera",
+                                                            asks.event_cameras, asks.shared_pixels));
   plan.adaptive_steps = planner.fixed("adaptive_steps", asks.adaptive_events,
                                       asks.event_cameras == 0 ? "no event camera"
                                       : asks.adaptive_events  ? "asked for"

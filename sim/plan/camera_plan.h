@@ -24,6 +24,7 @@ struct Offers {
 /// What the scenario asks for.
 struct Asks {
   size_t cameras = 0, event_cameras = 0, lidars = 0;
+  size_t shared_pixels = 0;  ///< event cameras that share a camera's
   bool rgb = false, depth = false, ids = false, hdr = false;
   bool depth_ray = false, normals = false, flow = false, boxes = false;
   bool smooth_edges = false, distortion = false, vignetting = false, noise = false, motion_blur = false,

@@ -101,6 +101,9 @@ struct CameraConfig : PinholeConfig {
 
 /// An event camera (docs/events.md): brightness changes instead of pictures.
 struct EventCameraConfig : PinholeConfig {
+  /// Name of the camera of the same node that has the same pixels, as a DAVIS sensor's: at its samples the pictures are that
+  /// camera's; PinholeConfig, mount and see_own_body too. Empty: none.
+  std::string camera;
   uint32_t substeps = 4;  ///< pictures an interval between two samples; adaptive: at most
   enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
   double max_flow_px = 0.5;  ///< of by_flow: motion from one picture to the next, at most

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nodes[].sensors[]: event cameras.
+#include <algorithm>
+
 #include "sim/scenario/scenario_parse.h"
 
 namespace greatx::sim {
@@ -73,11 +75,56 @@ void parse_difference(const Field& field, EventCameraConfig& camera) {
   if (const auto f = map.find("ev100")) camera.difference_ev100 = f->between(-20.0, 24.0);
 }
 
+/// What a shared camera says.
+constexpr std::string_view of_the_camera[] = {"mount",   "see_own_body", "width",        "height",
+                                              "fov_deg", "fx",           "fy",           "cx",
+                                              "cy",      "near_m",       "antialiasing", "distortion"};
+
+/// The camera whose pixels the node's event camera `s` shares.
+const SensorConfig& camera_of(const NodeConfig& node, size_t s, const std::string& path) {
+  const SensorConfig& sensor = node.sensors[s];
+  const std::string& name = std::get<EventCameraConfig>(sensor.config).camera;
+  const auto fail = [&](const std::string& expected, const std::string& found) {
+    throw_user_error_at(sensor.where, "{}.camera: expected {}, found {}", path, expected, found);
+  };
+  const auto end = node.sensors.begin() + static_cast<ptrdiff_t>(s);
+  const auto found = std::find_if(node.sensors.begin(), end, [&](const SensorConfig& c) {
+    return c.name == name && std::holds_alternative<CameraConfig>(c.config);
+  });
+  if (found == end) fail("the name of a camera of the same node listed before", fmt::format("'{}'", name));
+  if (found->rate_hz != sensor.rate_hz)
+    fail(fmt::format("a camera of the same rate, {} Hz", sensor.rate_hz.str()),
+         fmt::format("'{}' of {} Hz", name, found->rate_hz.str()));
+  if (std::get<CameraConfig>(found->config).motion_blur_samples > 0)
+    fail("a camera without motion blur", fmt::format("'{}' with it", name));
+  return *found;
+}
+
 }  // namespace
+
+void resolve_event_cameras(std::vector<NodeConfig>& nodes) {
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    for (size_t s = 0; s < nodes[n].sensors.size(); ++s) {
+      SensorConfig& sensor = nodes[n].sensors[s];
+      auto* events = std::get_if<EventCameraConfig>(&sensor.config);
+      if (events == nullptr || events->camera.empty()) continue;
+      const SensorConfig& shared = camera_of(nodes[n], s, fmt::format("nodes[{}].sensors[{}]", n, s));
+      const auto& camera = std::get<CameraConfig>(shared.config);
+      static_cast<PinholeConfig&>(*events) = camera;
+      events->see_own_body = camera.see_own_body;
+      sensor.mount = shared.mount;
+    }
+  }
+}
 
 EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz) {
   EventCameraConfig camera;
-  parse_pinhole(map, camera);
+  if (const auto f = map.find("camera")) {
+    camera.camera = f->text();
+    for (const std::string_view key : of_the_camera) map.exclude("camera", key);
+  } else {
+    parse_pinhole(map, camera);
+  }
   if (rate_hz.value() < slowest_rate_hz)
     map.require("rate_hz", "a rate")
         .fail(fmt::format("a rate of at least {} Hz of an event camera", slowest_rate_hz));

@@ -51,6 +51,8 @@ AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
 RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns);
 /// Gives bistatic radars the antennas that transmit for them.
 void resolve_illuminators(std::vector<NodeConfig>& nodes);
+/// Event cameras that share a camera's pixels get its optics and mount.
+void resolve_event_cameras(std::vector<NodeConfig>& nodes);
 std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
 std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
                                           const std::vector<NodeConfig>& nodes);

@@ -20,6 +20,10 @@ void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config) {
   desc.distortion = config.distortion;
 }
 
+bool needs_seen(const EventCameraConfig& config) {
+  return config.events && (config.instance || config.steps == EventCameraConfig::Steps::by_flow);
+}
+
 render::TruthOutputs truth_outputs(const CameraConfig& config) {
   return {config.normals, config.depth_ray, config.flow};
 }
@@ -45,6 +49,12 @@ render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node,
   desc.outputs.instance = config.ids || config.boxes;
   desc.outputs.semantic = desc.outputs.material = config.ids;
   desc.outputs.seen = truth_outputs(config).any();
+  for (const SensorConfig& other : node.sensors) {
+    const auto* events = std::get_if<EventCameraConfig>(&other.config);
+    if (events == nullptr || events->camera != sensor.name) continue;
+    desc.outputs.luminance = true;
+    desc.outputs.seen |= needs_seen(*events);
+  }
   if (body != 0 && !config.see_own_body) desc.excluded_body = body;
   return desc;
 }

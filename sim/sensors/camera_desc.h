@@ -31,6 +31,8 @@ void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config);
 render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node, const SensorConfig& sensor,
                                uint32_t body);
 render::TruthOutputs truth_outputs(const CameraConfig& config);
+/// Whether events need what pixels see: their instances, or how it moves.
+bool needs_seen(const EventCameraConfig& config);
 
 /// Intrinsics, lens, frames and exposure: what a user needs to make sense of the pictures (docs/truth.md).
 nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from_sensor);

@@ -33,10 +33,14 @@ class CameraSensor : public Sensor {
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   void report(Consistency& consistency) const override;
+  /// An event camera that shares its pixels looks at the pictures before a resume, too.
+  bool remembers() const override { return pass_.desc().outputs.luminance; }
 
   uint32_t node() const { return node_; }
   const Pose& mount() const { return mount_; }
   const render::CameraDesc& desc() const { return pass_.desc(); }
+  /// With the picture recorded last.
+  const render::CameraPass& pass() const { return pass_; }
   /// The picture collected last, for comparing with other sensors of the same tick.
   const render::CameraImages& images() const { return images_; }
 

@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "gpu/condition.h"
 #include "sim/sensors/camera_desc.h"
+#include "sim/sensors/camera_sensor.h"
 
 namespace greatx::sim {
 
@@ -70,21 +71,21 @@ std::string name_of(const NodeConfig& node, uint32_t sensor) {
 
 }  // namespace
 
-EventSensor::EventSensor(Stage& stage, const Scenario& scenario, uint32_t node, uint32_t sensor)
+EventSensor::EventSensor(Stage& stage, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
+                         uint32_t sensor)
     : stage_(stage),
       world_(stage.world()),
       config_(std::get<EventCameraConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       clock_(scenario.tick_rate_hz),
-      camera_(stage.lighting(),
-              camera_desc(
-                  name_of(scenario.nodes[node], sensor), config_,
-                  config_.events && (config_.instance || config_.steps == EventCameraConfig::Steps::by_flow),
-                  world_.body_of_node[node])),
+      shared_(shared),
       events_(stage.lighting().scene(),
               event_desc(name_of(scenario.nodes[node], sensor), scenario, config_)) {
   const SensorConfig& config = scenario.nodes[node].sensors[sensor];
+  if (shared_ == nullptr || events_.desc().substeps > 1)
+    camera_.emplace(stage.lighting(), camera_desc(name_of(scenario.nodes[node], sensor), config_,
+                                                  needs_seen(config_), world_.body_of_node[node]));
   if (config_.hdf5 && clock_.seconds(scenario.ticks) > longest_hdf5_s)
     throw_user_error_at(config.where, "outputs: expected a run of at most {} s for 'hdf5', found {} s",
                         longest_hdf5_s, clock_.seconds(scenario.ticks));
@@ -96,6 +97,7 @@ EventSensor::EventSensor(Stage& stage, const Scenario& scenario, uint32_t node, 
 
 void EventSensor::describe() {
   nlohmann::json metadata = pinhole_metadata(config_, mount_);
+  if (shared_ != nullptr) metadata["camera"] = shared_->spec().name;
   if (config_.events) {
     spec_.arrays = {{"t", DType::i64, {-1}, "ns", "[event] since the sequence's first tick"},
                     {"x", DType::u16, {-1}, "1", "[event] column"},
@@ -158,20 +160,29 @@ void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     for (uint32_t i = 1; i <= last; ++i)
       take_picture(slot, context, i, i == last ? context.time_s : 1e-9 * double(events_.time_ns(i)));
   }
-  events_.end(slot, camera_.luminance());
+  events_.end(slot, picture_at(true).luminance());
   begin_ns_[slot.index] = before_ns;
   last_ns_ = now_ns;
   ++sample_;
 }
 
+const render::CameraPass& EventSensor::picture_at(bool sample) const {
+  return sample && shared_ != nullptr ? shared_->pass() : *camera_;
+}
+
 void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, uint32_t index,
                                double time_s) {
   const gpu::Condition condition(*slot.cmd, events_.condition(index));
-  if (last_ns_) stage_.move_to(slot, context, time_s);  // at the first picture it is there already
-  const Motion motion = time_s == context.time_s ? context.nodes[node_] : context.motion_at(node_, time_s);
-  camera_.record(slot, world_.scene.to_local(motion.pose) * mount_, {context.sequence, context.tick});
+  const bool sample = time_s == context.time_s, of_shared = sample && shared_ != nullptr;
+  // At the first picture, and if there are none in between, everything is there already.
+  if (last_ns_ && (!of_shared || camera_)) stage_.move_to(slot, context, time_s);
+  if (!of_shared) {
+    const Motion motion = sample ? context.nodes[node_] : context.motion_at(node_, time_s);
+    camera_->record(slot, world_.scene.to_local(motion.pose) * mount_, {context.sequence, context.tick});
+  }
+  const render::CameraPass& picture = picture_at(sample);
   const bool by_flow = events_.desc().steps == render::EventSteps::by_flow;
-  events_.step(slot, index, camera_.luminance(), events_.needs_seen() ? &camera_.seen() : nullptr,
+  events_.step(slot, index, picture.luminance(), events_.needs_seen() ? &picture.seen() : nullptr,
                by_flow ? motions(context, time_s) : std::vector<shared::EventMotion>());
 }
 

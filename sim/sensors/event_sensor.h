@@ -13,12 +13,16 @@
 
 namespace greatx::sim {
 
+class CameraSensor;
+
 /// An event camera on a node: at each of its samples, the events since the sample before (docs/events.md). Pictures at
 /// the instants in between are rendered in the same tick's command buffer, with everything that moves where it then was.
+/// With EventCameraConfig::camera the pictures at the samples are that camera's, which recorded them just before.
 class EventSensor : public Sensor {
  public:
-  /// `node`, `sensor`: indices into the scenario. The stage outlives this.
-  EventSensor(Stage& stage, const Scenario& scenario, uint32_t node, uint32_t sensor);
+  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. Stage and camera outlive this.
+  EventSensor(Stage& stage, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
+              uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   bool remembers() const override { return true; }
@@ -34,6 +38,8 @@ class EventSensor : public Sensor {
 
  private:
   void describe();
+  /// The pass that has the picture of an instant.
+  const render::CameraPass& picture_at(bool sample) const;
   void take_picture(gpu::TickSlot& slot, const TickContext& context, uint32_t index, double time_s);
   std::vector<shared::EventMotion> motions(const TickContext& context, double time_s) const;
 
@@ -43,7 +49,8 @@ class EventSensor : public Sensor {
   uint32_t node_;
   Pose mount_;
   Clock clock_;
-  render::CameraPass camera_;
+  const CameraSensor* shared_;
+  std::optional<render::CameraPass> camera_;  ///< of the pictures that `shared_` does not take
   render::EventPass events_;
   SensorSpec spec_;
   std::optional<int64_t> last_ns_;  ///< of the sample recorded last

@@ -33,6 +33,7 @@ render::CameraImages picture_of_plane(const dvec3& normal, double d) {
       images.depth.push_back(
           static_cast<float>(d / glm::dot(normal, pixel_ray(desc, column + 0.5, row + 0.5))));
       images.instance.push_back(1);
+      images.material.push_back(3);
     }
   return images;
 }
@@ -62,15 +63,16 @@ TEST(LidarAgainstDepth, BetweenPixelCentresThePlaneIsExact) {
   const render::CameraImages images = picture_of_plane(normal, 9.0);
   const dvec3 ray = pixel_ray(camera(), 17.83, 11.29);
   const dvec3 point = ray * (9.0 / glm::dot(normal, ray));
-  const auto error = lidar_against_depth(camera(), images, point, 1);
+  const auto error = lidar_against_depth(camera(), images, {point, 1, 3});
   ASSERT_TRUE(error);
   EXPECT_LT(*error, 1e-6);
   // A return 1 cm behind the surface is seen as such.
-  const auto wrong = lidar_against_depth(camera(), images, point * (1.0 + 0.01 / point.x), 1);
+  const auto wrong = lidar_against_depth(camera(), images, {point * (1.0 + 0.01 / point.x), 1, 3});
   ASSERT_TRUE(wrong);
   EXPECT_NEAR(*wrong, 0.01 / point.x, 1e-4);
-  EXPECT_FALSE(lidar_against_depth(camera(), images, point, 2)) << "another instance";
-  EXPECT_FALSE(lidar_against_depth(camera(), images, -point, 1)) << "behind the camera";
+  EXPECT_FALSE(lidar_against_depth(camera(), images, {point, 2, 3})) << "another instance";
+  EXPECT_FALSE(lidar_against_depth(camera(), images, {-point, 1, 3})) << "behind the camera";
+  EXPECT_FALSE(lidar_against_depth(camera(), images, {point, 1, 4})) << "behind a pane of another material";
 }
 
 TEST(ErrorStatistics, BoundsQuantiles) {

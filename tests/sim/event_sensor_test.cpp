@@ -135,6 +135,28 @@ TEST(EventSensor, OtherSensorsChangeNothingAndAreNotChanged) {
   for (size_t i = 0; i < with.size(); ++i) EXPECT_TRUE(with[i].bytes == without[i].bytes) << i;
 }
 
+TEST(EventSensor, PixelsOfACameraFireAsTheirOwn) {
+  // The same view, once rendered for events alone and once taken from the camera at the samples.
+  const std::string front =
+      "      - {name: front, type: camera, rate_hz: 20, width: 62, height: 46, fov_deg: 70}\n";
+  for (const std::string& more :
+       {std::string(", steps: 1"), noisy + ", steps: {by: flow, most: 8}"}) {
+    const std::string shared =
+        "      - {name: dvs, type: event_camera, camera: front, rate_hz: 20" + more + "}\n";
+    const std::string yaml = head + van(true) + eye(10.0, front + shared);
+    const KeptRun own = keep_run(head + van(true) + eye(10.0, front + dvs(more, "20"))),
+                  with = keep_run(yaml), rest = keep_run(yaml, 0, 90);
+    EXPECT_GT(with.joined<int64_t>("eye/dvs", "t").size(), 1000u);
+    expect_same_events(own, with);
+    ASSERT_EQ(with.packets.size(), 5u);
+    ASSERT_EQ(rest.packets.size(), 3u);
+    for (size_t k = 0; k < with.packets.size(); ++k) {
+      EXPECT_TRUE(with.arrays("eye/front", "rgb")[k].bytes == own.arrays("eye/front", "rgb")[k].bytes) << k;
+      if (k >= 2) test::expect_same_bytes(with.sensors, with.packets[k], rest.packets[k - 2]);
+    }
+  }
+}
+
 TEST(EventSensor, SequencesDifferInNoiseAlone) {
   const std::string shot = dvs(", noise: {shot_rate_hz: 20}", "40");
   const std::string yaml = head + van(false) + eye(0.0, shot);
