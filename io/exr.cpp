@@ -3,16 +3,17 @@
 #include "io/exr.h"
 
 #include <Imath/ImathBox.h>
+#include <algorithm>
 #include <cstring>
-#include <utility>
+#include <memory>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/openexr.h>
+#include <libdeflate.h>
 
 namespace greatx::io {
 
@@ -25,27 +26,8 @@ int no_threads() {
   return 0;
 }
 
-constexpr int compression_level = 1;  // of zlib; the library's default, 4, takes 12 % longer for 1 % less
-
-/// Bytes in memory for Imf::OutputFile, which comes back once to fill in the table of its blocks.
-class MemoryStream : public Imf::OStream {
- public:
-  MemoryStream() : OStream("memory") {}
-  void write(const char data[], int count) override {
-    const auto size = static_cast<size_t>(count);
-    if (at_ + size > bytes_.size()) bytes_.resize(at_ + size);
-    std::memcpy(bytes_.data() + at_, data, size);
-    at_ += size;
-  }
-  uint64_t tellp() override { return at_; }
-  void seekp(uint64_t position) override { at_ = position; }
-  void reserve(size_t size) { bytes_.reserve(size); }
-  Bytes take() { return std::move(bytes_); }
-
- private:
-  Bytes bytes_;
-  uint64_t at_ = 0;
-};
+constexpr int compression_level = 1;  // of libdeflate
+constexpr int lines_of_a_block = 16;  ///< of the format's ZIP compression
 
 std::vector<const char*> channel_names(bool rgb) {
   return rgb ? std::vector<const char*>{"R", "G", "B"} : std::vector<const char*>{"Z"};
@@ -64,6 +46,89 @@ Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* value
   return buffer;
 }
 
+/// Writes the format around blocks that are compressed already: OpenEXR's own way through zlib takes three times as long as
+/// libdeflate's, a sixth of all CPU time of a camera's tick.
+class Writer {
+ public:
+  explicit Writer(Bytes& file) {
+    exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    options.user_data = &file;
+    options.write_fn = [](exr_const_context_t, void* to, const void* data, uint64_t size, uint64_t at,
+                          exr_stream_error_func_ptr_t) -> int64_t {
+      Bytes& bytes = *static_cast<Bytes*>(to);
+      if (at + size > bytes.size()) bytes.resize(at + size);
+      std::memcpy(bytes.data() + at, data, size);
+      return static_cast<int64_t>(size);
+    };
+    check(exr_start_write(&context_, "memory", EXR_WRITE_FILE_DIRECTLY, &options));
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer() { exr_finish(&context_); }
+
+  void begin(int width, int height, const std::vector<const char*>& channels) {
+    int part = 0;
+    check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part));
+    check(exr_initialize_required_attr_simple(context_, part, width, height, EXR_COMPRESSION_ZIP));
+    for (const char* name : channels)
+      check(exr_add_channel(context_, part, name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+    check(exr_write_header(context_));
+  }
+  void block(int y, std::span<const std::byte> bytes) {
+    check(exr_write_scanline_chunk(context_, 0, y, bytes.data(), bytes.size()));
+  }
+  /// Writes the table of blocks.
+  void end() { check(exr_finish(&context_)); }
+
+ private:
+  static void check(exr_result_t result) {
+    GREATX_CHECK(result == EXR_ERR_SUCCESS, "OpenEXR: {}", exr_get_default_error_message(result));
+  }
+  exr_context_t context_ = nullptr;
+};
+
+/// Lines as the format's ZIP compression has them: per line one channel after the other; of all bytes the even ones, then the
+/// odd ones, each but the first as its difference from the one before, plus 128; then zlib's format. What does not shrink
+/// stays as it is.
+class BlockEncoder {
+ public:
+  BlockEncoder(int width, int channels)
+      : width_(size_t(width)),
+        channels_(size_t(channels)),
+        compressor_(libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor) {
+    GREATX_CHECK(compressor_ != nullptr, "libdeflate: no memory");
+  }
+
+  /// Of interleaved pixels; valid until the next call.
+  std::span<const std::byte> encode(const float* pixels, int lines) {
+    plain_.resize(width_ * channels_ * size_t(lines) * sizeof(float));
+    auto* to = reinterpret_cast<float*>(plain_.data());
+    for (int line = 0; line < lines; ++line, pixels += width_ * channels_)
+      for (size_t c = channels_; c-- > 0;)  // B, G, R: in the order of their names
+        for (size_t x = 0; x < width_; ++x) *to++ = pixels[x * channels_ + c];
+    mix();
+    packed_.resize(plain_.size());
+    const size_t size = libdeflate_zlib_compress(compressor_.get(), mixed_.data(), mixed_.size(),
+                                                 packed_.data(), packed_.size() - 1);
+    return size == 0 ? std::span<const std::byte>(plain_) : std::span(packed_).first(size);
+  }
+
+ private:
+  void mix() {
+    const size_t size = plain_.size(), half = (size + 1) / 2;
+    mixed_.resize(size);
+    for (size_t i = 0; i < half; ++i) mixed_[i] = plain_[2 * i];
+    for (size_t i = half; i < size; ++i) mixed_[i] = plain_[2 * (i - half) + 1];
+    for (size_t i = size; i-- > 1;)
+      mixed_[i] =
+          static_cast<std::byte>(std::to_integer<int>(mixed_[i]) - std::to_integer<int>(mixed_[i - 1]) + 128);
+  }
+
+  size_t width_, channels_;
+  std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor_;
+  Bytes plain_, mixed_, packed_;
+};
+
 }  // namespace
 
 Bytes encode_exr(const Array& image) {
@@ -72,23 +137,19 @@ Bytes encode_exr(const Array& image) {
                    image.shape[1] > 0 && image.shape[0] < (1 << 24) && image.shape[1] < (1 << 24) &&
                    (!rgb || image.shape[2] == 3),
                "{} of {} axes", numpy_name(image.dtype), image.shape.size());
+  const auto height = static_cast<int>(image.shape[0]), width = static_cast<int>(image.shape[1]);
+  Bytes file;
+  file.reserve(image.bytes.size());
+  Writer writer(file);
   // The header has the attributes that the format requires and none of time or owner: same pixels, same bytes.
-  Imf::Header header(static_cast<int>(image.shape[1]), static_cast<int>(image.shape[0]));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  header.zipCompressionLevel() = compression_level;
-  const std::vector<const char*> names = channel_names(rgb);
-  for (const char* name : names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-  // The library takes a pointer to mutable pixels for reading and writing alike; here it only reads.
-  char* const values = reinterpret_cast<char*>(const_cast<std::byte*>(image.bytes.data()));
-
-  MemoryStream stream;
-  stream.reserve(image.bytes.size());
-  {
-    Imf::OutputFile file(stream, header, no_threads());
-    file.setFrameBuffer(frame_buffer(names, values, header.dataWindow()));
-    file.writePixels(static_cast<int>(image.shape[0]));
-  }  // writes the table of blocks
-  return stream.take();
+  writer.begin(width, height, channel_names(rgb));
+  BlockEncoder blocks(width, rgb ? 3 : 1);
+  for (int y = 0; y < height; y += lines_of_a_block) {
+    const int lines = std::min(lines_of_a_block, height - y);
+    writer.block(y, blocks.encode(image.as<float>().data() + size_t(y) * width * (rgb ? 3 : 1), lines));
+  }
+  writer.end();
+  return file;
 }
 
 Array read_exr(const std::filesystem::path& path) try {

@@ -171,6 +171,17 @@ TEST(Exr, RgbIsExact) {
   }
 }
 
+TEST(Exr, WhatDoesNotShrinkIsStoredAsItIs) {
+  const test::TemporaryFolder folder;
+  Array noise(DType::f32, {33, 17, 3});
+  RandomStream random(5, 0);
+  for (std::byte& byte : noise.bytes) byte = static_cast<std::byte>(random.below(256));
+  const Bytes file = encode_exr(noise);
+  EXPECT_GE(file.size(), noise.bytes.size());
+  write_file_atomically(folder.path() / "c.exr", file);
+  EXPECT_EQ(read_exr(folder.path() / "c.exr").bytes, noise.bytes);
+}
+
 TEST(Exr, SamePixelsGiveTheSameBytesInEveryThread) {
   Array depth(DType::f32, {100, 60});
   RandomStream random(9, 1);
