@@ -117,7 +117,7 @@ class RangeDopplerPanel : public RadarPanel {
                            static_cast<double>(columns_),
            picture.bottom() - d.range * pixels, d);
     const double step = round_down(far_m / 2.5);
-    for (int i = 1; i * step < far_m; ++i)
+    for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // a label is whole
       canvas.text(picture.x + 6, picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
                   tick_text(i * step) + " m", theme::text_scale, theme::text);
     const std::string velocity = tick_text(std::round(-10.0 * axes_.velocity_min) / 10.0);
