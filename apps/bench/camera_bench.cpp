@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/bench/event_row.h"
+#include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "core/srgb.h"
 #include "core/units.h"
@@ -109,20 +110,9 @@ std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, ui
   return lamps;
 }
 
-struct FirstCamera {
-  uint32_t node = 0, sensor = 0;
-};
-FirstCamera first_camera(const sim::Scenario& scenario) {
-  for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
-    for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor)
-      if (std::holds_alternative<sim::CameraConfig>(scenario.nodes[node].sensors[sensor].config))
-        return {node, sensor};
-  throw_user_error("{}: bench --camera: expected a camera, found none", scenario.name);
-}
-
 /// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
-                                              FirstCamera camera, uint32_t count) {
+                                              sim::SensorPlace camera, uint32_t count) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const sim::Clock clock(scenario.tick_rate_hz);
   const Pose mount = sim::mount_pose(scenario.nodes[camera.node].sensors[camera.sensor].mount);
@@ -174,7 +164,7 @@ class Bench {
         world_(sim::load_world(scenario_)),
         plan_(sim::make_effect_plan(scenario_, world_.scene)),
         device_(run.device_options()),
-        camera_(first_camera(scenario_)) {
+        camera_(first_sensor<sim::CameraConfig>(scenario_, "--camera", "a camera")) {
     const sim::NodeConfig& node = scenario_.nodes[camera_.node];
     desc_ =
         sim::camera_desc(scenario_, node, node.sensors[camera_.sensor], world_.body_of_node[camera_.node]);
@@ -310,7 +300,7 @@ class Bench {
   sim::World world_;
   sim::EffectPlan plan_;
   gpu::Device device_;
-  FirstCamera camera_;
+  sim::SensorPlace camera_;
   render::CameraDesc desc_;
   render::Lighting day_;
   render::CameraEffects effects_;
