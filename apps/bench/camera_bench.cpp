@@ -26,6 +26,8 @@ namespace {
 
 constexpr double day_target_ms = 20.0, night_over_day = 1.5, events_target_ms = 60.0;
 constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
+constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 2500.0, fog_sky_lux = 14000.0,
+                 fog_ev100 = 13.4;
 
 /// One way to take the picture, with everything it needs.
 class Row {
@@ -200,6 +202,7 @@ class Bench {
     without("moving shadows", &render::CameraEffects::moving_shadows);
     without("ambient occlusion", &render::CameraEffects::ambient_occlusion);
     without("specular", &render::CameraEffects::specular);
+    add_fog();
     add_night();
     add_events();
     render::CameraDesc large = enlarged(desc_);
@@ -223,6 +226,22 @@ class Bench {
   void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
            const render::CameraEffects& effects, const render::CameraDesc& desc) {
     rows_.push_back(std::make_unique<Row>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+  }
+
+  /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.
+  void add_fog() {
+    sim::Scenario scenario = scenario_;
+    sim::Environment& environment = scenario.environment = {};
+    environment.sun_elevation = radians(fog_sun_elevation_deg);
+    environment.sun_illuminance_lux = fog_sun_lux;
+    environment.sky = sim::SkyKind::overcast;
+    environment.sky_illuminance_lux = fog_sky_lux;
+    environment.fog_g_m3 = fog_g_m3;
+    render::CameraDesc desc = desc_;
+    desc.exposure_ev100 = fog_ev100;
+    desc.automatic_exposure = false;
+    add("fog", world_.scene, sim::lighting_of(environment),
+        sim::camera_effects(sim::make_effect_plan(scenario, world_.scene)), desc);
   }
 
   /// The same view by night: the scene's own lamps, then lamps over the whole scene.
