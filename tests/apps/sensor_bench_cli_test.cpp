@@ -161,6 +161,9 @@ TEST_F(SensorBench, TheRigTellsWhatEachSensorCosts) {
   }
   EXPECT_THAT(names, ::testing::ElementsAre("all, written", "nothing written", "without LiDAR drone/lidar",
                                             "without radar drone/radar", "without channel csi"));
+}
+
+TEST_F(SensorBench, TheRigPrintsATable) {
   const Outcome text = bench(lidar, "--rig --rounds 1 --block 1 --warm-up 0");
   EXPECT_EQ(text.code, 0) << text.err;
   for (const char* part : {"rig on ", "all, written", "without LiDAR drone/lidar", "it costs"})
