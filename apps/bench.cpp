@@ -8,9 +8,12 @@
 #include <fmt/format.h>
 
 #include "apps/bench/camera_bench.h"
+#include "apps/bench/lidar_bench.h"
 #include "apps/bench/measure.h"
+#include "apps/bench/radar_bench.h"
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
+#include "apps/bench/rig_bench.h"
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include "apps/session.h"
@@ -31,8 +34,14 @@ struct Options {
   RecallOptions recall_options;
   bool camera = false;
   CameraBenchOptions camera_options;
+  bool lidar = false;
+  LidarBenchOptions lidar_options;
+  bool radar = false;
+  RadarBenchOptions radar_options;
   bool radio = false;
   RadioBenchOptions radio_options;
+  bool rig = false;
+  RigBenchOptions rig_options;
 };
 
 void print(const nlohmann::json& result) {
@@ -49,6 +58,7 @@ void print(const nlohmann::json& result) {
   std::cout << fmt::format("  {:<28} {:>9} {:>9} {:>9}   (ms)\n", "", "min", "median", "max");
   row(result["written"].get<bool>() ? "full tick, written" : "full tick, discarded", result["tick_ms"]);
   for (const auto& [name, pass] : result["pass_ms"].items()) row("  gpu " + name, pass);
+  for (const auto& [name, pass] : result["host_ms"].items()) row("  host " + name, pass);
 }
 
 void run(const Options& options) {
@@ -99,31 +109,32 @@ void run(const Options& options) {
   result["first_packet_ms"] = first_packet_ms;
   result["drain_ms"] = drain_ms;
   result["tick_ms"] = distribution(ticks);
-  result["pass_ms"] = nlohmann::json::object();
-  for (const auto& [name, pass] : statistics.passes) {
-    std::vector<double> samples = pass.samples;
-    samples.erase(samples.begin(),
-                  samples.begin() + static_cast<std::ptrdiff_t>(std::min(samples.size(), passes_to_drop)));
-    if (!samples.empty()) result["pass_ms"][name] = distribution(std::move(samples));
-  }
+  const auto rows = [&](const std::map<std::string, sim::PassTotal>& passes) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const auto& [name, pass] : passes) {
+      std::vector<double> samples = pass.samples;
+      samples.erase(samples.begin(),
+                    samples.begin() + static_cast<std::ptrdiff_t>(std::min(samples.size(), passes_to_drop)));
+      if (!samples.empty()) json[name] = distribution(std::move(samples));
+    }
+    return json;
+  };
+  result["pass_ms"] = rows(statistics.passes);
+  result["host_ms"] = rows(statistics.host);
   if (options.json)
     std::cout << result.dump(2) << '\n';
   else
     print(result);
 }
 
-void run_camera(const Options& options) {
-  CameraBenchOptions camera = options.camera_options;
-  camera.warm_up = options.warm_up;
-  const nlohmann::json result = camera_bench(options.scenario, options.run, camera);
-  std::cout << (options.json ? result.dump(2) + "\n" : camera_bench_text(result));
-}
-
-void run_radio(const Options& options) {
-  RadioBenchOptions radio = options.radio_options;
-  radio.warm_up = options.warm_up;
-  const nlohmann::json result = radio_bench(options.scenario, options.run, radio);
-  std::cout << (options.json ? result.dump(2) + "\n" : radio_bench_text(result));
+/// One of the benchmarks that print a table of their own.
+template <typename BenchOptions>
+void run_rows(const Options& options, BenchOptions bench_options,
+              nlohmann::json (*bench)(const ScenarioOptions&, const RunOptions&, const BenchOptions&),
+              std::string (*text)(const nlohmann::json&)) {
+  bench_options.warm_up = options.warm_up;
+  const nlohmann::json result = bench(options.scenario, options.run, bench_options);
+  std::cout << (options.json ? result.dump(2) + "\n" : text(result));
 }
 
 }  // namespace
@@ -165,6 +176,27 @@ void add_bench(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_flag(
+      "--lidar", options->lidar,
+      "time the first LiDAR alone instead, row by row: single rays, each effect, rings, returns");
+  command->add_option("--sweeps", options->lidar_options.sweeps, "of --lidar: measured of each row")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--channels", options->lidar_options.channels, "of --lidar: of all rows but the last")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--azimuth-steps", options->lidar_options.azimuth_steps,
+                   "of --lidar: of all rows but the last")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4096));
+  command->add_flag(
+      "--radar", options->radar,
+      "time the first radar alone instead, row by row: whole frames, echoes by numbers of tubes "
+      "with their error");
+  command->add_option("--frames", options->radar_options.frames, "of --radar: measured of each row")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag(
       "--radio", options->radio,
       "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
       "with diffraction and scattering, many receivers in one call");
@@ -180,9 +212,25 @@ void add_bench(CLI::App& app) {
                    "of --radio: a row of ticks ends after so long")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command->add_flag("--rig", options->rig,
+                    "time the whole tick, written, and the tick without each sensor in turns instead: what "
+                    "each one costs");
+  command->add_option("--rounds", options->rig_options.rounds, "of --rig: measured of each row")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig"};
+  for (const char* a : modes)
+    for (const char* b : modes)
+      if (a != b) command->get_option(a)->excludes(command->get_option(b));
   command->callback([options, command] {
-    if (options->camera) return run_camera(*options);
-    if (options->radio) return run_radio(*options);
+    if (options->camera) return run_rows(*options, options->camera_options, camera_bench, camera_bench_text);
+    if (options->lidar) return run_rows(*options, options->lidar_options, lidar_bench, lidar_bench_text);
+    if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);
+    if (options->radio) return run_rows(*options, options->radio_options, radio_bench, radio_bench_text);
+    if (options->rig) return run_rows(*options, options->rig_options, rig_bench, rig_bench_text);
     if (!options->recall) return run(*options);
     options->recall_options.scenario = options->scenario;
     options->recall_options.run = options->run;

@@ -3,6 +3,7 @@
 #include "sim/simulator.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "renderer/probe.h"
@@ -38,6 +39,30 @@ struct Simulator::InFlight {
   const gpu::TickSlot* slot = nullptr;
   int64_t tick = 0;
   std::vector<Due> due;
+};
+
+/// Adds the wall time of its life to a row of RunStatistics::host, if samples are kept.
+class Simulator::HostScope {
+ public:
+  HostScope(Simulator& simulator, const char* doing, const std::string& sensor = {}) {
+    if (!simulator.keep_samples_) return;
+    total_ = &simulator.statistics_.host[sensor.empty() ? doing : doing + (" " + sensor)];
+    begin_ = std::chrono::steady_clock::now();
+  }
+  ~HostScope() {
+    if (total_ == nullptr) return;
+    const double milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    ++total_->count;
+    total_->milliseconds += milliseconds;
+    total_->samples.push_back(milliseconds);
+  }
+  HostScope(const HostScope&) = delete;
+  HostScope& operator=(const HostScope&) = delete;
+
+ private:
+  PassTotal* total_ = nullptr;
+  std::chrono::steady_clock::time_point begin_;
 };
 
 Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World& world,
@@ -146,7 +171,10 @@ bool Simulator::step(RecordSink& sink) {
     drain(sink);
     return false;
   }
-  if (looks_ahead_ && pending_ != nullptr) ring_.wait(*pending_->slot);
+  if (looks_ahead_ && pending_ != nullptr) {
+    const HostScope scope(*this, "wait to look ahead");
+    ring_.wait(*pending_->slot);
+  }
   const int64_t tick = next_tick_;
   std::vector<Due> due{{poses_sensor, due_ticks_++}};
   for (const Due& sensor : schedule_.due(tick)) due.push_back({sensor.sensor + 1, sensor.sample});
@@ -168,7 +196,10 @@ void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vec
   const bool camera_due = std::any_of(
       due.begin(), due.end(), [&](const Due& d) { return specs_[d.sensor].kind.ends_with("camera"); });
   if (camera_due) passes_->lighting->record(slot, moment.bodies);
-  for (const Due& sensor : due) sensors_[sensor.sensor]->record(slot, moment.context);
+  for (const Due& sensor : due) {
+    const HostScope scope(*this, "record", specs_[sensor.sensor].name);
+    sensors_[sensor.sensor]->record(slot, moment.context);
+  }
 }
 
 void Simulator::record_ahead(gpu::TickSlot& slot) {
@@ -190,20 +221,28 @@ void Simulator::drain(RecordSink& sink) {
 }
 
 void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
-  ring_.wait(*in_flight.slot);
+  {
+    const HostScope scope(*this, "wait");
+    ring_.wait(*in_flight.slot);
+  }
   Packet packet{in_flight.tick, clock_.nanoseconds(in_flight.tick), {}};
   for (const Due& due : in_flight.due) {
+    const HostScope scope(*this, "collect", specs_[due.sensor].name);
     packet.records.push_back({due.sensor, packet.tick, packet.time_ns, due.sample,
                               sensors_[due.sensor]->collect(*in_flight.slot)});
     ++statistics_.records[specs_[due.sensor].name];
   }
-  compare(packet);
+  {
+    const HostScope scope(*this, "compare");
+    compare(packet);
+  }
   for (const gpu::PassTime& pass : in_flight.slot->timestamps.read()) {
     PassTotal& total = statistics_.passes[pass.name];
     ++total.count;
     total.milliseconds += pass.milliseconds;
     if (keep_samples_) total.samples.push_back(pass.milliseconds);
   }
+  const HostScope scope(*this, "hand over");
   sink.write(std::move(packet));
   ++statistics_.packets;
 }

@@ -27,7 +27,7 @@ namespace greatx::sim {
 
 class CameraSensor;
 
-/// GPU time of one pass over the run so far.
+/// GPU time of one pass, or the host's of one of its doings, over the run so far.
 struct PassTotal {
   uint64_t count = 0;
   double milliseconds = 0.0;
@@ -35,10 +35,13 @@ struct PassTotal {
 };
 
 struct RunStatistics {
-  int64_t ticks = 0;                         ///< at which something was due, recorded and submitted
-  int64_t packets = 0;                       ///< complete, handed to the sink
-  std::map<std::string, int64_t> records;    ///< by sensor
-  std::map<std::string, PassTotal> passes;   ///< by scope name
+  int64_t ticks = 0;                        ///< at which something was due, recorded and submitted
+  int64_t packets = 0;                      ///< complete, handed to the sink
+  std::map<std::string, int64_t> records;   ///< by sensor
+  std::map<std::string, PassTotal> passes;  ///< by scope name
+  /// Wall time of "record NAME" and "collect NAME" of each sensor (the latter while the GPU works on the tick after), of
+  /// "wait" for the GPU ("wait to look ahead" if a sensor does), of "compare" (the check of one world) and of "hand over" to the sink; only if samples are kept.
+  std::map<std::string, PassTotal> host;
   std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
   std::vector<std::pair<std::string, std::string>>
       notes;  ///< (name, text): how candidates were found, what holds
@@ -80,6 +83,7 @@ class Simulator {
   void compare(const Packet& packet);
   void compare_lidar_with_depth(const Packet& packet);
   void compare_radars(const Packet& packet);
+  class HostScope;
   void keep(const char* figure, const Packet& packet, uint32_t sensor, uint32_t other,
             const ErrorStatistics& errors, ErrorStatistics* total);
 

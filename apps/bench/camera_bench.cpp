@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/bench/event_row.h"
+#include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "core/srgb.h"
 #include "core/units.h"
@@ -25,6 +26,8 @@ namespace {
 
 constexpr double day_target_ms = 20.0, night_over_day = 1.5, events_target_ms = 60.0;
 constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
+constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 2500.0, fog_sky_lux = 14000.0,
+                 fog_ev100 = 13.4;
 
 /// One way to take the picture, with everything it needs.
 class Row {
@@ -109,20 +112,9 @@ std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, ui
   return lamps;
 }
 
-struct FirstCamera {
-  uint32_t node = 0, sensor = 0;
-};
-FirstCamera first_camera(const sim::Scenario& scenario) {
-  for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
-    for (uint32_t sensor = 0; sensor < scenario.nodes[node].sensors.size(); ++sensor)
-      if (std::holds_alternative<sim::CameraConfig>(scenario.nodes[node].sensors[sensor].config))
-        return {node, sensor};
-  throw_user_error("{}: bench --camera: expected a camera, found none", scenario.name);
-}
-
 /// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
-                                              FirstCamera camera, uint32_t count) {
+                                              sim::SensorPlace camera, uint32_t count) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const sim::Clock clock(scenario.tick_rate_hz);
   const Pose mount = sim::mount_pose(scenario.nodes[camera.node].sensors[camera.sensor].mount);
@@ -174,7 +166,7 @@ class Bench {
         world_(sim::load_world(scenario_)),
         plan_(sim::make_effect_plan(scenario_, world_.scene)),
         device_(run.device_options()),
-        camera_(first_camera(scenario_)) {
+        camera_(first_sensor<sim::CameraConfig>(scenario_, "--camera", "a camera")) {
     const sim::NodeConfig& node = scenario_.nodes[camera_.node];
     desc_ =
         sim::camera_desc(scenario_, node, node.sensors[camera_.sensor], world_.body_of_node[camera_.node]);
@@ -210,6 +202,7 @@ class Bench {
     without("moving shadows", &render::CameraEffects::moving_shadows);
     without("ambient occlusion", &render::CameraEffects::ambient_occlusion);
     without("specular", &render::CameraEffects::specular);
+    add_fog();
     add_night();
     add_events();
     render::CameraDesc large = enlarged(desc_);
@@ -233,6 +226,22 @@ class Bench {
   void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
            const render::CameraEffects& effects, const render::CameraDesc& desc) {
     rows_.push_back(std::make_unique<Row>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+  }
+
+  /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.
+  void add_fog() {
+    sim::Scenario scenario = scenario_;
+    sim::Environment& environment = scenario.environment = {};
+    environment.sun_elevation = radians(fog_sun_elevation_deg);
+    environment.sun_illuminance_lux = fog_sun_lux;
+    environment.sky = sim::SkyKind::overcast;
+    environment.sky_illuminance_lux = fog_sky_lux;
+    environment.fog_g_m3 = fog_g_m3;
+    render::CameraDesc desc = desc_;
+    desc.exposure_ev100 = fog_ev100;
+    desc.automatic_exposure = false;
+    add("fog", world_.scene, sim::lighting_of(environment),
+        sim::camera_effects(sim::make_effect_plan(scenario, world_.scene)), desc);
   }
 
   /// The same view by night: the scene's own lamps, then lamps over the whole scene.
@@ -310,7 +319,7 @@ class Bench {
   sim::World world_;
   sim::EffectPlan plan_;
   gpu::Device device_;
-  FirstCamera camera_;
+  sim::SensorPlace camera_;
   render::CameraDesc desc_;
   render::Lighting day_;
   render::CameraEffects effects_;

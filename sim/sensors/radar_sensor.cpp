@@ -163,20 +163,25 @@ void RadarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
     gpu_scene_.record_update(slot, context.body_poses);  // for the sensors after this one
 }
 
-std::vector<Array> RadarSensor::collect(const gpu::TickSlot& slot) {
+std::vector<Array> RadarSensor::collect(const gpu::TickSlot& slot) { return process(find_echoes(slot)); }
+
+RadarSensor::Echoes RadarSensor::find_echoes(const gpu::TickSlot& slot) {
   Frame& frame = frames_[slot.index];
-  std::vector<rf::EchoList> lists;
-  std::vector<rf::RadarAttitude> attitudes;
+  Echoes echoes{{}, {}, frame.seeds, frame.baseline_m};
   for (const Update& update : frame.updates) {
     rf::EchoStatistics statistics;
-    lists.push_back(finder_.collect(update.rays, update.motion, &statistics));
-    attitudes.push_back(update.attitude);
+    echoes.lists.push_back(finder_.collect(update.rays, update.motion, &statistics));
+    echoes.attitudes.push_back(update.attitude);
     tubes_ += statistics.tubes;
-    echoes_ += lists.back().echoes.size();
+    echoes_ += echoes.lists.back().echoes.size();
     echoes_left_out_ += statistics.left_out;
   }
   frame.updates.clear();
-  frame_ = processor_.process({lists, attitudes, frame.baseline_m, frame.seeds});
+  return echoes;
+}
+
+std::vector<Array> RadarSensor::process(const Echoes& echoes) {
+  frame_ = processor_.process({echoes.lists, echoes.attitudes, echoes.baseline_m, echoes.seeds});
   ++frames_done_;
   detections_ += frame_.detections.size();
   saturated_ += frame_.report.saturated_samples;

@@ -26,6 +26,17 @@ class RadarSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   void count(std::map<std::string, uint64_t>& counters) const override;
 
+  /// What the scene sends back in a frame, and when; what collect() makes a record of.
+  struct Echoes {
+    std::vector<rf::EchoList> lists;
+    std::vector<rf::RadarAttitude> attitudes;
+    rf::RadarSeeds seeds;
+    dvec3 baseline_m{0.0};
+  };
+  /// The two halves of collect(), for who wants to know what each costs.
+  Echoes find_echoes(const gpu::TickSlot& slot);
+  std::vector<Array> process(const Echoes& echoes);
+
   uint32_t node() const { return node_; }
   const Pose& mount() const { return mount_; }
   const RadarConfig& config() const { return config_; }

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/lidar_bench.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "apps/bench/first_sensor.h"
+#include "apps/bench/measure.h"
+#include "gpu/tick_ring.h"
+#include "sim/plan/plan_options.h"
+#include "sim/sensors/lidar_sensor.h"
+
+namespace greatx::apps {
+
+namespace {
+
+constexpr const char* option = "--lidar";
+constexpr double spun_s = 0.1;         ///< of the rows with a sweep, where the scenario's has none
+constexpr double divergence = 1.5e-3;  ///< rad, of the rows with rings, where the scenario's has none
+constexpr double noise_equivalent_power = 1e-8;
+
+constexpr const char* effect_names[] = {
+    "lidar_alpha_mask", "lidar_textures", "lidar_sweep_motion", "lidar_target_motion", "lidar_divergence",
+    "lidar_glass",      "lidar_haze",     "lidar_backscatter",  "lidar_detection",     "lidar_range_noise"};
+
+/// What a row adds to the plain sweep.
+struct Change {
+  std::string name;
+  std::vector<std::string> effects;  ///< that the plan may switch on; the first one is what the row is about
+  std::function<void(sim::LidarConfig&, sim::Environment&)> apply;
+};
+
+double sweep_of(const render::Scan& scan) {
+  return std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.sweep_s; })
+          return s.sweep_s;
+        else
+          return 0.0;
+      },
+      scan);
+}
+
+/// All shots at the tick, of the scenario's own elevations if it has that many.
+render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions& options) {
+  render::SpinningScan scan;
+  scan.azimuth_steps = options.azimuth_steps;
+  const auto* spinning = std::get_if<render::SpinningScan>(&own);
+  if (spinning != nullptr && spinning->elevations.size() == options.channels) {
+    scan.elevations = spinning->elevations;
+    return scan;
+  }
+  for (uint32_t i = 0; i < options.channels; ++i)
+    scan.elevations.push_back(radians(-45.0 + 60.0 * i / std::max(1u, options.channels - 1)));
+  return scan;
+}
+
+std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
+  const double sweep_s = sweep_of(own.scan) > 0.0 ? sweep_of(own.scan) : spun_s;
+  const auto spin = [sweep_s](sim::LidarConfig& c) {
+    std::get<render::SpinningScan>(c.scan).sweep_s = sweep_s;
+  };
+  const auto rings = [width = own.divergence > 0.0 ? own.divergence : divergence](sim::LidarConfig& c,
+                                                                                  uint32_t count) {
+    c.divergence = width;
+    c.rings = count;
+  };
+  const auto detect = [](sim::LidarConfig& c) { c.receiver.detection = {noise_equivalent_power}; };
+  const auto returns = [](render::ReturnMode mode) {
+    return [mode](sim::LidarConfig& c, sim::Environment&) { c.returns.mode = mode; };
+  };
+  const auto nothing = [](sim::LidarConfig&, sim::Environment&) {};
+  const auto fog = [](sim::Environment& e) { e.fog_g_m3 = std::max(e.fog_g_m3, 0.05); };
+  return {
+      {fmt::format("{} x {} single rays", options.channels, options.azimuth_steps), {}, nothing},
+      {"holes of masks", {"lidar_alpha_mask"}, nothing},
+      {"textures", {"lidar_textures"}, nothing},
+      {"glass", {"lidar_glass"}, nothing},
+      {"glass, all returns", {"lidar_glass"}, returns(render::ReturnMode::all)},
+      {"shots at their own times", {"lidar_sweep_motion"}, [=](auto& c, auto&) { spin(c); }},
+      {"bodies at their times too",
+       {"lidar_target_motion", "lidar_sweep_motion"},
+       [=](auto& c, auto&) { spin(c); }},
+      {"1 ring, 7 rays", {"lidar_divergence"}, [=](auto& c, auto&) { rings(c, 1); }},
+      {"1 ring, dual returns",
+       {"lidar_divergence"},
+       [=](auto& c, auto&) { rings(c, 1), c.returns.mode = render::ReturnMode::dual; }},
+      {"1 ring, all returns",
+       {"lidar_divergence"},
+       [=](auto& c, auto&) { rings(c, 1), c.returns.mode = render::ReturnMode::all; }},
+      {"2 rings, 19 rays", {"lidar_divergence"}, [=](auto& c, auto&) { rings(c, 2); }},
+      {"detection", {"lidar_detection"}, [=](auto& c, auto&) { detect(c); }},
+      {"noise of ranges",
+       {"lidar_range_noise"},
+       [](auto& c, auto&) { c.receiver.range_std_m = std::max(c.receiver.range_std_m, 0.01); }},
+      {"fog", {"lidar_haze"}, [=](auto&, auto& e) { fog(e); }},
+      {"fog's own echoes, detection",
+       {"lidar_backscatter", "lidar_haze", "lidar_detection"},
+       [=](auto& c, auto& e) { detect(c), fog(e); }},
+  };
+}
+
+/// The plain sweep with a change, every other effect off.
+sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const Change& change,
+                      const LidarBenchOptions& options) {
+  auto& config = std::get<sim::LidarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
+  const render::SpinningScan scan = plain_scan(config.scan, options);
+  config.scan = scan;
+  config.rings = 0;
+  config.returns.mode = render::ReturnMode::strongest;
+  config.receiver.detection.reset();
+  config.receiver.range_std_m = config.receiver.rise_m = 0.0;
+  scenario.environment.fog_g_m3 = scenario.environment.rain_mm_h = 0.0;
+  for (const char* name : effect_names) scenario.effects[name] = sim::Switch::off;
+  for (const std::string& name : change.effects) scenario.effects[name] = sim::Switch::automatic;
+  change.apply(config, scenario.environment);
+  return scenario;
+}
+
+/// One way to sweep, with everything it needs.
+class Row {
+ public:
+  Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
+      const sim::SensorPlace& place)
+      : name_(std::move(name)),
+        scenario_(std::make_unique<sim::Scenario>(std::move(scenario))),
+        plan_(sim::make_effect_plan(*scenario_, world.scene)),
+        gpu_(device, world.scene, sim::gpu_scene_options(plan_)),
+        sensor_(gpu_, plan_, *scenario_, world, place.node, place.sensor),
+        ring_(device, 2, 4u << 20, 16u << 20) {
+    const auto& config =
+        std::get<sim::LidarConfig>(scenario_->nodes[place.node].sensors[place.sensor].config);
+    shots_ = render::scan_pattern(config.scan).size();
+    rings_ = plan_.lidar_divergence.on ? config.rings : 0;
+  }
+
+  void shoot(const sim::Moment& moment, bool counts) {
+    const double cpu_before = cpu_milliseconds();
+    const Clock::time_point begin = Clock::now();
+    gpu::TickSlot& slot = ring_.begin();
+    gpu_.record_update(slot, moment.bodies);
+    sensor_.record(slot, moment.context);
+    ring_.submit(slot);
+    ring_.wait(slot);
+    sensor_.collect(slot);
+    if (!counts) return;
+    times_.push_back(milliseconds_since(begin));
+    cpu_.push_back(cpu_milliseconds() - cpu_before);
+    returns_ += sensor_.scan().size();
+  }
+
+  nlohmann::json result() const {
+    nlohmann::json row{{"name", name_},
+                       {"tick_ms", distribution(times_)},
+                       {"cpu_ms", distribution(cpu_)},
+                       {"shots", shots_},
+                       {"rays", 1 + 3 * rings_ * (rings_ + 1)},
+                       {"returns", times_.empty() ? 0.0 : double(returns_) / double(times_.size())},
+                       {"effects", nlohmann::json::array()}};
+    for (const sim::Effect* effect : plan_.all())
+      if (effect->on && effect->name.starts_with("lidar_")) row["effects"].push_back(effect->name);
+    return row;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<sim::Scenario> scenario_;
+  sim::EffectPlan plan_;
+  scene::GpuScene gpu_;
+  sim::LidarSensor sensor_;
+  gpu::TickRing ring_;
+  size_t shots_ = 0;
+  uint32_t rings_ = 0;
+  std::vector<double> times_, cpu_;
+  uint64_t returns_ = 0;
+};
+
+class Bench {
+ public:
+  Bench(const ScenarioOptions& options, const RunOptions& run)
+      : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), option, "a LiDAR")),
+        place_(first_sensor<sim::LidarConfig>(scenario_, option, "a LiDAR")),
+        world_(sim::load_world(scenario_)),
+        device_(run.device_options()) {}
+
+  void add_rows(const LidarBenchOptions& options) {
+    for (const Change& change : changes(own(), options)) {
+      sim::Scenario scenario = changed(scenario_, place_, change, options);
+      if (!change.effects.empty()) {
+        const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
+        for (const sim::Effect* effect : plan.all())
+          if (effect->name == change.effects[0] && !effect->on) left_out_[change.name] = effect->reason;
+        if (left_out_.contains(change.name)) continue;
+      }
+      add(rows_.empty() ? change.name : "+ " + change.name, std::move(scenario));
+    }
+    add("as in the scenario", scenario_);
+  }
+
+  nlohmann::json measure(const LidarBenchOptions& options) {
+    const auto warm = static_cast<uint32_t>(options.warm_up);
+    const sim::Courses courses = sim::make_courses(scenario_, world_, 0);
+    const std::vector<sim::Moment> moments = moments_of(scenario_, world_, courses, options.sweeps + warm);
+    for (uint32_t i = 0; i < moments.size(); ++i)
+      for (const auto& row : rows_) row->shoot(moments[i], i >= warm);
+    return result();
+  }
+  const gpu::Device& device() const { return device_; }
+
+ private:
+  const sim::LidarConfig& own() const {
+    return std::get<sim::LidarConfig>(scenario_.nodes[place_.node].sensors[place_.sensor].config);
+  }
+  void add(const std::string& name, sim::Scenario scenario) {
+    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scenario), world_, place_));
+  }
+
+  nlohmann::json result() const {
+    const sim::NodeConfig& node = scenario_.nodes[place_.node];
+    nlohmann::json result{{"scenario", scenario_.name},
+                          {"device", device_.info().name},
+                          {"driver", device_.info().driver},
+                          {"lidar", node.name + "/" + node.sensors[place_.sensor].name},
+                          {"triangles", world_.scene.triangle_count()},
+                          {"rows", nlohmann::json::array()},
+                          {"left_out", left_out_}};
+    for (const auto& row : rows_) result["rows"].push_back(row->result());
+    const double plain = result["rows"][0]["tick_ms"]["median"];
+    for (nlohmann::json& row : result["rows"]) row["ratio"] = row["tick_ms"]["median"].get<double>() / plain;
+    return result;
+  }
+
+  sim::Scenario scenario_;
+  sim::SensorPlace place_;
+  sim::World world_;
+  gpu::Device device_;
+  std::vector<std::unique_ptr<Row>> rows_;
+  std::map<std::string, std::string> left_out_;
+};
+
+}  // namespace
+
+nlohmann::json lidar_bench(const ScenarioOptions& scenario, const RunOptions& run,
+                           const LidarBenchOptions& options) {
+  Bench bench(scenario, run);
+  bench.add_rows(options);
+  nlohmann::json result = bench.measure(options);
+  check_validation(bench.device());
+  return result;
+}
+
+std::string lidar_bench_text(const nlohmann::json& result) {
+  std::string text =
+      fmt::format("{}, {}, {} triangles, on {} ({})\n{:<30} {:>8} {:>8} {:>8} {:>7} {:>7} {:>5} {:>8}\n",
+                  result["scenario"].get<std::string>(), result["lidar"].get<std::string>(),
+                  result["triangles"].get<size_t>(), result["device"].get<std::string>(),
+                  result["driver"].get<std::string>(), "", "min ms", "median", "cpu ms", "ratio", "shots",
+                  "rays", "returns");
+  for (const nlohmann::json& row : result["rows"])
+    text += fmt::format("{:<30} {:8.2f} {:8.2f} {:8.2f} {:7.2f} {:7} {:5} {:8.0f}\n",
+                        row["name"].get<std::string>(), row["tick_ms"]["min"].get<double>(),
+                        row["tick_ms"]["median"].get<double>(), row["cpu_ms"]["median"].get<double>(),
+                        row["ratio"].get<double>(), row["shots"].get<size_t>(), row["rays"].get<uint32_t>(),
+                        row["returns"].get<double>());
+  for (const auto& [name, reason] : result["left_out"].items())
+    text += fmt::format("left out: {} ({})\n", name, reason.get<std::string>());
+  return text;
+}
+
+}  // namespace greatx::apps
