@@ -136,18 +136,24 @@ static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scen
 uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
   struct Range {
     uint32_t first, count;
+    double area;
   };
-  std::array<Range, wide> ranges{Range{first, count}};
+  const auto range_of = [&](uint32_t from, uint32_t held) {
+    scene::Bounds box;
+    for (uint32_t i = 0; i < held; ++i) box.add(work.bounds[work.order[from + i]]);
+    return Range{from, held, area_of(box)};
+  };
+  std::array<Range, wide> ranges{range_of(first, count)};
   uint32_t used = 1;
-  while (used < wide) {  // the largest is cut again
-    uint32_t largest = 0;
-    for (uint32_t i = 1; i < used; ++i)
-      if (ranges[i].count > ranges[largest].count) largest = i;
-    const Range range = ranges[largest];
-    if (range.count <= leaf_size) break;
+  while (used < wide) {  // the one that most rays meet is cut again
+    uint32_t widest = wide;
+    for (uint32_t i = 0; i < used; ++i)
+      if (ranges[i].count > leaf_size && (widest == wide || ranges[i].area > ranges[widest].area)) widest = i;
+    if (widest == wide) break;
+    const Range range = ranges[widest];
     const uint32_t left = cut_by_area(work.order, work.bounds, range.first, range.count, bins);
-    ranges[largest] = {range.first, left};
-    ranges[used++] = {range.first + left, range.count - left};
+    ranges[widest] = range_of(range.first, left);
+    ranges[used++] = range_of(range.first + left, range.count - left);
   }
   const uint32_t index = static_cast<uint32_t>(nodes_.size());
   nodes_.emplace_back();
