@@ -170,24 +170,38 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
   job.facets.clear();
   bool one_instance = same_chain(job, job.tube, bounce) && RayHits::met(hits_.word(job.tube, bounce));
   const uint32_t own = one_instance ? RayHits::facet(hits_.word(job.tube, bounce)) : VisibleCell::nothing;
+  bool sends = false;
   const auto look = [&](uint32_t tube) {
     if (tube == RayGrid::outside) return;
     const uint32_t facet = RayHits::facet(hits_.word(tube, bounce));
     const bool counts = facet != VisibleCell::nothing && same_chain(job, tube, bounce);
-    if (counts) job.facets.push_back(facet);
-    one_instance = one_instance && counts && scene_.facets[facet].instance == scene_.facets[own].instance;
+    if (!counts) {
+      one_instance = false;
+      return;
+    }
+    job.facets.push_back(facet);
+    sends = sends || may_send(tube, bounce);
+    one_instance = one_instance && scene_.facets[facet].instance == scene_.facets[own].instance;
   };
   look(job.tube);
   for (const uint32_t other : job.ring) look(other);
   std::sort(job.facets.begin(), job.facets.end());
   job.facets.erase(std::unique(job.facets.begin(), job.facets.end()), job.facets.end());
   cells.clear();
-  if (job.facets.empty()) return;
+  if (!sends) return;
   find_visible(world_, trees_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(),
                job.scratch, cells);
   if (!one_instance) return;
   for (VisibleCell& cell : cells)
     if (cell.facet == VisibleCell::nothing && cell.part.area() > 1e-6 * job.part.area()) cell.facet = own;
+}
+
+bool TubeEchoes::may_send(uint32_t tube, uint32_t bounce) const {
+  for (uint32_t b = bounce; b < bounces_ && RayHits::met(hits_.word(tube, b)); ++b)
+    if (RayHits::sees_receiver(hits_.word(tube, b)) &&
+        !(b == 1 && found_backwards(RayHits::facet(hits_.word(tube, 0)), RayHits::facet(hits_.word(tube, 1)))))
+      return true;
+  return false;
 }
 
 bool TubeEchoes::sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const {
@@ -253,6 +267,10 @@ bool TubeEchoes::spreads(uint32_t first, uint32_t second) const {
   return mirror_ratio * extent(first) < extent(second);
 }
 
+bool TubeEchoes::found_backwards(uint32_t first, uint32_t second) const {
+  return monostatic_ && spreads(second, first);
+}
+
 void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const {
   const PosedFacet &posed = world_.facet(job.chain[bounce - 1]), &wall = world_.facet(mirror);
   const TubeBeam& beam = job.beams[bounce - 1];
@@ -288,8 +306,7 @@ void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint3
 
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
   if (bounce > 0 && spreads(job.chain[bounce - 1], facet)) return send_over(job, bounce, part, facet);
-  // A monostatic radar sees this surface (else nobody would ask): what finds it directly has this path backwards.
-  if (monostatic_ && bounce == 1 && spreads(facet, job.chain[0])) return;
+  if (bounce == 1 && found_backwards(job.chain[0], facet)) return;
   const PosedFacet& posed = world_.facet(facet);
   const TubeBeam& beam = job.beams[bounce];
   // The receiver is on the lit side: where the source was before the last surface turned the rays.
