@@ -58,6 +58,20 @@ std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, con
 
 /// A piece of a facet as the beam sees it; empty if it does not.
 Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
+  std::array<dvec2, FacetTrees::most_corners + 2> points;
+  uint32_t beyond = 15;  // sides of the box that all corners are beyond
+  double nearest = 1e300, lowest = 1e300;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec3 arm = piece[i] - beam.source;
+    const double x = glm::dot(arm, beam.e1), y = glm::dot(arm, beam.e2), z = glm::dot(arm, beam.axis);
+    beyond &= (x < within.low.x * z ? 1u : 0u) | (x > within.high.x * z ? 2u : 0u) |
+              (y < within.low.y * z ? 4u : 0u) | (y > within.high.y * z ? 8u : 0u);
+    nearest = std::min(nearest, z);
+    points[i] = dvec2(x, y) / z;
+    if (start.facet != nullptr) lowest = std::min(lowest, start.side * start.facet->distance(piece[i]));
+  }
+  if (beyond != 0) return {};
+  if (nearest >= nearest_m && lowest >= 0.0) return Polygon(std::span(points.data(), piece.size()));
   SpaceCorners corners;
   corners.count = static_cast<uint32_t>(piece.size());
   std::copy(piece.begin(), piece.end(), corners.points.begin());
@@ -65,7 +79,6 @@ Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart
   if (start.facet != nullptr)
     cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
   if (corners.count < 3) return {};
-  std::array<dvec2, FacetTrees::most_corners + 2> points;
   Box box;
   for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
   if (!box.meets(within)) return {};
