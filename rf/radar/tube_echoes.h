@@ -100,7 +100,7 @@ class TubeEchoes {
 };
 
 /// The tube's quadrilateral in its own coordinates.
-Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam);
+Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 /// A part of a beam on a facet, in the facet's plane coordinates; empty where it does not fall on the plane.
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part);
 
