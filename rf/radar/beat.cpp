@@ -115,7 +115,8 @@ class SlotSum {
         receivers_(config.arrays.receive_m.size()),
         cells_(kernel.grid()),
         samples_(kernel.grid()),
-        lines_(Fft::lanes * w_.samples) {}
+        lines_(Fft::lanes * w_.samples),
+        taps_(receivers_) {}
 
   BeatReport add(uint32_t slot, std::span<std::complex<float>> cube) {
     report_ = {};
@@ -182,9 +183,10 @@ class SlotSum {
     for (size_t r = 0; r < receivers_; ++r) {
       const size_t column = (r * w_.transmitters + transmitter_) * columns_.padded + first;
       block_taps(scales_, tones_, columns_.shift.data() + column, columns_.phasor_re.data() + column,
-                 columns_.phasor_im.data() + column, taps_);
-      spread(kernel_, tones_, taps_, offset_, count, stride_, grids_.data() + r * 2 * stride_);
+                 columns_.phasor_im.data() + column, taps_[r]);
     }
+    spread(kernel_, tones_, taps_.data(), static_cast<uint32_t>(receivers_), offset_, count, stride_,
+           grids_.data());
   }
 
   /// From grids to samples, four receivers at a time.
@@ -274,7 +276,7 @@ class SlotSum {
   std::vector<std::complex<float>> lines_;
   BlockDelays delays_;
   BlockTones tones_;
-  BlockTaps taps_;
+  std::vector<BlockTaps> taps_;  ///< [receivers]
   uint32_t offset_[tone_block] = {};
 };
 
