@@ -114,7 +114,9 @@ class SlotSum {
         walk_(walk),
         receivers_(config.arrays.receive_m.size()),
         cells_(kernel.grid()),
-        samples_(kernel.grid()) {}
+        samples_(kernel.grid()),
+        lines_(Fft::lanes * w_.samples),
+        taps_(receivers_) {}
 
   BeatReport add(uint32_t slot, std::span<std::complex<float>> cube) {
     report_ = {};
@@ -133,13 +135,10 @@ class SlotSum {
       PhaseWalk::Ramp ramp = walk_->ramp(slot);
       for (const uint32_t node : nodes_) ramp.differences(node, turns.emplace_back(w_.samples));
     }
-    for (size_t r = 0; r < receivers_; ++r) {
-      const auto row = cube.subspan(
-          ((r * w_.transmitters + transmitter_) * w_.chirps() + slot / w_.transmitters) * w_.samples,
-          w_.samples);
-      for (size_t i = 0; i < nodes_.size(); ++i) add_grid(i, r, walk_ ? &turns[i] : nullptr, row);
-      for (const size_t e : bent_) add_bent(e, r, turns, row);
-    }
+    for (size_t r = 0; r < receivers_; r += Fft::lanes)
+      for (size_t i = 0; i < nodes_.size(); ++i) add_grids(i, r, walk_ ? &turns[i] : nullptr, cube);
+    for (size_t r = 0; r < receivers_; ++r)
+      for (const size_t e : bent_) add_bent(e, r, turns, row_of(r, cube));
     report_.bent_tones = bent_.size();
     return report_;
   }
@@ -184,28 +183,53 @@ class SlotSum {
     for (size_t r = 0; r < receivers_; ++r) {
       const size_t column = (r * w_.transmitters + transmitter_) * columns_.padded + first;
       block_taps(scales_, tones_, columns_.shift.data() + column, columns_.phasor_re.data() + column,
-                 columns_.phasor_im.data() + column, taps_);
-      spread(kernel_, tones_, taps_, offset_, count, stride_, grids_.data() + r * 2 * stride_);
+                 columns_.phasor_im.data() + column, taps_[r]);
+    }
+    spread(kernel_, tones_, taps_.data(), static_cast<uint32_t>(receivers_), offset_, count, stride_,
+           grids_.data());
+  }
+
+  /// From grids to samples, four receivers at a time.
+  void add_grids(size_t node, size_t first, const std::vector<float>* turns,
+                 std::span<std::complex<float>> cube) {
+    constexpr size_t together = Fft::lanes;
+    const uint32_t grid = kernel_.grid(), middle = w_.middle_sample();
+    const size_t count = std::min(together, receivers_ - first);
+    const float* parts[2][together];
+    for (size_t i = 0; i < together; ++i) {  // where there are fewer, the last one fills up
+      float* re = grids_.data() + (node * receivers_ + first + std::min(i, count - 1)) * 2 * stride_;
+      parts[0][i] = re, parts[1][i] = re + stride_;
+      for (uint32_t k = 0; i < count && k < stride_ - grid; ++k) {
+        re[k] += re[grid + k];
+        re[stride_ + k] += re[stride_ + grid + k];
+      }
+    }
+    for (uint32_t k = 0; k < grid; k += together) {  // M is a multiple of four
+      Four value[2][together];
+      for (int part = 0; part < 2; ++part) {
+        for (size_t i = 0; i < together; ++i)
+          std::copy_n(parts[part][i] + k, together, &value[part][i].lane[0]);
+        transpose(value[part][0], value[part][1], value[part][2], value[part][3]);
+      }
+      for (size_t i = 0; i < together; ++i) cells_[k + i] = {value[0][i], value[1][i]};
+    }
+    transform_.transform(cells_.data(), samples_.data());
+    for (uint32_t n = 0; n < w_.samples; ++n)
+      cells_[n] = samples_[n >= middle ? n - middle : n + grid - middle] * Four(kernel_.correction()[n]);
+    std::complex<float>* rows[together];
+    for (size_t i = 0; i < together; ++i) rows[i] = lines_.data() + i * w_.samples;
+    Fft::scatter(cells_.data(), w_.samples, rows);
+    for (size_t i = 0; i < count; ++i) {
+      const auto row = row_of(first + i, cube);
+      for (uint32_t n = 0; n < w_.samples; ++n)
+        row[n] += turns ? turned(rows[i][n], (*turns)[n]) : rows[i][n];
     }
   }
 
-  /// From a grid to samples.
-  void add_grid(size_t node, size_t r, const std::vector<float>* turns, std::span<std::complex<float>> row) {
-    const uint32_t grid = kernel_.grid();
-    float* re = grids_.data() + (node * receivers_ + r) * 2 * stride_;
-    float* im = re + stride_;
-    for (uint32_t i = 0; i < stride_ - grid; ++i) {
-      re[i] += re[grid + i];
-      im[i] += im[grid + i];
-    }
-    for (uint32_t i = 0; i < grid; ++i) cells_[i] = {re[i], im[i]};
-    transform_.transform(cells_.data(), samples_.data());
-    const uint32_t middle = w_.middle_sample();
-    for (uint32_t n = 0; n < w_.samples; ++n) {
-      const std::complex<float> sample =
-          samples_[n >= middle ? n - middle : n + grid - middle] * kernel_.correction()[n];
-      row[n] += turns ? turned(sample, (*turns)[n]) : sample;
-    }
+  std::span<std::complex<float>> row_of(size_t receiver, std::span<std::complex<float>> cube) const {
+    return cube.subspan(
+        ((receiver * w_.transmitters + transmitter_) * w_.chirps() + slot_ / w_.transmitters) * w_.samples,
+        w_.samples);
   }
 
   static std::complex<float> turned(std::complex<float> sample, float turns) {
@@ -248,10 +272,11 @@ class SlotSum {
   std::vector<uint32_t> node_of_echo_, nodes_;
   std::vector<size_t> bent_;
   std::vector<float> grids_;  ///< [nodes, receivers, re | im, stride]
-  std::vector<std::complex<float>> cells_, samples_;
+  std::vector<Fft::Value> cells_, samples_;
+  std::vector<std::complex<float>> lines_;
   BlockDelays delays_;
   BlockTones tones_;
-  BlockTaps taps_;
+  std::vector<BlockTaps> taps_;  ///< [receivers]
   uint32_t offset_[tone_block] = {};
 };
 

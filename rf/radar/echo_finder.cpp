@@ -64,7 +64,7 @@ class Movers {
       all.push_back(echo.bounces == 0 ? 0 : scene_.facets[raw_.chain(echo).back()].instance + 1);
     return all;
   }
-  std::vector<CarriedPoint> vertices(const RawEcho& echo) const {
+  CarriedPath vertices(const RawEcho& echo) const {
     return carried_vertices(world_, transmitter_, echo.departure, raw_.chain(echo), echo.point);
   }
   PoseTable poses(std::vector<double> times) const {
@@ -79,7 +79,7 @@ class Movers {
     if (!moves(table)) return rates;
     parallel_for((rates.size() + echo_chunk - 1) / echo_chunk, threads_, [&](size_t part) {
       for (size_t i = part * echo_chunk; i < std::min(rates.size(), (part + 1) * echo_chunk); ++i) {
-        const std::vector<CarriedPoint> path = vertices(raw_.echoes[i]);
+        const CarriedPath path = vertices(raw_.echoes[i]);
         rates[i] = (table.length(path, 1) - table.length(path, 0)) / rate_step_s;
       }
     });

@@ -12,21 +12,28 @@
 namespace greatx::rf {
 namespace {
 
-/// instance, bounces, delay, rate, departure, arrival.
-using Key = std::array<int32_t, 10>;
-
 int32_t cell(double value, double size) {
   return size > 0.0 ? static_cast<int32_t>(std::floor(std::clamp(value / size, -2e9, 2e9))) : 0;
 }
 
+/// Two numbers as one that is ordered as they are.
+uint64_t both(uint32_t first, uint32_t second) { return uint64_t{first} << 32 | second; }
+uint64_t both_cells(int32_t first, int32_t second) {
+  return both(static_cast<uint32_t>(first) ^ 0x80000000u, static_cast<uint32_t>(second) ^ 0x80000000u);
+}
+
+/// instance, bounces; delay, rate; departure and arrival.
+using Key = std::array<uint64_t, 5>;
+
 Key key_of(const RawEcho& echo, double rate_mps, uint32_t instance, const MergeCells& cells) {
-  Key key{static_cast<int32_t>(instance), static_cast<int32_t>(echo.bounces),
-          cell(echo.length_m, cells.length_m), cell(rate_mps, cells.rate_mps)};
+  std::array<int32_t, 6> ends{};
   for (int i = 0; i < 3; ++i) {
-    key[4 + i] = cell(echo.departure[i], cells.direction);
-    if (cells.compare_arrival || echo.bounces > 1) key[7 + i] = cell(echo.arrival[i], cells.direction);
+    ends[i] = cell(echo.departure[i], cells.direction);
+    if (cells.compare_arrival || echo.bounces > 1) ends[3 + i] = cell(echo.arrival[i], cells.direction);
   }
-  return key;
+  return {both(instance, echo.bounces),
+          both_cells(cell(echo.length_m, cells.length_m), cell(rate_mps, cells.rate_mps)),
+          both_cells(ends[0], ends[1]), both_cells(ends[2], ends[3]), both_cells(ends[4], ends[5])};
 }
 
 }  // namespace
@@ -36,7 +43,11 @@ std::vector<MergedEcho> merge(const RawEchoes& raw, std::span<const double> rate
   struct Row {
     Key key;
     uint32_t index;
-    bool operator<(const Row& o) const { return key != o.key ? key < o.key : index < o.index; }
+    bool operator<(const Row& o) const {
+      for (size_t i = 0; i < key.size(); ++i)
+        if (key[i] != o.key[i]) return key[i] < o.key[i];
+      return index < o.index;
+    }
   };
   const bool merges = cells.length_m > 0.0;
   std::vector<Row> rows(raw.echoes.size());

@@ -2,11 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/radar/echo_tracer.h"
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "rf/radar/lanes.h"
 #include "shaders/shared/radar.h"
 
 namespace greatx::rf {
@@ -18,6 +24,21 @@ constexpr uint32_t tubes_at_once = 256;
 constexpr double lift = 4.2e-7;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+using Lane [[gnu::vector_size(32), gnu::may_alias]] = float;
+using Bits [[gnu::vector_size(32), gnu::may_alias]] = int32_t;
+
+/// One bit for each lane that is not 0.
+inline uint32_t mask_of(const Bits& lanes) {
+#if defined(__SSE2__)
+  const __m128 *halves = reinterpret_cast<const __m128*>(&lanes);
+  return static_cast<uint32_t>(_mm_movemask_ps(halves[0]) | (_mm_movemask_ps(halves[1]) << 4));
+#else
+  uint32_t mask = 0;
+  for (int k = 0; k < 8; ++k) mask |= (static_cast<uint32_t>(lanes[k]) & 1u) << k;
+  return mask;
+#endif
+}
 
 double area_of(const scene::Bounds& bounds) {
   const dvec3 size = bounds.size();
@@ -115,18 +136,24 @@ static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scen
 uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
   struct Range {
     uint32_t first, count;
+    double area;
   };
-  std::array<Range, wide> ranges{Range{first, count}};
+  const auto range_of = [&](uint32_t from, uint32_t held) {
+    scene::Bounds box;
+    for (uint32_t i = 0; i < held; ++i) box.add(work.bounds[work.order[from + i]]);
+    return Range{from, held, area_of(box)};
+  };
+  std::array<Range, wide> ranges{range_of(first, count)};
   uint32_t used = 1;
-  while (used < wide) {  // the largest is cut again
-    uint32_t largest = 0;
-    for (uint32_t i = 1; i < used; ++i)
-      if (ranges[i].count > ranges[largest].count) largest = i;
-    const Range range = ranges[largest];
-    if (range.count <= leaf_size) break;
+  while (used < wide) {  // the one that most rays meet is cut again
+    uint32_t widest = wide;
+    for (uint32_t i = 0; i < used; ++i)
+      if (ranges[i].count > leaf_size && (widest == wide || ranges[i].area > ranges[widest].area)) widest = i;
+    if (widest == wide) break;
+    const Range range = ranges[widest];
     const uint32_t left = cut_by_area(work.order, work.bounds, range.first, range.count, bins);
-    ranges[largest] = {range.first, left};
-    ranges[used++] = {range.first + left, range.count - left};
+    ranges[widest] = range_of(range.first, left);
+    ranges[used++] = range_of(range.first + left, range.count - left);
   }
   const uint32_t index = static_cast<uint32_t>(nodes_.size());
   nodes_.emplace_back();
@@ -144,96 +171,110 @@ uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
     }
     Node& node = nodes_[index];
     for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis][k] = k < used ? static_cast<float>(box.min[axis]) : 1e30f;
-      node.high[axis][k] = k < used ? static_cast<float>(box.max[axis]) : -1e30f;
+      node.box[axis][0][k] = k < used ? static_cast<float>(box.min[axis]) : 1e30f;
+      node.box[axis][1][k] = k < used ? static_cast<float>(box.max[axis]) : -1e30f;
     }
     node.child[k] = child, node.count[k] = held;
   }
   return index;
 }
 
-void EchoTracer::test(const Piece& piece, Query& query) const {
+inline void EchoTracer::test(const Piece& piece, const Side* sides, Query& query) {
   if (piece.facet == query.leaving) return;
   const double towards = glm::dot(piece.normal, query.direction);
   const double t = (piece.offset - glm::dot(piece.normal, query.origin)) / towards;
-  if (!(t > 0.0 && t < query.nearest)) return;
+  if (!(t > 0.0 && t <= query.nearest) || (t == query.nearest && piece.facet >= query.facet)) return;
   const dvec3 at = query.origin + t * query.direction;
   for (uint32_t i = 0; i < piece.side_count; ++i) {
-    const Side& side = sides_[piece.first_side + i];
+    const Side& side = sides[piece.first_side + i];
     if (glm::dot(side.normal, at) + side.offset < -piece.room) return;
   }
   query.nearest = t, query.facet = piece.facet;
 }
 
-void EchoTracer::meet(uint32_t root, Query& query) const {
+GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root,
+                                   Query& query) {
   struct Entry {
     uint32_t node;
     float at;
   };
-  std::array<Entry, 192> stack;
+  std::array<Entry, 256> stack;
   uint32_t depth = 0;
-  std::array<float, 3> origin, inverse;
+  float origin[3], inverse[3];
+  uint32_t far[3];  // which end of a box a ray leaves by
   for (int axis = 0; axis < 3; ++axis) {
     const double d = query.direction[axis];
     origin[axis] = static_cast<float>(query.origin[axis]);
     inverse[axis] = static_cast<float>(1.0 / (std::abs(d) < 1e-20 ? 1e-20 : d));
+    far[axis] = inverse[axis] > 0.0f ? 1u : 0u;
   }
   stack[depth++] = {root, 0.0f};
   while (depth > 0) {
     const Entry entry = stack[--depth];
     if (entry.at > query.nearest) continue;
-    const Node& node = nodes_[entry.node];
-    const float farthest = static_cast<float>(query.nearest) * 1.000001f;
-    alignas(16) std::array<float, wide> in, out;
-    for (uint32_t k = 0; k < wide; ++k) in[k] = 0.0f, out[k] = farthest;
-    for (int axis = 0; axis < 3; ++axis)
-      for (uint32_t k = 0; k < wide; ++k) {
-        const float a = (node.low[axis][k] - origin[axis]) * inverse[axis];
-        const float b = (node.high[axis][k] - origin[axis]) * inverse[axis];
-        const float low = a < b ? a : b, high = a < b ? b : a;
-        in[k] = in[k] > low ? in[k] : low;
-        out[k] = out[k] < high ? out[k] : high;
-      }
+    const Node& node = nodes[entry.node];
+    Lane in{}, out = in + static_cast<float>(query.nearest) * 1.000001f;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lane* ends = reinterpret_cast<const Lane*>(node.box[axis]);
+      const Lane low = (ends[1u - far[axis]] - origin[axis]) * inverse[axis];
+      const Lane high = (ends[far[axis]] - origin[axis]) * inverse[axis];
+      in = in > low ? in : low;
+      out = out < high ? out : high;
+    }
+    uint32_t met = mask_of(in * 0.999998f <= out * 1.000002f);
     const uint32_t bottom = depth;
-    for (uint32_t k = 0; k < wide; ++k) {
-      if (!(in[k] * 0.999998f <= out[k] * 1.000002f) || (node.count[k] == 0 && node.child[k] == 0)) continue;
+    for (; met != 0; met &= met - 1) {
+      const uint32_t k = static_cast<uint32_t>(std::countr_zero(met));
       if (node.count[k] > 0) {
-        for (uint32_t i = 0; i < node.count[k]; ++i) test(pieces_[node.child[k] + i], query);
+        for (uint32_t i = 0; i < node.count[k]; ++i) test(pieces[node.child[k] + i], sides, query);
         if (query.any && query.facet != ~0u) return;
         continue;
       }
+      const float at = in[k];
       uint32_t place = depth++;  // the nearest is looked at first
-      while (place > bottom && stack[place - 1].at < in[k]) stack[place] = stack[place - 1], --place;
-      stack[place] = {node.child[k], in[k]};
+      while (place > bottom && stack[place - 1].at < at) stack[place] = stack[place - 1], --place;
+      stack[place] = {node.child[k], at};
     }
   }
 }
 
-void EchoTracer::meet_all(const FacetWorld& world, Query& query, const Hidden& hidden) const {
+std::vector<EchoTracer::Standing> EchoTracer::standing(const FacetWorld& world, const Hidden& hidden) const {
+  std::vector<Standing> all;
   for (const Tree& tree : trees_) {
-    if (tree.body == 0) {
-      meet(tree.root, query);
-    } else if (tree.owner != hidden[0] && tree.owner != hidden[1]) {
-      const Pose& pose = world.motion(tree.body).pose;
-      const double radius = 0.5 * glm::length(tree.bounds.size());
-      const dvec3 arm = pose.apply(tree.bounds.center()) - query.origin;
-      const dvec3 across = glm::cross(arm, query.direction);
-      const double squared = glm::dot(query.direction, query.direction);
-      if (glm::dot(across, across) > radius * radius * squared) continue;
+    if (tree.body != 0 && (tree.owner == hidden[0] || tree.owner == hidden[1])) continue;
+    Standing& one = all.emplace_back();
+    one.tree = &tree;
+    if (tree.body == 0) continue;
+    const Pose& pose = world.motion(tree.body).pose;
+    const dvec3 size = tree.bounds.size();
+    one.back = pose.inverse();
+    one.center = pose.apply(tree.bounds.center());
+    one.squared_radius = 0.25 * glm::dot(size, size);
+  }
+  return all;
+}
+
+void EchoTracer::meet_all(std::span<const Standing> trees, Query& query) const {
+  const double squared = glm::dot(query.direction, query.direction);
+  for (const Standing& one : trees) {
+    if (one.tree->body == 0) {
+      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, query);
+    } else {
+      const dvec3 across = glm::cross(one.center - query.origin, query.direction);
+      if (glm::dot(across, across) > one.squared_radius * squared) continue;
       Query own = query;
-      const dquat back = glm::conjugate(pose.orientation);
-      own.origin = back * (query.origin - pose.position), own.direction = back * query.direction;
-      meet(tree.root, own);
+      own.origin = one.back.apply(query.origin), own.direction = one.back.rotate(query.direction);
+      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, own);
       query.nearest = own.nearest, query.facet = own.facet;
     }
     if (query.any && query.facet != ~0u) return;
   }
 }
 
-bool EchoTracer::sees(const FacetWorld& world, const dvec3& from, const dvec3& to, uint32_t leaving,
-                      const Hidden& hidden) const {
+bool EchoTracer::sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to,
+                      uint32_t leaving) const {
   Query query{from, to - from, 1.0, leaving, ~0u, true};
-  meet_all(world, query, hidden);
+  meet_all(trees, query);
   return query.facet == ~0u;
 }
 
@@ -244,15 +285,16 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
   Answer answer;
   const uint32_t tubes = grid.size();
   answer.words.assign(size_t{tubes} * max_bounces, shared::radar_none);
-  const Hidden own{rays.source_body, 0}, both{rays.source_body, rays.receiver_body};
-  answer.direct = !monostatic && sees(world, rays.source, rays.receiver, ~0u, both);
+  const std::vector<Standing> own = standing(world, {rays.source_body, 0}),
+                              both = standing(world, {rays.source_body, rays.receiver_body});
+  answer.direct = !monostatic && sees(both, rays.source, rays.receiver, ~0u);
   parallel_for((tubes + tubes_at_once - 1) / tubes_at_once, threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * tubes_at_once;
     for (uint32_t tube = first; tube < std::min(tubes, first + tubes_at_once); ++tube) {
       Query query{rays.source, grid.axis(tube)};
       for (uint32_t bounce = 0; bounce < max_bounces; ++bounce) {
         query.nearest = 1e30, query.facet = ~0u;
-        meet_all(world, query, own);
+        meet_all(own, query);
         if (query.facet == ~0u) break;
         const PosedFacet& facet = world.facet(query.facet);
         const double towards = glm::dot(facet.normal, query.direction);
@@ -262,7 +304,7 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
         query.leaving = query.facet;
         bool seen = monostatic && bounce == 0;
         if (!monostatic && glm::dot(rays.receiver - query.origin, normal) > 0.0)
-          seen = sees(world, query.origin, rays.receiver, query.facet, both);
+          seen = sees(both, query.origin, rays.receiver, query.facet);
         answer.words[size_t{bounce} * tubes + tube] = query.facet | (seen ? shared::radar_sees_receiver : 0u);
         if (!reflects(query.facet)) break;
         query.direction -= 2.0 * towards * facet.normal;

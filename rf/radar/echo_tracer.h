@@ -4,7 +4,8 @@
 // What EchoPass does, without a device: where the "GPU" is a CPU, a ray costs a third of what it costs in a shader. In fp64,
 // against the same convex pieces of facets that tubes are clipped to. One tree of boxes a body, in its frame, which no pose
 // changes; I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symp. Interactive Ray Tracing 2007
-// (bins), two levels of it in one node, so that four boxes are tested side by side.
+// (bins), three levels of it in one node, so that eight boxes are tested side by side. Where a ray meets two facets at the same
+// distance it is the one of the lower index: what is met depends on no tree.
 #pragma once
 
 #include <array>
@@ -33,11 +34,11 @@ class EchoTracer {
                bool monostatic, const std::function<bool(uint32_t facet)>& reflects, uint32_t threads) const;
 
  private:
-  static constexpr uint32_t wide = 4, leaf_size = 4, bins = 16;
+  static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
   /// Children side by side; a leaf has `count` pieces from `child` on, an inner one is the node `child`, an absent one has a
   /// box that nothing meets.
-  struct Node {
-    float low[3][wide], high[3][wide];
+  struct alignas(32) Node {
+    float box[3][2][wide];  ///< by axis: low, high
     uint32_t child[wide], count[wide];
   };
   struct Piece {
@@ -54,6 +55,13 @@ class EchoTracer {
     uint32_t root = 0, body = 0, owner = 0;
     scene::Bounds bounds;
   };
+  /// A tree where its body stands now.
+  struct Standing {
+    const Tree* tree = nullptr;
+    Pose back;  ///< body_from_local
+    dvec3 center{0.0};
+    double squared_radius = 0.0;
+  };
   struct Build;
   /// A ray and what it has met so far, all in one body's frame.
   struct Query {
@@ -66,12 +74,13 @@ class EchoTracer {
 
   Piece piece_of(const scene::Facet& facet, uint32_t index, std::span<const dvec3> corners);
   uint32_t build(Build& work, uint32_t first, uint32_t count);
-  void meet(uint32_t root, Query& query) const;
-  void test(const Piece& piece, Query& query) const;
+  static void meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root, Query& query);
+  static void test(const Piece& piece, const Side* sides, Query& query);
+  /// All trees but those of what is hidden.
+  std::vector<Standing> standing(const FacetWorld& world, const Hidden& hidden) const;
   /// Over all bodies; `query` in local coordinates.
-  void meet_all(const FacetWorld& world, Query& query, const Hidden& hidden) const;
-  bool sees(const FacetWorld& world, const dvec3& from, const dvec3& to, uint32_t leaving,
-            const Hidden& hidden) const;
+  void meet_all(std::span<const Standing> trees, Query& query) const;
+  bool sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to, uint32_t leaving) const;
 
   std::vector<Node> nodes_;
   std::vector<Piece> pieces_;  ///< in the order of the leaves

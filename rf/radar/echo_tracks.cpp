@@ -118,18 +118,18 @@ std::vector<std::array<double, 2>> track_table(const PoseTable& poses, std::span
   return table;
 }
 
-std::vector<CarriedPoint> carried_vertices(const FacetWorld& world, const dvec3& transmitter,
-                                           const dvec3& departure, std::span<const uint32_t> chain,
-                                           const dvec3& point) {
-  std::vector<CarriedPoint> vertices;
+CarriedPath carried_vertices(const FacetWorld& world, const dvec3& transmitter, const dvec3& departure,
+                             std::span<const uint32_t> chain, const dvec3& point) {
+  CarriedPath vertices;
+  GREATX_CHECK(chain.size() <= vertices.points.size(), "{} bounces", chain.size());
   dvec3 at = transmitter, direction = departure;
   for (size_t i = 0; i < chain.size(); ++i) {
     const PosedFacet& facet = world.facet(chain[i]);
     const double towards = glm::dot(facet.normal, direction);
     at = i + 1 == chain.size() ? point : at - facet.distance(at) / towards * direction;
     direction -= 2.0 * towards * facet.normal;
-    vertices.push_back(
-        {facet.body, facet.body == 0 ? at : world.motion(facet.body).pose.inverse().apply(at)});
+    vertices.points[vertices.count++] = {
+        facet.body, facet.body == 0 ? at : world.motion(facet.body).pose.inverse().apply(at)};
   }
   return vertices;
 }

@@ -7,6 +7,7 @@
 // (Fermat): with v across the path at a distance R the error of the path's length is at most (v t)^2 / R after t seconds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,13 @@ namespace greatx::rf {
 struct CarriedPoint {
   uint32_t body = 0;
   dvec3 at{0.0};  ///< in the body's frame
+};
+
+/// The vertices of one path.
+struct CarriedPath {
+  std::array<CarriedPoint, most_bounces> points;
+  uint32_t count = 0;
+  operator std::span<const CarriedPoint>() const { return std::span(points).first(count); }
 };
 
 /// Where bodies and ends are at a list of times, asked for once. Thread-safe afterwards.
@@ -55,8 +63,7 @@ std::vector<std::array<double, 2>> track_table(const PoseTable& poses, std::span
 
 /// Where a path of reflections runs: from the transmitter along `departure` over the facets of `chain`, in the frames of
 /// their bodies. The last vertex is `point`.
-std::vector<CarriedPoint> carried_vertices(const FacetWorld& world, const dvec3& transmitter,
-                                           const dvec3& departure, std::span<const uint32_t> chain,
-                                           const dvec3& point);
+CarriedPath carried_vertices(const FacetWorld& world, const dvec3& transmitter, const dvec3& departure,
+                             std::span<const uint32_t> chain, const dvec3& point);
 
 }  // namespace greatx::rf

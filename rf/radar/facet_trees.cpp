@@ -85,6 +85,12 @@ class Joiner {
   std::map<Edge, uint32_t> owner_;  ///< of directed edges
 };
 
+/// A KeptSide in a body's frame, and how far a box of half size 1 reaches along it. Nothing is set beforehand.
+struct HalfSpace {
+  dvec3 normal, reach;
+  double offset;
+};
+
 }  // namespace
 
 FacetTrees::FacetTrees(const scene::Scene& scene) : root_(scene.facets.size(), no_tree) {
@@ -155,19 +161,20 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const K
     for (uint32_t i = first_piece_[facet]; i < first_piece_[facet + 1]; ++i) pieces.push_back(i);
     return;
   }
-  std::array<KeptSide, 8> local;
+  std::array<HalfSpace, 8> local;
   GREATX_CHECK(spaces.size() <= local.size(), "{} half-spaces", spaces.size());
   for (size_t i = 0; i < spaces.size(); ++i) {
-    local[i] = spaces[i];
-    if (posed.body == 0) continue;
-    const Pose& pose = world.motion(posed.body).pose;
-    local[i].offset += glm::dot(spaces[i].normal, pose.position);
-    local[i].normal = glm::conjugate(pose.orientation) * spaces[i].normal;
+    local[i].normal = spaces[i].normal, local[i].offset = spaces[i].offset;
+    if (posed.body != 0) {
+      const Pose& pose = world.motion(posed.body).pose;
+      local[i].offset += glm::dot(spaces[i].normal, pose.position);
+      local[i].normal = glm::conjugate(pose.orientation) * spaces[i].normal;
+    }
+    local[i].reach = glm::abs(local[i].normal);
   }
   const auto outside = [&](const Node& node) {
     for (size_t i = 0; i < spaces.size(); ++i)
-      if (glm::dot(local[i].normal, node.center) + local[i].offset +
-              glm::dot(glm::abs(local[i].normal), node.half) <
+      if (glm::dot(local[i].normal, node.center) + local[i].offset + glm::dot(local[i].reach, node.half) <
           0.0)
         return true;
     return false;

@@ -17,6 +17,34 @@
 
 namespace greatx::rf {
 
+/// Four numbers that are worked on as one.
+struct Four {
+  using Lanes [[gnu::vector_size(16)]] = float;
+  Lanes lane{};
+  Four() = default;
+  Four(float all) : lane{all, all, all, all} {}
+  explicit Four(Lanes of) : lane(of) {}
+  Four& operator+=(const Four& o) { return lane += o.lane, *this; }
+  Four& operator-=(const Four& o) { return lane -= o.lane, *this; }
+  Four& operator*=(const Four& o) { return lane *= o.lane, *this; }
+  friend Four operator+(const Four& a, const Four& b) { return Four(a.lane + b.lane); }
+  friend Four operator-(const Four& a, const Four& b) { return Four(a.lane - b.lane); }
+  friend Four operator*(const Four& a, const Four& b) { return Four(a.lane * b.lane); }
+  friend Four operator-(const Four& a) { return Four(-a.lane); }
+};
+
+/// Rows become columns.
+inline void transpose(Four& a, Four& b, Four& c, Four& d) {
+  const Four::Lanes ab = {a.lane[0], b.lane[0], a.lane[1], b.lane[1]},
+                    cd = {c.lane[0], d.lane[0], c.lane[1], d.lane[1]},
+                    ab2 = {a.lane[2], b.lane[2], a.lane[3], b.lane[3]},
+                    cd2 = {c.lane[2], d.lane[2], c.lane[3], d.lane[3]};
+  a.lane = Four::Lanes{ab[0], ab[1], cd[0], cd[1]};
+  b.lane = Four::Lanes{ab[2], ab[3], cd[2], cd[3]};
+  c.lane = Four::Lanes{ab2[0], ab2[1], cd2[0], cd2[1]};
+  d.lane = Four::Lanes{ab2[2], ab2[3], cd2[2], cd2[3]};
+}
+
 /// Nearest whole number, ties to even; |value| < 2^51 (2^22).
 inline double nearest(double value) { return (value + 0x1.8p52) - 0x1.8p52; }
 inline float nearest(float value) { return (value + 0x1.8p23f) - 0x1.8p23f; }

@@ -102,32 +102,46 @@ std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::comple
   const float range_factor = static_cast<float>(1.0 / (samples * range_window_.coherent_gain()));
   const float doppler_factor = static_cast<float>(1.0 / (chirps * doppler_window_.coherent_gain()));
   std::vector<std::complex<float>> result(cube.size());
+  constexpr uint32_t together = Fft::lanes;
+  // Chirps, then ranges four at a time; of the last few, some twice.
   parallel_for(antennas, threads, [&](size_t antenna) {
     const std::complex<float>* in = cube.data() + antenna * plane;
     std::complex<float>* out = result.data() + antenna * plane;
-    std::vector<std::complex<float>> windowed(std::max(samples, chirps)), line(windowed.size()),
-        turned(plane);
-    for (uint32_t m = 0; m < chirps; ++m) {
-      for (uint32_t n = 0; n < samples; ++n)
-        windowed[n] = in[size_t{m} * samples + n] * range_window_.values()[n];
-      range_transform_.transform(windowed.data(), line.data());
-      const float factor = range_factor * doppler_window_.values()[m];
-      for (uint32_t k = 0; k < samples; ++k) turned[size_t{m} * samples + k] = line[k] * factor;
+    std::vector<Fft::Value> values(std::max(samples, chirps)), line(values.size());
+    std::vector<std::complex<float>> turned(plane);  // [range, chirp]
+    for (uint32_t first = 0; first < chirps; first += together) {
+      const std::complex<float>* rows[together];
+      Four factor;
+      for (uint32_t i = 0; i < together; ++i) {
+        const uint32_t m = std::min(first + i, chirps - 1);
+        rows[i] = in + size_t{m} * samples;
+        factor.lane[i] = range_factor * doppler_window_.values()[m];
+      }
+      Fft::gather(rows, samples, values.data());
+      for (uint32_t n = 0; n < samples; ++n) values[n] *= Four(range_window_.values()[n]);
+      range_transform_.transform(values.data(), line.data());
+      const uint32_t count = std::min(together, chirps - first);
+      for (uint32_t k = 0; k < samples; ++k) {
+        const Four re = line[k].real() * factor, im = line[k].imag() * factor;
+        std::complex<float>* column = turned.data() + size_t{k} * chirps + first;
+        for (uint32_t i = 0; i < count; ++i) column[i] = {re.lane[i], im.lane[i]};
+      }
     }
     const uint32_t half = chirps / 2;
-    // Columns of some ranges at once, so that whole cache lines are read.
-    constexpr uint32_t together = 8;
-    std::vector<std::complex<float>> columns(size_t{together} * chirps);
     for (uint32_t first = 0; first < samples; first += together) {
-      const uint32_t count = std::min(together, samples - first);
-      for (uint32_t m = 0; m < chirps; ++m)
-        for (uint32_t i = 0; i < count; ++i)
-          columns[size_t{i} * chirps + m] = turned[size_t{m} * samples + first + i];
-      for (uint32_t i = 0; i < count; ++i) {
-        doppler_transform_.transform(columns.data() + size_t{i} * chirps, line.data());
-        std::complex<float>* row = out + size_t{first + i} * chirps;
-        for (uint32_t k = 0; k < chirps; ++k) row[k] = line[(k + chirps - half) % chirps] * doppler_factor;
+      const std::complex<float>* columns[together];
+      std::complex<float>* above[together];  // where velocities from 0 up go, and those below
+      std::complex<float>* below[together];
+      for (uint32_t i = 0; i < together; ++i) {
+        const size_t k = std::min(first + i, samples - 1);
+        columns[i] = turned.data() + k * chirps;
+        above[i] = out + k * chirps + half, below[i] = out + k * chirps;
       }
+      Fft::gather(columns, chirps, values.data());
+      doppler_transform_.transform(values.data(), line.data());
+      for (uint32_t k = 0; k < chirps; ++k) line[k] *= Four(doppler_factor);
+      Fft::scatter(line.data(), chirps - half, above);
+      Fft::scatter(line.data() + (chirps - half), half, below);
     }
   });
   return result;

@@ -91,6 +91,11 @@ RayGrid::RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::
       for (uint16_t x = 0; x < count_[cell]; ++x) tubes_.push_back({cell, x, y});
     if (count_[cell] > 1) target_tubes_ += uint32_t{count_[cell]} * count_[cell];
   }
+  axes_.reserve(tubes_.size());
+  for (const Tube& t : tubes_) {
+    const double n = count_[t.cell];
+    axes_.push_back(at(t.cell, (t.x + 0.5) / n, (t.y + 0.5) / n));
+  }
 }
 
 void RayGrid::subdivide(const EchoOptions& options, const Pose& local_from_radar,
@@ -140,6 +145,7 @@ void RayGrid::set_vertices() {
       const double elevation =
           view_.elevation_min + (view_.elevation_max - view_.elevation_min) * row / rows_;
       vertices_.push_back(local_from_radar_ * direction_of(azimuth, elevation));
+      units_.push_back(glm::normalize(vertices_.back()));
     }
 }
 
@@ -150,14 +156,12 @@ dvec3 RayGrid::at(uint32_t cell, double x, double y) const {
   return glm::normalize((1.0 - y) * low + y * high);
 }
 
-dvec3 RayGrid::axis(uint32_t tube) const {
-  const Tube& t = tubes_[tube];
-  const double n = count_[t.cell];
-  return at(t.cell, (t.x + 0.5) / n, (t.y + 0.5) / n);
-}
-
 std::array<dvec3, 4> RayGrid::corners(uint32_t tube) const {
   const Tube& t = tubes_[tube];
+  if (count_[t.cell] == 1) {
+    const size_t first = size_t{t.cell / columns_} * (columns_ + 1) + t.cell % columns_;
+    return {units_[first], units_[first + 1], units_[first + columns_ + 2], units_[first + columns_ + 1]};
+  }
   const double n = count_[t.cell], x0 = t.x / n, x1 = (t.x + 1) / n, y0 = t.y / n, y1 = (t.y + 1) / n;
   return {at(t.cell, x0, y0), at(t.cell, x1, y0), at(t.cell, x1, y1), at(t.cell, x0, y1)};
 }
@@ -194,6 +198,10 @@ std::array<uint32_t, 8> RayGrid::neighbours(uint32_t tube) const {
     if (column < 0 || row < 0 || column >= static_cast<int>(columns_) || row >= static_cast<int>(rows_))
       continue;
     const uint32_t cell = static_cast<uint32_t>(row) * columns_ + static_cast<uint32_t>(column);
+    if (count_[cell] == n) {
+      found[i] = first_[cell] + static_cast<uint32_t>((y - over_y * n) * n + (x - over_x * n));
+      continue;
+    }
     const double m = count_[cell];
     const auto inside = [&](int k, int over) {  // the other cell's own subdivision at the same place
       return std::min(m - 1.0, std::floor((k - over * n + 0.5) / n * m));

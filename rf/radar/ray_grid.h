@@ -34,7 +34,7 @@ class RayGrid {
   uint32_t size() const { return static_cast<uint32_t>(tubes_.size()); }
   /// Unit vectors in local axes. Corners in the order of turning from azimuth towards elevation; side i runs from corner i to
   /// corner i + 1 and looks at neighbour side_neighbour[i].
-  dvec3 axis(uint32_t tube) const;
+  const dvec3& axis(uint32_t tube) const { return axes_[tube]; }
   std::array<dvec3, 4> corners(uint32_t tube) const;
   /// The tubes around: [0, 8), first the four across the sides 0 to 3 (-elevation, +azimuth, +elevation, -azimuth), then
   /// those across corners 0 to 3 (tube across corner i lies between sides i - 1 and i). `outside` beyond the field of view.
@@ -72,7 +72,9 @@ class RayGrid {
   std::vector<uint16_t> count_;  ///< [cells] subdivisions along each axis
   std::vector<uint32_t> first_;  ///< [cells]
   std::vector<dvec3> vertices_;  ///< [rows + 1, columns + 1], local axes
+  std::vector<dvec3> units_;     ///< the same, with length 1 to the last bit, as at() makes them
   std::vector<Tube> tubes_;
+  std::vector<dvec3> axes_;  ///< [tubes]
   uint32_t target_tubes_ = 0;
   double target_tube_m_ = 0.0;
 };

@@ -85,37 +85,41 @@ static_assert(ToneKernel::taps * sizeof(float) == sizeof(Taps));
 
 }  // namespace
 
-GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, const BlockTaps& taps,
-                         const uint32_t* offset, uint32_t count, uint32_t stride, float* grids) {
+GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, const BlockTaps* taps,
+                         uint32_t receivers, const uint32_t* offset, uint32_t count, uint32_t stride,
+                         float* grids) {
   constexpr int row = 3 * ToneKernel::taps;
   const float* const tables[ToneKernel::orders] = {kernel.table(0), kernel.table(1), kernel.table(2),
                                                    kernel.table(3)};
   for (uint32_t i = 0; i < count; ++i) {
     const int32_t orders = tones.orders[i];
     if (orders == 0) continue;
-    const float u = taps.u[i], re = taps.re[i], im = taps.im[i];
-    const int32_t segment = taps.segment[i] * row;
+    // Receiver by receiver, for neighbours in delay add to the same cells: each waits for what the one before has stored.
+    for (uint32_t r = 0; r < receivers; ++r) {
+      const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
+      const int32_t segment = taps[r].segment[i] * row;
 #define GREATX_TAPS(k)                                           \
   ((*reinterpret_cast<const Stored*>(tables[k] + segment) * u +  \
     *reinterpret_cast<const Stored*>(tables[k] + segment + 8)) * \
        u +                                                       \
    *reinterpret_cast<const Stored*>(tables[k] + segment + 16)) * \
       tones.bessel[k][i]
-    Taps real = GREATX_TAPS(0);
-    float* const out = grids + offset[i] + taps.start[i];
-    Stored& out_re = *reinterpret_cast<Stored*>(out);
-    Stored& out_im = *reinterpret_cast<Stored*>(out + stride);
-    if (orders == 1) {
-      out_re += real * re;
-      out_im += real * im;
-      continue;
-    }
-    Taps imaginary = GREATX_TAPS(1);
-    if (orders > 2) real -= GREATX_TAPS(2);
-    if (orders > 3) imaginary -= GREATX_TAPS(3);
+      Taps real = GREATX_TAPS(0);
+      float* const out = grids + offset[i] + size_t{r} * 2 * stride + taps[r].start[i];
+      Stored& out_re = *reinterpret_cast<Stored*>(out);
+      Stored& out_im = *reinterpret_cast<Stored*>(out + stride);
+      if (orders == 1) {
+        out_re += real * re;
+        out_im += real * im;
+        continue;
+      }
+      Taps imaginary = GREATX_TAPS(1);
+      if (orders > 2) real -= GREATX_TAPS(2);
+      if (orders > 3) imaginary -= GREATX_TAPS(3);
 #undef GREATX_TAPS
-    out_re += real * re - imaginary * im;
-    out_im += real * im + imaginary * re;
+      out_re += real * re - imaginary * im;
+      out_im += real * im + imaginary * re;
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -24,11 +25,10 @@ PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3
 
 }  // namespace
 
-Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam) {
-  std::array<dvec2, 4> corners;
-  const std::array<dvec3, 4> directions = grid.corners(tube);
-  for (int i = 0; i < 4; ++i) corners[i] = beam.uv(beam.source + directions[i]);
-  return Polygon(corners);
+Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam) {
+  std::array<dvec2, 4> points;
+  for (int i = 0; i < 4; ++i) points[i] = beam.uv(beam.source + corners[i]);
+  return Polygon(points);
 }
 
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part) {
@@ -46,6 +46,7 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
+  std::array<dvec3, 4> corners{};  ///< of the whole tube
   std::array<TubeBeam, most_bounces + 1> beams;  ///< [bounces before]
   std::array<uint32_t, most_bounces> chain{};
   Polygon part;  ///< the whole tube
@@ -91,7 +92,7 @@ void TubeEchoes::classify(uint32_t tube) {
   if (!RayHits::met(hits_.word(tube, 0))) return;
   const std::array<uint32_t, 8> ring = grid_.neighbours(tube);
   TubeBeam beam(source_, grid_.axis(tube));
-  const Polygon part = tube_part(grid_, tube, beam);
+  const Polygon part = tube_part(grid_.corners(tube), beam);
   for (uint32_t bounce = 0; bounce < bounces_ && ring_agrees(tube, ring, bounce); ++bounce) {
     const uint32_t word = hits_.word(tube, bounce);
     const PosedFacet& facet = world_.facet(RayHits::facet(word));
@@ -144,7 +145,8 @@ void TubeEchoes::solve(uint32_t tube, Job& job) const {
   };
   if (empty(tube) && std::all_of(job.ring.begin(), job.ring.end(), empty)) return;
   job.beams[0] = TubeBeam(source_, grid_.axis(tube));
-  job.part = tube_part(grid_, tube, job.beams[0]);
+  job.corners = grid_.corners(tube);
+  job.part = tube_part(job.corners, job.beams[0]);
   follow(job, 0, job.part, {}, true);
 }
 
@@ -170,24 +172,38 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
   job.facets.clear();
   bool one_instance = same_chain(job, job.tube, bounce) && RayHits::met(hits_.word(job.tube, bounce));
   const uint32_t own = one_instance ? RayHits::facet(hits_.word(job.tube, bounce)) : VisibleCell::nothing;
+  bool sends = false;
   const auto look = [&](uint32_t tube) {
     if (tube == RayGrid::outside) return;
     const uint32_t facet = RayHits::facet(hits_.word(tube, bounce));
     const bool counts = facet != VisibleCell::nothing && same_chain(job, tube, bounce);
-    if (counts) job.facets.push_back(facet);
-    one_instance = one_instance && counts && scene_.facets[facet].instance == scene_.facets[own].instance;
+    if (!counts) {
+      one_instance = false;
+      return;
+    }
+    job.facets.push_back(facet);
+    sends = sends || may_send(tube, bounce);
+    one_instance = one_instance && scene_.facets[facet].instance == scene_.facets[own].instance;
   };
   look(job.tube);
   for (const uint32_t other : job.ring) look(other);
   std::sort(job.facets.begin(), job.facets.end());
   job.facets.erase(std::unique(job.facets.begin(), job.facets.end()), job.facets.end());
   cells.clear();
-  if (job.facets.empty()) return;
+  if (!sends) return;
   find_visible(world_, trees_, job.beams[bounce], start, part, job.facets, smallest_share * job.part.area(),
                job.scratch, cells);
   if (!one_instance) return;
   for (VisibleCell& cell : cells)
     if (cell.facet == VisibleCell::nothing && cell.part.area() > 1e-6 * job.part.area()) cell.facet = own;
+}
+
+bool TubeEchoes::may_send(uint32_t tube, uint32_t bounce) const {
+  for (uint32_t b = bounce; b < bounces_ && RayHits::met(hits_.word(tube, b)); ++b)
+    if (RayHits::sees_receiver(hits_.word(tube, b)) &&
+        !(b == 1 && found_backwards(RayHits::facet(hits_.word(tube, 0)), RayHits::facet(hits_.word(tube, 1)))))
+      return true;
+  return false;
 }
 
 bool TubeEchoes::sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const {
@@ -220,27 +236,31 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
 
 uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet,
                                    const Polygon& piece, bool whole) const {
-  const TubeBeam& beam = job.beams[bounce];
-  const std::array<dvec3, 4> corners = grid_.corners(job.tube);
+  const bool border = whole && whole_[size_t{job.tube} * bounces_ + bounce] == Whole::border;
+  std::array<dvec2, Polygon::capacity> points;  // the piece's corners in the beam's coordinates
   uint32_t marks = 0;
+  bool placed = false;
   for (int side = 0; side < 4; ++side) {
     const uint32_t other = job.ring[side];
-    bool omit = other == RayGrid::outside;
-    if (!omit && whole && grid_.same_level(job.tube, other))
-      omit = whole_[size_t{job.tube} * bounces_ + bounce] == Whole::border &&
-             whole_[size_t{other} * bounces_ + bounce] == Whole::border;
-    if (!omit) continue;
-    const dvec2 a = job.beams[0].uv(source_ + corners[side]),
-                b = job.beams[0].uv(source_ + corners[(side + 1) % 4]);
+    const bool cancels = border && other != RayGrid::outside && grid_.same_level(job.tube, other) &&
+                         whole_[size_t{other} * bounces_ + bounce] == Whole::border;
+    if (other != RayGrid::outside && !cancels) continue;
+    const dvec2 a = job.beams[0].uv(source_ + job.corners[side]),
+                b = job.beams[0].uv(source_ + job.corners[(side + 1) % 4]);
     const dvec2 along = b - a;
     const double length = glm::length(along);
     if (length == 0.0) continue;
-    const auto lies_on = [&](const dvec2& p) {
-      const dvec2 arm = beam.uv(point_of(facet, p)) - a;
-      return std::abs(along.x * arm.y - along.y * arm.x) < 1e-6 * length * length;
-    };
-    for (uint32_t i = 0; i < piece.size(); ++i)
-      if (lies_on(piece[i]) && lies_on(piece.next(i))) marks |= 1u << i;
+    if (!std::exchange(placed, true))
+      for (uint32_t i = 0; i < piece.size(); ++i) points[i] = job.beams[bounce].uv(point_of(facet, piece[i]));
+    uint32_t on = 0;  // corners that lie on the side
+    for (uint32_t i = 0; i < piece.size(); ++i) {
+      const dvec2 arm = points[i] - a;
+      if (std::abs(along.x * arm.y - along.y * arm.x) < 1e-6 * length * length) on |= 1u << i;
+    }
+    for (uint32_t i = 0; i < piece.size(); ++i) {
+      const uint32_t next = i + 1 < piece.size() ? i + 1 : 0;
+      marks |= (on >> i & on >> next & 1u) << i;
+    }
   }
   return marks;
 }
@@ -251,6 +271,10 @@ bool TubeEchoes::spreads(uint32_t first, uint32_t second) const {
     return std::max(posed.max_u - posed.min_u, posed.max_v - posed.min_v);
   };
   return mirror_ratio * extent(first) < extent(second);
+}
+
+bool TubeEchoes::found_backwards(uint32_t first, uint32_t second) const {
+  return monostatic_ && spreads(second, first);
 }
 
 void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const {
@@ -288,8 +312,7 @@ void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint3
 
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
   if (bounce > 0 && spreads(job.chain[bounce - 1], facet)) return send_over(job, bounce, part, facet);
-  // A monostatic radar sees this surface (else nobody would ask): what finds it directly has this path backwards.
-  if (monostatic_ && bounce == 1 && spreads(facet, job.chain[0])) return;
+  if (bounce == 1 && found_backwards(job.chain[0], facet)) return;
   const PosedFacet& posed = world_.facet(facet);
   const TubeBeam& beam = job.beams[bounce];
   // The receiver is on the lit side: where the source was before the last surface turned the rays.

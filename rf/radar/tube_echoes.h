@@ -37,7 +37,8 @@ struct RawEchoes {
 
 /// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and agree on seeing
 /// the receiver: then all of it falls on that facet. Else it is divided by find_visible among the facets that those nine have
-/// met after the same facets before. Each part goes on as a beam of its own.
+/// met after the same facets before, if anything sends from there: any of the nine sees the receiver then or later. Each part
+/// goes on as a beam of its own.
 ///
 /// Where a small surface is followed by a large one (target, wall), the currents are taken on the small one and the large
 /// one is a mirror on the way to the receiver: on the large one the wave of a small surface has no parallel rays, and currents
@@ -73,6 +74,11 @@ class TubeEchoes {
   bool spreads(uint32_t first, uint32_t second) const;
   void send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;
+  /// A monostatic radar sees the second of two surfaces (else nobody would ask): what finds it directly has this path
+  /// backwards, over the first.
+  bool found_backwards(uint32_t first, uint32_t second) const;
+  /// Whether the ray of a tube, from that bounce on, met anything that sends something to the receiver.
+  bool may_send(uint32_t tube, uint32_t bounce) const;
   bool sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const;
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
   uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
@@ -94,7 +100,7 @@ class TubeEchoes {
 };
 
 /// The tube's quadrilateral in its own coordinates.
-Polygon tube_part(const RayGrid& grid, uint32_t tube, const TubeBeam& beam);
+Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
 /// A part of a beam on a facet, in the facet's plane coordinates; empty where it does not fall on the plane.
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part);
 

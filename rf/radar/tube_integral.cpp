@@ -3,6 +3,7 @@
 #include "rf/radar/tube_integral.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -86,13 +87,13 @@ struct Border {
   }
 };
 
-/// One side from a to b, along the unit vector `along`.
-void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along, int depth) {
+/// One side from a to b, along the unit vector `along`, with the phase's gradients at both ends.
+void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along, const dvec2& gradient_a,
+              const dvec2& gradient_b, int depth) {
   const PhasePlane& plane = border.plane;
   const IntegralLimits& limits = border.limits;
   const dvec2 normal(along.y, -along.x), middle = 0.5 * (a + b);
   const double length = glm::dot(b - a, along);
-  const dvec2 gradient_a = plane.gradient(a), gradient_b = plane.gradient(b);
   const double slope_a = glm::dot(gradient_a, along), slope_b = glm::dot(gradient_b, along);
   const double slope = std::min(std::abs(slope_a), std::abs(slope_b));
   const bool turns = slope_a * slope_b <= 0.0;  // the phase has an extremum on the way
@@ -123,19 +124,25 @@ void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along
                            turned(mean));
     return;
   }
-  add_side(border, a, middle, along, depth - 1);
-  add_side(border, middle, b, along, depth - 1);
+  const dvec2 gradient_middle = plane.gradient(middle);
+  add_side(border, a, middle, along, gradient_a, gradient_middle, depth - 1);
+  add_side(border, middle, b, along, gradient_middle, gradient_b, depth - 1);
 }
 
 uint64_t add_border(const PhasePlane& plane, const Polygon& piece, uint32_t omitted,
                     const IntegralLimits& limits, std::vector<Contribution>& out) {
   const dvec2 centroid = piece.centroid();
   Border border{plane, limits, plane.curvature_bound(centroid, reach_of(piece, centroid)), out};
+  if (omitted == (1u << piece.size()) - 1u) return 0;
+  std::array<dvec2, Polygon::capacity> gradients;
+  for (uint32_t i = 0; i < piece.size(); ++i) gradients[i] = plane.gradient(piece[i]);
   for (uint32_t i = 0; i < piece.size(); ++i) {
     if ((omitted >> i) & 1u) continue;
     const dvec2 side = piece.next(i) - piece[i];
     const double length = glm::length(side);
-    if (length > 0.0) add_side(border, piece[i], piece.next(i), side / length, 24);
+    const uint32_t next = i + 1 < piece.size() ? i + 1 : 0;
+    if (length > 0.0)
+      add_side(border, piece[i], piece[next], side / length, gradients[i], gradients[next], 24);
   }
   return border.below;
 }

@@ -58,6 +58,25 @@ std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, con
 
 /// A piece of a facet as the beam sees it; empty if it does not.
 Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
+  std::array<dvec2, FacetTrees::most_corners + 2> points;
+  std::array<double, FacetTrees::most_corners> depths;
+  uint32_t beyond = 15;  // sides of the box that all corners are beyond
+  double nearest = 1e300, lowest = 1e300;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec3 arm = piece[i] - beam.source;
+    const double x = glm::dot(arm, beam.e1), y = glm::dot(arm, beam.e2), z = glm::dot(arm, beam.axis);
+    beyond &= (x < within.low.x * z ? 1u : 0u) | (x > within.high.x * z ? 2u : 0u) |
+              (y < within.low.y * z ? 4u : 0u) | (y > within.high.y * z ? 8u : 0u);
+    nearest = std::min(nearest, z);
+    points[i] = {x, y};
+    depths[i] = z;
+    if (start.facet != nullptr) lowest = std::min(lowest, start.side * start.facet->distance(piece[i]));
+  }
+  if (beyond != 0) return {};
+  if (nearest >= nearest_m && lowest >= 0.0) {
+    for (uint32_t i = 0; i < piece.size(); ++i) points[i] /= depths[i];
+    return Polygon(std::span(points.data(), piece.size()));
+  }
   SpaceCorners corners;
   corners.count = static_cast<uint32_t>(piece.size());
   std::copy(piece.begin(), piece.end(), corners.points.begin());
@@ -65,7 +84,6 @@ Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart
   if (start.facet != nullptr)
     cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
   if (corners.count < 3) return {};
-  std::array<dvec2, FacetTrees::most_corners + 2> points;
   Box box;
   for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
   if (!box.meets(within)) return {};
@@ -74,10 +92,14 @@ Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart
 
 /// The half-planes that make up a polygon.
 struct Cover {
-  std::array<HalfPlane, Polygon::capacity> sides;
+  std::array<dvec2, Polygon::capacity> normals;
+  std::array<double, Polygon::capacity> offsets;
   uint32_t count = 0;
   explicit Cover(const Polygon& polygon) : count(polygon.size()) {
-    for (uint32_t i = 0; i < count; ++i) sides[i] = polygon.inside(i);
+    for (uint32_t i = 0; i < count; ++i) {
+      const HalfPlane side = polygon.inside(i);
+      normals[i] = side.normal, offsets[i] = side.offset;
+    }
   }
   /// The sides that cut `part`, a bit each; nothing if all of it is outside.
   std::optional<uint32_t> cutting(const Polygon& part) const {
@@ -85,7 +107,7 @@ struct Cover {
     for (uint32_t side = 0; side < count; ++side) {
       double least = 1e300, most = -1e300;
       for (uint32_t i = 0; i < part.size(); ++i) {
-        const double at = sides[side].at(part[i]);
+        const double at = glm::dot(normals[side], part[i]) + offsets[side];
         least = std::min(least, at), most = std::max(most, at);
       }
       if (most <= 0.0) return std::nullopt;
@@ -101,7 +123,7 @@ Polygon divided(Polygon part, const Cover& cover, uint32_t cuts, double smallest
   rest.clear();
   for (uint32_t side = 0; side < cover.count && !part.empty(); ++side) {
     if (((cuts >> side) & 1u) == 0) continue;
-    const HalfPlane& inside = cover.sides[side];
+    const HalfPlane inside{cover.normals[side], cover.offsets[side]};
     const Polygon beyond = part.clipped({-inside.normal, -inside.offset});
     if (beyond.area() > smallest) rest.push_back(beyond);
     part = part.clipped(inside);
