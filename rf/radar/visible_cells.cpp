@@ -135,7 +135,11 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
                   double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells) {
   cells.clear();
-  cells.emplace_back(whole, VisibleCell::nothing);
+  const auto add_cell = [&](const Polygon& part, uint32_t facet) {
+    VisibleCell& cell = cells.emplace_back();
+    cell.part = part, cell.facet = facet;
+  };
+  add_cell(whole, VisibleCell::nothing);
   Box within;
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
   const std::array<KeptSide, 5> spaces = around(beam, start, within);
@@ -167,7 +171,7 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
         divide(overlap, cover, *cuts, smallest, scratch.rest);
         if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
         cells[i].part = overlap, cells[i].facet = facet;
-        for (const Polygon& rest : scratch.rest) cells.emplace_back(rest, behind);
+        for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
       }
     }
   }
