@@ -207,8 +207,7 @@ class SlotSum {
     for (uint32_t k = 0; k < grid; k += together) {  // M is a multiple of four
       Four value[2][together];
       for (int part = 0; part < 2; ++part) {
-        for (size_t i = 0; i < together; ++i)
-          std::copy_n(parts[part][i] + k, together, &value[part][i].lane[0]);
+        for (size_t i = 0; i < together; ++i) value[part][i] = Four::at(parts[part][i] + k);
         transpose(value[part][0], value[part][1], value[part][2], value[part][3]);
       }
       for (size_t i = 0; i < together; ++i) cells_[k + i] = {value[0][i], value[1][i]};

@@ -31,7 +31,7 @@ using Bits [[gnu::vector_size(32), gnu::may_alias]] = int32_t;
 /// One bit for each lane that is not 0.
 inline uint32_t mask_of(const Bits& lanes) {
 #if defined(__SSE2__)
-  const __m128 *halves = reinterpret_cast<const __m128*>(&lanes);
+  const __m128* halves = reinterpret_cast<const __m128*>(&lanes);
   return static_cast<uint32_t>(_mm_movemask_ps(halves[0]) | (_mm_movemask_ps(halves[1]) << 4));
 #else
   uint32_t mask = 0;

@@ -24,6 +24,10 @@ struct Four {
   Four() = default;
   Four(float all) : lane{all, all, all, all} {}
   explicit Four(Lanes of) : lane(of) {}
+  static Four at(const float* four) {
+    using Stored [[gnu::vector_size(16), gnu::aligned(4), gnu::may_alias]] = float;
+    return Four(*reinterpret_cast<const Stored*>(four));
+  }
   Four& operator+=(const Four& o) { return lane += o.lane, *this; }
   Four& operator-=(const Four& o) { return lane -= o.lane, *this; }
   Four& operator*=(const Four& o) { return lane *= o.lane, *this; }

@@ -117,9 +117,8 @@ struct Cover {
   }
 };
 
-/// What a polygon shares with a cover; `rest`: what is left of it, as convex pieces.
-Polygon divided(Polygon part, const Cover& cover, uint32_t cuts, double smallest,
-                std::vector<Polygon>& rest) {
+/// Leaves of a polygon what it shares with a cover; `rest`: what else there is of it, as convex pieces.
+void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, std::vector<Polygon>& rest) {
   rest.clear();
   for (uint32_t side = 0; side < cover.count && !part.empty(); ++side) {
     if (((cuts >> side) & 1u) == 0) continue;
@@ -128,7 +127,6 @@ Polygon divided(Polygon part, const Cover& cover, uint32_t cuts, double smallest
     if (beyond.area() > smallest) rest.push_back(beyond);
     part = part.clipped(inside);
   }
-  return part;
 }
 
 }  // namespace
@@ -136,7 +134,12 @@ Polygon divided(Polygon part, const Cover& cover, uint32_t cuts, double smallest
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
                   double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells) {
-  cells.assign(1, {whole, VisibleCell::nothing});
+  cells.clear();
+  const auto add_cell = [&](const Polygon& part, uint32_t facet) {
+    VisibleCell& cell = cells.emplace_back();
+    cell.part = part, cell.facet = facet;
+  };
+  add_cell(whole, VisibleCell::nothing);
   Box within;
   for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
   const std::array<KeptSide, 5> spaces = around(beam, start, within);
@@ -164,10 +167,11 @@ void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBe
         if (behind == facet) continue;
         const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
         if (!cuts) continue;
-        const Polygon overlap = divided(cells[i].part, cover, *cuts, smallest, scratch.rest);
+        Polygon overlap = cells[i].part;
+        divide(overlap, cover, *cuts, smallest, scratch.rest);
         if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
-        cells[i] = {overlap, facet};
-        for (const Polygon& rest : scratch.rest) cells.push_back({rest, behind});
+        cells[i].part = overlap, cells[i].facet = facet;
+        for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
       }
     }
   }

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <gtest/gtest.h>
 #include <numbers>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "rf/radar/fft.h"
