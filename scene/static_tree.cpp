@@ -119,21 +119,26 @@ class Builder {
     return me;
   }
 
-  static int bin_of(float center, float low, float high) {
-    const double place = (static_cast<double>(center) - low) / (static_cast<double>(high) - low);
-    return std::min(bin_count - 1, static_cast<int>(place * bin_count));
-  }
+  /// Bins along an axis on which not all centres are one.
+  struct Bins {
+    double low, per_length;
+    Bins(const Box& centers, int axis)
+        : low(centers.min[axis]), per_length(bin_count / (static_cast<double>(centers.max[axis]) - low)) {}
+    int of(float center) const {
+      return std::min(bin_count - 1, static_cast<int>((static_cast<double>(center) - low) * per_length));
+    }
+  };
 
   /// Sum over both sides of area times triangles; no axis if all centres are one point.
   Split best_split(uint32_t first, uint32_t count, const Box& centers) const {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(centers.max[axis] > centers.min[axis])) continue;
+      const Bins bins(centers, axis);
       std::array<Box, bin_count> boxes;
       std::array<uint32_t, bin_count> counts{};
       for (const uint32_t leaf : std::span(order_).subspan(first, count)) {
-        const size_t bin =
-            static_cast<size_t>(bin_of(centers_[leaf][axis], centers.min[axis], centers.max[axis]));
+        const size_t bin = static_cast<size_t>(bins.of(centers_[leaf][axis]));
         boxes[bin].add(boxes_[leaf]);
         ++counts[bin];
       }
@@ -162,10 +167,9 @@ class Builder {
   uint32_t divide(uint32_t first, uint32_t count, uint32_t level, const Box& centers, const Split& split) {
     const auto begin = order_.begin() + first, end = begin + count;
     if (split.axis >= 0 && level + static_cast<uint32_t>(std::bit_width(count)) < shared::tree_most_depth) {
-      const auto middle = std::stable_partition(begin, end, [&](uint32_t leaf) {
-        return bin_of(centers_[leaf][split.axis], centers.min[split.axis], centers.max[split.axis]) <=
-               split.last_left;
-      });
+      const Bins bins(centers, split.axis);
+      const auto middle = std::stable_partition(
+          begin, end, [&](uint32_t leaf) { return bins.of(centers_[leaf][split.axis]) <= split.last_left; });
       return static_cast<uint32_t>(middle - begin);
     }
     const int axis = std::max(split.axis, 0);

@@ -22,7 +22,7 @@ struct StaticTree {
 
 /// Binary, split where the surface area heuristic says (sixteen bins an axis: I. Wald, "On fast construction of SAH-based
 /// bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing 2007). Boxes are rounded outwards to 1/65535 of
-/// the scene's extent. Serial; 150,000 triangles take some 0.15 s.
+/// the scene's extent. Serial; 150,000 triangles take a quarter of a second.
 StaticTree make_static_tree(const Scene& scene);
 
 }  // namespace greatx::scene
