@@ -5,6 +5,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "scene/static_tree.h"
+#include "shaders/shared/tree.h"
 
 namespace greatx::scene {
 
@@ -109,6 +113,28 @@ void GpuScene::build_structures() {
     blas_body_.push_back(body);
   }
   tlas_ = gpu::Tlas(*device_, static_cast<uint32_t>(blas_.size()), "tlas");
+  tree_ = upload(*device_, std::vector<uint32_t>{0, 0, 0, shared::tree_none}, "no tree");
+}
+
+bool GpuScene::wants_tree() const {
+  if (!options_.acceleration_structure || options_.tracer == Tracer::driver) return false;
+  return options_.tracer == Tracer::tree || device_->info().type == "cpu";
+}
+
+void GpuScene::specialize_tracer(std::vector<uint32_t>& specialization) {
+  GREATX_CHECK(specialization.size() <= shared::trace_tree_id, "{} specialization constants",
+               specialization.size());
+  if (wants_tree() && !has_tree_) {
+    const StaticTree tree = make_static_tree(*scene_);
+    const size_t bytes = tree.words.size() * sizeof(uint32_t);
+    has_tree_ = bytes <= device_->limits().maxStorageBufferRange;
+    if (has_tree_) tree_ = upload(*device_, tree.words, "static tree");
+    spdlog::debug("static tree: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB{}", tree.triangles,
+                  tree.inner_nodes, tree.leaves, tree.depth, bytes / 1024,
+                  has_tree_ ? "" : ": too large, the driver traces");
+  }
+  specialization.resize(shared::trace_tree_id);
+  specialization.push_back(has_tree_ ? 1u : 0u);
 }
 
 void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
@@ -145,15 +171,20 @@ std::vector<gpu::Descriptor> GpuScene::raster_descriptors() const {
 
 std::vector<gpu::Descriptor> GpuScene::descriptors() const {
   std::vector<gpu::Descriptor> all = raster_descriptors();
-  if (options_.acceleration_structure)
+  if (options_.acceleration_structure) {
     all.push_back(gpu::Descriptor::acceleration(shared::tlas_binding, tlas_));
+    all.push_back(gpu::Descriptor::buffer(shared::tree_binding, tree_));
+  }
   return all;
 }
 
 std::vector<gpu::Binding> GpuScene::bindings(bool trace) {
   std::vector<gpu::Binding> all{{shared::scene_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                 {shared::bodies_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
-  if (trace) all.push_back({shared::tlas_binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
+  if (trace) {
+    all.push_back({shared::tlas_binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
+    all.push_back({shared::tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  }
   return all;
 }
 

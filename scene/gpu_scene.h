@@ -16,10 +16,18 @@
 
 namespace greatx::scene {
 
+/// What traces rays through the static world, in the passes that can do either.
+enum class Tracer : uint32_t {
+  automatic,  ///< the tree on a CPU's driver, else the driver's
+  driver,     ///< ray queries
+  tree,       ///< scene/static_tree.h; bodies that move are the driver's all the same
+};
+
 /// What the plan asks the upload to make.
 struct GpuSceneOptions {
   bool acceleration_structure = true;  ///< some pass traces rays
   bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)
+  Tracer tracer = Tracer::automatic;
 };
 
 class GpuScene {
@@ -43,12 +51,19 @@ class GpuScene {
   std::vector<gpu::Descriptor> descriptors() const;
   /// Their bindings, for building pipelines. `trace`: with the TLAS.
   static std::vector<gpu::Binding> bindings(bool trace);
+  /// Says in a pipeline's specialization constants which tracer it uses; a shader's own have lower numbers and stand in there
+  /// already. Builds the tree when the first pass is to use it; `descriptors` has it from then on. A tree that would not fit into
+  /// a storage buffer is not built, and the driver's tracer is used.
+  void specialize_tracer(std::vector<uint32_t>& specialization);
+  /// Whether a pass traces through the tree.
+  bool has_tree() const { return has_tree_; }
   /// The same without the TLAS, for raster passes.
   std::vector<gpu::Descriptor> raster_descriptors() const;
 
  private:
   void upload_geometry();
   void build_structures();
+  bool wants_tree() const;
 
   gpu::Device* device_;
   const Scene* scene_;
@@ -59,6 +74,8 @@ class GpuScene {
   std::vector<gpu::Blas> blas_;      ///< of the bodies that have triangles
   std::vector<uint32_t> blas_body_;  ///< body of each
   gpu::Tlas tlas_;
+  gpu::Buffer tree_;  ///< of one quadruple until a pass needs it
+  bool has_tree_ = false;
   gpu::Slice bodies_;  ///< of the tick being recorded
   std::vector<Pose> last_poses_;
 };

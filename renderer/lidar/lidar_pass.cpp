@@ -106,6 +106,7 @@ gpu::ComputePipeline LidarPass::build_pipeline() const {
                                    scene_->textures().arrays_of(&scene::MaterialTextures::base_color)});
     compute.textures = &scene_->textures().table();
   }
+  scene_->specialize_tracer(compute.specialization);
   return gpu::ComputePipeline(scene_->device(), compute, name_);
 }
 

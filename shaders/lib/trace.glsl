@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing rays: one interface; this back end uses the driver's ray query. Another one may stand beside it.
+// Tracing rays: one interface and two back ends. The driver's ray query; and, with the specialization constant trace_tree, a
+// tree of our own for the static world in trace_closest, trace_closest_masked and trace_closest_except (lib/tree.glsl). The
+// driver is then asked for bodies that move alone, and only by rays that come near one.
 //
 // What holds for every back end:
 // - t_min < t < t_max; a hit exactly at an end may or may not be reported, so callers leave room for rounding.
@@ -24,6 +26,7 @@
 #ifdef GREATX_TRACE_ALPHA
 #include "lib/alpha.glsl"
 #endif
+layout(constant_id = trace_tree_id) const bool trace_tree = false;
 
 // Which bodies the rays of this shader may meet (static_mask, moving_mask); all of them unless the shader says otherwise.
 #ifndef GREATX_TRACE_MASK
@@ -46,10 +49,12 @@ struct Hit {
 
 Hit no_hit(float t_max) { return Hit(false, t_max, 0u, 0u, vec2(0.0), true); }
 
-Hit committed_hit(rayQueryEXT query, float t_max) {
-  Hit hit = no_hit(t_max);
-  hit.hit = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT;
-  if (hit.hit) {
+#include "lib/tree.glsl"
+
+/// What a query has found, else `hit`.
+Hit committed_hit(rayQueryEXT query, Hit hit) {
+  if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT) {
+    hit.hit = true;
     hit.t = rayQueryGetIntersectionTEXT(query, true);
     hit.primitive = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)) +
                     uint(rayQueryGetIntersectionGeometryIndexEXT(query, true));
@@ -59,6 +64,15 @@ Hit committed_hit(rayQueryEXT query, float t_max) {
     hit.front = rayQueryGetIntersectionFrontFaceEXT(query, true);
   }
   return hit;
+}
+Hit committed_hit(rayQueryEXT query, float t_max) { return committed_hit(query, no_hit(t_max)); }
+
+/// trace_tree: puts what the tree knows into `hit`, leaves in `mask` what it does not, and says whether the driver need not be
+/// asked any more. `body`, `facet`, `masks` as below.
+bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks, inout uint mask, inout Hit hit) {
+  if ((mask & static_mask) != 0u && body != 0u) hit = tree_closest(origin, t_min, direction, hit.t, facet, masks);
+  mask &= moving_mask;
+  return mask == 0u || !tree_near_moving(origin, t_min, direction, hit.t, body);
 }
 
 uint candidate_primitive(rayQueryEXT query) {
@@ -71,17 +85,23 @@ uint candidate_triangle(rayQueryEXT query, GpuPrimitive primitive) {
 
 /// The first triangle along origin + t * direction. Masked texels count as solid.
 Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
+  Hit hit = no_hit(t_max);
+  uint mask = GREATX_TRACE_MASK;
+  if (trace_tree && tree_answers(origin, t_min, direction, no_body, no_facet, false, mask, hit)) return hit;
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsOpaqueEXT, mask, origin, t_min, direction, hit.t);
   while (rayQueryProceedEXT(query)) {}
-  return committed_hit(query, t_max);
+  return committed_hit(query, hit);
 }
 
 /// The same without the triangles of one body, its parts included, and of one facet (no_body, no_facet: none), exactly: they
 /// are passed over one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
 Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
+  Hit hit = no_hit(t_max);
+  uint mask = GREATX_TRACE_MASK;
+  if (trace_tree && tree_answers(origin, t_min, direction, body, facet, masks, mask, hit)) return hit;
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, mask, origin, t_min, direction, hit.t);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     uint triangle = candidate_triangle(query, primitive);
@@ -91,7 +111,7 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
 #endif
     if (solid) rayQueryConfirmIntersectionEXT(query);
   }
-  return committed_hit(query, t_max);
+  return committed_hit(query, hit);
 }
 
 /// The first triangle of one body alone, which moves, without those of one facet (no_facet: none). `masks` as above.
@@ -114,15 +134,18 @@ Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max,
 #ifdef GREATX_TRACE_ALPHA
 /// The first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are looked at one by one.
 Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {
+  Hit hit = no_hit(t_max);
+  uint mask = GREATX_TRACE_MASK;
+  if (trace_tree && tree_answers(origin, t_min, direction, no_body, no_facet, true, mask, hit)) return hit;
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, GREATX_TRACE_MASK, origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoneEXT, mask, origin, t_min, direction, hit.t);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     uint triangle = candidate_triangle(query, primitive);
     if (alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false)))
       rayQueryConfirmIntersectionEXT(query);
   }
-  return committed_hit(query, t_max);
+  return committed_hit(query, hit);
 }
 #endif
 

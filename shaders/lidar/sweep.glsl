@@ -42,7 +42,8 @@ struct ShotHit {
 /// The first surface among the bodies of `trace_mask` where they stand at the tick. `behind`: the facet that the ray
 /// leaves.
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
-  if (glass && behind != no_facet)
+  // Through the tree there is one way for all of it: passing over triangles costs nothing there.
+  if (trace_tree || (glass && behind != no_facet))
     return trace_closest_except(origin, t_min, direction, constants.max_range, exclude_body ? constants.excluded_body : no_body,
                                 behind, alpha_mask);
   Hit hit;

@@ -19,6 +19,9 @@ const uint material_flag_reflectance_1550nm = 8u;
 const uint static_mask = 1u;
 const uint moving_mask = 2u;
 
+// Specialization constant of shaders that trace: the static world through the tree of tree.h instead of the driver.
+const uint trace_tree_id = 15u;
+
 /// Arrays of textures that a shader may ask for one by one (scene/gpu_textures.h).
 const uint most_tried_arrays = 24u;
 /// What a texture is known by (scene/texture_layers.h): its layer in the lowest 12 bits; the binary logarithms of how often
@@ -77,6 +80,7 @@ struct GpuSceneAddresses {
 const uint scene_binding = 0u;
 const uint tlas_binding = 1u;
 const uint bodies_binding = 2u;
+const uint tree_binding = 3u;  // with the TLAS; its layout: tree.h
 const uint first_pass_binding = 4u;
 
 GREATX_SHARED_END

@@ -37,10 +37,20 @@ struct TraceTestResult {
   uint leaving_triangle;  // trace_leaving
 };
 
+/// Of tests/tree.comp.glsl: trace_closest_except with skip_facet and skip_body, by the tracer that its pipeline has.
+struct TreeTestResult {
+  uint triangle;  // trace_test_none: nothing
+  uint primitive;
+  float t;
+  vec2 barycentric;
+  uint front;
+};
+
 GREATX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(greatx::shared::TraceTestRay) == 40);
 static_assert(sizeof(greatx::shared::TraceTestResult) == 76);
+static_assert(sizeof(greatx::shared::TreeTestResult) == 24);
 #endif
 #endif

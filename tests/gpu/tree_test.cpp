@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tree of the static world (scene/static_tree.h, shaders/lib/tree.glsl): against the driver's ray queries, and along the
+// edges and vertices of closed meshes, where there is no other answer than a hit.
+#include "shaders/shared/tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "scene/static_tree.h"
+#include "tests/gpu/tracing.h"
+
+namespace greatx {
+namespace {
+
+using namespace test::tracing;
+using scene::Tracer;
+using shared::TreeTestResult;
+using test::TinyScene;
+using test::Triangle;
+
+std::vector<TreeTestResult> hits(const scene::Scene& scene, std::span<const TraceTestRay> rays, Tracer tracer,
+                                 const std::vector<Pose>& bodies = {Pose{}}) {
+  gpu::Device& device = test::device();
+  scene::GpuSceneOptions options;
+  options.tracer = tracer;
+  scene::GpuScene gpu_scene(device, scene, options);
+  gpu::ComputeDesc desc;
+  desc.shader = "tests/tree.comp";
+  desc.bindings = scene::GpuScene::bindings(true);
+  desc.bindings.push_back({shared::trace_test_rays_binding});
+  desc.bindings.push_back({shared::trace_test_results_binding});
+  desc.push_constant_bytes = sizeof(uint32_t);
+  gpu_scene.specialize_tracer(desc.specialization);
+  EXPECT_EQ(gpu_scene.has_tree(), tracer == Tracer::tree);
+  const gpu::ComputePipeline pipeline(device, desc, "tree test");
+  const uint32_t count = static_cast<uint32_t>(rays.size());
+  gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
+  gpu::TickSlot& slot = ring.begin();
+  gpu_scene.record_update(slot, bodies);
+  const gpu::Slice upload = slot.upload.put(rays);
+  const gpu::Slice results = slot.readback.allocate_for<TreeTestResult>(count);
+  slot.cmd->bind(pipeline);
+  std::vector<gpu::Descriptor> descriptors = gpu_scene.descriptors();
+  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_rays_binding, upload));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_results_binding, results));
+  slot.cmd->push(descriptors);
+  slot.cmd->constants(count);
+  slot.cmd->dispatch((count + 63) / 64);
+  ring.submit(slot);
+  ring.wait(slot);
+  const std::span<TreeTestResult> answers = results.as<TreeTestResult>().first(count);
+  return {answers.begin(), answers.end()};
+}
+
+/// Triangles of all sizes and directions, some of them in clusters.
+TinyScene clutter(RandomStream& random, int count, double reach) {
+  TinyScene tiny;
+  for (int i = 0; i < count; ++i) {
+    if (i % 100 == 0) tiny.object("object" + std::to_string(i));
+    const double size = reach * std::pow(10.0, random.uniform(-3.0, -0.7));
+    const dvec3 center =
+        reach * dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.3, 0.3));
+    tiny.triangle(center + size * random_direction(random), center + size * random_direction(random),
+                  center + size * random_direction(random));
+  }
+  return tiny;
+}
+
+std::vector<TraceTestRay> random_rays(RandomStream& random, int count, double reach) {
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < count; ++i) {
+    const dvec3 from = reach * dvec3(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-1, 1));
+    rays.push_back(ray(from, std::pow(10.0, random.uniform(-2.0, 2.0)) * random_direction(random)));
+  }
+  return rays;
+}
+
+/// Where a ray meets a triangle's plane, in fp64, and what fp32 may make of it: roundings of the coordinates, the more
+/// the flatter the ray meets it.
+struct Exact {
+  double t = 0.0, bound = 0.0;
+};
+Exact exact_hit(const scene::Scene& scene, const std::vector<Pose>& bodies, const TraceTestRay& ray,
+                const TreeTestResult& hit) {
+  const uint32_t body = scene.instances[scene.primitives[hit.primitive].instance].body;
+  dvec3 corners[3];
+  for (uint32_t i = 0; i < 3; ++i)
+    corners[i] = bodies[body].apply(dvec3(scene.positions[scene.indices[3 * hit.triangle + i]]));
+  const dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0])),
+              origin(ray.origin), direction(ray.direction);
+  const double speed = std::abs(glm::dot(normal, direction)),
+               t = glm::dot(normal, corners[0] - origin) / glm::dot(normal, direction);
+  return {t, 0x1p-21 * (glm::length(origin) + glm::length(corners[0]) + glm::length(corners[1])) / speed};
+}
+
+/// The same triangle at the t of its plane, on the same side; but for as many rays as `grazing`, which pass within
+/// roundings of an edge.
+void expect_same(const scene::Scene& scene, std::span<const TraceTestRay> rays, size_t grazing,
+                 const std::vector<Pose>& bodies = {Pose{}}) {
+  const auto tree = hits(scene, rays, Tracer::tree, bodies),
+             driver = hits(scene, rays, Tracer::driver, bodies);
+  size_t hit = 0, other = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    hit += driver[i].triangle != none;
+    other += tree[i].triangle != driver[i].triangle;
+    if (tree[i].triangle == none || tree[i].triangle != driver[i].triangle) continue;
+    EXPECT_EQ(tree[i].primitive, driver[i].primitive);
+    EXPECT_EQ(tree[i].front, driver[i].front);
+    const Exact exact = exact_hit(scene, bodies, rays[i], tree[i]);
+    EXPECT_NEAR(tree[i].t, exact.t, exact.bound) << i;
+    EXPECT_NEAR(tree[i].t, driver[i].t, exact.bound) << i;
+  }
+  EXPECT_GT(hit, rays.size() / 20);
+  EXPECT_LE(other, grazing);
+}
+
+TEST(Tree, AgreesWithTheDriverOnRandomRays) {
+  RandomStream random(21, 1);
+  for (const double reach : {0.01, 1.0, 300.0, 20000.0}) {
+    const scene::Scene scene = clutter(random, 3000, reach).build();
+    const std::vector<TraceTestRay> rays = random_rays(random, 8192, reach);
+    expect_same(scene, rays, 1);
+  }
+}
+
+TEST(Tree, AgreesFarFromTheOrigin) {
+  // Coordinates of 5e5 m, as of a scene without a local origin of its own.
+  RandomStream random(22, 1);
+  TinyScene tiny;
+  const dvec3 far(5e5, -4e5, 100.0);
+  for (int i = 0; i < 500; ++i) {
+    const dvec3 center =
+        far + 400.0 * dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    tiny.triangle(center + 40.0 * random_direction(random), center + 40.0 * random_direction(random),
+                  center + 40.0 * random_direction(random));
+  }
+  std::vector<TraceTestRay> rays;
+  for (int i = 0; i < 4096; ++i)
+    rays.push_back(ray(far + 500.0 * random_direction(random), random_direction(random)));
+  // A coordinate is rounded to 0.03 m: rays that pass an edge by less may go either way.
+  expect_same(tiny.build(), rays, 8);
+}
+
+TEST(Tree, PassesOverFacetsAndBodies) {
+  RandomStream random(23, 1);
+  TinyScene tiny = clutter(random, 1000, 10.0);
+  const uint32_t body = tiny.body("drone"), other = tiny.body("car");
+  tiny.object("drone", body).box({-1, -1, -1}, {1, 1, 1});
+  tiny.object("car", other).box({-2, -1, -1}, {2, 1, 1});
+  const scene::Scene scene = tiny.build();
+  const std::vector<Pose> poses{Pose{}, Pose{{3, 1, 0}, glm::angleAxis(0.4, dvec3(0, 0, 1))},
+                                Pose{{-4, 2, 1}, glm::angleAxis(1.4, dvec3(1, 0, 0))}};
+  std::vector<TraceTestRay> rays = random_rays(random, 8192, 4.0);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (i % 2 == 0) rays[i].skip_facet = random.below(1000);
+    if (i % 3 == 0) rays[i].skip_body = i % 2 == 0 ? body : other;
+    if (i % 7 == 0) rays[i].skip_body = 0;
+    if (i % 5 == 0) rays[i].t_min = static_cast<float>(random.uniform(0, 0.5));
+    if (i % 11 == 0) rays[i].t_max = static_cast<float>(random.uniform(0.5, 20));
+  }
+  expect_same(scene, rays, 1, poses);
+  size_t of_bodies = 0;
+  for (const TreeTestResult& result : hits(scene, rays, Tracer::tree, poses))
+    of_bodies += result.triangle != none && result.triangle >= 1000;
+  EXPECT_GT(of_bodies, 100u);
+}
+
+TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
+  RandomStream random(24, 1);
+  for (const dvec3& center : {dvec3(0.0), dvec3(70, -30, 20), dvec3(3e4, 1e4, 10)}) {
+    TinyScene tiny;
+    const std::vector<Triangle> mesh = sphere(3, 5.0, center);
+    for (const Triangle& t : mesh) tiny.triangle(t[0], t[1], t[2]);
+    std::vector<TraceTestRay> rays;
+    for (int i = 0; i < 16384; ++i) {
+      const Triangle& t = mesh[random.below(static_cast<uint32_t>(mesh.size()))];
+      const double along = i % 3 == 0 ? 0.0 : random.uniform(0.0, 1.0);
+      // From inside, half of them from the very centre, which edges of an octahedron see in planes of the axes.
+      const dvec3 from = center + (i % 2 == 0 ? 0.0 : 3.0) * random_direction(random);
+      rays.push_back(ray_towards(from, t[0] + along * (t[1] - t[0])));
+    }
+    size_t leaked = 0;
+    for (const TreeTestResult& result : hits(tiny.build(), rays, Tracer::tree))
+      leaked += result.triangle == none;
+    EXPECT_EQ(leaked, 0u) << center.x;
+  }
+}
+
+TEST(Tree, DoesNotLeakOutOfABoxAlongTheAxes) {
+  // Rays along edges' directions and exactly onto edges and corners: directions with zeros, boxes met on their faces.
+  TinyScene tiny;
+  for (int i = 0; i < 4; ++i)  // walls in strips, so that there are boxes of the tree side by side
+    for (int j = 0; j < 4; ++j)
+      for (const int side : {0, 4}) {
+        const auto quad = [&](auto p) { tiny.quad(p(i, j), p(i + 1, j), p(i + 1, j + 1), p(i, j + 1)); };
+        quad([&](int u, int v) { return dvec3(u, v, side); });
+        quad([&](int u, int v) { return dvec3(u, side, v); });
+        quad([&](int u, int v) { return dvec3(side, u, v); });
+      }
+  std::vector<TraceTestRay> rays;
+  for (const dvec3& from : {dvec3(2, 2, 2), dvec3(1, 1, 1), dvec3(1, 2, 3), dvec3(0.5, 2, 1)})
+    for (int x = -4; x <= 4; ++x)
+      for (int y = -4; y <= 4; ++y)
+        for (int z = -4; z <= 4; ++z)
+          if (x != 0 || y != 0 || z != 0) rays.push_back(ray(from, {x, y, z}));
+  for (const TreeTestResult& result : hits(tiny.build(), rays, Tracer::tree)) {
+    ASSERT_NE(result.triangle, none);
+    ASSERT_LE(result.t, 3.5f);
+  }
+}
+
+TEST(Tree, OneTriangleNoneAndThoseWithoutArea) {
+  const std::vector<TraceTestRay> rays{ray({0.2, 0.2, -1}, {0, 0, 1}), ray({0.2, 0.2, 1}, {0, 0, -3}),
+                                       ray({2, 2, -1}, {0, 0, 1})};
+  TinyScene one;
+  one.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  auto results = hits(one.build(), rays, Tracer::tree);
+  EXPECT_EQ(results[0].triangle, 0u);
+  EXPECT_FLOAT_EQ(results[0].t, 1.0f);
+  EXPECT_EQ(results[0].front, 0u);
+  EXPECT_FLOAT_EQ(results[0].barycentric.x, 0.2f);
+  EXPECT_FLOAT_EQ(results[1].t, 1.0f / 3.0f);
+  EXPECT_EQ(results[1].front, 1u);
+  EXPECT_EQ(results[2].triangle, none);
+  for (const TreeTestResult& result : hits(TinyScene().build(), rays, Tracer::tree))
+    EXPECT_EQ(result.triangle, none);
+  TinyScene flat;
+  flat.triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}).triangle({0.2, 0.2, 0}, {0.2, 0.2, 0}, {0.2, 0.2, 0});
+  EXPECT_EQ(scene::make_static_tree(flat.build()).triangles, 0u);
+  for (const TreeTestResult& result : hits(flat.build(), rays, Tracer::tree))
+    EXPECT_EQ(result.triangle, none);
+}
+
+TEST(Tree, ManyAtOnePlaceStayWithinTheDepth) {
+  TinyScene tiny;
+  for (int i = 0; i < 300; ++i) tiny.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  // Each a quarter of the one before: every split by area takes one off the end.
+  for (int i = 0; i < 60; ++i) {
+    const double size = std::ldexp(1.0, -2 * i);
+    tiny.triangle({10 * size, 0, 0}, {12 * size, size, 0}, {10 * size, size, size});
+  }
+  const scene::StaticTree tree = scene::make_static_tree(tiny.build());
+  EXPECT_EQ(tree.triangles, 360u);
+  EXPECT_EQ(tree.leaves, tree.inner_nodes + 1);
+  EXPECT_LE(tree.depth, shared::tree_most_depth);
+  const auto results = hits(tiny.build(), std::vector{ray({0.3, 0.3, 1}, {0, 0, -1})}, Tracer::tree);
+  EXPECT_LT(results[0].triangle, 300u);
+}
+
+TEST(Tree, BoxesHoldWhatIsBelowThemAndEveryTriangleIsThereOnce) {
+  RandomStream random(25, 1);
+  const scene::Scene scene = clutter(random, 5000, 300.0).build();
+  const scene::StaticTree tree = scene::make_static_tree(scene);
+  EXPECT_EQ(tree.words, scene::make_static_tree(scene).words);
+  const auto number = [&](size_t quad, int i) {
+    return double{std::bit_cast<float>(tree.words[4 * quad + i])};
+  };
+  const dvec3 low(number(0, 0), number(0, 1), number(0, 2)), step(number(1, 0), number(1, 1), number(1, 2));
+  std::vector<int> seen(scene.triangle_count(), 0);
+  struct Visit {
+    uint32_t reference;
+    dvec3 min, max;
+  };
+  std::vector<Visit> visits{{tree.words[3], dvec3(-1e30), dvec3(1e30)}};
+  while (!visits.empty()) {
+    const Visit visit = visits.back();
+    visits.pop_back();
+    const uint32_t quad = visit.reference & (shared::tree_most_quads - 1);
+    if (visit.reference < shared::tree_leaf) {
+      for (uint32_t side = 0; side < 2; ++side) {
+        const uint32_t* words = &tree.words[4 * (quad + side)];
+        const dvec3 min(words[0] & 0xffff, words[0] >> 16, words[1] & 0xffff),
+            max(words[1] >> 16, words[2] & 0xffff, words[2] >> 16);
+        // Corners come apart again at the steps of the parent, whatever way they were rounded.
+        visits.push_back({words[3], low + step * min, low + step * max});
+      }
+      continue;
+    }
+    const uint32_t count = visit.reference >> shared::tree_count_shift & shared::tree_most_in_leaf;
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t first = quad + 3 * i;
+      ++seen[tree.words[4 * first + 3]];
+      for (uint32_t corner = 0; corner < 3; ++corner)
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_GE(number(first + corner, axis), visit.min[axis] - 1e-9);
+          EXPECT_LE(number(first + corner, axis), visit.max[axis] + 1e-9);
+        }
+    }
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(seen.size()));
+}
+
+}  // namespace
+}  // namespace greatx
