@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A tree of boxes around the triangles of the static world, for tracing without the driver (shaders/lib/tree.glsl): where
-// the driver is a CPU's, its own structure is a poor tree that costs a gather for every word.
+// the driver is a CPU's, its own structure costs a gather for every word of a node.
 #pragma once
 
 #include <cstdint>
