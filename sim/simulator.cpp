@@ -303,6 +303,10 @@ void Simulator::compare_radars(const Packet& packet) {
 
 RunStatistics Simulator::statistics() const {
   RunStatistics statistics = statistics_;
+  if (gpu_scene_.has_tree())
+    statistics.notes.emplace_back("tracer",
+                                  "the device is a CPU: LiDAR rays meet the static world in a tree of "
+                                  "greatx's own, all others in the driver's");
   for (const auto& sensor : sensors_) {
     sensor->report(statistics.consistency);
     sensor->count(statistics.counters);

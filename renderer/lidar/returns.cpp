@@ -103,10 +103,9 @@ double range_deviation(const Receiver& receiver, double power) {
   return std::hypot(receiver.range_std_m, jitter);
 }
 
-/// Indices of the pulses to deliver, ascending.
+/// Indices of several pulses to deliver, ascending.
 std::vector<uint32_t> chosen(const std::vector<Pulse>& pulses, const ReturnChoice& choice) {
   const auto count = static_cast<uint32_t>(pulses.size());
-  if (count == 0) return {};
   if (choice.mode == ReturnMode::last) return {count - 1};
   if (choice.mode == ReturnMode::all) {
     std::vector<uint32_t> all(std::min(count, choice.most));
@@ -117,14 +116,14 @@ std::vector<uint32_t> chosen(const std::vector<Pulse>& pulses, const ReturnChoic
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](uint32_t a, uint32_t b) { return pulses[a].power > pulses[b].power; });
-  if (choice.mode == ReturnMode::strongest || count == 1) return {order[0]};
+  if (choice.mode == ReturnMode::strongest) return {order[0]};
   const uint32_t second = order[0] == count - 1 ? order[1] : count - 1;
   return {std::min(order[0], second), std::max(order[0], second)};
 }
 
 void deliver(const ScanPattern& pattern, uint32_t shot, const std::vector<Pulse>& pulses,
              const ReturnModel& model, const ShotNoise& noise, LidarScan& scan) {
-  for (const uint32_t i : chosen(pulses, model.choice)) {
+  const auto add = [&](uint32_t i) {
     const Pulse& pulse = pulses[i];
     double range = pulse.range_m;
     if (const double deviation = range_deviation(model.receiver, pulse.power); deviation > 0.0)
@@ -142,7 +141,10 @@ void deliver(const ScanPattern& pattern, uint32_t shot, const std::vector<Pulse>
     scan.return_count.push_back(static_cast<uint16_t>(pulses.size()));
     scan.instance.push_back(pulse.instance);
     scan.material.push_back(pulse.material);
-  }
+  };
+  if (pulses.size() == 1) return add(0);  // most of them: no list on the heap
+  if (pulses.empty()) return;
+  for (const uint32_t i : chosen(pulses, model.choice)) add(i);
 }
 
 void collect_shots(const ScanPattern& pattern, const EchoView& view, const ReturnModel& model,
@@ -172,23 +174,26 @@ void collect_shots(const ScanPattern& pattern, const EchoView& view, const Retur
   }
 }
 
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+/// Calls `each` with every column of `scan` and its like of `other`.
+template <typename Each>
+void each_column(LidarScan& scan, const LidarScan& other, const Each& each) {
+  each(scan.points, other.points);
+  each(scan.shot, other.shot);
+  each(scan.ring, other.ring);
+  each(scan.time_offset_s, other.time_offset_s);
+  each(scan.range_m, other.range_m);
+  each(scan.power, other.power);
+  each(scan.share, other.share);
+  each(scan.return_number, other.return_number);
+  each(scan.return_count, other.return_count);
+  each(scan.instance, other.instance);
+  each(scan.material, other.material);
 }
-
 void append(LidarScan& to, const LidarScan& from) {
-  append(to.points, from.points);
-  append(to.shot, from.shot);
-  append(to.ring, from.ring);
-  append(to.time_offset_s, from.time_offset_s);
-  append(to.range_m, from.range_m);
-  append(to.power, from.power);
-  append(to.share, from.share);
-  append(to.return_number, from.return_number);
-  append(to.return_count, from.return_count);
-  append(to.instance, from.instance);
-  append(to.material, from.material);
+  each_column(to, from, [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); });
+}
+void reserve(LidarScan& scan, size_t returns) {
+  each_column(scan, scan, [returns](auto& column, const auto&) { column.reserve(returns); });
 }
 
 }  // namespace
@@ -214,6 +219,7 @@ LidarScan make_scan(const ScanPattern& pattern, const EchoView& echoes, const Re
                "{} weights for {} rays, {} shots of {}", model.weights.size(), echoes.sub_rays, echoes.shots,
                pattern.size());
   LidarScan scan;
+  reserve(scan, echoes.shots);
   if (echoes.sub_rays * echoes.slots == 1 && !model.receiver.noisy()) {
     collect_shots(pattern, echoes, model, noise, 0, echoes.shots, scan);
     return scan;
@@ -221,6 +227,7 @@ LidarScan make_scan(const ScanPattern& pattern, const EchoView& echoes, const Re
   std::vector<LidarScan> parts((echoes.shots + chunk_shots - 1) / chunk_shots);
   parallel_for(parts.size(), 0, [&](size_t i) {
     const auto first = static_cast<uint32_t>(i) * chunk_shots;
+    reserve(parts[i], chunk_shots);
     collect_shots(pattern, echoes, model, noise, first, std::min(first + chunk_shots, echoes.shots),
                   parts[i]);
   });

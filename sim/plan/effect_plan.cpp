@@ -20,9 +20,10 @@ namespace {
 
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
   const bool rays = plan.lidar.on || plan.radar.on || plan.channel.on || plan.consistency.on;
-  plan.acceleration_structure =
-      planner.fixed("acceleration_structure", rays,
-                    rays ? "LiDAR, radar, radio or the consistency check trace rays" : "nothing traces rays");
+  plan.acceleration_structure = planner.fixed("acceleration_structure", rays,
+                                              rays ? "LiDAR, radar, radio or the consistency check trace "
+                                                     "rays; a LiDAR on a CPU through a tree of greatx's own"
+                                                   : "nothing traces rays");
   plan.scene_motion =
       planner.fixed("scene_motion", offers.moving_triangles,
                     offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
