@@ -110,6 +110,10 @@ class Bench {
         if (!fires(sensor)) continue;
         sim::Scenario without = scenario_;
         without.nodes[n].sensors.erase(without.nodes[n].sensors.begin() + static_cast<std::ptrdiff_t>(s));
+        for (sim::SensorConfig& other :
+             without.nodes[n].sensors)  // that had its pixels: they render themselves
+          if (auto* events = std::get_if<sim::EventCameraConfig>(&other.config))
+            if (events->camera == sensor.name) events->camera.clear();
         add(fmt::format("without {} {}/{}", kind_of(sensor), scenario_.nodes[n].name, sensor.name),
             std::move(without), true);
       }
