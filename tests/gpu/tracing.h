@@ -31,23 +31,26 @@ inline TraceTestRay ray_towards(const dvec3& origin, const dvec3& target) {
   return {vec3(origin), 0.0f, vec3(target) - vec3(origin), 1e30f, none, none};
 }
 
-inline std::vector<TraceTestResult> trace(const scene::Scene& scene, std::span<const TraceTestRay> rays,
-                                          const std::vector<Pose>& bodies = {Pose{}}) {
-  gpu::Device& device = test::device();
-  scene::GpuScene gpu_scene(device, scene, {});
+/// What a shader of shaders/tests/trace_test.h answers to each ray.
+template <typename Result>
+std::vector<Result> answers_of(const char* shader, scene::GpuScene& gpu_scene,
+                               std::span<const TraceTestRay> rays, const std::vector<Pose>& bodies,
+                               const std::vector<uint32_t>& specialization = {}) {
+  gpu::Device& device = gpu_scene.device();
   gpu::ComputeDesc desc;
-  desc.shader = "tests/trace.comp";
+  desc.shader = shader;
+  desc.specialization = specialization;
   desc.bindings = scene::GpuScene::bindings(true);
   desc.bindings.push_back({shared::trace_test_rays_binding});
   desc.bindings.push_back({shared::trace_test_results_binding});
   desc.push_constant_bytes = sizeof(uint32_t);
-  const gpu::ComputePipeline pipeline(device, desc, "trace test");
+  const gpu::ComputePipeline pipeline(device, desc, shader);
   const uint32_t count = static_cast<uint32_t>(rays.size());
   gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, bodies);
   const gpu::Slice upload = slot.upload.put(rays);
-  const gpu::Slice results = slot.readback.allocate_for<TraceTestResult>(count);
+  const gpu::Slice results = slot.readback.allocate_for<Result>(count);
   slot.cmd->bind(pipeline);
   std::vector<gpu::Descriptor> descriptors = gpu_scene.descriptors();
   descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_rays_binding, upload));
@@ -57,8 +60,14 @@ inline std::vector<TraceTestResult> trace(const scene::Scene& scene, std::span<c
   slot.cmd->dispatch((count + 63) / 64);
   ring.submit(slot);
   ring.wait(slot);
-  const std::span<TraceTestResult> answers = results.as<TraceTestResult>().first(count);
+  const std::span<Result> answers = results.as<Result>().first(count);
   return {answers.begin(), answers.end()};
+}
+
+inline std::vector<TraceTestResult> trace(const scene::Scene& scene, std::span<const TraceTestRay> rays,
+                                          const std::vector<Pose>& bodies = {Pose{}}) {
+  scene::GpuScene gpu_scene(test::device(), scene, {});
+  return answers_of<TraceTestResult>("tests/trace.comp", gpu_scene, rays, bodies);
 }
 
 inline dvec3 random_direction(RandomStream& random) {

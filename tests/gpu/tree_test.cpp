@@ -25,36 +25,13 @@ using test::Triangle;
 
 std::vector<TreeTestResult> hits(const scene::Scene& scene, std::span<const TraceTestRay> rays, Tracer tracer,
                                  const std::vector<Pose>& bodies = {Pose{}}) {
-  gpu::Device& device = test::device();
   scene::GpuSceneOptions options;
   options.tracer = tracer;
-  scene::GpuScene gpu_scene(device, scene, options);
-  gpu::ComputeDesc desc;
-  desc.shader = "tests/tree.comp";
-  desc.bindings = scene::GpuScene::bindings(true);
-  desc.bindings.push_back({shared::trace_test_rays_binding});
-  desc.bindings.push_back({shared::trace_test_results_binding});
-  desc.push_constant_bytes = sizeof(uint32_t);
-  gpu_scene.specialize_tracer(desc.specialization);
+  scene::GpuScene gpu_scene(test::device(), scene, options);
+  std::vector<uint32_t> specialization;
+  gpu_scene.specialize_tracer(specialization);
   EXPECT_EQ(gpu_scene.has_tree(), tracer == Tracer::tree);
-  const gpu::ComputePipeline pipeline(device, desc, "tree test");
-  const uint32_t count = static_cast<uint32_t>(rays.size());
-  gpu::TickRing ring(device, 1, 1u << 20, 1u << 20);
-  gpu::TickSlot& slot = ring.begin();
-  gpu_scene.record_update(slot, bodies);
-  const gpu::Slice upload = slot.upload.put(rays);
-  const gpu::Slice results = slot.readback.allocate_for<TreeTestResult>(count);
-  slot.cmd->bind(pipeline);
-  std::vector<gpu::Descriptor> descriptors = gpu_scene.descriptors();
-  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_rays_binding, upload));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::trace_test_results_binding, results));
-  slot.cmd->push(descriptors);
-  slot.cmd->constants(count);
-  slot.cmd->dispatch((count + 63) / 64);
-  ring.submit(slot);
-  ring.wait(slot);
-  const std::span<TreeTestResult> answers = results.as<TreeTestResult>().first(count);
-  return {answers.begin(), answers.end()};
+  return answers_of<TreeTestResult>("tests/tree.comp", gpu_scene, rays, bodies, specialization);
 }
 
 /// Triangles of all sizes and directions, some of them in clusters.
