@@ -30,6 +30,9 @@ void check(const EchoOptions& o) {
     throw_user_error("radar antenna: expected a radius of 0 m or more, found {}", o.antenna_radius_m);
   if (!(o.border_floor_m2 >= 0.0))
     throw_user_error("radar floor: expected a cross-section of 0 m^2 or more, found {}", o.border_floor_m2);
+  if (!(o.hidden_floor_m2 >= 0.0))
+    throw_user_error("radar floor: expected a hidden cross-section of 0 m^2 or more, found {}",
+                     o.hidden_floor_m2);
   if (!(o.merge_share >= 0.0 && o.bandwidth_hz > 0.0 && o.beam_rad > 0.0))
     throw_user_error(
         "radar merging: expected a share >= 0, a bandwidth and a beam > 0, found {}, {} Hz, {} rad",

@@ -44,6 +44,9 @@ struct EchoOptions {
   /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body of this
   /// radar cross-section even for a perfect conductor, m^2. 0: nothing is.
   double border_floor_m2 = 1e-5;
+  /// The same for what the receiver's noise hides (hidden_section_m2()): that of a body 1 m away from both ends; it grows with
+  /// the square of the distance of each. 0: nothing is hidden. m^2.
+  double hidden_floor_m2 = 0.0;
 
   bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
   bool diffuse =

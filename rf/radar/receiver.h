@@ -31,6 +31,11 @@ void complex_normals(const RadarSeeds& seeds, RadarDraw purpose, uint32_t part, 
 /// k T_0 f_s F, W: noise power of a complex sample, as a power at the receiver's port.
 double noise_power_w(double sample_rate_hz, double noise_figure_db);
 
+/// What noise hides: the cross-section of a body 1 m from both ends whose echo, all of a frame's samples and antennas added up in
+/// phase, is a hundredth of the mean power that noise then has. Elements of these gains; in a distance it grows with
+/// the square of each end's. 0 without noise. m^2.
+double hidden_section_m2(const RadarSignalConfig& config, double transmit_gain, double receive_gain);
+
 /// Adds noise of `power_w` to each sample. Any number of threads, the same bytes.
 void add_noise(const RadarSeeds& seeds, double power_w, uint32_t threads,
                std::span<std::complex<float>> cube);

@@ -46,7 +46,7 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
-  std::array<dvec3, 4> corners{};  ///< of the whole tube
+  std::array<dvec3, 4> corners{};                ///< of the whole tube
   std::array<TubeBeam, most_bounces + 1> beams;  ///< [bounces before]
   std::array<uint32_t, most_bounces> chain{};
   Polygon part;  ///< the whole tube
@@ -73,6 +73,7 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       bounces_(hits.bounces()) {
   // sigma = 4 pi |value|^2 / lambda^2
   limits_.floor = std::sqrt(options.border_floor_m2 * pi) / field.wavenumber();
+  hidden_floor_ = std::sqrt(options.hidden_floor_m2 * pi) / field.wavenumber();
   GREATX_CHECK(bounces_ <= most_bounces, "{} bounces", bounces_);
   whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
   parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
@@ -201,7 +202,8 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
 bool TubeEchoes::may_send(uint32_t tube, uint32_t bounce) const {
   for (uint32_t b = bounce; b < bounces_ && RayHits::met(hits_.word(tube, b)); ++b)
     if (RayHits::sees_receiver(hits_.word(tube, b)) &&
-        !(b == 1 && found_backwards(RayHits::facet(hits_.word(tube, 0)), RayHits::facet(hits_.word(tube, 1)))))
+        !(b == 1 &&
+          found_backwards(RayHits::facet(hits_.word(tube, 0)), RayHits::facet(hits_.word(tube, 1)))))
       return true;
   return false;
 }
@@ -277,6 +279,21 @@ bool TubeEchoes::found_backwards(uint32_t first, uint32_t second) const {
   return monostatic_ && spreads(second, first);
 }
 
+/// With the floor where the piece is nearest to both ends.
+IntegralLimits TubeEchoes::limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
+                                     const dvec3& receiver) const {
+  IntegralLimits limits = limits_;
+  if (hidden_floor_ == 0.0) return limits;
+  double nearest = 1e300;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec3 corner = point_of(facet, piece[i]);
+    const dvec3 out = corner - source, home = corner - receiver;
+    nearest = std::min(nearest, glm::dot(out, out) * glm::dot(home, home));
+  }
+  limits.floor = std::max(limits.floor, hidden_floor_ * std::sqrt(nearest));
+  return limits;
+}
+
 void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const {
   const PosedFacet &posed = world_.facet(job.chain[bounce - 1]), &wall = world_.facet(mirror);
   const TubeBeam& beam = job.beams[bounce - 1];
@@ -286,7 +303,7 @@ void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint3
   if (piece.empty()) return;
   job.contributions.clear();
   job.out->below_floor += integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece, 0,
-                                    job.contributions, limits_);
+                                    job.contributions, limits_of(posed, piece, beam.source, image));
   for (const Contribution& c : job.contributions) {
     const dvec3 point = point_of(posed, c.at), way = image - point;
     const double before = glm::distance(point, beam.source), after = glm::length(way);
@@ -322,7 +339,8 @@ void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint3
   job.contributions.clear();
   const PhasePlane plane = phase_plane(posed, beam.source, field_.receiver_at(), field_.wavenumber());
   const uint32_t omitted = omitted_sides(job, bounce, posed, piece, whole);
-  job.out->below_floor += integrate(plane, piece, omitted, job.contributions, limits_);
+  job.out->below_floor += integrate(plane, piece, omitted, job.contributions,
+                                    limits_of(posed, piece, beam.source, field_.receiver_at()));
   for (const Contribution& c : job.contributions) add(job, bounce, posed, c.at, c.value);
   if (options_.diffuse && bounce == 0) scatter(job, piece, facet);
 }

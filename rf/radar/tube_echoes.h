@@ -83,6 +83,8 @@ class TubeEchoes {
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
   uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
                          bool whole) const;
+  IntegralLimits limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
+                           const dvec3& receiver) const;
   void add(Job& job, uint32_t bounce, const PosedFacet& facet, const dvec2& at, Complex value) const;
 
   const RayGrid& grid_;
@@ -96,6 +98,7 @@ class TubeEchoes {
   const EchoOptions& options_;
   uint32_t bounces_;
   IntegralLimits limits_;
+  double hidden_floor_;       ///< of a border's contribution 1 m from both ends, m^2
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 

@@ -37,6 +37,19 @@ rf::RadarGain gain_of(const rf::EchoEnd& end) {
   };
 }
 
+/// The largest of an element's gains, but for some thousandths.
+double largest_gain(const rf::RadarGain& gain) {
+  constexpr int steps = 180;
+  double largest = 0.0;
+  for (int i = 0; i <= steps; ++i)
+    for (int k = 0; k < 2 * steps; ++k) {
+      const double zenith = pi * i / steps, azimuth = pi * k / steps;
+      largest = std::max(largest, gain({std::sin(zenith) * std::cos(azimuth),
+                                        std::sin(zenith) * std::sin(azimuth), std::cos(zenith)}));
+    }
+  return largest;
+}
+
 /// The width of the virtual array's beam, rad; of one antenna a wide one.
 double beam_of(const rf::RadarSignalConfig& signal) {
   double reach = 0.0;
@@ -97,6 +110,8 @@ rf::EchoOptions RadarSensor::echo_options(const EffectPlan& plan, const Scenario
   options.seed = scenario.seed;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
+  options.hidden_floor_m2 = rf::hidden_section_m2(config_.signal, largest_gain(gain_of(transmit_end())),
+                                                  largest_gain(gain_of(receive_end())));
   for (const std::string& target : config_.targets)
     options.targets.push_back(instance_called(world_.scene, name_, target));
   return options;

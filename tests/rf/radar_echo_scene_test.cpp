@@ -354,6 +354,36 @@ TEST(RadarEchoScene, FloorOfEdgesIsWhatItSays) {
   EXPECT_LT(std::abs(all - above), bound);
 }
 
+TEST(RadarEchoScene, HiddenFloorGrowsWithTheFourthPowerOfDistance) {
+  // Border contributions of a slanted plate 10 m away, and of one ten times as large and as far: their cross-sections at the
+  // same aspect are those of edges, which grow with the square of the size.
+  const auto find = [](double scale, double border_m2, double hidden_m2, EchoStatistics* statistics) {
+    TinyScene tiny;
+    tiny.object("plate").quad(dvec3(10, 0.5, -0.5) * scale, dvec3(11, -0.5, -0.5) * scale,
+                              dvec3(11, -0.5, 0.5) * scale, dvec3(10, 0.5, 0.5) * scale);
+    EchoScene scene(tiny);
+    EchoOptions options = sector(10.0, 10.0, 500);
+    options.border_floor_m2 = border_m2;
+    options.hidden_floor_m2 = hidden_m2;
+    return scene.find(options, Pose{}, {}, statistics).echoes.size();
+  };
+  for (const double scale : {1.0, 10.0}) {
+    const double r4 = std::pow(10.0 * scale, 4.0);  // of the nearest corners, 10.01 m and farther
+    EchoStatistics none, below, above, fixed_below, fixed_above;
+    const size_t all = find(scale, 0.0, 0.0, &none);
+    EXPECT_EQ(none.below_floor, 0u);
+    // Nearest and farthest corners, (10.012/10)^4 and (11.023/10)^4, bracket the floor of every piece.
+    find(scale, 1e-5 * 1.0048, 0.0, &fixed_below);
+    find(scale, 1e-5 * 1.4768, 0.0, &fixed_above);
+    const size_t kept = find(scale, 0.0, 1e-5 / r4, &below);
+    EXPECT_GE(below.below_floor, fixed_below.below_floor);
+    EXPECT_LE(below.below_floor, fixed_above.below_floor);
+    EXPECT_LE(kept, all);
+    find(scale, 1e-5 * 1.4768, 1e-5 / r4, &above);
+    EXPECT_EQ(above.below_floor, fixed_above.below_floor) << "the larger of the two counts";
+  }
+}
+
 TEST(RadarEchoScene, DiffuseIsOffByDefaultAndHasThePowerOfItsModel) {
   TinyScene tiny;
   tiny.object("ground").quad({5, -5, -2}, {25, -5, -2}, {25, 5, -2}, {5, 5, -2});

@@ -49,6 +49,27 @@ TEST(RadarReceiver, DrawsArePhiloxByThatName) {
   EXPECT_EQ(later[7], draws[207]);
 }
 
+TEST(RadarReceiver, HiddenEchoIsAHundredthOfTheNoiseOfAWholeFrame) {
+  RadarSignalConfig config;
+  config.waveform.samples = 256;
+  config.waveform.transmitters = 4;
+  config.waveform.slots = 512;
+  config.arrays.transmit_m.assign(4, dvec3(0.0));
+  config.arrays.receive_m.assign(3, dvec3(0.0));
+  config.transmit_power_w = 0.02;
+  config.receiver.noise_figure_db = 9.0;
+  const double section = hidden_section_m2(config, 5.0, 2.0), r = 40.0,
+               lambda = config.waveform.wavelength_m();
+  // The radar equation of a body of that section times r^4, each antenna; amplitudes of all samples add up.
+  const double each = 0.02 * 5.0 * 2.0 * lambda * lambda * section * std::pow(r, 4) /
+                      (std::pow(4.0 * pi, 3) * std::pow(r, 4));
+  const double samples = 256.0 * 512.0 * 3.0;
+  const double noise = noise_power_w(config.waveform.sample_rate_hz, 9.0);
+  EXPECT_NEAR(each * samples * samples / (noise * samples), 0.01, 1e-12);
+  config.receiver.noise_figure_db.reset();
+  EXPECT_EQ(hidden_section_m2(config, 5.0, 2.0), 0.0);
+}
+
 TEST(RadarReceiver, NoisePowerIsThermal) {
   // k T_0 = -173.975 dBm/Hz; 10 MHz and 12 dB: -91.975 dBm.
   const double power = noise_power_w(10e6, 12.0);
