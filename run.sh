@@ -19,4 +19,4 @@ if ! demo "$@"; then
   echo "out/demo is of another run: kept as out/demo.$number, generating anew"
   demo "$@"
 fi
-build/release/greatx inspect out/demo | tail -n 1
+build/release/greatx inspect out/demo --animation out/demo/animation.webp | tail -n 2
