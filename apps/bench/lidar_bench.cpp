@@ -11,8 +11,7 @@
 
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
-#include "gpu/tick_ring.h"
-#include "sim/plan/plan_options.h"
+#include "apps/bench/sensor_alone.h"
 #include "sim/sensors/lidar_sensor.h"
 
 namespace greatx::apps {
@@ -35,17 +34,6 @@ struct Change {
   std::function<void(sim::LidarConfig&, sim::Environment&)> apply;
 };
 
-double sweep_of(const render::Scan& scan) {
-  return std::visit(
-      [](const auto& s) {
-        if constexpr (requires { s.sweep_s; })
-          return s.sweep_s;
-        else
-          return 0.0;
-      },
-      scan);
-}
-
 /// All shots at the tick, of the scenario's own elevations if it has that many.
 render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions& options) {
   render::SpinningScan scan;
@@ -61,7 +49,7 @@ render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions
 }
 
 std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
-  const double sweep_s = sweep_of(own.scan) > 0.0 ? sweep_of(own.scan) : spun_s;
+  const double sweep_s = render::duration_s(own.scan) > 0.0 ? render::duration_s(own.scan) : spun_s;
   const auto spin = [sweep_s](sim::LidarConfig& c) {
     std::get<render::SpinningScan>(c.scan).sweep_s = sweep_s;
   };
@@ -127,31 +115,22 @@ class Row {
  public:
   Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
       const sim::SensorPlace& place)
-      : name_(std::move(name)),
-        scenario_(std::make_unique<sim::Scenario>(std::move(scenario))),
-        plan_(sim::make_effect_plan(*scenario_, world.scene)),
-        gpu_(device, world.scene, sim::gpu_scene_options(plan_)),
-        sensor_(gpu_, plan_, *scenario_, world, place.node, place.sensor),
-        ring_(device, 2, 4u << 20, 16u << 20) {
+      : name_(std::move(name)), lidar_(device, std::move(scenario), world, place) {
     const auto& config =
-        std::get<sim::LidarConfig>(scenario_->nodes[place.node].sensors[place.sensor].config);
+        std::get<sim::LidarConfig>(lidar_.scenario().nodes[place.node].sensors[place.sensor].config);
     shots_ = render::scan_pattern(config.scan).size();
-    rings_ = plan_.lidar_divergence.on ? config.rings : 0;
+    rings_ = lidar_.plan().lidar_divergence.on ? config.rings : 0;
   }
 
   void shoot(const sim::Moment& moment, bool counts) {
     const double cpu_before = cpu_milliseconds();
     const Clock::time_point begin = Clock::now();
-    gpu::TickSlot& slot = ring_.begin();
-    gpu_.record_update(slot, moment.bodies);
-    sensor_.record(slot, moment.context);
-    ring_.submit(slot);
-    ring_.wait(slot);
-    sensor_.collect(slot);
+    const gpu::TickSlot& slot = lidar_.trace(moment);
+    lidar_.sensor().collect(slot);
     if (!counts) return;
     times_.push_back(milliseconds_since(begin));
     cpu_.push_back(cpu_milliseconds() - cpu_before);
-    returns_ += sensor_.scan().size();
+    returns_ += lidar_.sensor().scan().size();
   }
 
   nlohmann::json result() const {
@@ -162,18 +141,14 @@ class Row {
                        {"rays", 1 + 3 * rings_ * (rings_ + 1)},
                        {"returns", times_.empty() ? 0.0 : double(returns_) / double(times_.size())},
                        {"effects", nlohmann::json::array()}};
-    for (const sim::Effect* effect : plan_.all())
+    for (const sim::Effect* effect : lidar_.plan().all())
       if (effect->on && effect->name.starts_with("lidar_")) row["effects"].push_back(effect->name);
     return row;
   }
 
  private:
   std::string name_;
-  std::unique_ptr<sim::Scenario> scenario_;
-  sim::EffectPlan plan_;
-  scene::GpuScene gpu_;
-  sim::LidarSensor sensor_;
-  gpu::TickRing ring_;
+  SensorAlone<sim::LidarSensor> lidar_;
   size_t shots_ = 0;
   uint32_t rings_ = 0;
   std::vector<double> times_, cpu_;

@@ -10,10 +10,9 @@
 
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
-#include "gpu/tick_ring.h"
+#include "apps/bench/sensor_alone.h"
 #include "rf/radar/receiver.h"
 #include "rf/radar/window.h"
-#include "sim/plan/plan_options.h"
 #include "sim/sensors/radar_sensor.h"
 
 namespace greatx::apps {
@@ -35,25 +34,16 @@ class Row {
  public:
   Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
       const sim::SensorPlace& place)
-      : name_(std::move(name)),
-        scenario_(std::make_unique<sim::Scenario>(std::move(scenario))),
-        plan_(sim::make_effect_plan(*scenario_, world.scene)),
-        gpu_(device, world.scene, sim::gpu_scene_options(plan_)),
-        sensor_(gpu_, plan_, *scenario_, world, place.node, place.sensor),
-        ring_(device, 2, 4u << 20, 16u << 20) {}
+      : name_(std::move(name)), radar_(device, std::move(scenario), world, place) {}
 
   void shoot(const sim::Moment& moment, bool counts) {
     const double cpu_before = cpu_milliseconds();
     const Clock::time_point begin = Clock::now();
-    gpu::TickSlot& slot = ring_.begin();
-    gpu_.record_update(slot, moment.bodies);
-    sensor_.record(slot, moment.context);
-    ring_.submit(slot);
-    ring_.wait(slot);
-    const sim::RadarSensor::Echoes echoes = sensor_.find_echoes(slot);
+    const gpu::TickSlot& slot = radar_.trace(moment);
+    const sim::RadarSensor::Echoes echoes = radar_.sensor().find_echoes(slot);
     const double cpu_echoes = cpu_milliseconds() - cpu_before;
     const Clock::time_point found = Clock::now();
-    sensor_.process(echoes);
+    radar_.sensor().process(echoes);
     if (!counts) return;
     frame_.push_back(milliseconds_since(begin));
     signal_.push_back(milliseconds_since(found));
@@ -61,10 +51,10 @@ class Row {
     cpu_.push_back(cpu_milliseconds() - cpu_before);
     cpu_echo_.push_back(cpu_echoes);
     for (const rf::EchoList& list : echoes.lists) echoes_ += list.echoes.size();
-    detections_ += sensor_.frame().detections.size();
+    detections_ += radar_.sensor().frame().detections.size();
   }
   /// W [range, velocity], of the frame shot last.
-  const std::vector<float>& map() const { return sensor_.frame().range_doppler; }
+  const std::vector<float>& map() const { return radar_.sensor().frame().range_doppler; }
 
   nlohmann::json frame_result() const {
     return {{"name", name_},
@@ -77,8 +67,8 @@ class Row {
   }
   nlohmann::json echo_result() const {
     std::map<std::string, uint64_t> counters;
-    sensor_.count(counters);
-    const std::string& name = sensor_.spec().name;
+    radar_.sensor().count(counters);
+    const std::string& name = radar_.sensor().spec().name;
     const double tubes = double(counters.at(name + " ray tubes")) / double(counters.at(name + " frames"));
     return {{"tubes", tubes},
             {"echoes_ms", distribution(echo_)},
@@ -90,11 +80,7 @@ class Row {
   double mean(uint64_t sum) const { return frame_.empty() ? 0.0 : double(sum) / double(frame_.size()); }
 
   std::string name_;
-  std::unique_ptr<sim::Scenario> scenario_;
-  sim::EffectPlan plan_;
-  scene::GpuScene gpu_;
-  sim::RadarSensor sensor_;
-  gpu::TickRing ring_;
+  SensorAlone<sim::RadarSensor> radar_;
   std::vector<double> frame_, echo_, signal_, cpu_, cpu_echo_;
   uint64_t echoes_ = 0, detections_ = 0;
 };

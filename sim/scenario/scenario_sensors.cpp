@@ -30,8 +30,8 @@ std::array<Keys, 5> keys_of_kind() {
   return {fired + pinhole +
               Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
           fired + pinhole +
-              Keys{"camera", "steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s", "cutoff_hz",
-                   "difference", "max_events_per_pixel"},
+              Keys{"camera", "steps", "threshold", "noise", "dark_cd_m2", "bright_cd_m2", "refractory_s",
+                   "cutoff_hz", "difference", "max_events_per_pixel"},
           fired + Keys{"channels",
                        "elevation_min_deg",
                        "elevation_max_deg",

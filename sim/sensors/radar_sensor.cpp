@@ -110,8 +110,9 @@ rf::EchoOptions RadarSensor::echo_options(const EffectPlan& plan, const Scenario
   options.seed = scenario.seed;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
-  options.hidden_floor_m2 = rf::hidden_section_m2(config_.signal, largest_gain(gain_of(transmit_end())),
-                                                  largest_gain(gain_of(receive_end())));
+  if (config_.signal.receiver.noise_figure_db)
+    options.hidden_floor_m2 = rf::hidden_section_m2(config_.signal, largest_gain(gain_of(transmit_end())),
+                                                    largest_gain(gain_of(receive_end())));
   for (const std::string& target : config_.targets)
     options.targets.push_back(instance_called(world_.scene, name_, target));
   return options;

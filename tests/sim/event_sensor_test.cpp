@@ -139,8 +139,7 @@ TEST(EventSensor, PixelsOfACameraFireAsTheirOwn) {
   // The same view, once rendered for events alone and once taken from the camera at the samples.
   const std::string front =
       "      - {name: front, type: camera, rate_hz: 20, width: 62, height: 46, fov_deg: 70}\n";
-  for (const std::string& more :
-       {std::string(", steps: 1"), noisy + ", steps: {by: flow, most: 8}"}) {
+  for (const std::string& more : {std::string(", steps: 1"), noisy + ", steps: {by: flow, most: 8}"}) {
     const std::string shared =
         "      - {name: dvs, type: event_camera, camera: front, rate_hz: 20" + more + "}\n";
     const std::string yaml = head + van(true) + eye(10.0, front + shared);
