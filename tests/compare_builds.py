@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compares the bytes that two builds of greatx write: a change of structure must leave every one of them alone.
+
+    python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER] [--only city --only room]
+
+Each embedded scenario, and the examples whose files lie in FOLDER, run for a few ticks in both builds. The manifests
+list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each scenario with a channel
+the JSON of `greatx paths` is compared as well. The exit status is 0 if everything is equal and 1 if not.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def run(program, *arguments):
+    """The bytes on stdout. Ends the comparison, with what the program said, if the program fails."""
+    command = [str(program), *map(str, arguments)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}: exit {done.returncode}\n{done.stderr.decode(errors='replace')}")
+    return done.stdout
+
+
+def files_of(folder):
+    """path -> (size, SHA-256) of a finished data set."""
+    manifest = json.loads((folder / "manifest.json").read_text())
+    return {entry["path"]: (entry["size"], entry["sha256"]) for entry in manifest["files"]}
+
+
+def difference_of_sets(old, new):
+    """The first file that differs between two data sets, in words; empty if all are equal."""
+    before, after = files_of(old), files_of(new)
+    for path in sorted(before.keys() | after.keys()):
+        if path not in after:
+            return f"{path} is missing in the new one"
+        if path not in before:
+            return f"{path} is missing in the old one"
+        if before[path] != after[path]:
+            return f"{path}: {before[path][0]} bytes {before[path][1][:12]}, {after[path][0]} bytes {after[path][1][:12]}"
+    return ""
+
+
+def compare_generate(programs, scenario, extra, ticks, scratch):
+    folders = [scratch / side for side in ("old", "new")]
+    for program, folder in zip(programs, folders):
+        shutil.rmtree(folder, ignore_errors=True)
+        run(program, "generate", scenario, *extra, "--ticks", ticks, "-q", "-o", folder)
+    return difference_of_sets(*folders)
+
+
+def compare_paths(programs, scenario, extra, tick):
+    texts = [run(program, "paths", scenario, *extra, "--tick", tick, "--json") for program in programs]
+    if texts[0] == texts[1]:
+        return ""
+    lines = zip(texts[0].decode().splitlines(), texts[1].decode().splitlines())
+    return next((f"{a.strip()} became {b.strip()}" for a, b in lines if a != b), "one is longer")
+
+
+def cases_of(assets):
+    """(name, scenario argument, further arguments, whether it has a channel) of everything to compare."""
+    for file in sorted((ROOT / "assets/scenarios").glob("*.yaml")):
+        yield file.stem, file.stem, [], "\nchannels:" in file.read_text()
+    if assets:
+        for file in sorted((ROOT / "assets/examples").glob("*.yaml")):
+            text = file.read_text()
+            if "\ngreatx:" in text and "\nticks:" in text:
+                yield file.stem, file, ["--assets", assets], "\nchannels:" in text
+
+
+def main():
+    parser = argparse.ArgumentParser(description="compares the bytes that two builds of greatx write")
+    parser.add_argument("old", type=pathlib.Path)
+    parser.add_argument("new", type=pathlib.Path)
+    parser.add_argument("--ticks", type=int, default=4)
+    parser.add_argument("--assets", type=pathlib.Path, help="folder of the examples' scenes")
+    parser.add_argument("--only", action="append", default=[], help="a scenario's name; may be given again")
+    options = parser.parse_args()
+    programs = [options.old.resolve(), options.new.resolve()]
+    differing = compared = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, scenario, extra, has_channel in cases_of(options.assets):
+            if options.only and name not in options.only:
+                continue
+            begin = time.monotonic()
+            found = compare_generate(programs, scenario, extra, options.ticks, pathlib.Path(folder))
+            if not found and has_channel:
+                found = compare_paths(programs, scenario, extra, options.ticks - 1)
+            compared += 1
+            differing += bool(found)
+            print(f"{name:16} {time.monotonic() - begin:6.1f} s  {found or 'equal'}", flush=True)
+    print(f"{compared} compared, {differing} differ")
+    return 1 if differing or not compared else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
