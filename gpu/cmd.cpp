@@ -80,6 +80,14 @@ VkBufferImageCopy whole_mip(const Image& image, VkDeviceSize offset, uint32_t mi
 
 }  // namespace
 
+GroupGrid group_grid(uint64_t groups) {
+  constexpr uint64_t most = 65535;
+  const uint64_t rows = (groups + most - 1) / most;
+  GREATX_CHECK(rows <= most, "{} groups, expected at most {}", groups, most * most);
+  if (rows == 0) return {};
+  return {static_cast<uint32_t>((groups + rows - 1) / rows), static_cast<uint32_t>(rows)};
+}
+
 Descriptor Descriptor::buffer(uint32_t slot, const Slice& slice) {
   Descriptor descriptor;
   descriptor.slot = slot;
@@ -169,6 +177,7 @@ void Cmd::push(std::span<const Descriptor> descriptors) {
   std::array<VkWriteDescriptorSet, max_descriptors> writes{};
   std::array<VkWriteDescriptorSetAccelerationStructureKHR, max_descriptors> structures{};
   for (size_t i = 0; i < descriptors.size(); ++i) {
+    check_range(descriptors[i]);
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     writes[i].dstBinding = descriptors[i].slot;
     writes[i].descriptorCount = 1;
@@ -185,6 +194,14 @@ void Cmd::push(std::span<const Descriptor> descriptors) {
                                            static_cast<uint32_t>(descriptors.size()), writes.data());
 }
 
+void Cmd::check_range(const Descriptor& descriptor) const {
+  const VkDeviceSize most = device_->limits().maxStorageBufferRange;
+  if (descriptor.type != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || descriptor.buffer_info.range <= most) return;
+  throw_user_error("'{}' needs {} bytes; device '{}' lets a shader see {} bytes of a buffer at most",
+                   device_->name_of_large(descriptor.buffer_info.buffer), descriptor.buffer_info.range,
+                   device_->info().name, most);
+}
+
 void Cmd::push_constants(const void* data, uint32_t bytes) {
   GREATX_CHECK(bytes == bound_->push_constant_bytes(), "{} bytes of push constants for a pipeline with {}",
                bytes, bound_->push_constant_bytes());
@@ -197,6 +214,14 @@ void Cmd::dispatch(uint32_t x, uint32_t y, uint32_t z) {
                "{} x {} x {} groups, the device takes {} x {} x {}", x, y, z, most[0], most[1], most[2]);
   vkCmdDispatch(handle_, x, y, z);
   ++device_->counters().dispatches;
+}
+
+void Cmd::dispatch_linear(uint64_t invocations, uint32_t group_size) {
+  if (invocations == 0) return;
+  const GroupGrid grid = group_grid((invocations + group_size - 1) / group_size);
+  GREATX_CHECK(uint64_t{grid.x} * grid.y * group_size <= uint64_t{1} << 32,
+               "{} invocations: their numbers have 32 bits", invocations);
+  dispatch(grid.x, grid.y);
 }
 
 void Cmd::bind_indices(const Buffer& buffer) {

@@ -41,6 +41,15 @@ inline constexpr Sync ray_query_read{
     VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
 }  // namespace sync
 
+/// Groups of a dispatch along x and y.
+struct GroupGrid {
+  uint32_t x = 0, y = 0;
+  friend bool operator==(const GroupGrid&, const GroupGrid&) = default;
+};
+/// Rows of at most 65535 groups, which every device takes along an axis, as even as can be: x * y is `groups` or up to
+/// y - 1 more.
+GroupGrid group_grid(uint64_t groups);
+
 /// A descriptor to be pushed into set 0.
 struct Descriptor {
   uint32_t slot = 0;
@@ -124,7 +133,8 @@ class Cmd {
   void transition(Image& image, ImageUse use, bool discard = false);
 
   void bind(const Pipeline& pipeline);
-  /// For the bound pipeline.
+  /// For the bound pipeline. Throws UserError naming the buffer if it is larger than shaders of this device may be given
+  /// at once (maxStorageBufferRange): what may grow so large is split, or read by its address.
   void push(std::initializer_list<Descriptor> descriptors) {
     push(std::span(descriptors.begin(), descriptors.size()));
   }
@@ -134,6 +144,9 @@ class Cmd {
     push_constants(&values, sizeof(T));
   }
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+  /// At least `invocations`, in rows of groups of `group_size` (along x), however many; shaders number them by
+  /// shaders/lib/linear.glsl and leave out what is beyond their count. 0: records nothing.
+  void dispatch_linear(uint64_t invocations, uint32_t group_size);
   void bind_indices(const Buffer& buffer);  ///< uint32
   void draw(uint32_t vertices, uint32_t instances = 1);
   /// Without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is `first_instance`.
@@ -156,6 +169,7 @@ class Cmd {
 
  private:
   void push_constants(const void* data, uint32_t bytes);
+  void check_range(const Descriptor& descriptor) const;
   Device* device_;
   VkCommandBuffer handle_;
   Timestamps* timestamps_;

@@ -313,6 +313,11 @@ void Device::set_name(VkObjectType type, uint64_t handle, std::string_view name)
   GREATX_VK(functions_.set_object_name(device_, &info));
 }
 
+std::string Device::name_of_large(VkBuffer buffer) const {
+  const auto found = large_.find(buffer);
+  return found == large_.end() ? "a buffer" : found->second;
+}
+
 void Device::wait_idle() const { GREATX_VK(vkDeviceWaitIdle(device_)); }
 
 }  // namespace greatx::gpu

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -123,6 +124,12 @@ class Device {
   /// Names an object for validation messages and RenderDoc.
   void set_name(VkObjectType type, uint64_t handle, std::string_view name) const;
   void wait_idle() const;
+  /// Buffers that are larger than one descriptor may be tell their names, for the error if they are bound whole.
+  void add_large(VkBuffer buffer, std::string_view name) {
+    large_.insert_or_assign(buffer, std::string(name));
+  }
+  void remove_large(VkBuffer buffer) { large_.erase(buffer); }
+  std::string name_of_large(VkBuffer buffer) const;
 
  private:
   void create_instance(bool validation);
@@ -145,6 +152,7 @@ class Device {
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   Counters counters_;
+  std::map<VkBuffer, std::string> large_;
 };
 
 }  // namespace greatx::gpu

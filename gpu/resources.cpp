@@ -77,10 +77,12 @@ Buffer::Buffer(Device& device, VkDeviceSize size, Memory memory, std::string_vie
   address.buffer = buffer_;
   address_ = vkGetBufferDeviceAddress(device.handle(), &address);
   device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer_), name);
+  if (size_ > device.limits().maxStorageBufferRange) device.add_large(buffer_, name);
 }
 
 Buffer::~Buffer() {
   if (buffer_ == VK_NULL_HANDLE) return;
+  device_->remove_large(buffer_);
   vkDestroyBuffer(device_->handle(), buffer_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);
 }

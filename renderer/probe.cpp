@@ -31,7 +31,7 @@ gpu::Slice ProbePass::record(gpu::TickSlot& slot, std::span<const shared::ProbeR
   slot.cmd->push(descriptors);
   const auto count = static_cast<uint32_t>(rays.size());
   slot.cmd->constants(shared::ProbeConstants{count, excluded_body.value_or(~0u)});
-  slot.cmd->dispatch((count + shared::probe_workgroup - 1) / shared::probe_workgroup);
+  slot.cmd->dispatch_linear(count, shared::probe_workgroup);
   return out;
 }
 

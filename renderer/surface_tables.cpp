@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/surface_tables.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -100,6 +101,13 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   if (materials.empty()) materials.resize(4 * shared::material_record_quads);
   triangles_ =
       gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(triangles)), "triangle records");
+  const uint64_t most = std::min<uint64_t>(gpu_scene.device().limits().maxStorageBufferRange,
+                                           gpu_scene.options().most_table_bytes);
+  if (triangles_.size() > most) {
+    const std::vector<uint64_t> address{triangles_.address(), 0};
+    address_ = gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(address)),
+                                  "address of triangle records");
+  }
   materials_ =
       gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(materials)), "material records");
   triangle_ids_ = gpu::upload_buffer(gpu_scene.device(), std::as_bytes(std::span(ids)), "ids of triangles");
@@ -113,7 +121,7 @@ std::vector<gpu::Binding> SurfaceTables::bindings() {
 }
 
 std::vector<gpu::Descriptor> SurfaceTables::descriptors() const {
-  return {gpu::Descriptor::buffer(shared::triangle_records_binding, triangles_),
+  return {gpu::Descriptor::buffer(shared::triangle_records_binding, by_address() ? address_ : triangles_),
           gpu::Descriptor::buffer(shared::material_records_binding, materials_)};
 }
 

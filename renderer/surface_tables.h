@@ -19,6 +19,8 @@ class SurfaceTables {
 
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;
+  /// Whether records of triangles are read by their address (shared::spec_triangle_address).
+  bool by_address() const { return static_cast<bool>(address_); }
   /// uint [triangles]: the primitive of each.
   const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
   /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]: nothing.
@@ -26,6 +28,7 @@ class SurfaceTables {
 
  private:
   gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
+  gpu::Buffer address_;                ///< of triangles_, where they are too many to be bound
   gpu::Buffer triangle_primitives_, triangle_ids_;
 };
 

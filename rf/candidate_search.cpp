@@ -62,6 +62,8 @@ std::vector<uint32_t> distinct_keys(std::span<const uint32_t> keys, uint32_t max
   const auto less = [&](uint32_t a, uint32_t b) {
     return std::lexicographical_compare(key(a), key(a) + max_depth, key(b), key(b) + max_depth);
   };
+  if (rays > ~0u)
+    throw_user_error("rays: they took {} ways, expected at most {}; fewer rays take fewer", rays, ~0u);
   std::vector<uint32_t> order;
   for (uint32_t ray = 0; ray < rays; ++ray)
     if (key(ray)[0] != shared::rf_none && (order.empty() || !same(order.back(), ray))) order.push_back(ray);
@@ -202,7 +204,7 @@ void CandidateSearch::record_part(gpu::Cmd& cmd, const dvec3& source, const Part
   descriptors.push_back(gpu::Descriptor::buffer(shared::candidates_keys_binding, keys_));
   cmd.push(descriptors);
   cmd.constants(constants);
-  cmd.dispatch((part.rays + shared::candidates_group - 1) / shared::candidates_group);
+  cmd.dispatch_linear(part.rays, shared::candidates_group);
   cmd.barrier(gpu::sync::compute_write, gpu::sync::transfer_read);
   const size_t bytes = sizeof(uint32_t) * words(part.rays);
   cmd.copy(keys_.slice().part(0, bytes), target.part(0, bytes));

@@ -4,6 +4,7 @@
 // Candidates: which facets a path may touch, in which order. A candidate is a promise to look, not a path.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -44,6 +45,16 @@ struct CandidateList {
   void make_canonical();
   bool is_canonical() const;
   friend bool operator==(const CandidateList&, const CandidateList&) = default;
+};
+
+/// What a search had no room for.
+struct LeftOut {
+  uint64_t sequences = 0;         ///< at least, of one search: the most of several
+  uint32_t complete_depth = ~0u;  ///< all of them have more facets than this
+  void add(const LeftOut& other) {
+    sequences = std::max(sequences, other.sequences);
+    complete_depth = std::min(complete_depth, other.complete_depth);
+  }
 };
 
 /// a before b in the canonical order: fewer facets first, then lexicographic.

@@ -58,56 +58,59 @@ shared::GpuSegment gpu_segment(const Segment& s, size_t index, const FoliageVolu
           shared::rf_none};
 }
 
+}  // namespace
+
 /// In which order segments are traced: first those that hang on none, in their order, then the others by the one that they
 /// hang on, so that what is not looked at lies together.
-struct Rows {
+struct CrossingPass::Rows {
+  explicit Rows(std::span<const Segment> batch);
   std::vector<uint32_t> of;        ///< [segments]
   std::vector<uint32_t> segments;  ///< [rows]
   uint32_t first_hanging = 0;
+  /// That a hanging segment's row hangs on.
+  uint32_t leader_of(uint32_t row, std::span<const Segment> batch) const {
+    return of[batch[segments[row]].only_if];
+  }
 };
 
-Rows rows_of(std::span<const Segment> segments) {
-  Rows rows;
-  rows.of.assign(segments.size(), shared::rf_none);
+CrossingPass::Rows::Rows(std::span<const Segment> batch) {
+  of.assign(batch.size(), shared::rf_none);
   const auto leader = [&](uint32_t i) {
-    const uint32_t of = segments[i].only_if;
-    GREATX_CHECK(of < segments.size() && segments[of].only_if == shared::rf_none,
-                 "segment {} hangs on segment {} of {}, which hangs on another", i, of, segments.size());
-    return segments[of].same_as == shared::rf_none ? of : segments[of].same_as;
+    const uint32_t on = batch[i].only_if;
+    GREATX_CHECK(on < batch.size() && batch[on].only_if == shared::rf_none,
+                 "segment {} hangs on segment {} of {}, which hangs on another", i, on, batch.size());
+    return batch[on].same_as == shared::rf_none ? on : batch[on].same_as;
   };
   std::vector<uint32_t> hanging;
-  for (uint32_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].same_as != shared::rf_none) continue;
-    if (segments[i].only_if != shared::rf_none) {
+  for (uint32_t i = 0; i < batch.size(); ++i) {
+    if (batch[i].same_as != shared::rf_none) continue;
+    if (batch[i].only_if != shared::rf_none) {
       hanging.push_back(i);
       continue;
     }
-    rows.of[i] = static_cast<uint32_t>(rows.segments.size());
-    rows.segments.push_back(i);
+    of[i] = static_cast<uint32_t>(segments.size());
+    segments.push_back(i);
   }
-  rows.first_hanging = static_cast<uint32_t>(rows.segments.size());
-  std::vector<uint32_t> next(rows.segments.size() + 1, 0);  // a counting sort by the leader's row
-  for (const uint32_t i : hanging) ++next[rows.of[leader(i)] + 1];
+  first_hanging = static_cast<uint32_t>(segments.size());
+  std::vector<uint32_t> next(segments.size() + 1, 0);  // a counting sort by the leader's row
+  for (const uint32_t i : hanging) ++next[of[leader(i)] + 1];
   for (size_t row = 1; row < next.size(); ++row) next[row] += next[row - 1];
-  rows.segments.resize(rows.segments.size() + hanging.size());
+  segments.resize(segments.size() + hanging.size());
   for (const uint32_t i : hanging) {
-    rows.of[i] = rows.first_hanging + next[rows.of[leader(i)]]++;
-    rows.segments[rows.of[i]] = i;
+    of[i] = first_hanging + next[of[leader(i)]]++;
+    segments[of[i]] = i;
   }
-  for (uint32_t i = 0; i < segments.size(); ++i) {
-    const uint32_t same = segments[i].same_as;
+  for (uint32_t i = 0; i < batch.size(); ++i) {
+    const uint32_t same = batch[i].same_as;
     if (same == shared::rf_none) continue;
-    GREATX_CHECK(same < i && segments[same].same_as == shared::rf_none,
+    GREATX_CHECK(same < i && batch[same].same_as == shared::rf_none,
                  "segment {} is the same as segment {}, which is the same as another", i, same);
-    rows.of[i] = rows.of[same];
+    of[i] = of[same];
   }
-  return rows;
 }
 
-}  // namespace
-
-CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds)
-    : scene_(&scene), static_foliage_(scene.scene(), kinds) {
+CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint64_t part_bytes)
+    : scene_(&scene), static_foliage_(scene.scene(), kinds), part_bytes_(part_bytes) {
   const std::vector<scene::Facet>& facets = scene.scene().facets;
   GREATX_CHECK(kinds.size() == facets.size(), "kinds of {} facets, the scene has {}", kinds.size(),
                facets.size());
@@ -124,50 +127,82 @@ CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds)
   compute.shader = "rf/crossings.comp";
   compute.bindings = scene::GpuScene::bindings(true);
   for (const uint32_t slot : {shared::crossings_segments_binding, shared::crossings_planes_binding,
-                              shared::crossings_foliage_binding, shared::crossings_results_binding})
+                              shared::crossings_foliage_binding, shared::crossings_results_binding,
+                              shared::crossings_leaders_binding})
     compute.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
   compute.push_constant_bytes = sizeof(shared::CrossingConstants);
   compute.specialization = {walls_ ? 1u : 0u, foliage_boxes_ > 0 ? 1u : 0u};
   pipeline_ = gpu::ComputePipeline(device, compute, "crossings");
 }
 
-CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const Segment> segments) {
-  if (segments.empty()) return {};
-  Rows rows = rows_of(segments);
-  const gpu::Slice upload = slot.upload.allocate_for<shared::GpuSegment>(rows.segments.size());
-  const std::span<shared::GpuSegment> input = upload.as<shared::GpuSegment>();
-  uint32_t most_walls = 0;
-  for (size_t row = 0; row < rows.segments.size(); ++row) {
-    const Segment& segment = segments[rows.segments[row]];
-    input[row] = gpu_segment(segment, rows.segments[row], static_foliage_);
-    if (segment.only_if != shared::rf_none) input[row].only_if = rows.of[segment.only_if];
-    most_walls = std::max(most_walls, segment.walls);
+/// Those that hang on none, then the others, whose part ends where their leaders' part does.
+std::vector<CrossingPass::Part> CrossingPass::parts_of(const Rows& rows, std::span<const Segment> segments,
+                                                       uint32_t row_words) const {
+  const uint64_t bytes = std::min<uint64_t>(part_bytes_, scene_->device().limits().maxStorageBufferRange),
+                 row_bytes = std::max<uint64_t>(sizeof(shared::GpuSegment), sizeof(uint32_t) * row_words);
+  const auto most = static_cast<uint32_t>(std::clamp<uint64_t>(bytes / row_bytes, 1, ~0u));
+  std::vector<Part> parts;
+  for (uint32_t first = 0; first < rows.first_hanging; first += parts.back().count)
+    parts.push_back({.first = first,
+                     .count = std::min(most, rows.first_hanging - first),
+                     .leaders = static_cast<uint32_t>(parts.size())});
+  const auto count = static_cast<uint32_t>(rows.segments.size());
+  for (uint32_t row = rows.first_hanging; row < count; ++row) {
+    const uint32_t leaders = rows.leader_of(row, segments) / most;
+    const bool hangs = parts.back().first >= rows.first_hanging;
+    if (!hangs || parts.back().leaders != leaders || parts.back().count == most)
+      parts.push_back({.first = row, .leaders = leaders});
+    ++parts.back().count;
   }
-
-  const uint32_t count = static_cast<uint32_t>(rows.segments.size());
-  const uint32_t row_words = 1 + (foliage_boxes_ > 0 ? 1 : 0) + (walls_ ? most_walls : 0);
-  gpu::Cmd& cmd = *slot.cmd;
-  const auto scope = cmd.scope("crossings");
-  // A few bytes a segment, each written once: straight into the memory that the host reads.
-  const gpu::Slice results = slot.readback.allocate_for<uint32_t>(size_t{count} * row_words);
-  cmd.bind(pipeline_);
-  std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
-  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_segments_binding, upload));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_planes_binding, planes_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_foliage_binding, foliage_));
-  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_results_binding, results));
-  cmd.push(descriptors);
-  dispatch(cmd, 0, rows.first_hanging, row_words);
-  if (count > rows.first_hanging) {
-    cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
-    dispatch(cmd, rows.first_hanging, count - rows.first_hanging, row_words);
-  }
-  return {results, row_words, std::move(rows.of)};
+  return parts;
 }
 
-void CrossingPass::dispatch(gpu::Cmd& cmd, uint32_t first, uint32_t count, uint32_t row_words) {
-  cmd.constants(shared::CrossingConstants{first, count, row_words, foliage_boxes_});
-  cmd.dispatch((count + shared::crossings_group - 1) / shared::crossings_group);
+void CrossingPass::upload(const Rows& rows, std::span<const Segment> segments, const std::vector<Part>& parts,
+                          const Part& part) const {
+  const std::span<shared::GpuSegment> input = part.segments.as<shared::GpuSegment>();
+  for (uint32_t i = 0; i < part.count; ++i) {
+    const uint32_t row = part.first + i;
+    const Segment& segment = segments[rows.segments[row]];
+    input[i] = gpu_segment(segment, rows.segments[row], static_foliage_);
+    if (segment.only_if != shared::rf_none)
+      input[i].only_if = rows.leader_of(row, segments) - parts[part.leaders].first;
+  }
+}
+
+CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const Segment> segments) {
+  if (segments.empty()) return {};
+  if (segments.size() >= shared::rf_none)
+    throw_user_error("a tick has {} segments of paths; expected fewer than {} (max_paths bounds them)",
+                     segments.size(), shared::rf_none);
+  Rows rows(segments);
+  uint32_t most_walls = 0;
+  for (const uint32_t index : rows.segments) most_walls = std::max(most_walls, segments[index].walls);
+  const uint32_t row_words = 1 + (foliage_boxes_ > 0 ? 1 : 0) + (walls_ ? most_walls : 0);
+  std::vector<Part> parts = parts_of(rows, segments, row_words);
+  gpu::Cmd& cmd = *slot.cmd;
+  const auto scope = cmd.scope("crossings");
+  cmd.bind(pipeline_);
+  for (Part& part : parts) {
+    part.segments = slot.upload.allocate_for<shared::GpuSegment>(part.count);
+    // A few bytes a segment, each written once: straight into the memory that the host reads.
+    part.results = slot.readback.allocate_for<uint32_t>(size_t{part.count} * row_words);
+    upload(rows, segments, parts, part);
+    if (part.first == rows.first_hanging) cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
+    dispatch(cmd, part, parts[part.leaders], row_words);
+  }
+  return {std::move(parts), row_words, std::move(rows.of)};
+}
+
+void CrossingPass::dispatch(gpu::Cmd& cmd, const Part& part, const Part& leaders, uint32_t row_words) {
+  std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_segments_binding, part.segments));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_planes_binding, planes_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_foliage_binding, foliage_));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_results_binding, part.results));
+  descriptors.push_back(gpu::Descriptor::buffer(shared::crossings_leaders_binding, leaders.results));
+  cmd.push(descriptors);
+  cmd.constants(shared::CrossingConstants{part.count, row_words, foliage_boxes_});
+  cmd.dispatch_linear(part.count, shared::crossings_group);
 }
 
 std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<const Segment> segments) const {
@@ -175,9 +210,16 @@ std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<co
                pending.row_of.size(), segments.size());
   std::vector<Crossing> crossings(segments.size());
   if (segments.empty()) return crossings;
-  const std::span<const uint32_t> results = pending.results.as<const uint32_t>();
+  size_t at = 0;  // the part of the segment before: mostly this one's, too
   for (size_t i = 0; i < crossings.size(); ++i) {
-    const uint32_t* row = results.data() + size_t{pending.row_of[i]} * pending.row_words;
+    const uint32_t number = pending.row_of[i];
+    if (const Part& part = pending.parts[at]; number < part.first || number - part.first >= part.count)
+      at = static_cast<size_t>(std::ranges::upper_bound(pending.parts, number, {}, &Part::first) -
+                               pending.parts.begin()) -
+           1;
+    const Part& part = pending.parts[at];
+    const uint32_t* row =
+        part.results.as<const uint32_t>().data() + size_t{number - part.first} * pending.row_words;
     Crossing& crossing = crossings[i];
     const uint32_t status = *row++;
     crossing.blocked = status == shared::crossings_blocked;

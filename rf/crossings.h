@@ -64,24 +64,37 @@ struct Crossing {
 class CrossingPass {
  public:
   /// Builds the pipeline (walls and foliage are compiled in only if `kinds` has any) and uploads the facets' planes and
-  /// kinds, [facets of the scene].
-  CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds);
+  /// kinds, [facets of the scene]. A batch is traced in parts whose buffers hold at most `part_bytes`, and not more than
+  /// the device lets a shader see of one: answers do not depend on it.
+  CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint64_t part_bytes = uint64_t{128} << 20);
 
+  /// Rows that are traced at once.
+  struct Part {
+    uint32_t first = 0, count = 0;
+    uint32_t leaders =
+        0;  ///< index of the part that has the segments these hang on; its own: they hang on none
+    gpu::Slice segments = {}, results = {};
+  };
   /// Where the answers of one batch will be; valid until its slot is begun again.
   struct Pending {
-    gpu::Slice results;
+    std::vector<Part> parts = {};       ///< by `first`
     uint32_t row_words = 0;             ///< of each row
     std::vector<uint32_t> row_of = {};  ///< [segments]
   };
 
   /// Records a batch among the scene as scene.record_update left it in this tick. Each segment's answer
-  /// depends on it alone (and on the segment that it hangs on). An empty batch records nothing.
+  /// depends on it alone (and on the segment that it hangs on). An empty batch records nothing. Throws UserError if there
+  /// are more than 2^32 - 2.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, std::span<const Segment> segments);
   /// In the order of the segments; after the slot's submission is done. `segments`: those that were recorded.
   std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments) const;
 
  private:
-  void dispatch(gpu::Cmd& cmd, uint32_t first, uint32_t count, uint32_t row_words);
+  struct Rows;
+  std::vector<Part> parts_of(const Rows& rows, std::span<const Segment> segments, uint32_t row_words) const;
+  void upload(const Rows& rows, std::span<const Segment> segments, const std::vector<Part>& parts,
+              const Part& part) const;
+  void dispatch(gpu::Cmd& cmd, const Part& part, const Part& leaders, uint32_t row_words);
 
   scene::GpuScene* scene_;
   FoliageVolumes static_foliage_;
@@ -89,6 +102,7 @@ class CrossingPass {
   gpu::Buffer planes_, foliage_;
   uint32_t foliage_boxes_ = 0;
   bool walls_ = false;
+  uint64_t part_bytes_;
 };
 
 }  // namespace greatx::rf

@@ -17,6 +17,29 @@ struct Triangle {
   dvec3 corners[3];
 };
 
+/// How many pieces a triangle is cut into, at least: by its area, and along its longest side.
+double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
+  const dvec3 &a = triangle.corners[0], &b = triangle.corners[1], &c = triangle.corners[2];
+  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)}),
+               area = 0.5 * glm::length(glm::cross(b - a, c - a));
+  const double of_area =
+      area / (0.25 * std::sqrt(3.0)) / side_m / side_m;  // the largest piece is equilateral
+  return std::max(of_area, longest / side_m);
+}
+
+[[noreturn]] void too_many_patches(double side_m, size_t most) {
+  throw_user_error("scattering_patch_m: {} m makes more than {} patches of this scene; expected a larger one",
+                   side_m, most);
+}
+
+/// Of what is numbered with 32 bits.
+uint32_t number_of(size_t count, const char* what) {
+  if (count > ~0u)
+    throw_user_error("paths: {} {}, expected at most {}; a smaller max_depth, a larger scattering_patch_m",
+                     count, what, ~0u);
+  return static_cast<uint32_t>(count);
+}
+
 /// Halves the longest side until none is longer than `side_m`; the pieces in order, first half first.
 void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Patch>& patches, size_t first,
          size_t most) {
@@ -34,10 +57,7 @@ void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Pa
     cut({{middle, b, c}}, side_m, facet, patches, first, most);
     return;
   }
-  if (patches.size() >= most)
-    throw_user_error(
-        "scattering_patch_m: {} m makes more than {} patches of this scene; expected a larger one", side_m,
-        most);
+  if (patches.size() >= most) too_many_patches(side_m, most);
   patches.push_back({facet, static_cast<uint32_t>(patches.size() - first), (a + b + c) / 3.0,
                      0.5 * glm::length(glm::cross(b - a, c - a))});
 }
@@ -60,6 +80,8 @@ std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKind
     const size_t first = patches.size();
     for (uint32_t t = 0; t < facet.triangle_count; ++t) {
       const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
+      // Before it is cut, since halving ends where fp64 does.
+      if (!(least_pieces(triangle, side_m) <= static_cast<double>(most))) too_many_patches(side_m, most);
       cut({{triangle.corners[0], triangle.corners[1], triangle.corners[2]}}, side_m, index, patches, first,
           most);
     }
@@ -104,6 +126,7 @@ Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidate
   };
   Arrivals arrivals;
   arrivals.offsets.assign(model_->wedges.size() + 1, 0);
+  number_of(candidates.wedges.size(), "sequences that lead to wedges");
   for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
     for (const uint32_t wedge : candidates.wedges_of(sequence))
       arrivals.offsets[wedge + 1] += leads_to(candidates.sequence(sequence), wedge);
@@ -182,7 +205,8 @@ Midpoints::PatchArrivals Midpoints::arrivals_at_patches(const Arrivals& at_facet
       for (const Interaction& reflection : path.interactions) at_patches.facets.push_back(reflection.element);
       at_patches.points.insert(at_patches.points.end(), path.vertices.begin(), path.vertices.end());
     }
-    at_patches.offsets.push_back(static_cast<uint32_t>(at_patches.arrivals.size()));
+    at_patches.offsets.push_back(number_of(at_patches.arrivals.size(), "sequences that lead to patches"));
+    number_of(at_patches.facets.size(), "reflections before patches");
   }
   return at_patches;
 }
@@ -277,10 +301,11 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
   }
 }
 
-void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
-                      std::vector<GeometricPath>& paths) const {
+LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                         std::vector<GeometricPath>& paths) const {
   const bool searched = options_.max_reflections_after > 0;
   CandidateList list;
+  LeftOut left_out;
   Arrivals wedges;
   if (searched) {
     BeamSearchOptions search;
@@ -289,7 +314,10 @@ void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t targe
     search.moving_bodies = options_.moving_bodies;
     search.source_body = target_body;
     search.threads = 1;  // targets are solved side by side
-    list = BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target).list;
+    BeamSearchResult result =
+        BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
+    left_out = {result.overflow(), result.complete_depth()};
+    list = std::move(result.list);
     wedges = arrivals_at_wedges(list);
   } else {
     // Nothing is known of what the target sees: every wedge may be reached straight.
@@ -300,7 +328,7 @@ void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t targe
   const Source other = tree.end() == Source::transmitter ? Source::receiver : Source::transmitter;
   const ImageTree suffixes(model_->facets, target, list, other);
   join_at_wedges(tree, suffixes, wedges, paths);
-  if (patches_.empty() || at_patches_.arrivals.empty()) return;
+  if (patches_.empty() || at_patches_.arrivals.empty()) return left_out;
   PatchArrivals at_patches;
   if (searched) {
     std::vector<PlaneWindow> windows;
@@ -310,6 +338,7 @@ void Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t targe
     at_patches = straight_to_patches(target);
   }
   for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
+  return left_out;
 }
 
 }  // namespace greatx::rf

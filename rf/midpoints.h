@@ -49,9 +49,9 @@ class Midpoints {
   /// The source of `tree` has moved, or bodies have: windows hold no more.
   void move(const ImageTree& tree);
   /// Appends every such path between the source of `tree` (as it was given last) and `target` (carried by `target_body`),
-  /// from transmitter to receiver, in no particular order.
-  void solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
-             std::vector<GeometricPath>& paths) const;
+  /// from transmitter to receiver, in no particular order. What the search at the target left out.
+  LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                std::vector<GeometricPath>& paths) const;
 
  private:
   /// For every wedge, or facet, the sequences that lead to it: [elements + 1] into `sequences`, ascending.

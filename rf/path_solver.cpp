@@ -163,7 +163,7 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
   if (!model_->effects.reflection)
     std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
   if (midpoints_) {
-    midpoints_->solve(*tree_, target, end.body, link.paths);
+    link.searched = midpoints_->solve(*tree_, target, end.body, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
   keep_most(link, options_.max_paths);

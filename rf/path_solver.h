@@ -47,6 +47,7 @@ struct PathOptions {
 struct LinkGeometry {
   std::vector<GeometricPath> paths;  ///< canonical order; reflections, diffraction, scattering, no walls yet
   uint64_t overflow = 0;             ///< paths beyond PathOptions::max_paths
+  LeftOut searched = {};             ///< of the search at the target
 };
 
 /// Takes what is beyond `most` paths (in canonical order, before and after) off a link, and counts it: scattering first, then

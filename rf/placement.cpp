@@ -16,15 +16,15 @@ namespace greatx::rf {
 
 namespace {
 
-constexpr size_t rays = 9;
+constexpr size_t rays_around = 8, rays_above = 1 + rays_around, rays = rays_above + rays_around;
 
-/// Upwards, then all around 8 degrees over the horizon: what has no floor is closed there. No direction lies in a plane
-/// that people build.
+/// Upwards, then all around 8 degrees over the horizon, where what has no floor is closed, but what covers a lot as well;
+/// then along the horizon, where only walls are met. No other direction lies in a plane that people build.
 std::array<dvec3, rays> directions() {
   std::array<dvec3, rays> all{glm::normalize(dvec3(0.0123, 0.0079, 1.0))};
   for (size_t i = 1; i < rays; ++i) {
-    const double azimuth = 2.0 * pi * (static_cast<double>(i) + 0.1618) / (rays - 1),
-                 elevation = radians(8.0);
+    const double azimuth = 2.0 * pi * (static_cast<double>(i) + 0.1618) / rays_around,
+                 elevation = i < rays_above ? radians(8.0) : 0.0;
     all[i] = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
               std::sin(elevation)};
   }
@@ -150,14 +150,27 @@ uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, cons
   return Placement::none;
 }
 
-/// A facet of the object that most rays come out of, or none: one ray gets away.
-uint32_t Surroundings::surrounding(const Shell& shell, const dvec3& point) const {
+/// Whether what is met first straight below is the top of something: the point is over a floor, not in the ground.
+bool Surroundings::floor_below(const Shell& shell, const dvec3& point) const {
+  const double reach = std::max(0.0, point.z - shell.bounds.min.z) + 1.0;
+  const std::vector<Hit> list = hits(shell, point, -directions()[0], 2.0 * reach);
+  return !list.empty() && list.front().sign < 0;
+}
+
+/// Inside of what all rays come out of, beneath what only those upwards do; else one ray gets away.
+void Surroundings::surround(const Shell& shell, const dvec3& point, Placement& placement) const {
   static const std::array<dvec3, rays> all = directions();
   std::array<uint32_t, rays> facets{};
-  for (size_t i = 0; i < rays; ++i) {
-    facets[i] = comes_out_of(shell, point, all[i]);
-    if (facets[i] == Placement::none) return Placement::none;
-  }
+  size_t out = 0;
+  while (out < rays && (facets[out] = comes_out_of(shell, point, all[out])) != Placement::none) ++out;
+  if (out == rays)
+    (shell.foliage ? placement.foliage : placement.solid) = most_named(facets);
+  else if (out >= rays_above && shell.body == 0 && !shell.foliage && !floor_below(shell, point))
+    placement.beneath = most_named(std::span(facets).first(rays_above));
+}
+
+/// A facet of the object that most of the rays come out of.
+uint32_t Surroundings::most_named(std::span<const uint32_t> facets) const {
   /// How many rays come out of its object, then of its material there.
   const auto votes = [&](uint32_t facet) {
     const scene::Facet& own = scene_->facets[facet];
@@ -199,8 +212,8 @@ Placement Surroundings::of(const dvec3& point, std::span<const Pose> body_poses,
     const bool below = at.z < shell.bounds.min.z - room && shell.body != 0;
     const bool beside = at.x < shell.bounds.min.x - room || at.y < shell.bounds.min.y - room;
     if (below || beside || glm::any(glm::greaterThan(at, shell.bounds.max + room))) continue;
-    uint32_t& inside = shell.foliage ? placement.foliage : placement.solid;
-    if (inside == Placement::none) inside = surrounding(shell, at);
+    if ((shell.foliage ? placement.foliage : placement.solid) == Placement::none)
+      surround(shell, at, placement);
     if (!shell.foliage) touch(shell, at, placement);
   }
   return placement;
@@ -218,6 +231,10 @@ std::string describe(const Placement& placement, const scene::Scene& scene, cons
     add(fmt::format("lies inside {}: {}", name_of(placement.solid),
                     kinds[placement.solid] == FacetKind::wall ? "what is outside it sees through walls alone"
                                                               : "it sees only what is inside"));
+  if (placement.beneath != Placement::none && placement.solid == Placement::none)
+    add(fmt::format("lies beneath {}, an open surface with nothing below: {}", name_of(placement.beneath),
+                    kinds[placement.beneath] == FacetKind::wall ? "what is above it sees through that alone"
+                                                                : "it sees nothing that is above"));
   if (placement.surface != Placement::none)
     add(fmt::format(
         "lies on a surface of {}, {:.2g} mm off it: that one neither blocks nor hides anything from it",

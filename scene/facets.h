@@ -27,7 +27,9 @@ struct FacetGroup {
 /// `options.coplanar_distance_m` of the facet's plane: its area-weighted normal through its area-weighted centroid.
 /// Normals may differ by `options.coplanar_angle_rad`, plus what `noise_m` can do to a thin triangle's.
 /// Every triangle ends in exactly one facet; facets come in order of their first triangle. No binning: planes are
-/// compared with the facet that grows, so that nothing can fall across the edge of a bin.
-std::vector<FacetGroup> merge_coplanar(const FacetInput& input, const BuildOptions& options);
+/// compared with the facet that grows, so that nothing can fall across the edge of a bin. Edges that more than `crowd`
+/// triangles share are sorted by direction, so that time does not grow with their square; nothing else depends on it.
+std::vector<FacetGroup> merge_coplanar(const FacetInput& input, const BuildOptions& options,
+                                       size_t crowd = 64);
 
 }  // namespace greatx::scene

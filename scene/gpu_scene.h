@@ -28,6 +28,9 @@ struct GpuSceneOptions {
   bool acceleration_structure = true;  ///< some pass traces rays
   bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)
   Tracer tracer = Tracer::automatic;
+  /// Tables that grow with the triangles and are larger are read by their address, as those are that the device does not let
+  /// a shader see at once. Tests lower it.
+  uint64_t most_table_bytes = ~uint64_t{0};
 };
 
 class GpuScene {
@@ -43,6 +46,7 @@ class GpuScene {
   void record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses);
 
   const Scene& scene() const { return *scene_; }
+  const GpuSceneOptions& options() const { return options_; }
   gpu::Device& device() const { return *device_; }
   const gpu::Tlas& tlas() const { return tlas_; }
   const GpuTextures& textures() const { return textures_; }

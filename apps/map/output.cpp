@@ -141,7 +141,8 @@ Json write_map_files(const fs::path& folder, const sim::RadioMap& map, const Map
     placement.push_back(static_cast<uint8_t>(value));
   arrays.push_back(
       write_array(folder, "placement", "1",
-                  "0 free, 1 inside a solid, 2 nothing beneath, 3 inside foliage, 4 on a surface",
+                  "0 free, 1 inside a solid, 2 nothing beneath, 3 inside foliage, 4 on a surface, "
+                  "5 beneath an open surface",
                   Array::of<uint8_t>(shape, placement)));
   Json json{{"arrays", std::move(arrays)}};
   json["pictures"] = files.pictures ? write_pictures(folder, map, stage, files) : Json::array();

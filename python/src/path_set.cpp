@@ -164,6 +164,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
                 Array(DType::f64, {static_cast<int64_t>(receivers()), 3})};
   const dvec3& origin = stage_->world.scene.origin;
   uint64_t near = 0;
+  sim::LinkLeftOut left_out;
   for (size_t i = 0; i < links_.size(); ++i) {
     const sim::ChannelSnapshot::Link& link = links_[i].solved;
     distance.array.as<double>()[i] = link.distance_m;
@@ -174,6 +175,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
       to.array.as<double>()[3 * (i / transmitters()) + axis] = link.receiver_state.position[c] + origin[c];
     }
     near += links_[i].near;
+    left_out.add(link.left_out);
   }
   for (NamedArray* more : {&distance, &from, &to}) arrays_.push_back(std::move(*more));
 
@@ -198,7 +200,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
       json["counters"][name] = count;
     else if (name != "path_births" && name != "path_deaths")
       json["counters"][name] = count - (before.contains(name) ? before.at(name) : 0);
-  for (const auto& [name, text] : snapshot.notes()) json["notes"][name] = text;
+  for (const auto& [name, text] : snapshot.notes(left_out)) json["notes"][name] = text;
   facts_ = json.dump();
 }
 
@@ -290,6 +292,8 @@ NamedArrays PathSet::statistics() const {
     view.receiver = static_cast<int32_t>(link.solved.receiver);
     view.transmitter = static_cast<int32_t>(link.solved.transmitter);
     view.statistics = &statistics;
+    view.sequences_left_out = link.solved.left_out.searched.sequences;
+    view.paths_left_out = link.solved.left_out.paths;
     for (size_t c = 0; c < columns.size(); ++c)
       columns[c].fill(view, arrays[c].array.bytes.data() + number * columns[c].row_bytes());
   });

@@ -118,6 +118,7 @@ void CameraPass::build_pipelines() {
   shade.textures = &scene_->textures().table();
   shade.specialization.resize(shared::shade_spec_count);
   shade.specialization[shared::spec_color] = desc_.outputs.color();
+  shade.specialization[shared::spec_triangle_address] = lighting_->surfaces().by_address();
   shade.specialization[shared::spec_luminance] = desc_.outputs.luminance;
   shade.specialization[shared::spec_ids] = desc_.outputs.ids();
   shade.specialization[shared::spec_sun] = effects_.sun;

@@ -127,7 +127,7 @@ void DevelopPass::record(gpu::TickSlot& slot, const gpu::Buffer& color, const gp
   constants.radiance_scale = static_cast<float>(stored_luminance(desc_, *lighting_));
   if (desc_.noise) constants.sensor = sensor_constants(*desc_.noise, frame);
   cmd.constants(constants);
-  cmd.dispatch((groups_of(desc_) + shared::develop_group_size - 1) / shared::develop_group_size);
+  cmd.dispatch_linear(groups_of(desc_), shared::develop_group_size);
 }
 
 CameraImages DevelopPass::collect(const gpu::TickSlot& slot) const {

@@ -21,6 +21,7 @@ EdgePass::EdgePass(const SceneLighting& lighting, const CameraDesc& desc)
   edges.push_constant_bytes = sizeof(shared::CameraConstants);
   edges.specialization.resize(shared::shade_spec_count);
   edges.specialization[shared::spec_color] = desc.outputs.color();
+  edges.specialization[shared::spec_triangle_address] = lighting.surfaces().by_address();
   edges.specialization[shared::spec_luminance] = desc.outputs.luminance;
   edges.specialization[shared::spec_distortion] = desc.distortion.any();
   pipeline_ = gpu::ComputePipeline(lighting.scene().device(), edges, scope_);

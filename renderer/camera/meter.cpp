@@ -57,8 +57,7 @@ gpu::Slice MeterPass::record(gpu::TickSlot& slot, const gpu::Buffer& color) {
   cmd.bind(histogram_);
   cmd.push({gpu::Descriptor::buffer(shared::meter_color_binding, color)});
   cmd.constants(constants);
-  const uint32_t samples = constants.columns * constants.rows;
-  cmd.dispatch((samples + shared::meter_group_size - 1) / shared::meter_group_size);
+  cmd.dispatch_linear(uint64_t{constants.columns} * constants.rows, shared::meter_group_size);
   cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
   cmd.bind(result_);
   cmd.constants(constants);

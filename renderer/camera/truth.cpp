@@ -132,11 +132,7 @@ void TruthPass::record(gpu::TickSlot& slot, const gpu::Buffer& seen, const Truth
                                                 lighting_->surfaces().triangle_primitives()));
   cmd.push(descriptors);
   cmd.constants(constants);
-  // In rows: a device need not take more than 65535 groups along an axis.
-  const auto groups =
-      static_cast<uint32_t>((pixels + shared::truth_group_size - 1) / shared::truth_group_size);
-  constexpr uint32_t across = 4096;
-  cmd.dispatch(std::min(groups, across), (groups + across - 1) / across);
+  cmd.dispatch_linear(pixels, shared::truth_group_size);
 }
 
 TruthImages TruthPass::collect(const gpu::TickSlot& slot) const {

@@ -307,7 +307,7 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& lum
   }
   const uint32_t runs = groups(desc_.width, shared::run_pixels) * desc_.height;
   bind(cmd, step_, index);
-  cmd.dispatch(groups(runs, shared::event_group_size));
+  cmd.dispatch_linear(runs, shared::event_group_size);
   if (index == 0 && !desc_.adaptive()) return;
   cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
   bind(cmd, scan_, index);
@@ -315,7 +315,7 @@ void EventPass::step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& lum
   if (index > 0) {
     cmd.barrier(gpu::sync::compute_write, gpu::sync::compute);
     bind(cmd, emit_, index);
-    cmd.dispatch(groups(runs, shared::event_group_size));
+    cmd.dispatch_linear(runs, shared::event_group_size);
   }
   if (desc_.adaptive())
     cmd.barrier(gpu::sync::compute_write, {gpu::sync::condition_read.stage | gpu::sync::compute.stage,
@@ -340,7 +340,7 @@ void EventPass::end(gpu::TickSlot& slot, const gpu::Buffer& luminance) {
     cmd.push({gpu::Descriptor::buffer(shared::event_previous_binding, previous_),
               gpu::Descriptor::buffer(shared::event_luminance_binding, luminance)});
     cmd.constants(constants);
-    cmd.dispatch(groups(words, shared::event_group_size));
+    cmd.dispatch_linear(words, shared::event_group_size);
   }
   if (desc_.events) {
     now_.control = slot.readback.allocate(sizeof(shared::EventControl));

@@ -32,6 +32,13 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
                rays.source.x, rays.source.y, rays.source.z, rays.receiver.x, rays.receiver.y,
                rays.receiver.z);
   GREATX_CHECK(!directions.empty(), "no rays");
+  const gpu::Device& device = scene_->device();
+  const uint64_t most =
+      device.limits().maxStorageBufferRange / std::max(sizeof(vec3), sizeof(uint32_t) * max_bounces_) - 1;
+  if (directions.size() > most)
+    throw_user_error(
+        "radar echoes: tubes, target_budget: expected at most {} rays of {} bounces on '{}', found {}", most,
+        max_bounces_, device.info().name, directions.size());
   const auto body = [](uint32_t index) { return index == 0 ? ~0u : index; };
   const uint32_t count = static_cast<uint32_t>(directions.size());
   const shared::EchoConstants constants{vec3(rays.source), vec3(rays.receiver),    count,
@@ -47,7 +54,7 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
   descriptors.push_back(gpu::Descriptor::buffer(shared::radar_hits_binding, hits));
   cmd.push(descriptors);
   cmd.constants(constants);
-  cmd.dispatch((count + shared::radar_group - 1) / shared::radar_group);
+  cmd.dispatch_linear(count, shared::radar_group);
   return {hits, count};
 }
 

@@ -34,6 +34,7 @@ class EchoPass {
   };
 
   /// Records rays from one source along `directions` (unit, local axes), among the scene as scene.record_update left it.
+  /// Throws UserError if they are more than the device lets a shader see at once.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, const EchoRays& rays, std::span<const vec3> directions);
   /// [max_bounces * rays] words (shaders/shared/radar.h), after the slot's submission is done.
   std::span<const uint32_t> collect(const Pending& pending) const;

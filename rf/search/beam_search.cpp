@@ -230,6 +230,11 @@ BeamSearchResult Tree::grow() {
         result.cells += from.cells;
         if (wedges_) {
           result.list.wedges.insert(result.list.wedges.end(), from.wedges.begin(), from.wedges.end());
+          if (result.list.wedges.size() > ~0u)
+            throw_user_error(
+                "search: {} sequences lead to wedges {} times, expected at most {}; a smaller "
+                "max_depth has fewer",
+                result.found, result.list.wedges.size(), ~0u);
           result.list.wedge_offsets.push_back(static_cast<uint32_t>(result.list.wedges.size()));
         }
         for (size_t h = 0; h < from.hits.size();) {
@@ -275,7 +280,14 @@ BeamSearchResult BeamSearch::search(const dvec3& source) const {
   return Tree(scene, options_, !wedges_.empty(), source).grow();
 }
 
-std::string BeamSearch::guarantee() const {
+uint32_t BeamSearchResult::complete_depth() const {
+  if (overflow() == 0) return ~0u;
+  // The next one in the order was left out; it may have as many facets as the last one that fits.
+  const auto last = static_cast<uint32_t>(list.sequence(list.size() - 1).size());
+  return std::max(last, 1u) - 1;
+}
+
+std::string BeamSearch::guarantee(uint64_t left_out, uint32_t complete_depth) const {
   const std::string walls =
       options_.max_transmissions > 0
           ? fmt::format(" and walls passed (walls: at most {})", options_.max_transmissions)
@@ -283,10 +295,15 @@ std::string BeamSearch::guarantee() const {
   const std::string clear = options_.clearance_m > 0.0
                                 ? fmt::format(" and is {:g} mm clear of edges", 1e3 * options_.clearance_m)
                                 : std::string();
+  const std::string more =
+      left_out > 0
+          ? fmt::format("; of those of more, {} at least are left out, beyond the {} that a search keeps",
+                        left_out, options_.capacity)
+          : std::string();
   return fmt::format(
       "beams: no facet sequence is left out that has a path of up to {} reflections{}{}, whatever the "
-      "receiver",
-      options_.max_depth, walls, clear);
+      "receiver{}",
+      std::min(options_.max_depth, complete_depth), walls, clear, more);
 }
 
 }  // namespace greatx::rf

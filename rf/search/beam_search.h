@@ -66,6 +66,8 @@ struct BeamSearchResult {
   /// everything: its rectangle says nothing.
   std::vector<SequenceBeam> beams;
   uint64_t overflow() const { return found - list.size(); }
+  /// Up to so many facets the list has all sequences for certain; ~0u: nothing was left out.
+  uint32_t complete_depth() const;
 };
 
 class BeamSearch {
@@ -76,8 +78,9 @@ class BeamSearch {
   /// Every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Not to be called from two
   /// threads at once.
   BeamSearchResult search(const dvec3& source) const;
-  /// One sentence for `explain` and the run's summary.
-  std::string guarantee() const;
+  /// One sentence for `explain` and the run's summary. `left_out` sequences at least, of more than `complete_depth` facets,
+  /// were left out of a result.
+  std::string guarantee(uint64_t left_out = 0, uint32_t complete_depth = ~0u) const;
   const BeamSearchOptions& options() const { return options_; }
 
  private:

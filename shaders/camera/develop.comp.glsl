@@ -8,6 +8,7 @@
 // Develops the picture, which is padded to whole invocations as the arrays are, and unpacks depth and ids into tightly packed arrays, eight pixels an invocation and in words of
 // 64 bits, so that the host only copies: on a CPU driver each lane's access to memory costs, whatever its width.
 #include "camera/stored_color.glsl"
+#include "lib/linear.glsl"
 #include "shared/develop.h"
 #include "shared/film.h"
 
@@ -39,7 +40,7 @@ uint64_t pair(uint low, uint high) { return packUint2x32(uvec2(low, high)); }
 uint four_bytes(uint a, uint b, uint c, uint d) { return a | b << 8 | c << 16 | d << 24; }
 
 void main() {
-  uint group = gl_GlobalInvocationID.x;
+  uint group = linear_invocation;
   uint first = group * develop_pixels;
   if (first >= picture.width * picture.height) return;
 

@@ -6,6 +6,7 @@
 //
 // Histogram of log2 of the luminance on a grid over the picture. Whole numbers are added, so their order does not matter.
 #include "camera/stored_color.glsl"
+#include "lib/linear.glsl"
 #include "shared/film.h"
 
 layout(local_size_x = meter_group_size) in;
@@ -14,7 +15,7 @@ layout(push_constant, scalar) uniform Constants { MeterConstants meter; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Bins { MeterBin v[]; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = linear_invocation;
   if (i >= meter.columns * meter.rows) return;
   uvec2 at = uvec2(i % meter.columns, i / meter.columns) * meter.step + meter.step / 2u;
   vec4 seen = unpack_color(picture_color[at.y * meter.width + at.x]);

@@ -11,7 +11,14 @@ layout(set = 0, binding = triangle_records_binding, scalar) readonly buffer Tria
   uvec4 triangle_records[];
 };
 
-uvec4 triangle_record(uint triangle, uint quad) { return triangle_records[triangle * triangle_record_quads + quad]; }
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer TriangleRecords { uvec4 v[]; };
+layout(constant_id = spec_triangle_address) const bool triangle_address = false;
+
+uvec4 triangle_record(uint triangle, uint quad) {
+  uint at = triangle * triangle_record_quads + quad;
+  if (triangle_address) return TriangleRecords(packUint2x32(triangle_records[0].xy)).v[at];
+  return triangle_records[at];
+}
 
 /// Planar depth and barycentrics of the second and third corner along a ray d with dot(d, forward) = 1 are quotients of
 /// functions linear in d (Moeller and Trumbore 1997, sorted by d).

@@ -6,6 +6,7 @@
 // Ground truth of what each pixel's centre sees: surface normal, distance along the ray, optical flow to the camera's
 // next sample. Tightly packed, so that the host only copies.
 #include "lib/scene.glsl"
+#include "lib/linear.glsl"
 #include "shared/truth.h"
 
 layout(local_size_x = truth_group_size) in;
@@ -91,7 +92,7 @@ uvec2 flow_bits(vec2 n, float inverse_depth, GpuBodyMotion motion) {
 }
 
 void main() {
-  uint pixel = gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * truth_group_size) + gl_GlobalInvocationID.x;
+  uint pixel = linear_invocation;
   if (pixel >= camera.width * camera.height) return;
   ivec2 at = ivec2(pixel % camera.width, pixel / camera.width);
   uvec2 seen = picture_seen[pixel];

@@ -7,6 +7,7 @@
 // darker, else 0; a byte a pixel, four an invocation.
 #extension GL_EXT_buffer_reference : require
 #include "shared/events.h"
+#include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
 layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock { float luminances[]; };
@@ -15,7 +16,7 @@ layout(push_constant, scalar) uniform Constants { DifferenceConstants difference
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };
 
 void main() {
-  uint group = gl_GlobalInvocationID.x, count = difference.width * difference.height;
+  uint group = linear_invocation, count = difference.width * difference.height;
   if (4u * group >= count) return;
   uint word = 0u;
   for (uint i = 0u; i < 4u; ++i) {

@@ -5,6 +5,7 @@
 //
 // Writes down the events that the step counted, each run's at its own place in the list.
 #include "event/pixels.glsl"
+#include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
 /// An event as one number: ns after the interval's start, place above.
@@ -17,7 +18,7 @@ void write(uint slot, int t_ns, uint place, bool on, uint instance) {
 }
 
 void main() {
-  uint run = gl_GlobalInvocationID.x;
+  uint run = linear_invocation;
   if (run >= runs_per_row() * model.height) return;
   uint fired = runs[run].fired;
   if (fired == 0u) return;

@@ -6,6 +6,7 @@
 // Takes every pixel from the picture before to this one: its new state, what it was before if it fires, and how many
 // events each run of pixels has.
 #include "event/pixels.glsl"
+#include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
 
@@ -51,7 +52,7 @@ uint count_events(EventWalk walk, Shot shot, inout int alive_ns) {
 }
 
 void main() {
-  uint run = gl_GlobalInvocationID.x;
+  uint run = linear_invocation;
   if (run >= runs_per_row() * model.height) return;
   uint pixels;
   uvec2 at = run_start(run, pixels);

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/trace.glsl"
+#include "lib/linear.glsl"
 #include "shared/probe.h"
 
 layout(local_size_x = probe_workgroup) in;
@@ -13,7 +14,7 @@ layout(set = 0, binding = first_pass_binding + 1, scalar) writeonly buffer Hits 
 layout(push_constant, scalar) uniform Push { ProbeConstants push; };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = linear_invocation;
   if (i >= push.count) return;
   ProbeRay ray = rays[i];
   Hit hit = push.excluded_body == no_body

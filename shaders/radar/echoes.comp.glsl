@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/radar.h"
 #include "lib/trace.glsl"
+#include "lib/linear.glsl"
 
 layout(constant_id = 0) const bool monostatic = false;  // the receiver is where the source is
 layout(constant_id = 1) const bool has_own_body = true;
@@ -41,7 +42,7 @@ bool sees_receiver(vec3 start, uint facet) {
 }
 
 void main() {
-  uint ray = gl_GlobalInvocationID.x;
+  uint ray = linear_invocation;
   if (ray >= constants.rays) return;
   if (ray == 0u)
     hits[constants.max_bounces * constants.rays] =

@@ -11,6 +11,7 @@
 layout(constant_id = 0) const uint search_mask = 0xffu;  // bodies that reflect: static_mask, or moving ones as well
 #define GREATX_TRACE_MASK search_mask
 #include "lib/trace.glsl"
+#include "lib/linear.glsl"
 
 layout(constant_id = 1) const bool has_foliage = false;
 layout(constant_id = 2) const uint max_transmissions = 0u;  // 0: as if there were no walls
@@ -117,7 +118,7 @@ void go_both_ways(uint ray, Way way) {
 }
 
 void main() {
-  uint ray = gl_GlobalInvocationID.x;
+  uint ray = linear_invocation;
   if (ray >= constants.rays) return;
   Way way = Way(constants.source, directions[constants.first_ray + ray], no_facet, 0u, 0u, 0u);
   if (max_transmissions == 0u)

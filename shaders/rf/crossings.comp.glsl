@@ -11,6 +11,7 @@
 // are outside for certain; else it needs the whole line, which is followed for those segments alone.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
+#include "lib/linear.glsl"
 #include "lib/trace.glsl"
 
 layout(local_size_x = crossings_group) in;
@@ -22,6 +23,7 @@ layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer Se
 layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock { GpuFacetPlane planes[]; };
 layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock { GpuFoliageBox foliage[]; };
 layout(set = 0, binding = crossings_results_binding, scalar) buffer ResultsBlock { uint results[]; };
+layout(set = 0, binding = crossings_leaders_binding, scalar) readonly buffer LeadersBlock { uint leaders[]; };
 
 layout(push_constant, scalar) uniform Constants { CrossingConstants constants; };
 
@@ -206,11 +208,11 @@ Depth depth_on_line(GpuSegment segment, vec3 direction) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= constants.count) return;
-  uint index = constants.first + gl_GlobalInvocationID.x;
+  uint index = linear_invocation;
+  if (index >= constants.count) return;
   GpuSegment segment = segments[index];
   uint row = index * constants.row_words;
-  if (segment.only_if != rf_none && results[segment.only_if * constants.row_words] == crossings_blocked) {
+  if (segment.only_if != rf_none && leaders[segment.only_if * constants.row_words] == crossings_blocked) {
     results[row] = crossings_blocked;
     return;
   }

@@ -55,7 +55,9 @@ const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
 const uint spec_moving_bodies = 21u;  // of the visibility pass: off, it draws what never moves
-const uint shade_spec_count = 22u;
+// The records of triangles are larger than a shader may see of a buffer at once: what is bound is their address.
+const uint spec_triangle_address = 22u;
+const uint shade_spec_count = 23u;
 // Of the shadow maps' masks.
 const uint shadow_spec_base_color_arrays = 0u;
 

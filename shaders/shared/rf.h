@@ -38,6 +38,7 @@ const uint crossings_segments_binding = first_pass_binding;      // GpuSegment[c
 const uint crossings_planes_binding = first_pass_binding + 1u;   // GpuFacetPlane[facets]
 const uint crossings_foliage_binding = first_pass_binding + 2u;  // GpuFoliageBox[foliage_boxes]
 const uint crossings_results_binding = first_pass_binding + 3u;  // uint[count * row_words]
+const uint crossings_leaders_binding = first_pass_binding + 4u;  // uint[]: results of a part before
 const uint crossings_group = 64u;
 const uint crossings_max = 8u;  // walls on a segment, at most
 
@@ -56,7 +57,7 @@ struct GpuSegment {
   uint body_a, body_b;
   uint other_a, other_b;
   uint walls;    // that it may pass, <= crossings_max; plus crossings_end_in_foliage
-  uint only_if;  // a row of a dispatch before: if that is blocked, so is this, unseen; rf_none: none
+  uint only_if;  // a row of the leaders' part: if that is blocked, so is this, unseen; rf_none: none
 };
 
 /// A facet's plane in its body's frame: (x - point) . normal = 0.
@@ -75,7 +76,7 @@ struct GpuFoliageBox {
 };
 
 struct CrossingConstants {
-  uint first, count;  // rows of this dispatch
+  uint count;  // rows of this part
   uint row_words;
   uint foliage_boxes;
 };

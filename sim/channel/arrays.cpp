@@ -128,7 +128,9 @@ std::string ChannelSensor::metadata() const {
   metadata["dispersion"] =
       dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
   metadata["walls"] = describe_walls(world_.scene, radio_->model.surfaces);
-  for (const auto& [name, text] : paths_[0]->notes()) metadata["candidates"][name] = text;
+  for (const auto& [name, text] : paths_[0]->notes({})) metadata["candidates"][name] = text;
+  metadata["candidates"]["bounds"] =
+      "sequences_left_out and paths_left_out count at every tick what the guarantee does not hold for";
   return metadata.dump();
 }
 
@@ -176,7 +178,12 @@ ChannelSensor::LinkFacts ChannelSensor::facts_of(const Results& results, size_t 
   facts.statistics = rf::link_statistics(paths, powers);
   facts.view.receiver = static_cast<int32_t>(receiver);
   facts.view.transmitter = static_cast<int32_t>(transmitter);
-  facts.view.every_element = elements_of(receiver, transmitter, slot) != nullptr;
+  const ElementPaths* elements = elements_of(receiver, transmitter, slot);
+  facts.view.every_element = elements != nullptr;
+  LinkLeftOut left_out = results[transmitter].links[receiver].left_out;
+  if (elements != nullptr) left_out.add(elements->left_out());
+  facts.view.sequences_left_out = left_out.searched.sequences;
+  facts.view.paths_left_out = left_out.paths;
   if (config_.outputs.coherence) {
     facts.view.coherence_bandwidth_hz = rf::coherence_bandwidth_hz(paths, powers, 0.5);
     facts.view.coherence_time_s = rf::coherence_time_s(paths, powers, 0.5);

@@ -105,7 +105,6 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
   flight.links.assign(ends_.receivers.size(), {});
-  std::vector<uint64_t> overflow(ends_.receivers.size());
   parallel_for(ends_.receivers.size(), 0, [&](size_t r) {
     LinkInFlight& link = flight.links[r];
     link.receiver = state(ends_.receivers[r], context);
@@ -113,16 +112,16 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
                                     world_position(ends_.receivers[r], context));
     rf::LinkGeometry geometry = search_->geometry(r, flight.transmitter, link.receiver);
     link.paths = std::move(geometry.paths);
-    overflow[r] = geometry.overflow;
+    link.left_out = {geometry.searched, geometry.overflow};
   });
   flight.segments.clear();
   for (size_t r = 0; r < ends_.receivers.size(); ++r) {
     LinkInFlight& link = flight.links[r];
-    if (overflow[r] > 0 && path_overflow_ == 0)
+    if (link.left_out.paths > 0 && left_out_.paths == 0)
       spdlog::warn(
           "channel '{}', {}: {} geometric paths beyond max_paths ({}) were left out; more in the counters",
-          config_.name, ends_.receivers[r].name, overflow[r], config_.max_paths);
-    path_overflow_ += overflow[r];
+          config_.name, ends_.receivers[r].name, link.left_out.paths, config_.max_paths);
+    left_out_.add(link.left_out);
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
     search_->solver().add_segments(link.paths, flight.transmitter, link.receiver, flight.segments);
@@ -142,6 +141,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     LinkInFlight& link = flight.links[r];
     result.links[r].receiver = link.receiver;
     result.links[r].distance_m = link.distance_m;
+    result.links[r].left_out = link.left_out;
     result.links[r].paths = search_->solver().finish(
         link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
         link.receiver);
@@ -186,7 +186,8 @@ void ChannelPaths::check_placements(const TickContext& context) {
       placed.inside = placement.solid != rf::Placement::none;
       if (!placement.free() && !placed.told) {
         placed.told = true;
-        const bool wrong = placed.inside || placement.surface != rf::Placement::none;
+        const bool wrong = placed.inside || placement.beneath != rf::Placement::none ||
+                           placement.surface != rf::Placement::none;
         if (++placements_told_ <= most_told)
           spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
                       config_.name, context.tick, end.name,
@@ -200,10 +201,20 @@ void ChannelPaths::check_placements(const TickContext& context) {
                  config_.name, context.tick);
 }
 
+std::vector<std::pair<std::string, std::string>> ChannelPaths::notes(const LinkLeftOut& left_out) const {
+  auto notes = search_->notes(left_out.searched);
+  if (left_out.paths > 0)
+    for (auto& [name, text] : notes)
+      if (name == "guarantee")
+        text += fmt::format("; {} geometric paths are left out, beyond the {} of a link (max_paths)",
+                            left_out.paths, config_.max_paths);
+  return notes;
+}
+
 void ChannelPaths::count(std::map<std::string, uint64_t>& counters) const {
   search_->count(counters);
   counters["geometric_paths"] = geometric_paths_;
-  counters["path_overflow"] = path_overflow_;
+  counters["path_overflow"] = left_out_.paths;
   counters["paths"] = lit_paths_;
   counters["path_births"] = births_;
   counters["path_deaths"] = deaths_;

@@ -36,12 +36,23 @@ struct RadioWorld {
   rf::Surroundings surroundings;
 };
 
+/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search holds.
+struct LinkLeftOut {
+  rf::LeftOut searched;
+  uint64_t paths = 0;
+  void add(const LinkLeftOut& other) {
+    searched.add(other.searched);
+    paths += other.paths;
+  }
+};
+
 class ChannelPaths {
  public:
   /// What one link had at a tick.
   struct Link {
     rf::EndState receiver;
     double distance_m = 0.0;
+    LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
   };
   struct Result {
@@ -77,13 +88,16 @@ class ChannelPaths {
   const rf::RadioModel& model() const { return radio_->model; }
   /// Candidates, overflows, paths; names without the channel's.
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// How candidates are found and what that guarantees: (name, text).
-  std::vector<std::pair<std::string, std::string>> notes() const { return search_->notes(); }
+  /// How candidates are found and what that guarantees of links that `left_out` is of: (name, text).
+  std::vector<std::pair<std::string, std::string>> notes(const LinkLeftOut& left_out) const;
+  /// Of all links so far.
+  const LinkLeftOut& left_out() const { return left_out_; }
 
  private:
   struct LinkInFlight {
     rf::EndState receiver;
     double distance_m = 0.0;
+    LinkLeftOut left_out;
     size_t first_segment = 0, segment_count = 0;
     std::vector<rf::GeometricPath> paths;
   };
@@ -121,8 +135,8 @@ class ChannelPaths {
   };
   std::vector<Placed> placed_;  ///< [1 + receivers]: transmitter, receivers; empty: nothing yet
   size_t placements_told_ = 0;  ///< of this sequence
-  uint64_t path_overflow_ = 0, geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0,
-           ends_inside_ = 0;
+  LinkLeftOut left_out_;
+  uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
 };
 
 }  // namespace greatx::sim

@@ -117,6 +117,7 @@ void ChannelSearch::record_ahead(gpu::TickSlot& slot, const dvec3& transmitter) 
 void ChannelSearch::grow_solvers(size_t count) {
   const bool reflect = move_facets_ && way_ == Way::every_tick;
   while (fixed_.size() < count) fixed_.emplace_back(model_, path_options(config_, reflect));
+  left_out_.resize(fixed_.size());
   while (!moving_searches_.empty() && moving_searches_.size() < count)
     moving_searches_.push_back(moving_searches_[0]);
   if (once() && move_facets_ && beams_)
@@ -143,14 +144,14 @@ void ChannelSearch::search_from(size_t index, const dvec3& source, std::span<con
                                 rf::Source end) {
   if (rays_) {
     rf::CandidateSearchResult result = rays_->search(bodies, source);
-    const uint64_t overflow = result.overflow();
-    return take(index, std::move(result.list), overflow, source, end);
+    const rf::LeftOut left_out{result.overflow()};
+    return take(index, std::move(result.list), left_out, source, end);
   }
-  if (!beams_) return take(index, {}, 0, source, end);
+  if (!beams_) return take(index, {}, {}, source, end);
   rf::BeamSearchResult result = beams(source);
   if (once() && move_facets_) moving_searches_[index].set_tree(result, source);
-  const uint64_t overflow = result.overflow();
-  take(index, std::move(result.list), overflow, source, end);
+  const rf::LeftOut left_out{result.overflow(), result.complete_depth()};
+  take(index, std::move(result.list), left_out, source, end);
 }
 
 rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
@@ -172,11 +173,13 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
 }
 
 /// What was found becomes images of the source.
-void ChannelSearch::take(size_t index, rf::CandidateList list, uint64_t overflow, const dvec3& source,
-                         rf::Source end) {
-  if (overflow > 0)
-    spdlog::warn("channel '{}': {} candidates beyond the bound were left out", config_.name, overflow);
-  overflow_ += overflow;
+void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out,
+                         const dvec3& source, rf::Source end) {
+  if (left_out.sequences > 0 && overflow_ == 0)
+    spdlog::warn("channel '{}': {} candidates beyond the bound were left out; more in the counters",
+                 config_.name, left_out.sequences);
+  overflow_ += left_out.sequences;
+  left_out_[index] = left_out;
   if (list.size() == 0 || !list.sequence(0).empty()) {  // rays do not list the line of sight
     list.add({});
     list.make_canonical();
@@ -196,8 +199,8 @@ void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<cons
     search_from(0, transmitter, {}, rf::Source::transmitter);
   } else if (searching_) {
     rf::CandidateSearchResult result = rays_->collect(*searching_);
-    const uint64_t overflow = result.overflow();
-    take(0, std::move(result.list), overflow, transmitter, rf::Source::transmitter);
+    const rf::LeftOut left_out{result.overflow()};
+    take(0, std::move(result.list), left_out, transmitter, rf::Source::transmitter);
     searching_.reset();
   } else {
     fixed_[0].move_source(transmitter);
@@ -206,9 +209,9 @@ void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<cons
 
 void ChannelSearch::renew_between(const dvec3& transmitter, std::span<const dvec3> receivers) {
   const rf::BeamSearchResult tree = beams(transmitter);
-  overflow_ += tree.overflow();
   moving_searches_[0].set_tree(tree, transmitter);
-  take(0, moving_searches_[0].all(receivers), 0, transmitter, rf::Source::transmitter);
+  take(0, moving_searches_[0].all(receivers), {tree.overflow(), tree.complete_depth()}, transmitter,
+       rf::Source::transmitter);
 }
 
 void ChannelSearch::renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers) {
@@ -228,12 +231,14 @@ rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& trans
   const size_t source = from_receivers ? index : 0;
   const rf::EndState& target = from_receivers ? transmitter : receiver;
   rf::LinkGeometry link = fixed_[source].geometry(target);
+  link.searched.add(left_out_[source]);
   if (way_ == Way::between_ends) seams_->drop_behind(link.paths, rf::Source::transmitter, transmitter.body);
   if (moving_.empty()) return link;
   rf::LinkGeometry more = moving_[source].geometry(target);
   seams_->drop_behind(more.paths, from_receivers ? rf::Source::receiver : rf::Source::transmitter,
                       from_receivers ? receiver.body : transmitter.body);
   link.overflow += more.overflow;
+  link.searched.add(more.searched);
   link.paths.insert(link.paths.end(), std::make_move_iterator(more.paths.begin()),
                     std::make_move_iterator(more.paths.end()));
   rf::keep_distinct(link.paths);
@@ -247,17 +252,23 @@ void ChannelSearch::count(std::map<std::string, uint64_t>& counters) const {
   counters["candidates_from_cache"] = cache_hits_;
 }
 
-std::vector<std::pair<std::string, std::string>> ChannelSearch::notes() const {
+std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::LeftOut& left_out) const {
   constexpr const char* ways[] = {"none", "once, from the transmitter", "once, from each receiver",
                                   "every tick, from both ends", "every tick, from the transmitter"};
   std::vector<std::pair<std::string, std::string>> notes;
   const bool reuse = once() && !moving_searches_.empty();
   notes.emplace_back("search", std::string(ways[static_cast<uint32_t>(way_)]) +
                                    (reuse ? "; every tick for what moves" : ""));
-  if (beams_ && way_ != Way::between_ends) notes.emplace_back("guarantee", beams_->guarantee());
+  if (beams_ && way_ != Way::between_ends)
+    notes.emplace_back("guarantee", beams_->guarantee(left_out.sequences, left_out.complete_depth));
   if (!moving_searches_.empty())
-    notes.emplace_back(reuse ? "guarantee_moving" : "guarantee",
-                       moving_searches_[0].guarantee(way_ == Way::between_ends));
+    notes.emplace_back(
+        reuse ? "guarantee_moving" : "guarantee",
+        moving_searches_[0].guarantee(way_ == Way::between_ends) +
+            (left_out.sequences > 0
+                 ? fmt::format("; {} at least are left out of the beams', beyond the {} that a search keeps",
+                               left_out.sequences, rf::BeamSearchOptions{}.capacity)
+                 : std::string()));
   if (beams_ && move_facets_ && way_ == Way::every_tick && config_.search != "every_tick")
     notes.emplace_back("reuse",
                        "none: diffraction, scattering or a list of points with moving reflectors; the whole "
@@ -266,8 +277,11 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes() const {
     notes.emplace_back(
         "guarantee",
         fmt::format(
-            "{} rays: a sequence whose beam is narrower than their spacing, {:.2g} mrad, may be missed",
-            config_.rays, 1e3 * std::sqrt(4.0 * pi / config_.rays)));
+            "{} rays: a sequence whose beam is narrower than their spacing, {:.2g} mrad, may be missed{}",
+            config_.rays, 1e3 * std::sqrt(4.0 * pi / config_.rays),
+            left_out.sequences > 0
+                ? fmt::format("; {} that were met are left out, beyond the bounds", left_out.sequences)
+                : std::string()));
   return notes;
 }
 

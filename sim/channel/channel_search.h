@@ -42,14 +42,16 @@ class ChannelSearch {
   void start(const dvec3& transmitter, std::span<const dvec3> receivers, std::span<const Pose> bodies);
   /// Before the links of a tick are solved, bodies of the model being where they are.
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers);
-  /// Every chain that exists geometrically between the transmitter and receiver `index`. Writes nothing.
+  /// Every chain that exists geometrically between the transmitter and receiver `index`, and what searches left out of
+  /// them. Writes nothing.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter,
                             const rf::EndState& receiver) const;
   /// For the steps after the geometry, which know of no candidates.
   const rf::PathSolver& solver() const { return fixed_.at(0); }
 
   void count(std::map<std::string, uint64_t>& counters) const;
-  std::vector<std::pair<std::string, std::string>> notes() const;
+  /// `left_out`: of what the notes are about.
+  std::vector<std::pair<std::string, std::string>> notes(const rf::LeftOut& left_out = {}) const;
 
  private:
   enum class Way {
@@ -65,7 +67,8 @@ class ChannelSearch {
   void grow_solvers(size_t count);
   void search_from(size_t index, const dvec3& source, std::span<const Pose> bodies, rf::Source end);
   rf::BeamSearchResult beams(const dvec3& source);
-  void take(size_t index, rf::CandidateList list, uint64_t overflow, const dvec3& source, rf::Source end);
+  void take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out, const dvec3& source,
+            rf::Source end);
   void renew_between(const dvec3& transmitter, std::span<const dvec3> receivers);
   void renew_moving(const dvec3& transmitter, std::span<const dvec3> receivers);
 
@@ -81,6 +84,7 @@ class ChannelSearch {
   /// [sources]: the transmitter, or each receiver if they are. `fixed_` holds what the world at rest has, or everything;
   /// `moving_`, if facets of moving bodies reflect and an end rests, what they add at this tick.
   std::vector<rf::PathSolver> fixed_, moving_;
+  std::vector<rf::LeftOut> left_out_;  ///< [fixed_] of the search
   std::vector<rf::MovingSearch> moving_searches_;
   std::optional<rf::Seams> seams_;  ///< of this tick
   int64_t renewed_tick_ = -1;

@@ -110,6 +110,7 @@ std::vector<Array> ChannelSensor::collect(const gpu::TickSlot& slot) {
   for (NearLink& link : near_links_)
     if (link.recorded[slot.index]) {
       link.elements->collect(slot);
+      left_out_of_elements_.add(link.elements->left_out());
       ++near_ticks_;
     }
   check_sights(results);
@@ -149,7 +150,10 @@ void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {
 }
 
 void ChannelSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
-  for (const auto& [name, text] : paths_[0]->notes()) notes.emplace_back(config_.name + "." + name, text);
+  LinkLeftOut left_out = left_out_of_elements_;
+  for (const auto& paths : paths_) left_out.add(paths->left_out());
+  for (const auto& [name, text] : paths_[0]->notes(left_out))
+    notes.emplace_back(config_.name + "." + name, text);
 }
 
 }  // namespace greatx::sim

@@ -79,6 +79,7 @@ class ChannelSensor : public Sensor {
   std::vector<NearLink> near_links_;
   bool told_near_ = false;
   uint64_t near_ticks_ = 0;  ///< links and ticks that were solved by elements
+  LinkLeftOut left_out_of_elements_;
   rf::ChannelGrid grid_;
   std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
   ColumnContext columns_;

@@ -74,10 +74,17 @@ bool ChannelSnapshot::solve_batch(size_t first, const Take& take) {
                 results[t].transmitter,
                 solved.receiver,
                 solved.distance_m,
+                solved.left_out,
                 std::move(solved.paths)};
       if (!take(std::move(link))) return false;
     }
   return true;
+}
+
+std::vector<std::pair<std::string, std::string>> ChannelSnapshot::notes() const {
+  LinkLeftOut all;
+  for (const auto& paths : paths_) all.add(paths->left_out());
+  return notes(all);
 }
 
 void ChannelSnapshot::count(std::map<std::string, uint64_t>& counters) const {

@@ -34,6 +34,7 @@ class ChannelSnapshot {
     std::string transmitter_name, receiver_name;
     rf::EndState transmitter_state, receiver_state;
     double distance_m = 0.0;
+    LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
   };
   /// All arguments but `options` and `instant` outlive this. Throws UserError like ChannelPaths.
@@ -60,8 +61,12 @@ class ChannelSnapshot {
   size_t transmitters() const { return paths_.size(); }
   /// Summed over the transmitters.
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// How candidates are found and what that guarantees: (name, text).
-  std::vector<std::pair<std::string, std::string>> notes() const { return paths_[0]->notes(); }
+  /// How candidates are found and what that guarantees of links that `left_out` is of: (name, text).
+  std::vector<std::pair<std::string, std::string>> notes(const LinkLeftOut& left_out) const {
+    return paths_[0]->notes(left_out);
+  }
+  /// The same of all links so far.
+  std::vector<std::pair<std::string, std::string>> notes() const;
   scene::GpuScene& gpu_scene() { return gpu_scene_; }
   gpu::TickRing& ring() { return ring_; }
 

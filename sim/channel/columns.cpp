@@ -194,6 +194,12 @@ std::vector<LinkColumn> link_columns(const ColumnContext& context) {
           "every_element", "1",
           "[rx, tx] 1: cfr by paths between every two elements; 0: by a plane wave over the arrays",
           [](const LinkView& link) { return link.every_element; }),
+      of_link<uint64_t>("sequences_left_out", "1",
+                        "[rx, tx] facet sequences beyond those that a search keeps, at least; 0: the "
+                        "guarantee of the candidates holds",
+                        [](const LinkView& link) { return link.sequences_left_out; }),
+      of_link<uint64_t>("paths_left_out", "1", "[rx, tx] geometric paths beyond max_paths",
+                        [](const LinkView& link) { return link.paths_left_out; }),
       statistic("path_gain", "1", "[rx, tx] sum over paths of |a|^2, mean over port pairs",
                 &Statistics::path_gain),
       statistic("mean_delay", "s", "[rx, tx] weighted by power; NaN: no path", &Statistics::mean_delay_s),

@@ -28,6 +28,7 @@ struct LinkView {
       false;  ///< its frequency response is of every element, not of a plane wave over the arrays
   double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< if they are asked for
   double taps_power_outside = 0.0;                              ///< rf::TapCoverage, if there are taps
+  uint64_t sequences_left_out = 0, paths_left_out = 0;          ///< LinkLeftOut
 };
 
 /// A path of a link.

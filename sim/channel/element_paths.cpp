@@ -75,6 +75,13 @@ void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::
   });
 }
 
+LinkLeftOut ElementPaths::left_out() const {
+  LinkLeftOut all;
+  for (const ChannelPaths::Result& result : results_)
+    for (const ChannelPaths::Link& link : result.links) all.add(link.left_out);
+  return all;
+}
+
 void ElementPaths::count(std::map<std::string, uint64_t>& counters) const {
   for (const auto& paths : paths_) {
     std::map<std::string, uint64_t> own;

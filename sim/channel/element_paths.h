@@ -36,6 +36,8 @@ class ElementPaths {
   /// `sum` over the paths between every two elements of what was collected last, [rx_ant, tx_ant, per_pair], rx_ant and
   /// tx_ant the ports of the arrays.
   void assemble(size_t per_pair, const LinkSum& sum, std::span<std::complex<float>> out) const;
+  /// Of what was collected last.
+  LinkLeftOut left_out() const;
   /// Summed over the elements of the transmitter.
   void count(std::map<std::string, uint64_t>& counters) const;
 

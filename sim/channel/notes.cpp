@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "sim/channel/channel_paths.h"
 #include "sim/channel/channel_search.h"
 
@@ -21,7 +23,12 @@ std::vector<std::pair<std::string, std::string>> channel_notes(const Scenario& s
   rf::RadioEffects effects = radio_effects(plan, scenario);
   effects.diffraction = false;
   const rf::RadioModel model(world.scene, config.carrier_hz, effects);
-  return ChannelSearch(nullptr, model, plan, config, ends).notes();
+  auto notes = ChannelSearch(nullptr, model, plan, config, ends).notes();
+  notes.emplace_back(
+      "bounds", fmt::format("a search keeps {} sequences, a link {} geometric paths (max_paths); what is "
+                            "beyond is counted, and the guarantee of the results says so",
+                            rf::BeamSearchOptions{}.capacity, config.max_paths));
+  return notes;
 }
 
 }  // namespace greatx::sim

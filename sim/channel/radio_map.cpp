@@ -81,6 +81,7 @@ std::vector<double> heights(const MapGrid& grid, const MapHeight& height, const 
 CellPlacement placement_of(const rf::Placement& placement) {
   if (placement.solid != rf::Placement::none) return CellPlacement::solid;
   if (placement.surface != rf::Placement::none) return CellPlacement::on_surface;
+  if (placement.beneath != rf::Placement::none) return CellPlacement::beneath;
   return placement.foliage != rf::Placement::none ? CellPlacement::foliage : CellPlacement::free;
 }
 

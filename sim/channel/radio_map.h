@@ -64,6 +64,7 @@ enum class CellPlacement : uint8_t {
   nothing_beneath = 2,  ///< draped, and there is no ground
   foliage = 3,
   on_surface = 4,  ///< within the visibility tolerance of one (rf/placement.h)
+  beneath = 5,     ///< an open surface, with nothing below (rf/placement.h)
 };
 
 struct MapCells {

@@ -170,7 +170,9 @@ struct ChannelConfig {
   uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
   uint32_t max_depth = 3;  ///< interactions on a path: reflections, walls passed, a diffraction or scattering
-  std::optional<uint32_t> max_transmissions;  ///< of them walls passed; none given: max_depth
+  static constexpr uint32_t most_walls = 8;  ///< on a path; shared::crossings_max
+  std::optional<uint32_t>
+      max_transmissions;  ///< of them walls passed; none given: max_depth, most_walls if that is more
   uint32_t max_reflections_after =
       0;  ///< of them reflections between a diffraction or scattering and the searched-for end
   /// Of them reflections between the end that is searched from and a scattering.
@@ -194,7 +196,7 @@ struct ChannelConfig {
   std::optional<Taps> taps;
   std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
   double resistance_ohm = 50.0;     ///< of each receive port
-  uint32_t walls() const { return std::min(max_transmissions.value_or(max_depth), max_depth); }
+  uint32_t walls() const { return std::min(max_transmissions.value_or(most_walls), max_depth); }
   SourceLocation where;
 };
 

@@ -238,7 +238,8 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
   if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive();
   if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
-  if (const auto f = map.find("max_transmissions")) channel.max_transmissions = f->integer32(0, 8);
+  if (const auto f = map.find("max_transmissions"))
+    channel.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
   if (const auto f = map.find("max_reflections_after")) channel.max_reflections_after = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_before_scattering"))
     channel.max_reflections_before_scattering = f->integer32(0, 16);

@@ -175,12 +175,45 @@ TEST_F(RadioCli, PathsBeyondTheBoundAreCountedAndSaid) {
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["counters"]["geometric_paths"], 5);
   EXPECT_GT(result["counters"]["path_overflow"], 100);
+  const std::string left_out =
+      fmt::format("{} geometric paths are left out, beyond the 5 of a link (max_paths)",
+                  result["counters"]["path_overflow"].get<uint64_t>());
+  EXPECT_THAT(result["guarantee"].get<std::string>(), HasSubstr(left_out));
+  EXPECT_THAT(run("paths").out, HasSubstr(left_out));
   const Outcome made = run("generate", "--json -o " + path("bounded"));
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("beyond max_paths (5)"));
-  EXPECT_GT(json::parse(made.out)["counters"]["csi.path_overflow"], 200);
+  const json summary = json::parse(made.out);
+  EXPECT_GT(summary["counters"]["csi.path_overflow"], 200);
+  EXPECT_THAT(summary["notes"]["csi.guarantee"].get<std::string>(),
+              HasSubstr("geometric paths are left out"));
   change("house.yaml", scenario, "max_depth: 2", "max_paths: 0");
   fails("no paths", {"house.yaml:", "channels[0].max_paths", "'0'"});
+}
+
+// Walls passed have a bound of their own, which a path that may be deeper does not break.
+TEST_F(RadioCli, TheDeepestPathsRun) {
+  change("house.yaml", scenario, "max_depth: 2", "max_depth: 16");
+  const Outcome outcome = run("paths", "--json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(json::parse(outcome.out)["guarantee"].get<std::string>(),
+              AllOf(HasSubstr("up to 16 reflections"), HasSubstr("walls: at most 8")));
+  change("house.yaml", scenario, "max_depth: 2", "max_depth: 17");
+  fails("too deep", {"house.yaml:", "channels[0].max_depth", "'17'"});
+  change("house.yaml", scenario, "max_depth: 2", "max_transmissions: 9");
+  fails("too many walls", {"house.yaml:", "channels[0].max_transmissions", "'9'"});
+}
+
+TEST_F(RadioCli, PatchesTooSmallToBeCutAreRefused) {
+  for (const std::string side : {"1e-300", "1e-12", "1e-4"}) {
+    change("house.yaml", scenario, "max_depth: 2", "scattering_patch_m: " + side);
+    write("house.yaml",
+          greatx::apps::test::read_file(folder_ / "house.yaml") + "effects: {scattering: on}\n");
+    const Outcome outcome = run("paths");
+    EXPECT_EQ(outcome.code, 1) << side;
+    EXPECT_THAT(outcome.err, HasSubstr("scattering_patch_m: "));
+    EXPECT_THAT(outcome.err, HasSubstr(" m makes more than 10000000 patches"));
+  }
 }
 
 TEST_F(RadioCli, ReceiverListsWithFaults) {

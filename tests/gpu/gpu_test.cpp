@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numeric>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -137,6 +138,68 @@ TEST(Compute, AddsWithSpecializationAndPushConstants) {
     EXPECT_GE(times[0].milliseconds, 0.0);
   }
   EXPECT_EQ(device.counters().submits - submits, 5u);
+}
+
+TEST(Compute, GroupsAreLaidOutInRows) {
+  EXPECT_EQ(group_grid(0), (GroupGrid{0, 0}));
+  EXPECT_EQ(group_grid(1), (GroupGrid{1, 1}));
+  EXPECT_EQ(group_grid(65535), (GroupGrid{65535, 1}));
+  EXPECT_EQ(group_grid(65536), (GroupGrid{32768, 2}));
+  for (const uint64_t groups : {88586ull, 131071ull, 1ull << 26, 65535ull * 65535ull}) {
+    const GroupGrid grid = group_grid(groups);
+    EXPECT_LE(grid.x, 65535u);
+    EXPECT_LE(grid.y, 65535u);
+    EXPECT_GE(uint64_t{grid.x} * grid.y, groups);
+    EXPECT_LT(uint64_t{grid.x} * grid.y, groups + grid.y);
+  }
+  EXPECT_THROW(group_grid(65535ull * 65535ull + 1), ContractError);
+}
+
+TEST(Compute, MoreGroupsThanAnAxisTakes) {
+  Device& device = test::device();
+  const ComputePipeline pipeline = add_pipeline(3);
+  const uint32_t count = 64 * 70001 + 5;
+  TickRing ring(device, 1, 4 * count + 16, 4 * count + 16);
+  TickSlot& slot = ring.begin();
+  std::vector<uint32_t> values(count);
+  std::iota(values.begin(), values.end(), 0u);
+  const Slice in = slot.upload.put(std::span<const uint32_t>(values));
+  const Slice out = slot.readback.allocate_for<uint32_t>(count);
+  const uint64_t before = device.counters().dispatches;
+  slot.cmd->bind(pipeline);
+  slot.cmd->push({Descriptor::buffer(0, in), Descriptor::buffer(1, out)});
+  slot.cmd->constants(AddConstants{count, 4});
+  slot.cmd->dispatch_linear(count, 64);
+  EXPECT_EQ(device.counters().dispatches - before, 1u);
+  slot.cmd->dispatch_linear(0, 64);
+  EXPECT_EQ(device.counters().dispatches - before, 1u) << "nothing";
+  ring.submit(slot);
+  ring.wait(slot);
+  const auto result = out.as<uint32_t>();
+  size_t wrong = 0;
+  for (uint32_t i = 0; i < count; ++i) wrong += result[i] != i + 7;
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Compute, ABufferLargerThanShadersMaySeeIsRefusedByName) {
+  Device& device = test::device();
+  const VkDeviceSize most = device.limits().maxStorageBufferRange;
+  if (most > 1u << 28) GTEST_SKIP() << "this device takes " << most << " bytes";
+  const ComputePipeline pipeline = add_pipeline(0);
+  const Buffer large(device, most + 16, Memory::device, "a large table"),
+      small(device, 64, Memory::device, "");
+  TickRing ring(device, 1, 1 << 16, 1 << 16);
+  TickSlot& slot = ring.begin();
+  slot.cmd->bind(pipeline);
+  slot.cmd->push({Descriptor::buffer(0, large.slice().part(16, most)), Descriptor::buffer(1, small)});
+  EXPECT_THAT(
+      [&] {
+        slot.cmd->push({Descriptor::buffer(0, large), Descriptor::buffer(1, small)});
+      },
+      testing::ThrowsMessage<UserError>(
+          testing::HasSubstr(fmt::format("'a large table' needs {} bytes", most + 16))));
+  ring.submit(slot);
+  ring.wait(slot);
 }
 
 TEST(Arena, GrowsOnceThenReuses) {

@@ -61,9 +61,10 @@ inline Pose look(const dvec3& position, double yaw_deg = 0.0, double pitch_deg =
 class CameraRig {
  public:
   CameraRig(scene::Scene scene, const render::Lighting& lighting, const render::CameraDesc& desc,
-            const render::CameraEffects& effects = {})
+            const render::CameraEffects& effects = {},
+            const scene::GpuSceneOptions& options = {.acceleration_structure = false, .textures = true})
       : scene_(std::make_unique<scene::Scene>(std::move(scene))),
-        gpu_(device(), *scene_, {.acceleration_structure = false, .textures = true}),
+        gpu_(device(), *scene_, options),
         lighting_(gpu_, lighting, effects),
         camera_(lighting_, desc),
         ring_(device(), 2, 1 << 16, 1 << 20) {}

@@ -277,6 +277,23 @@ TEST(Camera, SameBytesTwiceAndInTwoSlots) {
   EXPECT_TRUE(same(b, rig.collect(slot_b)));
 }
 
+// More triangles than the device lets a shader see at once: their records are read by address.
+TEST(Camera, TablesReadByTheirAddressGiveTheSamePicture) {
+  const Boxes boxes;
+  const Pose eye = look({0, 0, 0});
+  for (const bool smooth : {false, true}) {
+    render::CameraDesc desc = plain_camera(50, smooth ? 1 : 4);
+    desc.smooth_edges = smooth;
+    CameraRig bound(boxes.build(), plain_light(30, 50), desc),
+        addressed(boxes.build(), plain_light(30, 50), desc, {},
+                  {.acceleration_structure = false, .textures = true, .most_table_bytes = 64});
+    const render::CameraImages a = bound.shoot(eye), b = addressed.shoot(eye);
+    EXPECT_EQ(a.hdr, b.hdr) << smooth;
+    EXPECT_EQ(a.depth, b.depth) << smooth;
+    EXPECT_EQ(a.instance, b.instance) << smooth;
+  }
+}
+
 TEST(Camera, AlphaMaskLetsSeeThrough) {
   TinyScene tiny;
   scene::Texture texture;

@@ -289,12 +289,22 @@ TEST(BeamSearch, WhatIsBeyondTheCapacityIsCounted) {
     EXPECT_EQ(some.list.size(), capacity);
     EXPECT_GT(some.overflow(), 0u);
     EXPECT_LE(some.found, all.found);
+    // What it says is complete is: all of so few facets are there.
+    const uint32_t complete = some.complete_depth();
+    EXPECT_LT(complete, 3u);
+    const auto up_to = [&](const BeamSearchResult& result) {
+      size_t count = 0;
+      for (size_t i = 0; i < result.list.size(); ++i) count += result.list.sequence(i).size() <= complete;
+      return count;
+    };
+    EXPECT_EQ(up_to(some), up_to(all));
     for (size_t i = 0; i < some.list.size(); ++i)
       EXPECT_TRUE(std::ranges::equal(some.list.sequence(i), all.list.sequence(i))) << i;
   }
   BeamSearchOptions exact = street.options();
   exact.capacity = all.list.size();
   EXPECT_EQ(search(street, exact).overflow(), 0u);
+  EXPECT_EQ(search(street, exact).complete_depth(), ~0u);
 }
 
 TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
@@ -402,6 +412,14 @@ TEST(BeamSearch, TheGuaranteeSaysWhatHolds) {
   const std::string text = BeamSearch(world, kinds, {}, street.options()).guarantee();
   EXPECT_THAT(text, ::testing::HasSubstr("3"));
   EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_THAT(text, ::testing::HasSubstr("a path of up to 3 reflections"));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("are left out")));
+  BeamSearchOptions options = street.options();
+  options.capacity = 40;
+  EXPECT_THAT(
+      BeamSearch(world, kinds, {}, options).guarantee(1234, 1),
+      ::testing::AllOf(::testing::HasSubstr("a path of up to 1 reflections"),
+                       ::testing::HasSubstr("of those of more, 1234 at least are left out, beyond the 40")));
 }
 
 }  // namespace

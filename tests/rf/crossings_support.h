@@ -15,10 +15,11 @@ namespace greatx::test {
 
 inline std::vector<rf::Crossing> cross(const scene::Scene& scene, const rf::FacetKinds& kinds,
                                        std::span<const rf::Segment> segments,
-                                       const std::vector<Pose>& bodies = {Pose{}}) {
+                                       const std::vector<Pose>& bodies = {Pose{}},
+                                       uint64_t part_bytes = uint64_t{128} << 20) {
   gpu::Device& gpu = device();
   scene::GpuScene gpu_scene(gpu, scene, {});
-  rf::CrossingPass pass(gpu_scene, kinds);
+  rf::CrossingPass pass(gpu_scene, kinds, part_bytes);
   gpu::TickRing ring(gpu, 1, 1u << 16, 1u << 16);
   gpu::TickSlot& slot = ring.begin();
   gpu_scene.record_update(slot, bodies);

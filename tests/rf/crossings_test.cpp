@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/crossings.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,7 +110,8 @@ TEST(Crossings, EmptyBatchRecordsNothing) {
   ring.wait(slot);
 }
 
-TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
+/// At random, on both sides of the wall.
+std::vector<Segment> random_segments(uint32_t walls = 0) {
   RandomStream random(8, 4);
   std::vector<Segment> alone;
   for (int i = 0; i < 600; ++i) {
@@ -117,8 +120,13 @@ TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
       return dvec3(x, y, random.uniform(-1, 15));
     };
     const dvec3 a = point();
-    alone.push_back(segment(a, point()));
+    alone.push_back(segment(a, point(), walls));
   }
+  return alone;
+}
+
+TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
+  std::vector<Segment> alone = random_segments();
   // Every third one decides for the one before it and the one after it; every other of these is the same as an earlier one.
   for (uint32_t i = 7; i + 1 < alone.size(); i += 6) alone[i] = alone[i - 6 < 7 ? 1 : i - 6];
   std::vector<Segment> batch = alone;
@@ -135,6 +143,31 @@ TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
   }
   EXPECT_GT(unseen, 50u);
   EXPECT_GT(seen, 300u);
+}
+
+// As if the device took no more at once: leaders in several parts, those that hang on them in others.
+TEST(Crossings, PartsChangeNoAnswer) {
+  const scene::Scene scene = wall_on_ground().build();
+  for (const uint32_t walls : {0u, 2u}) {
+    std::vector<Segment> batch = random_segments(walls);
+    for (uint32_t i = 1; i + 1 < batch.size(); i += 3) batch[i - 1].only_if = batch[i + 1].only_if = i;
+    for (uint32_t i = 7; i + 1 < batch.size(); i += 6) batch[i] = batch[1], batch[i].same_as = 1;
+    const FacetKinds kinds = test::all_of(walls > 0 ? FacetKind::wall : FacetKind::opaque, scene);
+    const std::vector<Crossing> whole = cross(scene, kinds, batch);
+    for (const uint64_t rows : {1u, 7u, 100u, 250u}) {
+      const std::vector<Crossing> parts =
+          cross(scene, kinds, batch, {Pose{}}, rows * sizeof(shared::GpuSegment));
+      for (size_t i = 0; i < batch.size(); ++i) {
+        ASSERT_EQ(parts[i].blocked, whole[i].blocked) << rows << ": " << i;
+        if (!whole[i].blocked) {
+          ASSERT_EQ(parts[i].walls, whole[i].walls) << rows << ": " << i;
+        }
+      }
+    }
+    const auto blocked = std::ranges::count_if(whole, [](const Crossing& c) { return c.blocked; });
+    EXPECT_GT(blocked, walls > 0 ? -1 : 100);
+    EXPECT_LT(blocked, 500);
+  }
 }
 
 TEST(Crossings, SegmentsHangOnEarlierAnswersAlone) {

@@ -218,7 +218,8 @@ TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {
   double area = 0.0;
   for (const Patch& patch : scattering_patches(scene, kinds, 3.0)) area += patch.area_m2;
   EXPECT_NEAR(area, 200.0, 1e-9);
-  EXPECT_THROW(scattering_patches(scene, kinds, 1e-3, 1000), UserError);
+  for (const double side : {1e-3, 1e-12, 1e-300})
+    EXPECT_THROW(scattering_patches(scene, kinds, side, 1000), UserError) << side;
 
   const PathOptions options{.max_depth = 1, .patch_m = 3.0};
   const Solved front = solve(scene, {5, 0, 5}, {6, 3, 4}, effects, options);

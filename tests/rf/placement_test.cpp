@@ -40,6 +40,8 @@ struct Asked {
     return name(of(world, own_body).solid);
   }
 
+  std::string beneath(const dvec3& world) const { return name(of(world).beneath); }
+
   scene::Scene scene;
   FacetKinds kinds;
   std::vector<Pose> poses;
@@ -138,7 +140,63 @@ TEST(Placement, AHouseOfWallsAndRoofWithoutFloorIsSolid) {
   EXPECT_EQ(asked.solid({3, 3, 1}).empty(), false);
   EXPECT_EQ(asked.solid({15, 0, 1}), "") << "rays go in by a wall and out by the roof";
   EXPECT_EQ(asked.solid({0, 0, 13}), "");
-  EXPECT_EQ(asked.solid({0, 0, -3}), "ground");
+  EXPECT_EQ(asked.solid({0, 0, -3}), "") << "a sheet is no solid";
+  EXPECT_EQ(asked.beneath({0, 0, -3}), "ground");
+  EXPECT_EQ(asked.beneath({0, 0, 1}), "");
+}
+
+// However wide a single sheet is, and however near: nothing stands around the point.
+TEST(Placement, UnderAnOpenSheetIsNotInside) {
+  TinyScene tiny;
+  tiny.object("sheet");
+  level(tiny, 500, 5);
+  const Asked alone(tiny);
+  for (const double z : {4.99, 4.0, 0.0, -50.0}) {
+    EXPECT_EQ(alone.solid({3, 7, z}), "") << z;
+    EXPECT_EQ(alone.beneath({3, 7, z}), "sheet") << z;
+    EXPECT_FALSE(alone.of({3, 7, z}).free()) << "it sees nothing that is above";
+  }
+  for (const double z : {5.01, 6.0, 60.0}) EXPECT_TRUE(alone.of({3, 7, z}).free()) << z;
+  EXPECT_TRUE(alone.of({700, 7, 4.0}).free()) << "beside it";
+  EXPECT_EQ(
+      describe(alone.of({3, 7, 4}), alone.scene, alone.kinds),
+      "lies beneath 'sheet' (material default), an open surface with nothing below: it sees nothing that "
+      "is above");
+  // With a ground it is a roof without walls.
+  tiny.object("ground");
+  level(tiny, 500, 0);
+  const Asked roof(tiny);
+  EXPECT_TRUE(roof.of({3, 7, 4.0}).free());
+  EXPECT_EQ(roof.beneath({3, 7, -1.0}), "ground");
+  // A house under it is one still.
+  tiny.object("house").box({0, 0, 0}, {10, 8, 3});
+  const Asked house(tiny);
+  EXPECT_EQ(house.solid({3, 7, 2}), "house");
+  EXPECT_EQ(house.solid({30, 7, 2}), "");
+}
+
+TEST(Placement, ABoxThatIsOpenSomewhere) {
+  const auto box_without = [](int missing) {
+    TinyScene tiny;
+    const scene::Scene whole = TinyScene().object("box").box({0, 0, 0}, {10, 8, 6}).build();
+    const dvec3 outwards[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    tiny.object("box");
+    for (const scene::FacetTriangle& t : whole.facet_triangles) {
+      const dvec3 normal =
+          glm::normalize(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
+      if (missing < 6 && glm::dot(normal, outwards[missing]) > 0.5) continue;
+      tiny.triangle(t.corners[0], t.corners[1], t.corners[2]);
+    }
+    return Asked(tiny);
+  };
+  for (int missing = 0; missing < 5; ++missing) {
+    const Asked open = box_without(missing);
+    EXPECT_EQ(open.solid({5, 4, 3}), "") << missing;
+    EXPECT_EQ(open.solid({5, 4, 9}), "") << missing;
+  }
+  EXPECT_EQ(box_without(5).solid({5, 4, 3}), "box") << "a house without a floor";
+  EXPECT_EQ(box_without(5).solid({5, 4, -1}), "") << "below it";
+  EXPECT_EQ(box_without(6).solid({5, 4, 3}), "box");
 }
 
 TEST(Placement, WhatIsOpenIsNotSolid) {

@@ -88,6 +88,9 @@ TEST(RadioPlan, TransmissionComesWithThinWalls) {
   const EffectPlan walls = plan(scenario(), thin);
   expect(walls.transmission, true, "1 materials let waves pass, up to 2 walls", "glass wall, takes");
   expect(plan(scenario(", max_transmissions: 0"), thin).transmission, false, "max_transmissions");
+  std::string deep = scenario();
+  deep.replace(deep.find("max_depth: 2"), 12, "max_depth: 16");
+  expect(plan(deep, thin).transmission, true, "up to 8 walls");
   expect(plan(scenario("", switches("transmission: off")), thin).transmission, false, "switched off (");
   const scene::Scene dark = street(radio_material("medium_dry_ground"), radio_material("metal", 0.002));
   expect(plan(scenario(), dark).transmission, false, "take 100 dB or more");
