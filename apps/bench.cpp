@@ -16,6 +16,7 @@
 #include "apps/bench/rig_bench.h"
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/watch.h"
 #include "apps/session.h"
 #include "apps/summary.h"
 #include "io/dataset_writer.h"
@@ -78,10 +79,11 @@ void run(const Options& options) {
   }
   RecordSink& sink = writer ? static_cast<RecordSink&>(*writer) : discard;
   simulator.keep_pass_samples(true);
+  install_interrupt_handler();
+  const TerminalWatch watch(options.json);
   simulator.start(0);
   const double setup_ms = milliseconds_since(begin);
 
-  install_interrupt_handler();
   Progress progress("bench", scenario.ticks, options.json);
   std::vector<double> ticks;
   double first_packet_ms = 0.0;
@@ -133,6 +135,7 @@ void run_rows(const Options& options, BenchOptions bench_options,
               nlohmann::json (*bench)(const ScenarioOptions&, const RunOptions&, const BenchOptions&),
               std::string (*text)(const nlohmann::json&)) {
   bench_options.warm_up = options.warm_up;
+  const TerminalWatch watch(options.json);  // that shows searches; without a handler, Ctrl-C ends at once
   const nlohmann::json result = bench(options.scenario, options.run, bench_options);
   std::cout << (options.json ? result.dump(2) + "\n" : text(result));
 }

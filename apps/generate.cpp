@@ -11,6 +11,7 @@
 #include "apps/progress.h"
 #include "apps/session.h"
 #include "apps/summary.h"
+#include "apps/watch.h"
 #include "io/dataset_writer.h"
 #include "sim/simulator.h"
 
@@ -72,7 +73,13 @@ void run(const Options& options) {
   }
   install_interrupt_handler();
   double first_packet_s = 0.0;
-  const bool complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
+  bool complete = false;
+  try {
+    const TerminalWatch watch(options.quiet);
+    complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
+  } catch (const Interrupted&) {
+    writer.flush();  // in the midst of a tick: the packets before are whole
+  }
   device.wait_idle();
   check_validation(device);
   if (complete)
@@ -91,7 +98,8 @@ void run(const Options& options) {
     std::cout << summary_text(summary)
               << fmt::format("{} {}\n", complete ? "wrote" : "interrupted:", options.output);
   if (!complete)
-    throw_user_error("{}: interrupted; the whole packets so far are kept, --resume goes on", options.output);
+    throw Interrupted(
+        fmt::format("{}: the whole packets so far are kept, --resume goes on", options.output));
 }
 
 }  // namespace

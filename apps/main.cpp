@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "greatx COMMAND --help tells more. Exit codes: 0 success, 1 faulty input or data, 2 device or "
-      "program.");
+      "program, 130 interrupted.");
   apps::add_info(app);
   apps::add_generate(app);
   apps::add_inspect(app);
@@ -52,6 +52,9 @@ int main(int argc, char** argv) {
   } catch (const UserError& error) {
     std::cerr << "greatx: error: " << error.what() << '\n';
     return apps::exit_user;
+  } catch (const Interrupted& interrupted) {
+    std::cerr << "greatx: interrupted: " << interrupted.what() << '\n';
+    return apps::exit_interrupted;
   } catch (const std::exception& error) {
     std::cerr << "greatx: internal error: " << error.what() << '\n';
     return apps::exit_internal;

@@ -15,6 +15,7 @@
 #include "apps/paths/render.h"
 #include "apps/progress.h"
 #include "apps/session.h"
+#include "apps/watch.h"
 #include "core/hash.h"
 #include "sim/channel/antennas.h"
 #include "sim/channel/radio_map_values.h"
@@ -166,14 +167,19 @@ void solve(const Options& options, const Request& request, const sim::Scenario& 
   Progress progress("map", static_cast<int64_t>(total), options.quiet, "cells");
   progress.update(static_cast<int64_t>(done()));
   sim::RadioMapSolver solver(snapshot, scenario, request.channel, request.receiver);
-  solver.solve(cells, done(), [&](std::span<const rf::LinkStatistics> links) {
-    journal.append(links);
-    progress.update(static_cast<int64_t>(done()));
-    return !interrupted();
-  });
+  try {
+    const TerminalWatch watch(options.quiet);
+    solver.solve(cells, done(), [&](std::span<const rf::LinkStatistics> links) {
+      journal.append(links);
+      progress.update(static_cast<int64_t>(done()));
+      return !interrupted();
+    });
+  } catch (const Interrupted&) {
+    // In the midst of some cells: those before are kept.
+  }
   if (done() < total)
-    throw_user_error("{}: interrupted after {} of {} cells, which are kept; --resume goes on", options.output,
-                     done(), total);
+    throw Interrupted(fmt::format("{}: after {} of {} cells, which are kept; --resume goes on",
+                                  options.output, done(), total));
 }
 
 MapStage stage_of(const Options& options, const Request& request, const sim::Scenario& scenario,
@@ -208,7 +214,8 @@ void run(const Options& given) {
   };
   request.grid = sim::map_grid_of(corner(options.min), corner(options.max), options.cell, world.scene,
                                   scenario.channels[request.channel].transmitters.size());
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::EffectPlan plan = sim::make_effect_plan(
+      scenario, world.scene, sim::bounds_of_cells(request.grid, request.height, world.scene));
   const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(scenario, world.scene) : plan;
   gpu::Device device(options.run.device_options());
   sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),

@@ -16,6 +16,7 @@
 #include "apps/paths/render.h"
 #include "apps/progress.h"
 #include "apps/session.h"
+#include "apps/watch.h"
 #include "io/png.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/receiver_list.h"
@@ -213,7 +214,7 @@ std::vector<PathLink> solve(const Options& options, const Request& request, cons
     snapshot.solve(std::span(request.points).subspan(*request.only, 1), *request.only, take);
   else
     snapshot.solve(request.points, 0, take);
-  if (interrupted()) throw_user_error("interrupted after {} receivers", totals.receivers);
+  if (interrupted()) throw Interrupted(fmt::format("after {} receivers", totals.receivers));
   return kept;
 }
 
@@ -222,7 +223,9 @@ void run(const Options& options) {
   const sim::Scenario scenario = load_scenario(options.scenario);
   const Request request = request_of(options, scenario);
   const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  scene::Bounds points;
+  for (const dvec3& point : request.points) points.add(point);
+  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene, points);
   // Only a picture needs what cameras need.
   const sim::EffectPlan view_plan = options.png.empty() ? plan : picture_plan(scenario, world.scene);
   gpu::Device device(options.run.device_options());
@@ -240,6 +243,7 @@ void run(const Options& options) {
   if (!options.csv.empty()) outputs.push_back(csv_output(options.csv, scene.carrier_hz));
 
   install_interrupt_handler();
+  const TerminalWatch watch(options.quiet);
   const Json head = head_of(options, request, scenario, world, plan, snapshot.moment());
   for (const auto& output : outputs) output->begin(head);
   std::optional<CfrFile> cfr;

@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/scene_import.h"
 #include "core/error.h"
+#include "core/srgb.h"
 #include "scene/build.h"
 #include "scene/generator/generate.h"
 #include "scene/import/mitsuba.h"
@@ -79,8 +80,45 @@ std::string describe(const std::optional<scene::RadioMaterial>& radio) {
   if (radio->foliage && radio->foliage->attenuation_db_per_m)
     return fmt::format("foliage, {} dB/m", *radio->foliage->attenuation_db_per_m);
   if (radio->foliage) return "foliage, Weissberger's model";
-  return fmt::format("{}, {} layers, {:.3f} m", radio->layers[0].medium.source, radio->layers.size(),
-                     radio->layers[0].thickness_m);
+  std::vector<std::string> layers;
+  for (const scene::RadioLayer& layer : radio->layers)
+    layers.push_back(layer.thickness_m > 0.0 ? fmt::format("{}, {:g} m", layer.medium.source, layer.thickness_m)
+                                             : layer.medium.source + ", half-space");
+  return fmt::format("{}", fmt::join(layers, " | "));
+}
+
+double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }
+
+/// Of the base colour, with the mean over its texture (what is cut out of it does not count).
+double mean_luminance(const scene::Material& material, const scene::Scene& scene) {
+  const vec4& factor = material.pbr.base_color;
+  if (material.pbr.base_color_texture < 0) return luminance(vec3(factor));
+  const scene::Texture& texture = scene.textures[static_cast<size_t>(material.pbr.base_color_texture)];
+  const bool cut = material.pbr.alpha_mode == scene::AlphaMode::mask;
+  double linear[256], sum = 0.0;
+  for (int i = 0; i < 256; ++i) linear[i] = texture.srgb ? linear_from_srgb(i / 255.0) : i / 255.0;
+  size_t count = 0;
+  for (size_t at = 0; at + 3 < texture.rgba.size(); at += 4) {
+    const uint8_t* texel = texture.rgba.data() + at;
+    if (cut && factor.a * static_cast<float>(texel[3]) / 255.0f < material.pbr.alpha_cutoff) continue;
+    sum += 0.2126 * factor.r * linear[texel[0]] + 0.7152 * factor.g * linear[texel[1]] +
+           0.0722 * factor.b * linear[texel[2]];
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+/// "0.20 at 905 and 1550 nm, mean of the base colour": stated, or what LiDAR takes instead.
+std::string reflectance_of(const scene::Material& material, const scene::Scene& scene) {
+  const bool textured = material.pbr.base_color_texture >= 0;
+  const double color = mean_luminance(material, scene);
+  const auto at = [&](const std::optional<float>& stated, const char* wavelength) {
+    if (stated) return fmt::format("{:.2f} ({})", *stated, wavelength);
+    return fmt::format("{:.2f} ({}, {})", color, wavelength,
+                       textured ? "mean of the base colour's texture" : "from the base colour");
+  };
+  return fmt::format("reflectance {}, {}", at(material.reflectance_905nm, "905 nm"),
+                     at(material.reflectance_1550nm, "1550 nm"));
 }
 
 void info(const InfoCommand& command) {
@@ -95,14 +133,8 @@ void info(const InfoCommand& command) {
                            size.z, center.x, center.y, center.z);
   std::cout << fmt::format("  nodes {}\n", scene::node_names(model));
   for (const scene::Material& material : scene.materials) {
-    const std::string radio = describe(material.radio);
-    const vec4& color = material.pbr.base_color;
-    const float luminance = 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b;
-    std::cout << fmt::format("  material {:<28} {}; reflectance {:.2f} (905 nm{}), {:.2f} (1550 nm{})\n",
-                             material.name, radio, material.reflectance_905nm.value_or(luminance),
-                             material.reflectance_905nm ? "" : ", from the base colour",
-                             material.reflectance_1550nm.value_or(luminance),
-                             material.reflectance_1550nm ? "" : ", from the base colour");
+    std::cout << fmt::format("  material {:<28} {}; {}\n", material.name, describe(material.radio),
+                             reflectance_of(material, scene));
   }
   for (const std::string& note : scene.notes) std::cout << "  note: " << note << '\n';
 }

@@ -28,6 +28,12 @@ class UserError : public std::runtime_error {
   UserError(const SourceLocation& where, const std::string& message);
 };
 
+/// The user stopped it (Ctrl-C, SIGTERM): the message says what was done and how to go on. Exit code 130.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A broken contract inside the program. Exit code 2.
 class ContractError : public std::logic_error {
  public:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -11,6 +13,8 @@
 #include <sched.h>
 #include <thread>
 #include <vector>
+
+#include "core/watch.h"
 
 namespace greatx {
 
@@ -24,29 +28,55 @@ inline size_t usable_cores() {
 
 /// Calls work(index) for every index below `count`, on up to `threads` threads (0: usable_cores()). Which
 /// thread takes which index is chance: work() must write to what belongs to its index alone, so that the result is
-/// not. The first exception is thrown again here.
+/// not. The first exception is thrown again here. Work that is watched (core/watch.h) is so on all of them, and is
+/// asked before each index.
 template <typename Work>
 void parallel_for(size_t count, uint32_t threads, const Work& work) {
   const size_t workers = std::min(count, threads == 0 ? usable_cores() : size_t{threads});
   if (workers <= 1) {
-    for (size_t index = 0; index < count; ++index) work(index);
+    for (size_t index = 0; index < count; ++index) {
+      checkpoint();
+      work(index);
+    }
     return;
   }
   std::atomic<size_t> next{0};
   std::exception_ptr failure;
+  size_t running = workers - 1;
   std::mutex mutex;
+  std::condition_variable one_ended;
+  detail::WatchedWork* const watched = detail::watched_work;
   const auto run = [&] {
     try {
-      for (size_t index = next++; index < count; index = next++) work(index);
+      for (size_t index = next++; index < count; index = next++) {
+        checkpoint();
+        work(index);
+      }
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();
       next = count;
     }
   };
+  const auto run_beside = [&] {
+    detail::watched_work = watched;
+    run();
+    const std::lock_guard lock(mutex);
+    --running;
+    one_ended.notify_one();
+  };
   std::vector<std::thread> pool;
-  for (size_t i = 1; i < workers; ++i) pool.emplace_back(run);
+  for (size_t i = 1; i < workers; ++i) pool.emplace_back(run_beside);
   run();
+  if (watched != nullptr && watched->mine()) {
+    // Whoever waits hears of it, and may stop the others, while the last of them are at work.
+    std::unique_lock lock(mutex);
+    while (!one_ended.wait_for(lock, std::chrono::milliseconds(20), [&] { return running == 0; })) {
+      lock.unlock();
+      watched->poll();
+      lock.lock();
+    }
+  }
   for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
 }

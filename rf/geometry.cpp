@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/watch.h"
 
 namespace greatx::rf {
 namespace {
@@ -68,6 +69,7 @@ void ImageTree::build(const CandidateList& candidates) {
   nodes_.reserve(candidates.size());
   node_of_sequence_.assign(candidates.size(), none);
   for (size_t i = 0; i < candidates.size(); ++i) {
+    checkpoint();
     uint32_t node = none;
     for (const uint32_t facet : candidates.sequence(i)) {
       GREATX_CHECK(facet < world_->facet_count(), "candidate {}: facet {} of {}", i, facet,
@@ -202,6 +204,7 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
 std::vector<uint32_t> ImageTree::seen_from(const dvec3& target) const {
   std::vector<uint32_t> indices, nodes;
   for (uint32_t slot = 0; slot < used_facets_.size(); ++slot) {
+    checkpoint();
     const PosedFacet& facet = world_->facet(used_facets_[slot]);
     const dvec2 at = facet.plane_coordinates(target);
     const TargetInFacet seen{facet.distance(target), at.x, at.y, facet.tolerance_m};
@@ -221,6 +224,7 @@ std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
   if (line_of_sight_ && direct > shortest_line_of_sight_m) paths.push_back({{}, {first, last}, direct, 0.0});
   Chain chain;
   for (const uint32_t index : seen_from(target)) {
+    checkpoint();
     if (!trace(index, target, chain)) continue;
     if (outwards) {  // the chain runs from the target back
       std::reverse(chain.facets.begin(), chain.facets.end());

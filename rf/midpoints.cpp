@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/watch.h"
 #include "rf/diffraction.h"
 #include "rf/search/beam_search.h"
 
@@ -184,6 +185,7 @@ Midpoints::PatchArrivals Midpoints::arrivals_at_patches(const Arrivals& at_facet
   at_patches.offsets.push_back(0);
   GeometricPath path;
   for (const Patch& patch : patches_) {
+    checkpoint();
     const PosedFacet& facet = model_->facets.facet(patch.facet);
     const dvec3 point = center(patch);
     const dvec2 at = facet.plane_coordinates(point);
@@ -255,6 +257,7 @@ void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t
 void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
                                std::vector<GeometricPath>& paths) const {
   for (uint32_t index = 0; index + 1 < at_wedges_.offsets.size(); ++index) {
+    checkpoint();
     const auto from = at_wedges_.of(index), to = wedges.of(index);
     if (from.empty() || to.empty()) continue;
     const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
@@ -272,6 +275,7 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
   const PosedFacet& facet = model_->facets.facet(patch.facet);
   const dvec3 point = center(patch);
   for (const PatchArrival& after : suffixes.of(number)) {
+    checkpoint();
     const double to = facet.distance(after.from);
     if (std::abs(to) <= facet.tolerance_m) continue;
     for (const PatchArrival& before : at_patches_.of(number)) {

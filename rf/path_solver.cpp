@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/watch.h"
 
 namespace greatx::rf {
 
@@ -221,8 +222,10 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
   std::sort(lit.begin(), lit.end(), less);
   std::vector<Path> fields;
   fields.reserve(lit.size());
-  for (const GeometricPath& path : lit)
+  for (const GeometricPath& path : lit) {
+    checkpoint();
     fields.push_back(path_field(path, field_, transmitter.velocity, receiver.velocity));
+  }
   return fields;
 }
 

@@ -19,13 +19,14 @@ constexpr double cell_m = 1.0, above_ground_m = 1.5;
 nlohmann::json map_row(const ScenarioOptions& scenario_options, const RunOptions& run, uint32_t side_cells) {
   const sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
   const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
-  gpu::Device device(run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {0, 0, 0});
   const scene::Scene& scene = world.scene;
   const dvec2 middle(scene.bounds.center() + scene.origin), half(0.5 * side_cells * cell_m);
   const sim::MapGrid grid = sim::make_map_grid(middle - half, middle + half, cell_m, 1);
   const sim::MapHeight height{std::nullopt, above_ground_m, sim::MapOver::ground};
+  const sim::EffectPlan plan =
+      sim::make_effect_plan(scenario, scene, sim::bounds_of_cells(grid, height, scene));
+  gpu::Device device(run.device_options());
+  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {0, 0, 0});
   const dvec3 above = scene.bounds.center() + scene.origin;
   sim::RadioMapSolver solver(snapshot, scenario, 0, {});
   const dvec3 point(middle, above.z);

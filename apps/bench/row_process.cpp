@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/bench/said_once.h"
 #include "core/error.h"
 
 namespace greatx::apps {
@@ -38,7 +39,8 @@ std::string answer_of(const std::function<nlohmann::json()>& row) {
   } catch (const std::exception& error) {
     answer["error"] = error.what();
   }
-  return answer.dump();
+  answer["said"] = SaidOnce::said();
+  return answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void write_all(int file, const std::string& text) {
@@ -85,6 +87,7 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& row) {
   if (!WIFEXITED(status) || text.empty())
     throw std::runtime_error(fmt::format("bench: a row's process ended with status {}", status));
   nlohmann::json answer = nlohmann::json::parse(text);
+  SaidOnce::add(answer["said"].get<std::vector<std::string>>());
   if (answer.contains("user_error")) throw UserError(answer["user_error"].get<std::string>());
   if (answer.contains("error")) throw std::runtime_error(answer["error"].get<std::string>());
   nlohmann::json result = std::move(answer["row"]);

@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include "assets/assets.h"
+#include "core/watch.h"
 #include "python/src/log.h"
 #include "python/src/path_set.h"
 #include "python/src/session.h"
@@ -91,12 +92,19 @@ std::vector<dvec3> points_of(const py::buffer& buffer) {
   return points;
 }
 
-/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter.
-class Watch {
+/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in the midst of
+/// long work, too (core/watch.h).
+class CallWatch : public Watch {
  public:
-  explicit Watch(py::object progress = py::none()) : progress_(std::move(progress)) {}
+  explicit CallWatch(py::object progress = py::none()) : progress_(std::move(progress)) {}
   GoOn go_on() {
-    return [this](size_t done) { return look(done); };
+    return [this](size_t done) { return tell(done); };
+  }
+  bool look(const WorkState&) noexcept override {
+    if (stopped_) return false;
+    const py::gil_scoped_acquire interpreter;
+    stopped_ = PyErr_CheckSignals() != 0;
+    return !stopped_;
   }
   /// With the interpreter again: throws what stopped it.
   void check() const {
@@ -104,7 +112,8 @@ class Watch {
   }
 
  private:
-  bool look(size_t done) {
+  bool tell(size_t done) {
+    if (stopped_) return false;
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return true;
     last_ = now;
@@ -127,13 +136,19 @@ class Watch {
 /// work(GoOn) without the interpreter.
 template <typename Work>
 auto watched(const Work& work, py::object progress = py::none()) {
-  Watch watch(std::move(progress));
-  auto result = [&] {
-    const py::gil_scoped_release released;
-    return work(watch.go_on());
-  }();
-  watch.check();
-  return result;
+  CallWatch watch(std::move(progress));
+  try {
+    auto result = [&] {
+      const py::gil_scoped_release released;
+      const WatchScope scope(watch);
+      return work(watch.go_on());
+    }();
+    watch.check();
+    return result;
+  } catch (const Interrupted&) {
+    watch.check();
+    throw;
+  }
 }
 
 std::shared_ptr<PathSet> solve(Session& session, const std::string& channel, uint32_t sequence, int64_t tick,
@@ -173,10 +188,7 @@ rf::PathSelection selection_of(const std::string& name) {
 
 /// None, or (tick, time_ns, [(sensor, sample, [arrays])]).
 py::object next(Stream& stream) {
-  std::optional<Packet> packet = [&] {
-    const py::gil_scoped_release released;
-    return stream.next();
-  }();
+  std::optional<Packet> packet = watched([&](const GoOn&) { return stream.next(); });
   if (!packet) return py::none();
   py::list records;
   for (Record& record : packet->records) {
@@ -222,10 +234,8 @@ void bind_session(py::module_& module) {
       .def("solve", &solve)
       .def("radio_map", &radio_map)
       .def("stream", [](Session& session, uint32_t sequence, int64_t first_tick) {
-        std::unique_ptr<Stream> stream = [&] {
-          const py::gil_scoped_release released;
-          return session.stream(sequence, first_tick);
-        }();
+        std::unique_ptr<Stream> stream =
+            watched([&](const GoOn&) { return session.stream(sequence, first_tick); });
         return std::shared_ptr<Stream>(stream.release(), ReleasedDelete{});
       });
 }

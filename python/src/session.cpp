@@ -68,6 +68,7 @@ void Gpu::check_validation() {
 struct Session::Kept {
   std::shared_ptr<const Stage> stage;
   std::shared_ptr<Gpu> gpu;
+  sim::EffectPlan plan;
   uint32_t channel = 0, sequence = 0;
   int64_t tick = 0;
   bool points = false;
@@ -254,20 +255,23 @@ void Session::check_instant(uint32_t sequence, int64_t tick) const {
 
 sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stage,
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
-                                        const sim::ChannelSnapshot::Instant& instant, bool points) {
+                                        const sim::ChannelSnapshot::Instant& instant,
+                                        const std::optional<scene::Bounds>& points) {
   // Points take the place of the receivers for good, so each has a snapshot of its own. With dispersion results go on
-  // looking at the bodies (PathSet), which then stay where they are.
-  const bool same =
-      kept_ != nullptr && kept_->stage == stage && kept_->channel == channel && kept_->points == points;
+  // looking at the bodies (PathSet), which then stay where they are. Where the points are may decide effects.
+  const sim::EffectPlan plan =
+      points ? sim::make_effect_plan(stage->scenario, stage->world.scene, *points) : stage->plan;
+  const bool same = kept_ != nullptr && kept_->stage == stage && kept_->channel == channel &&
+                    kept_->points == points.has_value() && sim::same_effects(kept_->plan, plan);
   const bool there = same && kept_->sequence == instant.sequence && kept_->tick == instant.tick;
   if (same && !there && !stage->plan.dispersion.on) {
     kept_->snapshot->move(instant.sequence, instant.tick);
   } else if (!there) {
     kept_.reset();
-    auto kept = std::make_unique<Kept>(Kept{stage, gpu, channel, 0, 0, points, nullptr});
+    auto kept = std::make_unique<Kept>(Kept{stage, gpu, plan, channel, 0, 0, points.has_value(), nullptr});
     kept->snapshot =
-        std::make_unique<sim::ChannelSnapshot>(gpu->device, stage->scenario, stage->world, stage->plan,
-                                               sim::gpu_scene_options(stage->plan), channel, instant);
+        std::make_unique<sim::ChannelSnapshot>(gpu->device, stage->scenario, stage->world, kept->plan,
+                                               sim::gpu_scene_options(kept->plan), channel, instant);
     kept_ = std::move(kept);
   }
   kept_->sequence = instant.sequence;
@@ -308,9 +312,13 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
     stopped = !go_on(++links / set->transmitters());
     return !stopped;
   };
+  std::optional<scene::Bounds> extent;
+  if (points) {
+    extent.emplace();
+    for (const dvec3& point : points->points) extent->add(point);
+  }
   try {
-    sim::ChannelSnapshot& solver =
-        snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, points.has_value());
+    sim::ChannelSnapshot& solver = snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, extent);
     solver.count(before);
     if (points)
       solver.solve(points->points, 0, take);
@@ -341,7 +349,9 @@ std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t se
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   try {
-    sim::ChannelSnapshot& snapshot = this->snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, true);
+    sim::ChannelSnapshot& snapshot =
+        this->snapshot(now, gpu, channel, {sequence, tick, std::nullopt},
+                       sim::bounds_of_cells(grid, request.height, now->world.scene));
     const sim::Moment& moment = snapshot.moment();
     std::vector<dvec3> ends;
     for (const std::string& end : config.transmitters)

@@ -132,7 +132,8 @@ class Session {
   sim::Scenario parse(const std::string& text, const std::string& where) const;
   sim::MapReceiver antenna_at_points(const std::string& text, double carrier_hz) const;
   sim::ChannelSnapshot& snapshot(const std::shared_ptr<const Stage>& stage, const std::shared_ptr<Gpu>& gpu,
-                                 uint32_t channel, const sim::ChannelSnapshot::Instant& instant, bool points);
+                                 uint32_t channel, const sim::ChannelSnapshot::Instant& instant,
+                                 const std::optional<scene::Bounds>& points);
 
   mutable SessionMutex mutex_;
   sim::Scenario scenario_;

@@ -39,8 +39,12 @@ std::string Stream::sensors() const {
 
 std::optional<Packet> Stream::next() {
   const std::lock_guard lock(gpu_->mutex);
+  if (broken_)
+    throw_user_error("a run that was interrupted or ended with an error cannot go on; run() begins another");
+  broken_ = true;
   while (queue_.packets.empty())
     if (!simulator_->step(queue_)) break;
+  broken_ = false;
   gpu_->check_validation();
   if (queue_.packets.empty()) return std::nullopt;
   std::optional<Packet> packet = std::move(queue_.packets.front());

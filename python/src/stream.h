@@ -19,7 +19,8 @@ class Stream {
 
   /// Name, kind, arrays and metadata of each sensor, as JSON; index = Record::sensor.
   std::string sensors() const;
-  /// None: the sequence is over.
+  /// None: the sequence is over. Throws UserError after a call that ended with an error or was interrupted: the tick that it
+  /// was in is lost.
   std::optional<Packet> next();
   /// Counters and notes of the run so far, as JSON.
   std::string summary();
@@ -33,6 +34,7 @@ class Stream {
   std::shared_ptr<const Stage> stage_;
   std::shared_ptr<Gpu> gpu_;
   Queue queue_;
+  bool broken_ = false;
   std::unique_ptr<sim::Simulator> simulator_;
 };
 

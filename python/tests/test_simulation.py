@@ -375,6 +375,58 @@ class Errors(unittest.TestCase):
         self.check(["no receivers", "points"], sim.paths)
         self.check(["no receivers"], sim.run)
 
+    def test_the_air_between_far_points(self):
+        """Which effects matter follows the points of each call, whatever was asked before."""
+        far, near = np.array([[1000.0, 0, 20]]), np.array([[0.2, 0, 20]])
+        for carrier_hz, environment in ((60e9, {}), (28e9, {"rain_mm_h": 25})):
+            sim = greatx.Simulation(EMPTY, environment=environment, validation=True)
+            sim.place_transmitter("bs", [0, 0, 20])
+            sim.add_channel("csi", carrier_hz=carrier_hz, subcarriers=4, max_depth=0)
+            alone = sim.paths(receivers=near).transfer
+            self.assertFalse(sim.effects["gas"].on)
+            points = sim.paths(receivers=far)
+            again = sim.paths(receivers=near).transfer
+            level = sim.radio_map(10.0, min_m=[995, -5], max_m=[1005, 5], z_m=20, beyond_scene=True)
+            sim.place_receiver("ue", far[0])
+            sim.add_channel("node", carrier_hz=carrier_hz, subcarriers=4, max_depth=0)
+            node = sim.paths("node")
+            self.assertEqual(points.transfer.tobytes(), node.transfer.tobytes())
+            self.assertEqual(points.delay[0], node.delay[0])
+            self.assertEqual(alone.tobytes(), again.tobytes())
+            gain = float(node.statistics()["path_gain"].ravel()[0])
+            self.assertAlmostEqual(float(level["path_gain"].ravel()[0]) / gain, 1, places=6)
+            dry = greatx.Simulation(EMPTY, environment=environment, effects={"gas": "off", "rain": "off"}, validation=True)
+            dry.place_transmitter("bs", [0, 0, 20])
+            dry.add_channel("csi", carrier_hz=carrier_hz, subcarriers=4, max_depth=0)
+            ratio = abs(points.transfer[0, 0, 0] / dry.paths(receivers=far).transfer[0, 0, 0])
+            self.assertLess(20 * np.log10(ratio), -3)
+
+    def test_interrupt_within_a_search(self):
+        """One that would take minutes."""
+        sim = greatx.Simulation({**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
+                                validation=True)
+        sim.place_transmitter("bs", [6.3, -21.7, 30])
+        sim.place_receiver("ue", [2.4, 20, 1.5])
+        sim.add_channel("csi", max_depth=8, max_transmissions=2)
+        sim.add_channel("quick", max_depth=0)
+        for work in (sim.paths, lambda name: sim.paths(name, receivers=[[2.4, 20, 1.5]]),
+                     lambda name: sim.radio_map(50.0, name), lambda name: list(sim.run())):
+            threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                work("csi")
+        self.assertEqual(sim.paths("quick").shape, (1, 1))
+        sim = greatx.Simulation({**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
+                                validation=True)
+        sim.place_transmitter("bs", [6.3, -21.7, 30])
+        sim.place_receiver("ue", [2.4, 20, 1.5])
+        sim.add_channel("csi", max_depth=8, max_transmissions=2, search="every_tick")
+        run = sim.run()
+        threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            next(run)
+        with self.assertRaisesRegex(greatx.Error, "interrupted"):
+            next(run)
+
     def test_interrupt(self):
         sim = street()
         points = np.tile([[0.1, -3, 1.5]], (200_000, 1))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/watch.h"
 
 namespace greatx::rf {
 namespace {
@@ -79,6 +80,7 @@ void BeamCells::settle(const BeamView& view, uint32_t walls, std::vector<BeamHit
 
 /// The cell's facets are lists_[first, end), the last ones of the list.
 void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_t level) {
+  checkpoint();
   ++cells_;
   drop_hidden(rect, first);
   end = lists_.size();

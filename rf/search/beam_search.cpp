@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/watch.h"
 #include "rf/search/beam_cells.h"
 
 namespace greatx::rf {
@@ -67,7 +68,8 @@ class Tree {
   Found expand_root(uint32_t face) const;
   Found expand(uint32_t node, uint32_t depth) const;
   void settle(const Beam& beam, uint32_t depth, uint32_t passed, Found& found) const;
-  std::vector<Found> expand_level(size_t first, size_t end, uint32_t depth) const;
+  std::vector<Found> expand_level(size_t first, size_t end, uint32_t depth, WorkStage& stage) const;
+  double expected_nodes(size_t expanded, size_t level, size_t level_end, uint32_t depth) const;
   void list_node(uint32_t node, BeamSearchResult& result) const;
   PlaneWindow window_of(const Node& node) const;
   SequenceBeam beam_of(uint32_t node, uint32_t depth) const;
@@ -132,7 +134,7 @@ Found Tree::expand(uint32_t index, uint32_t depth) const {
 }
 
 /// Nodes [first, end) of one depth, in their order.
-std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth) const {
+std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth, WorkStage& stage) const {
   std::vector<Found> found(end - first);
   if (depth == 0) {
     std::vector<Found> faces(6);
@@ -144,8 +146,10 @@ std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth) 
       found[0].cells += face.cells;
     }
   } else {
-    parallel_for(end - first, options_.threads,
-                 [&](size_t i) { found[i] = expand(static_cast<uint32_t>(first + i), depth); });
+    parallel_for(end - first, options_.threads, [&](size_t i) {
+      found[i] = expand(static_cast<uint32_t>(first + i), depth);
+      stage.add(1);
+    });
   }
   for (Found& node : found) {
     merge(node.hits);
@@ -212,7 +216,20 @@ void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
   result.list.windows.push_back(index == 0 ? PlaneWindow{0.0, 0.0, 0.0, 0.0} : window_of(nodes_[index]));
 }
 
+/// How many will have been expanded in the end, if each level grows by what this one has grown by so far: nodes of this
+/// level are [level, level_end), `expanded` of all are done.
+double Tree::expected_nodes(size_t expanded, size_t level, size_t level_end, uint32_t depth) const {
+  const auto of_level = static_cast<double>(level_end - level);
+  const double growth =
+      static_cast<double>(nodes_.size() - level_end) / static_cast<double>(std::max<size_t>(1, expanded - level));
+  double expected = static_cast<double>(level_end), next = of_level;
+  for (uint32_t more = depth + 1; more < std::min(options_.max_depth, options_.stop_depth); ++more)
+    expected += next *= growth;
+  return std::min(expected, static_cast<double>(options_.capacity));
+}
+
 BeamSearchResult Tree::grow() {
+  WorkStage stage("search");
   BeamSearchResult result;
   const uint32_t last_depth = std::min(options_.max_depth, options_.stop_depth);
   if (wedges_) result.list.wedge_offsets.push_back(0);
@@ -224,8 +241,9 @@ BeamSearchResult Tree::grow() {
     const size_t level_end = nodes_.size();
     for (size_t first = level; first < level_end; first += nodes_at_once) {
       const size_t end = std::min(level_end, first + nodes_at_once);
-      const std::vector<Found> found = expand_level(first, end, depth);
+      const std::vector<Found> found = expand_level(first, end, depth, stage);
       for (size_t i = first; i < end; ++i) {
+        checkpoint();
         const Found& from = found[i - first];
         result.cells += from.cells;
         if (wedges_) {
@@ -251,6 +269,7 @@ BeamSearchResult Tree::grow() {
           if (depth + 1 < options_.max_depth) result.beams.push_back(beam_of(made, depth + 1));
         }
       }
+      if (depth > 0) stage.expect(expected_nodes(end, level, level_end, depth));
     }
     level = level_end;
     if (result.found > options_.capacity) break;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/watch.h"
 #include "rf/search/target_images.h"
 
 namespace greatx::rf {
@@ -74,6 +75,7 @@ struct MovingSearch::Walk {
     found.gathered[depth] = std::move(facets);
   }
   void enter(const Pyramid& pyramid, const BeamFacet& facet, Found& found) const {
+    checkpoint();
     if (!found.current.empty() && found.current.back() == facet.index) return;
     const std::optional<SequenceBeam> beam = cut_to(pyramid, facet);
     if (!beam) return;
@@ -157,11 +159,13 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
   if (fixed_too) list.add({});
   if (options_.max_depth == 0) return list;
   GREATX_CHECK(has_tree(), "{} targets, but no tree of the world at rest", targets.size());
+  WorkStage stage("search");
   const Walk walk(*this, targets, fixed_too);
   // In small lots, so that threads share the work and each lot's memory serves many.
   const size_t moving = options_.moving_bodies ? walk.moving.facet_count() : 0;
   const size_t moving_lots = (moving + facets_a_lot - 1) / facets_a_lot;
   std::vector<Walk::Found> found(moving_lots + (beams_.size() + beams_a_lot - 1) / beams_a_lot);
+  stage.expect(static_cast<double>(found.size()));
   parallel_for(found.size(), options_.threads, [&](size_t lot) {
     if (lot < moving_lots)
       for (size_t i = lot * facets_a_lot; i < std::min(moving, (lot + 1) * facets_a_lot); ++i)
@@ -171,6 +175,7 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
            i < std::min(beams_.size(), (lot - moving_lots + 1) * beams_a_lot); ++i)
         walk.after(i, found[lot]);
     found[lot].gathered = {};
+    stage.add(1);
   });
   for (const Walk::Found& part : found)
     for (size_t at = 0; at < part.sequences.size(); at += part.sequences[at] + 1)

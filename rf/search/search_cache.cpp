@@ -2,27 +2,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/search/search_cache.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <fcntl.h>
+#include <span>
+#include <string_view>
+#include <sys/stat.h>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/watch.h"
 
 namespace greatx::rf {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-/// Counts up when the search changes what it finds, so that old files are not met again.
-constexpr uint32_t search_version = 5;
-constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '3'};
-constexpr size_t checksum_bytes = 64;
+constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '4'};
+constexpr size_t key_bytes = 64, checksum_bytes = 64;
+constexpr size_t chunk_bytes = 1u << 20;  ///< written and hashed between two checkpoints
+constexpr const char* ending = ".beams";
+constexpr const char* draft_ending = ".tmp";
+/// A draft as old as this belongs to nobody any more.
+constexpr std::chrono::hours draft_life{1};
+
+/// A descriptor that is closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// A file on its way to its place: gone, unless it got there.
+class Draft {
+ public:
+  explicit Draft(fs::path file)
+      : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {}
+  ~Draft() {
+    if (descriptor_ && !placed_) ::unlink(file_.c_str());
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  explicit operator bool() const { return static_cast<bool>(descriptor_); }
+  bool write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_.number(), bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      bytes.remove_prefix(static_cast<size_t>(count));
+    }
+    return true;
+  }
+  bool place(const fs::path& target) {
+    placed_ = ::rename(file_.c_str(), target.c_str()) == 0;
+    return placed_;
+  }
+
+ private:
+  fs::path file_;
+  Descriptor descriptor_;
+  bool placed_ = false;
+};
 
 template <typename T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -57,10 +120,18 @@ class Reader {
   std::string_view rest_;
 };
 
-std::string checksum(std::string_view bytes) { return sha256_hex(std::as_bytes(std::span(bytes))); }
+std::string checksum(std::string_view bytes) {
+  Sha256 hash;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), chunk_bytes))) {
+    checkpoint();
+    hash.update(bytes.substr(0, chunk_bytes));
+  }
+  return hash.hex();
+}
 
-std::string body_of(const BeamSearchResult& result) {
+std::string body_of(const std::string& key, const BeamSearchResult& result) {
   std::string bytes(magic, sizeof magic);
+  bytes += key;
   bytes.append(reinterpret_cast<const char*>(&result.found), sizeof result.found);
   append(bytes, result.list.facets);
   append(bytes, result.list.offsets);
@@ -80,19 +151,42 @@ std::string body_of(const BeamSearchResult& result) {
   return bytes;
 }
 
-std::optional<BeamSearchResult> result_of(std::string_view bytes) {
-  char head[sizeof magic];
+bool are_offsets(const std::vector<uint32_t>& offsets, size_t end) {
+  return !offsets.empty() && offsets.front() == 0 && offsets.back() == end &&
+         std::is_sorted(offsets.begin(), offsets.end());
+}
+
+bool all_below(const std::vector<uint32_t>& values, uint32_t end) {
+  return std::all_of(values.begin(), values.end(), [&](uint32_t value) { return value < end; });
+}
+
+/// Whether its numbers fit each other and the scene, so that nothing that uses it has to ask.
+bool fits(const BeamSearchResult& result, const SearchExtent& extent) {
+  const CandidateList& list = result.list;
+  return are_offsets(list.offsets, list.facets.size()) && all_below(list.facets, extent.facets) &&
+         list.size() > 0 && list.sequence(0).empty() && list.windows.size() == list.size() &&
+         (list.wedge_offsets.empty() ? list.wedges.empty()
+                                     : list.wedge_offsets.size() == list.size() + 1 &&
+                                           are_offsets(list.wedge_offsets, list.wedges.size()) &&
+                                           all_below(list.wedges, extent.wedges)) &&
+         result.beams.size() <= list.size() && result.found >= list.size() && list.is_canonical();
+}
+
+std::optional<BeamSearchResult> result_of(std::string_view bytes, const std::string& key,
+                                          const SearchExtent& extent) {
+  char head[sizeof magic], of_key[key_bytes];
   std::vector<double> rectangles;
   std::vector<uint32_t> walls;
   BeamSearchResult result;
   CandidateList& list = result.list;
   Reader reader(bytes);
-  if (!reader.value(head) || std::memcmp(head, magic, sizeof magic) != 0 || !reader.value(result.found) ||
+  if (!reader.value(head) || std::memcmp(head, magic, sizeof magic) != 0 || !reader.value(of_key) ||
+      std::string_view(of_key, key_bytes) != key || !reader.value(result.found) ||
       !reader.values(list.facets) || !reader.values(list.offsets) || !reader.values(list.windows) ||
       !reader.values(list.wedge_offsets) || !reader.values(list.wedges) || !reader.values(rectangles) ||
-      !reader.values(walls) || !reader.done() || list.offsets.empty() ||
-      rectangles.size() != 12 * walls.size())
+      !reader.values(walls) || !reader.done() || rectangles.size() != 12 * walls.size())
     return std::nullopt;
+  result.beams.reserve(walls.size());
   for (size_t i = 0; i < walls.size(); ++i) {
     SequenceBeam beam;
     const double* next = rectangles.data() + 12 * i;
@@ -101,80 +195,161 @@ std::optional<BeamSearchResult> result_of(std::string_view bytes) {
     beam.walls = walls[i];
     result.beams.push_back(beam);
   }
+  if (!fits(result, extent)) return std::nullopt;
   return result;
+}
+
+/// All of a file, or why not.
+struct Content {
+  std::string bytes;
+  std::string fault;  ///< empty: none
+};
+
+Content read_whole(const Descriptor& file, uint64_t most_bytes) {
+  struct stat info {};
+  if (::fstat(file.number(), &info) != 0) return {{}, std::strerror(errno)};
+  if (S_ISDIR(info.st_mode)) return {{}, "a folder, not a file"};
+  if (!S_ISREG(info.st_mode)) return {{}, "not an ordinary file"};
+  const auto size = static_cast<uint64_t>(info.st_size);
+  if (size > most_bytes) return {{}, fmt::format("{} bytes, more than the cache may hold", size)};
+  Content content;
+  content.bytes.resize(size);
+  for (size_t done = 0; done < size;) {
+    checkpoint();
+    const ssize_t count =
+        ::read(file.number(), content.bytes.data() + done, std::min(size - done, uint64_t{chunk_bytes}));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return {{}, std::strerror(errno)};
+    if (count == 0) return {{}, "shorter than it says"};
+    done += static_cast<size_t>(count);
+  }
+  return content;
+}
+
+/// A result or a draft: the folder may hold what is no business of the cache's.
+bool is_own(const std::string& name) {
+  return name.size() > key_bytes && name[key_bytes] == '.' &&
+         name.find_first_not_of("0123456789abcdef") == key_bytes;
+}
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+uint64_t most_bytes_by_environment() {
+  const std::string text = variable("GREATX_CACHE_MIB");
+  if (text.empty()) return SearchCache::default_most_bytes;
+  constexpr uint64_t most_mib = uint64_t{1} << 40;
+  uint64_t mib = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mib);
+  if (error != std::errc{} || end != text.data() + text.size() || mib == 0 || mib > most_mib)
+    throw_user_error("GREATX_CACHE_MIB: expected a whole number of MiB from 1 to {}, found '{}'", most_mib, text);
+  return mib << 20;
 }
 
 }  // namespace
 
-std::string search_key(const std::string& scene_hash, const FacetKinds& kinds,
-                       std::span<const scene::Wedge> wedges, const dvec3& source,
-                       const BeamSearchOptions& options) {
-  // By name, so that a new option is a compiler's error here until it is decided whether it changes the result.
-  const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
-               stop_depth] = options;
-  static_cast<void>(threads);
-  GREATX_CHECK(!moving_bodies, "the key of a search says nothing of where bodies stand");
-  Sha256 hash;
-  hash.update_value(search_version).update(scene_hash);
-  hash.update_value(static_cast<uint64_t>(kinds.size())).update(std::as_bytes(std::span(kinds)));
-  hash.update_value(source.x).update_value(source.y).update_value(source.z);
-  hash.update_value(max_depth).update_value(max_transmissions).update_value(capacity);
-  hash.update_value(source_body).update_value(clearance_m).update_value(stop_depth);
-  hash.update_value(static_cast<uint64_t>(wedges.size()));
-  for (const scene::Wedge& wedge : wedges) {
-    for (const dvec3& end : {wedge.a, wedge.b})
-      hash.update_value(end.x).update_value(end.y).update_value(end.z);
-    hash.update_value(wedge.facet_0).update_value(wedge.facet_n).update_value(wedge.body);
-  }
-  return hash.hex();
-}
-
-SearchCache::SearchCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+SearchCache::SearchCache(fs::path folder, uint64_t most_bytes)
+    : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
 SearchCache SearchCache::standard() {
-  const auto variable = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value == nullptr ? "" : value);
-  };
+  const uint64_t most_bytes = most_bytes_by_environment();
   if (const std::string own = variable("GREATX_CACHE"); !own.empty())
-    return SearchCache(own == "off" ? std::filesystem::path{} : std::filesystem::path(own));
+    return SearchCache(own == "off" ? fs::path{} : fs::path(own), most_bytes);
   if (const std::string shared = variable("XDG_CACHE_HOME"); !shared.empty())
-    return SearchCache(std::filesystem::path(shared) / "greatx");
+    return SearchCache(fs::path(shared) / "greatx", most_bytes);
   if (const std::string home = variable("HOME"); !home.empty())
-    return SearchCache(std::filesystem::path(home) / ".cache" / "greatx");
-  return SearchCache({});
+    return SearchCache(fs::path(home) / ".cache" / "greatx", most_bytes);
+  return SearchCache({}, most_bytes);
 }
 
-std::optional<BeamSearchResult> SearchCache::load(const std::string& key) const {
+std::optional<BeamSearchResult> SearchCache::load(const std::string& key, const SearchExtent& extent) const {
   if (folder_.empty()) return std::nullopt;
-  std::ifstream file(folder_ / (key + ".beams"), std::ios::binary);
-  if (!file) return std::nullopt;
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  if (bytes.size() > checksum_bytes) {
-    const std::string_view body(bytes.data(), bytes.size() - checksum_bytes);
-    if (std::string_view(bytes).substr(body.size()) == checksum(body))
-      if (auto result = result_of(body)) return result;
+  const fs::path name = folder_ / (key + ending);
+  // A pipe must not keep anybody waiting.
+  const Descriptor file(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!file && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
+  Content content;
+  if (!file)
+    content.fault = std::strerror(errno);
+  else
+    content = read_whole(file, most_bytes_);
+  if (content.fault.empty()) {
+    const std::string& bytes = content.bytes;
+    if (bytes.size() > checksum_bytes) {
+      const std::string_view body(bytes.data(), bytes.size() - checksum_bytes);
+      if (std::string_view(bytes).substr(body.size()) == checksum(body))
+        if (auto result = result_of(body, key, extent)) {
+          ::futimens(file.number(), nullptr);  // used now; where that is not allowed, it counts as older
+          return result;
+        }
+    }
+    content.fault = "damaged, or another's";
   }
-  spdlog::warn("{}: damaged, searching again", (folder_ / (key + ".beams")).string());
+  spdlog::warn("{}: {}; searching again", name.string(), content.fault);
   return std::nullopt;
 }
 
 void SearchCache::store(const std::string& key, const BeamSearchResult& result) const {
   if (folder_.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  const std::filesystem::path target = folder_ / (key + ".beams");
-  const std::filesystem::path draft = folder_ / fmt::format("{}.{}.tmp", key, getpid());
-  {
-    const std::string body = body_of(result);
-    std::ofstream file(draft, std::ios::binary | std::ios::trunc);
-    file << body << checksum(body);
-    if (!file.flush()) error = std::make_error_code(std::errc::io_error);
+  const std::string body = body_of(key, result);
+  if (body.size() + checksum_bytes > most_bytes_) {
+    spdlog::info("candidates are not kept: they take {} MiB, the cache {} (GREATX_CACHE_MIB)",
+                 (body.size() >> 20) + 1, most_bytes_ >> 20);
+    return;
   }
-  if (!error) std::filesystem::rename(draft, target, error);
-  if (!error) return;
-  spdlog::warn("candidates are not kept: cannot write {}", target.string());
-  std::filesystem::remove(draft, error);
+  std::error_code ignored;
+  fs::create_directories(folder_, ignored);
+  const fs::path target = folder_ / (key + ending);
+  static std::atomic<uint32_t> number{0};
+  // Of several hosts or containers that share the folder, too: who comes second to a name takes none.
+  Draft draft(folder_ / fmt::format("{}.{}.{}.{:x}{}", key, ::getpid(), number++,
+                                    std::chrono::steady_clock::now().time_since_epoch().count(), draft_ending));
+  const auto write_all = [&] {
+    for (std::string_view rest = body; !rest.empty(); rest.remove_prefix(std::min(rest.size(), chunk_bytes))) {
+      checkpoint();
+      if (!draft.write(rest.substr(0, chunk_bytes))) return false;
+    }
+    return draft.write(checksum(body));
+  };
+  if (draft && write_all() && draft.place(target)) return trim(target);
+  const int error = errno;
+  spdlog::warn("candidates are not kept: cannot write {}: {}", target.string(), std::strerror(error));
+}
+
+/// Removes what was not used for longest until the rest is within the limit, and drafts that nobody will finish. Others may
+/// do the same at the same time: what is gone is gone.
+void SearchCache::trim(const fs::path& newest) const {
+  struct Kept {
+    fs::file_time_type used;
+    std::string name;
+    uint64_t bytes = 0;
+  };
+  std::vector<Kept> all;
+  uint64_t total = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone;
+    const std::string name = entry->path().filename().string();
+    if (!is_own(name) || !entry->is_regular_file(gone) || gone || entry->is_symlink(gone)) continue;
+    const fs::file_time_type used = entry->last_write_time(gone);
+    const uint64_t bytes = gone ? 0 : entry->file_size(gone);
+    if (gone) continue;
+    if (name.ends_with(draft_ending) && fs::file_time_type::clock::now() - used > draft_life)
+      fs::remove(entry->path(), gone);
+    if (name.size() != key_bytes + std::strlen(ending) || !name.ends_with(ending)) continue;
+    total += bytes;
+    if (entry->path() != newest) all.push_back({used, name, bytes});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Kept& a, const Kept& b) { return std::tie(a.used, a.name) < std::tie(b.used, b.name); });
+  for (const Kept& oldest : all) {
+    if (total <= most_bytes_) return;
+    std::error_code gone;
+    fs::remove(folder_ / oldest.name, gone);
+    total -= oldest.bytes;
+  }
 }
 
 }  // namespace greatx::rf

@@ -159,8 +159,9 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
   if (!once()) return beams_->search(source);
   const rf::SearchCache cache = rf::SearchCache::standard();
   const std::string key =
-      rf::search_key(model_.scene->hash, model_.kinds, model_.wedges, source, beams_->options());
-  if (auto known = cache.load(key)) {
+      rf::search_key(model_.facets, model_.kinds, model_.wedges, source, beams_->options());
+  const rf::SearchExtent extent{model_.facets.facet_count(), static_cast<uint32_t>(model_.wedges.size())};
+  if (auto known = cache.load(key, extent)) {
     ++cache_hits_;
     return std::move(*known);
   }

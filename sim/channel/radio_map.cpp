@@ -115,6 +115,17 @@ MapGrid make_map_grid(const dvec2& min_m, const dvec2& max_m, double cell_m, siz
   return {min_m, cell_m, static_cast<uint32_t>(count.x), static_cast<uint32_t>(count.y)};
 }
 
+scene::Bounds bounds_of_cells(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene) {
+  const scene::Bounds world = world_bounds(scene);
+  const double least = height.plane_z_m.value_or(world.min.z + height.above_m),
+               most = height.plane_z_m.value_or(world.max.z + height.above_m);
+  scene::Bounds bounds;
+  if (!height.plane_z_m && world.empty()) return bounds;  // there will be no cell
+  bounds.add({grid.center(0), least});
+  bounds.add({grid.center(grid.cells() - 1), most});
+  return bounds;
+}
+
 MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                      const rf::FacetKinds& kinds, std::span<const Pose> bodies, std::span<const dvec3> ends,
                      bool beyond_scene) {

@@ -67,6 +67,9 @@ enum class CellPlacement : uint8_t {
   beneath = 5,     ///< an open surface, with nothing below (rf/placement.h)
 };
 
+/// A box, world coordinates, that holds the middles of all cells, wherever the ground beneath them is.
+scene::Bounds bounds_of_cells(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene);
+
 struct MapCells {
   MapGrid grid;
   std::vector<double> z_m;               ///< [cells] world; NaN: nothing beneath

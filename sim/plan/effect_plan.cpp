@@ -106,7 +106,14 @@ std::vector<const Effect*> EffectPlan::all() const {
   return {effects.begin(), effects.end()};
 }
 
-EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene) {
+bool same_effects(const EffectPlan& a, const EffectPlan& b) {
+  const std::vector<const Effect*> of_a = a.all(), of_b = b.all();
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const Effect* x, const Effect* y) { return x->on == y->on; });
+}
+
+EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
+                            const scene::Bounds& points) {
   const Offers offers = offers_of(scene);
   const Asks asks = asks_of(scenario);
   Planner planner(scenario);
@@ -114,7 +121,7 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene)
   plan_camera(plan, planner, scenario, offers, asks);
   plan_lidar(plan, planner, scenario, scene, offers);
   plan_radar(plan, planner, scenario, scene);
-  plan_radio(plan, planner, scenario, scene);
+  plan_radio(plan, planner, scenario, scene, points);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
   plan.consistency = planner.decide(
       "consistency", check,

@@ -48,8 +48,13 @@ struct EffectPlan {
   std::vector<Effect*> all();
 };
 
-/// Decides every effect. Bodies other than 0 count as moving. Throws UserError for a name under
+/// Decides every effect. Bodies other than 0 count as moving. `points`: a box, world coordinates, around receivers that
+/// the scenario does not have (`--receivers`, the cells of a map, Python); empty: none. Throws UserError for a name under
 /// `effects:` that is none, or one that cannot be switched.
-EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene);
+EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
+                            const scene::Bounds& points = {});
+
+/// Whether both have the same effects on, whatever their bounds.
+bool same_effects(const EffectPlan& a, const EffectPlan& b);
 
 }  // namespace greatx::sim

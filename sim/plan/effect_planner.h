@@ -41,8 +41,8 @@ class Planner {
   const Scenario& scenario_;
 };
 
-/// The radio part of the plan (sim/plan/radio_plan.cpp).
+/// The radio part of the plan (sim/plan/radio_plan.cpp); `points` as make_effect_plan()'s.
 void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
-                const scene::Scene& scene);
+                const scene::Scene& scene, const scene::Bounds& points);
 
 }  // namespace greatx::sim

@@ -15,6 +15,7 @@
 #include "rf/atmosphere/rain.h"
 #include "rf/radio_model.h"
 #include "rf/roughness.h"
+#include "sim/channel/antennas.h"
 #include "sim/plan/array_plan.h"
 #include "sim/plan/effect_planner.h"
 #include "sim/plan/trajectory_bounds.h"
@@ -86,14 +87,52 @@ Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
   return surfaces;
 }
 
-/// No path is longer: each of its segments stays in the box around the scene and its trajectories.
-double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth) {
-  scene::Bounds bounds;
+scene::Bounds widened(const scene::Bounds& bounds, double by_m) {
+  return bounds.empty() ? bounds : scene::Bounds{bounds.min - by_m, bounds.max + by_m};
+}
+
+/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with the node.
+void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene::Bounds& bounds) {
+  for (const auto* names : {&channel.transmitters, &channel.receivers})
+    for (const std::string& name : *names) {
+      const auto [node, sensor] = sensor_place(scenario, name);
+      const rf::AntennaArray array = antenna_array(scenario, name, channel.carrier_hz);
+      double reach_m = 0.0;
+      for (uint32_t element = 0; element < array.element_count(); ++element)
+        reach_m =
+            std::max(reach_m, glm::length(array.element_position(element * array.polarization_count())));
+      reach_m += glm::length(scenario.nodes[node].sensors[sensor].mount.position_m);
+      scene::Bounds course;
+      add_trajectory(scenario.nodes[node].trajectory, course);
+      bounds.add(widened(course, reach_m));
+    }
+}
+
+/// By how far a mesh that moves can stick out of its node's course, however it is turned.
+double largest_body_m(const scene::Scene& scene) {
+  double largest = 0.0;
+  for (uint32_t body = 1; body < scene.bodies.size(); ++body) {
+    if (scene.bodies[body].joint) continue;  // within its owner's reach
+    const scene::Bounds& reach = scene.reach_of(body);
+    if (!reach.empty())
+      largest = std::max(largest, glm::length(glm::max(glm::abs(reach.min), glm::abs(reach.max))));
+  }
+  return largest;
+}
+
+/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements of antennas,
+/// what moves and reflects, and the points given from outside.
+double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
+                      bool moving_reflectors, const scene::Bounds& points) {
+  scene::Bounds courses;
+  for (const NodeConfig& node : scenario.nodes) add_trajectory(node.trajectory, courses);
+  scene::Bounds bounds = moving_reflectors ? widened(courses, largest_body_m(scene)) : courses;
   if (!scene.bounds.empty()) {
     bounds.add(scene.bounds.min + scene.origin);
     bounds.add(scene.bounds.max + scene.origin);
   }
-  for (const NodeConfig& node : scenario.nodes) add_trajectory(node.trajectory, bounds);
+  for (const ChannelConfig& channel : scenario.channels) add_elements(scenario, channel, bounds);
+  bounds.add(points);
   return (max_depth + 1.0) * glm::length(bounds.size());
 }
 
@@ -285,14 +324,16 @@ rf::Weather weather_of(const Environment& environment) {
 }
 
 void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
-                const scene::Scene& scene) {
+                const scene::Scene& scene, const scene::Bounds& points) {
   const Asks asks = asks_of(scenario);
   const Surfaces surfaces = surfaces_of(scene, asks);
   const Radio radio{planner, asks, surfaces};
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);
   plan_on_request(plan, radio);
-  plan_attenuation(plan, radio, scenario, longest_path_m(scenario, scene, asks.max_depth));
+  plan_attenuation(
+      plan, radio, scenario,
+      longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points));
   plan_doppler(plan, radio);
   plan_arrays(plan, planner, scenario);
 }

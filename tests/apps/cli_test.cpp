@@ -195,7 +195,7 @@ TEST_F(Cli, InterruptionEndsAfterTheTick) {
   int status = 0;
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_EQ(generate("stopped", "-q --resume --ticks 250").code, 0);
   EXPECT_EQ(greatx("verify " + path("stopped")).code, 0);
 }
@@ -246,6 +246,25 @@ TEST_F(Cli, ScenesAreWrittenAndDescribed) {
   const Outcome described = greatx("scene info " + path("van.glb"));
   EXPECT_EQ(described.code, 0) << described.err;
   EXPECT_THAT(described.out, HasSubstr("triangles"));
+}
+
+TEST_F(Cli, SceneInfoSaysWhatMaterialsAre) {
+  ASSERT_EQ(greatx(fmt::format("scene canyon --size 60 -o {}", path("canyon.glb"))).code, 0);
+  const Outcome described = greatx("scene info " + path("canyon.glb"));
+  ASSERT_EQ(described.code, 0) << described.err;
+  std::istringstream lines(described.out);
+  std::map<std::string, std::string> materials;
+  for (std::string line, word, name; std::getline(lines, line);)
+    if (std::istringstream words(line); words >> word >> name && word == "material") materials[name] = line;
+  // Its base colour is 1 times a picture of asphalt, which sends a tenth or two of the light back.
+  const std::string asphalt = materials["asphalt"], said = "reflectance ";
+  EXPECT_THAT(asphalt, HasSubstr("asphalt_concrete, half-space;"));
+  EXPECT_THAT(asphalt, HasSubstr("905 nm, mean of the base colour's texture"));
+  const double reflectance = std::stod(asphalt.substr(asphalt.find(said) + said.size()));
+  EXPECT_GT(reflectance, 0.02);
+  EXPECT_LT(reflectance, 0.3);
+  EXPECT_THAT(materials["shopfront"], HasSubstr("glass, 0.006 m | "));
+  for (const auto& [name, line] : materials) EXPECT_THAT(line, testing::Not(HasSubstr("0.000 m"))) << name;
 }
 
 // ------------------------------------------------------------------------------------------------- bad input

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `greatx bench --radio`: its rows are there and add up; how long they take is nobody's business here.
+#include <set>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -103,6 +106,21 @@ TEST_F(RadioBench, PrintsATable) {
                            "tick, reflection_transmission", "tick, diffraction_scattering", "crossings",
                            "response", "target", "ratio"})
     EXPECT_THAT(outcome.out, HasSubstr(part));
+}
+
+TEST_F(RadioBench, SaysWhatEveryRowFindsOnce) {
+  // A mast in the ground: every row that solves a link would warn of it.
+  std::string text = street;
+  const std::string height = "-21.7, 9.4]";
+  text.replace(text.find(height), height.size(), "-21.7, 0]");
+  std::ofstream(folder_ / "street.yaml") << text;
+  const Outcome outcome = bench("--row-seconds 0.01", "off");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::istringstream lines(outcome.err);
+  std::multiset<std::string> said;
+  for (std::string line; std::getline(lines, line);) said.insert(line);
+  EXPECT_THAT(outcome.err, HasSubstr("bs/panel"));
+  for (const std::string& line : said) EXPECT_EQ(said.count(line), 1u) << line;
 }
 
 TEST_F(RadioBench, BadScenariosAreToldAsEverywhere) {

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rf/search/search_cache.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -30,6 +34,7 @@ class SearchCacheTest : public ::testing::Test {
     scene_.source = {-4.1, -3.3, 2.2};
     wedges_ = scene::find_wedges(scene_.scene());
     const FacetWorld world(scene_.scene());
+    extent_ = {world.facet_count(), static_cast<uint32_t>(wedges_.size())};
     const FacetKinds kinds = scene_.facet_kinds();
     result_ = BeamSearch(world, kinds, wedges_, scene_.options()).search(scene_.source);
     ASSERT_FALSE(result_.list.windows.empty());
@@ -38,9 +43,12 @@ class SearchCacheTest : public ::testing::Test {
 
   std::string key() const { return key(scene_.options()); }
   std::string key(const BeamSearchOptions& options) const {
-    return search_key("scene", scene_.facet_kinds(), wedges_, scene_.source, options);
+    return search_key(FacetWorld(scene_.scene()), scene_.facet_kinds(), wedges_, scene_.source, options);
   }
   fs::path file() const { return folder_ / "deeper" / (key() + ".beams"); }
+  /// Results under keys of one letter: 64 times.
+  std::string other_key(char letter) const { return std::string(64, letter); }
+  fs::path file(const std::string& key) const { return folder_ / "deeper" / (key + ".beams"); }
   SearchCache cache() const { return SearchCache(folder_ / "deeper"); }
 
   greatx::test::TemporaryFolder temporary_;
@@ -48,12 +56,13 @@ class SearchCacheTest : public ::testing::Test {
   SearchScene scene_;
   std::vector<scene::Wedge> wedges_;
   BeamSearchResult result_;
+  SearchExtent extent_;
 };
 
 TEST_F(SearchCacheTest, WhatIsStoredIsReadBackTheSame) {
-  EXPECT_FALSE(cache().load(key()).has_value()) << "nothing there yet";
+  EXPECT_FALSE(cache().load(key(), extent_).has_value()) << "nothing there yet";
   cache().store(key(), result_);
-  const auto back = cache().load(key());
+  const auto back = cache().load(key(), extent_);
   ASSERT_TRUE(back.has_value());
   EXPECT_TRUE(back->list == result_.list);
   EXPECT_EQ(back->found, result_.found);
@@ -72,7 +81,7 @@ TEST_F(SearchCacheTest, WhatIsStoredIsReadBackTheSame) {
 TEST_F(SearchCacheTest, AnOverflowIsRemembered) {
   result_.found += 5;
   cache().store(key(), result_);
-  EXPECT_EQ(cache().load(key())->overflow(), 5u);
+  EXPECT_EQ(cache().load(key(), extent_)->overflow(), 5u);
 }
 
 TEST_F(SearchCacheTest, DamagedAndTruncatedFilesAreAsGoodAsNone) {
@@ -81,7 +90,7 @@ TEST_F(SearchCacheTest, DamagedAndTruncatedFilesAreAsGoodAsNone) {
   const std::string good((std::istreambuf_iterator<char>(in)), {});
   const auto with = [&](const std::string& bytes) {
     std::ofstream(file(), std::ios::binary | std::ios::trunc) << bytes;
-    return cache().load(key()).has_value();
+    return cache().load(key(), extent_).has_value();
   };
   ASSERT_TRUE(with(good));
   for (size_t at : {size_t{0}, size_t{9}, good.size() / 2, good.size() - 65, good.size() - 1}) {
@@ -96,7 +105,7 @@ TEST_F(SearchCacheTest, DamagedAndTruncatedFilesAreAsGoodAsNone) {
   EXPECT_FALSE(with(std::string(1000, 'x')));
   // And it is replaced by the next search.
   cache().store(key(), result_);
-  EXPECT_TRUE(cache().load(key()).has_value());
+  EXPECT_TRUE(cache().load(key(), extent_).has_value());
 }
 
 TEST_F(SearchCacheTest, WhateverChangesTheResultChangesTheKey) {
@@ -110,23 +119,168 @@ TEST_F(SearchCacheTest, WhateverChangesTheResultChangesTheKey) {
   o.clearance_m = 0.0, keys.push_back(key(o)), o = plain;
   o.stop_depth = 2, keys.push_back(key(o)), o = plain;
   FacetKinds kinds = scene_.facet_kinds();
-  const auto add = [&](const std::string& scene, std::span<const scene::Wedge> wedges, const dvec3& source) {
-    keys.push_back(search_key(scene, kinds, wedges, source, plain));
+  const FacetWorld world(scene_.scene());
+  const auto add = [&](const FacetWorld& of, std::span<const scene::Wedge> wedges, const dvec3& source) {
+    keys.push_back(search_key(of, kinds, wedges, source, plain));
   };
-  add("another", wedges_, scene_.source);
-  add("scene", {}, scene_.source);
-  add("scene", wedges_, scene_.source + dvec3(0, 0, 1e-15));
+  scene::Scene moved = scene_.scene();  // a corner of a wall, by a millimetre
+  moved.facet_triangles.back().corners[1].x += 1e-3;
+  add(FacetWorld(moved), wedges_, scene_.source);
+  add(world, {}, scene_.source);
+  add(world, wedges_, scene_.source + dvec3(0, 0, 1e-15));
   const std::vector<scene::Wedge> free_edges = scene::find_wedges(scene_.scene(), {.free_edges = true});
   ASSERT_GT(free_edges.size(), wedges_.size());
-  add("scene", free_edges, scene_.source);
+  add(world, free_edges, scene_.source);
   std::vector<scene::Wedge> shorter = wedges_;
   shorter[0].b = 0.5 * (shorter[0].a + shorter[0].b);
-  add("scene", shorter, scene_.source);
-  kinds[3] = FacetKind::wall;
-  add("scene", wedges_, scene_.source);
+  add(world, shorter, scene_.source);
+  for (const FacetKind kind : {FacetKind::wall, FacetKind::foliage}) {
+    kinds[3] = kind;
+    add(world, wedges_, scene_.source);
+  }
   EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), keys.size());
   cache().store(key(), result_);
-  for (size_t i = 1; i < keys.size(); ++i) EXPECT_FALSE(cache().load(keys[i]).has_value()) << i;
+  for (size_t i = 1; i < keys.size(); ++i) EXPECT_FALSE(cache().load(keys[i], extent_).has_value()) << i;
+}
+
+TEST_F(SearchCacheTest, WhatMovesIsNotInTheKey) {
+  const auto with_drone = [&](const dvec3& size, FacetKind kind, const dvec3& at) {
+    SearchScene scene;
+    scene.hand.ground(30.0);
+    scene.box({0, 0, 0}, {6, 5, 4});
+    const size_t still = scene.scene().facets.size();
+    if (size != dvec3(0.0)) {
+      const uint32_t drone = scene.hand.body();
+      scene.hand.quad({0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}, 0, drone);
+      scene.hand.quad({0, 0, 0}, {size.x, 0, 0}, {size.x, 0, size.z}, {0, 0, size.z}, 0, drone);
+    }
+    FacetWorld world(scene.scene());
+    if (size != dvec3(0.0)) world.move(1, {Pose{at, dquat(1, 0, 0, 0)}, {}, {}});
+    FacetKinds kinds = scene.facet_kinds();
+    for (size_t i = still; i < kinds.size(); ++i) kinds[i] = kind;
+    return search_key(world, kinds, scene::find_wedges(scene.scene()), {-4.1, -3.3, 2.2}, scene_.options());
+  };
+  const std::string none = with_drone(dvec3(0.0), FacetKind::opaque, {});
+  EXPECT_EQ(none, key());
+  EXPECT_EQ(with_drone({1, 1, 0.3}, FacetKind::opaque, {}), none);
+  EXPECT_EQ(with_drone({2, 1, 0.5}, FacetKind::opaque, {}), none) << "another drone";
+  EXPECT_EQ(with_drone({1, 1, 0.3}, FacetKind::wall, {}), none) << "of another material";
+  EXPECT_EQ(with_drone({1, 1, 0.3}, FacetKind::opaque, {3, 4, 5}), none) << "elsewhere";
+}
+
+TEST_F(SearchCacheTest, WhatIsNoFileOfItsKeyIsReplaced) {
+  const auto good = [&] {
+    cache().store(key(), result_);
+    return cache().load(key(), extent_).has_value();
+  };
+  ASSERT_TRUE(good());
+  // Of another key, whole as it is.
+  fs::rename(file(), file(other_key('a')));
+  EXPECT_FALSE(cache().load(other_key('a'), extent_).has_value());
+  // Whole, but of a scene that has more.
+  ASSERT_TRUE(good());
+  EXPECT_FALSE(cache().load(key(), {extent_.facets - 1, extent_.wedges}).has_value());
+  EXPECT_FALSE(cache().load(key(), {extent_.facets, extent_.wedges - 1}).has_value());
+  // A pipe, which nobody writes to; a link to nowhere, or to itself.
+  fs::remove(file());
+  ASSERT_EQ(mkfifo(file().c_str(), 0600), 0);
+  EXPECT_FALSE(cache().load(key(), extent_).has_value());
+  EXPECT_TRUE(good());
+  fs::remove(file());
+  fs::create_symlink(file().filename(), file());
+  EXPECT_FALSE(cache().load(key(), extent_).has_value());
+  EXPECT_TRUE(good());
+  // A folder, empty or not, stays: it is not the cache's. The run goes on without.
+  fs::remove(file());
+  fs::create_directories(file() / "inner");
+  EXPECT_FALSE(cache().load(key(), extent_).has_value());
+  EXPECT_NO_THROW(cache().store(key(), result_));
+  EXPECT_TRUE(fs::exists(file() / "inner"));
+  EXPECT_FALSE(cache().load(key(), extent_).has_value());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deeper"), fs::directory_iterator()), 2)
+      << "the folder and the file of another key: no draft is left";
+}
+
+TEST_F(SearchCacheTest, WhatWasNotUsedForLongestGoes) {
+  cache().store(key(), result_);
+  const uint64_t one = fs::file_size(file());
+  const SearchCache small(folder_ / "deeper", 3 * one);
+  const auto used = [&](char letter, int minutes_ago) {
+    fs::last_write_time(file(other_key(letter)),
+                        fs::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
+  };
+  fs::remove(file());
+  for (const char letter : {'a', 'b', 'c'}) small.store(other_key(letter), result_);
+  used('a', 30), used('b', 20), used('c', 10);
+  // What is not the cache's is not counted and not touched, nor is a draft that somebody may be writing.
+  std::ofstream(folder_ / "deeper" / "notes.beams") << std::string(4 * one, 'x');
+  std::ofstream(folder_ / "deeper" / "thesis.tmp") << "mine";
+  fs::last_write_time(folder_ / "deeper" / "thesis.tmp", fs::file_time_type{});
+  std::ofstream(folder_ / "deeper" / (other_key('d') + ".7.tmp")) << "being written";
+  std::ofstream(folder_ / "deeper" / (other_key('e') + ".7.tmp")) << "left by one that was killed";
+  fs::last_write_time(folder_ / "deeper" / (other_key('e') + ".7.tmp"),
+                      fs::file_time_type::clock::now() - std::chrono::hours(2));
+  EXPECT_TRUE(small.load(other_key('a'), extent_).has_value()) << "now b is the oldest";
+  small.store(other_key('f'), result_);
+  EXPECT_TRUE(fs::exists(file(other_key('a'))));
+  EXPECT_FALSE(fs::exists(file(other_key('b'))));
+  EXPECT_TRUE(fs::exists(file(other_key('c'))));
+  EXPECT_TRUE(fs::exists(file(other_key('f'))));
+  EXPECT_TRUE(fs::exists(folder_ / "deeper" / "notes.beams"));
+  EXPECT_TRUE(fs::exists(folder_ / "deeper" / "thesis.tmp"));
+  EXPECT_TRUE(fs::exists(folder_ / "deeper" / (other_key('d') + ".7.tmp")));
+  EXPECT_FALSE(fs::exists(folder_ / "deeper" / (other_key('e') + ".7.tmp")));
+  // A result that is beyond the limit by itself takes nothing else's place.
+  const SearchCache tiny(folder_ / "deeper", one - 1);
+  tiny.store(other_key('0'), result_);
+  EXPECT_FALSE(fs::exists(file(other_key('0'))));
+  EXPECT_TRUE(fs::exists(file(other_key('f'))));
+}
+
+TEST_F(SearchCacheTest, SeveralProcessesShareAFolder) {
+  cache().store(other_key('0'), result_);
+  const uint64_t one = fs::file_size(file(other_key('0')));
+  const SearchCache small(folder_ / "deeper", 4 * one + one / 2);
+  std::vector<pid_t> children;
+  for (int child = 0; child < 3; ++child) {
+    children.push_back(fork());
+    if (children.back() != 0) continue;
+    bool whole = true;
+    for (int i = 0; i < 60; ++i) {
+      const std::string shared = other_key("0123456789"[(i + child) % 10]);
+      small.store(shared, result_);
+      if (const auto back = small.load(shared, extent_)) whole = whole && back->list == result_.list;
+    }
+    _exit(whole ? 0 : 1);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  small.store(other_key('a'), result_);
+  uint64_t total = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "deeper")) {
+    total += entry.file_size();
+    EXPECT_EQ(entry.path().extension(), ".beams");
+    EXPECT_TRUE(small.load(entry.path().stem().string(), extent_).has_value());
+  }
+  EXPECT_LE(total, small.most_bytes());
+  EXPECT_GE(total, one);
+}
+
+TEST_F(SearchCacheTest, TheLimitIsTheEnvironments) {
+  const char* value = std::getenv("GREATX_CACHE_MIB");
+  const std::optional<std::string> before = value == nullptr ? std::nullopt : std::optional<std::string>(value);
+  unsetenv("GREATX_CACHE_MIB");
+  EXPECT_EQ(SearchCache::standard().most_bytes(), 512u << 20);
+  setenv("GREATX_CACHE_MIB", "7", 1);
+  EXPECT_EQ(SearchCache::standard().most_bytes(), 7u << 20);
+  for (const char* bad : {"0", "-1", "1.5", "lots", "1 ", "99999999999999999999"}) {
+    setenv("GREATX_CACHE_MIB", bad, 1);
+    EXPECT_THROW(SearchCache::standard(), UserError) << bad;
+  }
+  before ? setenv("GREATX_CACHE_MIB", before->c_str(), 1) : unsetenv("GREATX_CACHE_MIB");
 }
 
 TEST_F(SearchCacheTest, ThreadsDoNotChangeTheKeyAndMovingBodiesHaveNone) {
@@ -141,7 +295,7 @@ TEST_F(SearchCacheTest, AFolderThatCannotBeWrittenIsNoError) {
   std::ofstream(folder_ / "file") << "not a folder";
   const SearchCache blocked(folder_ / "file" / "cache");
   EXPECT_NO_THROW(blocked.store(key(), result_));
-  EXPECT_FALSE(blocked.load(key()).has_value());
+  EXPECT_FALSE(blocked.load(key(), extent_).has_value());
   // Where permissions hold (not for root): a folder that is there but read-only.
   fs::create_directory(folder_ / "locked");
   fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
@@ -168,7 +322,7 @@ TEST_F(SearchCacheTest, TheEnvironmentChoosesTheFolder) {
   EXPECT_EQ(with(nullptr, nullptr, nullptr), "");
   for (int i = 0; i < 3; ++i) before[i] ? setenv(names[i], before[i]->c_str(), 1) : unsetenv(names[i]);
   SearchCache({}).store("key", result_);
-  EXPECT_FALSE(SearchCache({}).load("key").has_value());
+  EXPECT_FALSE(SearchCache({}).load("key", extent_).has_value());
 }
 
 }  // namespace
