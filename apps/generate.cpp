@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "apps/commands.h"
 #include "apps/consistency_files.h"
@@ -82,11 +83,13 @@ void run(const Options& options) {
   }
   device.wait_idle();
   check_validation(device);
+  const sim::RunStatistics statistics = simulator.statistics();
   if (complete)
     io::write_file_atomically(std::filesystem::path(options.output) / io::consistency_file,
-                              consistency_csv(simulator.statistics().rows));
+                              consistency_csv(statistics.rows));
 
-  nlohmann::json summary = summary_of(simulator.statistics(), device, seconds_since(begin));
+  for (const std::string& warning : statistics.warnings) spdlog::warn("{}", warning);  // also when quiet
+  nlohmann::json summary = summary_of(statistics, device, seconds_since(begin));
   summary["first_packet_seconds"] = first_packet_s;
   summary["output"] = options.output;
   summary["finished"] = complete;
@@ -117,7 +120,7 @@ void add_generate(CLI::App& app) {
                    "threads that encode and write; 0: one per processor. Changes no byte")
       ->capture_default_str();
   command->add_flag("--json", options->json, "print one JSON object with the run's summary");
-  command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  command->add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   command->callback([options] { run(*options); });
 }
 

@@ -29,6 +29,7 @@ nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Devic
   summary["counters"] = statistics.counters;
   summary["notes"] = nlohmann::json::object();
   for (const auto& [name, text] : statistics.notes) summary["notes"][name] = text;
+  summary["warnings"] = statistics.warnings;
   summary["gpu"] = {{"pipelines_built", counters.pipelines_built},
                     {"pipelines", counters.pipelines},
                     {"passes", counters.passes},

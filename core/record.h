@@ -116,7 +116,7 @@ enum class FileFormat {
   npy_frame,    ///< one .npy per record
   png,          ///< u8 [h, w, 3] as 8-bit RGB, or [h, w] as grey; u16 [h, w] as 16-bit grey
   png_depth24,  ///< f32 metres [h, w] as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1)
-  exr,          ///< f32 [h, w] as one channel "Z", [h, w, 3] as R, G, B
+  exr,          ///< f32 [h, w] as one channel "Y", [h, w, 3] as R, G, B
   ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n]
                 ///< properties
   // Files of a sequence made from its npy_ragged arrays when it ends (docs/events.md).

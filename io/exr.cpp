@@ -30,7 +30,14 @@ constexpr int compression_level = 1;  // of libdeflate
 constexpr int lines_of_a_block = 16;  ///< of the format's ZIP compression
 
 std::vector<const char*> channel_names(bool rgb) {
-  return rgb ? std::vector<const char*>{"R", "G", "B"} : std::vector<const char*>{"Z"};
+  return rgb ? std::vector<const char*>{"R", "G", "B"} : std::vector<const char*>{"Y"};
+}
+
+/// The channels to read: the one of a plane of numbers, whose name was "Z" once, or three of a picture.
+std::vector<const char*> channels_of(const Imf::ChannelList& list) {
+  for (const char* plane : {"Y", "Z"})
+    if (list.findChannel(plane) != nullptr) return {plane};
+  return channel_names(true);
 }
 
 /// The interleaved floats at `values` as a frame buffer of channels `names`.
@@ -158,14 +165,13 @@ Array read_exr(const std::filesystem::path& path) try {
   const int64_t width = int64_t{window.max.x} - window.min.x + 1,
                 height = int64_t{window.max.y} - window.min.y + 1;
   const Imf::ChannelList& list = file.header().channels();
-  const bool depth = list.findChannel("Z") != nullptr;
-  const std::vector<const char*> names = channel_names(!depth);
+  const std::vector<const char*> names = channels_of(list);
   for (const char* name : names) {
     if (list.findChannel(name) == nullptr)
-      throw_user_error("{}: expected a channel Z, or R, G and B; {} is missing", path.string(), name);
+      throw_user_error("{}: expected a channel Y or Z, or R, G and B; {} is missing", path.string(), name);
   }
-  Array image(DType::f32,
-              depth ? std::vector<int64_t>{height, width} : std::vector<int64_t>{height, width, 3});
+  Array image(DType::f32, names.size() == 1 ? std::vector<int64_t>{height, width}
+                                            : std::vector<int64_t>{height, width, 3});
   file.setFrameBuffer(frame_buffer(names, reinterpret_cast<char*>(image.bytes.data()), window));
   file.readPixels(window.min.y, window.max.y);
   return image;

@@ -10,9 +10,10 @@
 
 namespace greatx::io {
 
-/// f32 [h, w] as one channel "Z", f32 [h, w, 3] as channels R, G, B.
+/// f32 [h, w] as one channel "Y", f32 [h, w, 3] as channels R, G, B. Readers of pictures know a single channel by that name
+/// alone: OpenCV and FreeImage (imageio) give zeros for "Z" (docs/dataset.md).
 Bytes encode_exr(const Array& image);
-/// The inverse: [h, w] of channel "Z", or [h, w, 3] of R, G, B. Throws UserError.
+/// The inverse: [h, w] of channel "Y", or of "Z" (data sets of before), else [h, w, 3] of R, G, B. Throws UserError.
 Array read_exr(const std::filesystem::path& path);
 
 }  // namespace greatx::io

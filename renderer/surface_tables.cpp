@@ -27,7 +27,8 @@ void put(Words& words, const vec2& value) {
   put(words, value.y);
 }
 
-void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material) {
+void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, uint32_t body_and_material,
+                  bool has_holes) {
   const uint32_t* corner = &scene.indices[size_t{3} * triangle];
   const vec3 a = scene.positions[corner[0]];
   const vec2 uv = scene.uvs[corner[0]];
@@ -43,7 +44,7 @@ void put_triangle(Words& words, const scene::Scene& scene, uint32_t triangle, ui
   words.push_back(octahedral_word(scene.normals[corner[2]]));
   words.push_back(scene.tangents[corner[0]].w < 0.0f ? 1u : 0u);
   for (int i = 0; i < 3; ++i) words.push_back(octahedral_word(vec3(scene.tangents[corner[i]])));
-  words.push_back(0u);
+  words.push_back(has_holes ? 1u : 0u);
 }
 
 void put_material(Words& words, const scene::PbrMaterial& pbr, const scene::MaterialTextures& textures) {
@@ -86,12 +87,14 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
     const uint32_t body = scene.instances[primitive.instance].body;
     GREATX_CHECK(triangles.size() == size_t{4} * shared::triangle_record_quads * (primitive.first_index / 3),
                  "primitive {} does not follow the one before", i);
+    const bool has_holes = scene.materials[primitive.material].pbr.alpha_mode == scene::AlphaMode::mask;
     for (uint32_t t = 0; t < primitive.index_count / 3; ++t) {
       primitives[primitive.first_index / 3 + t] = i;
       ids[primitive.first_index / 3 + t + 1] = {
           primitive.instance + 1, static_cast<uint32_t>(scene.instances[primitive.instance].semantic_class) |
                                       (primitive.material + 1) << 16};
-      put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material);
+      put_triangle(triangles, scene, primitive.first_index / 3 + t, body << 16 | primitive.material,
+                   has_holes);
     }
   }
   for (size_t i = 0; i < scene.materials.size(); ++i)

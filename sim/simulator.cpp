@@ -310,6 +310,7 @@ RunStatistics Simulator::statistics() const {
   for (const auto& sensor : sensors_) {
     sensor->report(statistics.consistency);
     sensor->count(statistics.counters);
+    sensor->warn(statistics.warnings);
     sensor->note(statistics.notes);
   }
   return statistics;

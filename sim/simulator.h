@@ -45,6 +45,7 @@ struct RunStatistics {
   std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
   std::vector<std::pair<std::string, std::string>>
       notes;  ///< (name, text): how candidates were found, what holds
+  std::vector<std::string> warnings;  ///< data that was lost; `greatx generate` prints them even when it is quiet
   Consistency consistency;
   std::vector<ConsistencyRow> rows;  ///< the same by record, of what is written
 };

@@ -85,7 +85,8 @@ def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
 
 
 def read_exr(path: Path) -> np.ndarray:
-    """float32 [h, w] of channel Z, or [h, w, 3] of R, G, B: OpenEXR 2, single part, scan lines, ZIP or uncompressed."""
+    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2, single part, scan
+    lines, ZIP or uncompressed."""
     data = read_bytes(path)
     try:
         header, at = _exr_header(data)
@@ -111,10 +112,11 @@ def read_exr(path: Path) -> np.ndarray:
             raise
         raise DatasetError(f"{path}: cannot be read as OpenEXR: {error}") from error
     names = [name for name, _ in channels]
-    if "Z" in names:
-        return pixels["Z"].astype(np.float32)
+    for plane in ("Y", "Z"):
+        if plane in names:
+            return pixels[plane].astype(np.float32)
     if not {"R", "G", "B"} <= set(names):
-        raise DatasetError(f"{path}: expected a channel Z, or R, G and B; found {', '.join(names)}")
+        raise DatasetError(f"{path}: expected a channel Y or Z, or R, G and B; found {', '.join(names)}")
     return np.stack([pixels[name].astype(np.float32) for name in "RGB"], axis=-1)
 
 

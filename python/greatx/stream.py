@@ -36,7 +36,7 @@ class Run:
                                              for sensor, sample, arrays in records})
 
     def summary(self) -> Dict[str, Any]:
-        """ticks, counters and notes of the run so far."""
+        """ticks, counters and notes of the run so far, and warnings: what it lost, a sentence each."""
         return json.loads(self._native.summary())
 
 

@@ -60,6 +60,7 @@ std::string Stream::summary() {
                               {"notes", nlohmann::ordered_json::object()}};
   for (const auto& [name, count] : statistics.counters) json["counters"][name] = count;
   for (const auto& [name, text] : statistics.notes) json["notes"][name] = text;
+  json["warnings"] = statistics.warnings;
   return json.dump();
 }
 

@@ -11,10 +11,14 @@
 
 namespace greatx::render {
 
+double air_transmittance(const Receiver& receiver, double range_m) {
+  return std::exp(-2.0 * receiver.extinction_per_m * range_m);
+}
+
 double received_power(const Receiver& receiver, double range_m, double intensity) {
   const double d = receiver.aperture_diameter_m;
   return intensity * d * d * receiver.system_efficiency / (4.0 * range_m * range_m) *
-         std::exp(-2.0 * receiver.extinction_per_m * range_m);
+         air_transmittance(receiver, range_m);
 }
 
 Receiver::Detection rated(const Receiver& receiver, double range_m, double reflectance, double probability,

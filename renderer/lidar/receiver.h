@@ -37,6 +37,9 @@ struct Receiver {
   bool noisy() const { return detection.has_value() || range_std_m > 0.0; }
 };
 
+/// What the air leaves of the light there and back: exp(-2 alpha R), Beer and Lambert.
+double air_transmittance(const Receiver& receiver, double range_m);
+
 /// The range equation: P_r / P_t = intensity D^2 eta / (4 R^2) exp(-2 alpha R), for a surface of reflectance rho under
 /// the angle theta with the intensity rho cos(theta).
 double received_power(const Receiver& receiver, double range_m, double intensity);

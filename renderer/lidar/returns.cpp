@@ -52,7 +52,7 @@ Pulse pulse_of(std::span<const WeightedEcho> echoes, const Receiver& receiver) {
     pulse.power += power;
     moment += power * (echo.range_m - echoes[0].range_m);
     middle += echo.weight * (echo.range_m - echoes[0].range_m);
-    pulse.intensity += echo.weight * echo.intensity;
+    pulse.intensity += echo.weight * echo.intensity * air_transmittance(receiver, echo.range_m);
     pulse.share += echo.weight * echo.share;
   }
   // Black surfaces give nothing back: where they are is then a matter of the rays alone.
@@ -79,7 +79,8 @@ void add_air(uint32_t shot, double end_m, const ReturnModel& model, const ShotNo
         receiver.detection->threshold - unlikely)
       return;
     if (ratio + noise.normal(shot, Purpose::air_detection, index) <= 0.0) continue;
-    pulses.insert(pulses.begin(), Pulse{range, intensity, power, 0.0, 0, 0});
+    pulses.insert(pulses.begin(),
+                  Pulse{range, intensity * air_transmittance(receiver, range), power, 0.0, 0, 0});
     return;
   }
 }
@@ -163,7 +164,7 @@ void collect_shots(const ScanPattern& pattern, const EchoView& view, const Retur
     }
     if (echoes.size() == 1) {  // most of them, and of single rays without glass all
       const WeightedEcho& e = echoes[0];
-      pulses.assign(1, {e.range_m, e.weight * e.intensity,
+      pulses.assign(1, {e.range_m, e.weight * e.intensity * air_transmittance(model.receiver, e.range_m),
                         e.weight * received_power(model.receiver, e.range_m, e.intensity), e.weight * e.share,
                         e.instance, e.material});
     } else {

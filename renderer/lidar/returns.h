@@ -53,8 +53,8 @@ struct LidarScan {
 };
 
 /// A pulse: echoes in order of range, each less than resolution_m behind the one before. Its range is the mean of theirs
-/// by received power, its intensity the sum of weight times intensity, its share that of weight times share, its ids
-/// those of the strongest object in it.
+/// by received power, its intensity the sum of weight times intensity times what the air leaves of it, its share that of
+/// weight times share, its ids those of the strongest object in it.
 struct Pulse {
   double range_m = 0.0, intensity = 0.0, power = 0.0, share = 0.0;
   uint32_t instance = 0, material = 0;

@@ -19,6 +19,15 @@ const uint sample_count = 4u;
 layout(set = 0, binding = visibility_binding, r32ui) uniform readonly uimage2D visibility;
 const uint sample_count = 1u;
 #endif
+/// What a sample of the pinhole picture sees: triangle + 1, 0: nothing.
+uint visible_at(ivec2 at, uint s) {
+#ifdef GREATX_MULTISAMPLED
+  return texelFetch(visibility, at, int(s)).r;
+#else
+  return imageLoad(visibility, at).r;
+#endif
+}
+#include "camera/through_lens.glsl"
 layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
 layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
 layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock { float picture_luminance[]; };
@@ -40,20 +49,14 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   return radiance;
 }
 
-/// What the pixel's centre looks at, as triangle by triangle comes along.
-struct Center {
-  float depth;
-  uint id;
-};
-
 /// Takes the triangle as what the centre sees if it covers the centre and is nearer than what did so far.
 void look(inout Center center, Seen seen, vec3 ray) {
   float facing = dot(ray, seen.normal);
   float depth = dot(seen.p0, seen.normal) / facing;
   const float rim = 1e-4;  // on an edge both neighbours cover the centre
   vec2 b = vec2(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator)) / facing;
-  // One sample is the centre itself, unless a lens bends the ray away from it.
-  bool covers = (sample_count == 1u && !distortion_on) || (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
+  bool covers = sample_count == 1u ||  // which is the centre itself
+                (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
   if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.triangle + 1u);
 }
 
@@ -72,14 +75,13 @@ void main() {
   vec3 ray = pixel_ray(pixel);
   const float infinity = uintBitsToFloat(0x7f800000u);
 
-  uint ids[sample_count];
-#ifdef GREATX_MULTISAMPLED
-  for (int s = 0; s < int(sample_count); ++s) ids[s] = texelFetch(visibility, in_pinhole, s).r;
-#else
-  ids[0] = imageLoad(visibility, in_pinhole).r;
-#endif
   vec3 radiance = vec3(0.0);
   Center center = Center(infinity, 0u), first = center;
+  uint ids[sample_count];
+  bool looks_through = distortion_on && (ids_on || sample_count == 1u);
+  if (looks_through) center = through_lens(pixel, ray);
+  for (uint s = 0u; s < sample_count; ++s) ids[s] = visible_at(in_pinhole, s);
+  if (looks_through && sample_count == 1u) ids[0] = center.id;
   float sky = 0.0;  // share of the samples
   uint left = (1u << sample_count) - 1u;  // samples not yet accounted for
   while (left != 0u) {
@@ -93,13 +95,13 @@ void main() {
       if (color_on || luminance_on) radiance += weight * sky_radiance(ray);
     } else {
       Seen seen = see(id - 1u);
-      if (ids_on) look(center, seen, ray);
-      if (ids_on && (sample_count > 1u || distortion_on) && id == ids[0]) first = rim_of(seen, ray);
+      if (ids_on && !distortion_on) look(center, seen, ray);
+      if (ids_on && !distortion_on && sample_count > 1u && id == ids[0]) first = rim_of(seen, ray);
       if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray);
     }
   }
   // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
-  if (center.id == 0u && sky == 0.0) center = first;
+  if (!distortion_on && center.id == 0u && sky == 0.0) center = first;
   radiance *= camera.weight;
   bool adds = blend_on && camera.first == 0u;  // to what the parts of the exposure before this one left
   if (color_on) {

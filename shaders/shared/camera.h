@@ -95,7 +95,7 @@ const float lamp_most_roughness = 0.6f;
 ///   2  edge to the third corner; normal at the second
 ///   3  texture coordinates at the first corner, then their change to the second
 ///   4  ... and to the third; normal at the third; 1 where the normal map is mirrored
-///   5  tangents at the three corners
+///   5  tangents at the three corners; 1 where its material has an alpha mask
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
 /// Of a material's record, low half first:

@@ -126,6 +126,7 @@ struct LidarConfig {
   render::Receiver receiver;  ///< without the air
   struct Outputs {
     bool points = true, ply = true, pcd = false, kitti = false;
+    bool clouds() const { return ply || pcd; }  ///< files that hold every array, not bare points alone
   } outputs;
 };
 

@@ -40,32 +40,75 @@ Projection::Projection(const render::CameraDesc& desc)
   least_ = principal + focal * lens.bounds().least;
   most_ = principal + focal * lens.bounds().most;
   centers_ = lens.centers(focal, principal);
+  seen_radius_ = glm::length(glm::max(glm::abs(lens.bounds().least), glm::abs(lens.bounds().most)));
+}
+
+dvec2 Projection::shown(dvec2 direction) const {
+  if (const double r = glm::length(direction); r > fold_radius_) direction *= fold_radius_ / r;
+  return dvec2(cx_, cy_) + dvec2(fx_, fy_) * distortion_.distort(direction);
 }
 
 dvec2 Projection::picture(const dvec2& pinhole) const {
-  if (!distorted()) return pinhole;
-  const dvec2 focal(fx_, fy_), principal(cx_, cy_);
-  dvec2 n = (pinhole - principal) / focal;
-  if (const double r = glm::length(n); r > fold_radius_) n *= fold_radius_ / r;
-  return principal + focal * distortion_.distort(n);
+  return distorted() ? shown(normalised(pinhole)) : pinhole;
+}
+
+struct Projection::Bounds {
+  dvec4 sides{infinity, infinity, -infinity, -infinity};
+  void add(const dvec2& p) {
+    sides = {std::min(sides.x, p.x), std::min(sides.y, p.y), std::max(sides.z, p.x), std::max(sides.w, p.y)};
+  }
+};
+
+/// Of a straight edge that the lens bends; places along it are counted from where it comes closest to the axis, in
+/// normalised coordinates.
+void Projection::add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) const {
+  const dvec2 a = normalised(from), along = normalised(to) - a;
+  const double length = glm::length(along), step = edge_step / std::max(fx_, fy_);
+  bounds.add(shown(a));
+  if (!(length > step)) return;  // the next edge begins at its other end
+  const dvec2 unit = along / length;
+  const double begin = glm::dot(a, unit), end = begin + length;
+  const dvec2 closest = a - begin * unit;
+  const double distance = glm::length(closest);
+  const auto point = [&](double at) { return shown(closest + at * unit); };
+  // Beyond what the picture shows, evenly by angle: there it is far away, and from the fold on an arc.
+  const auto add_outside = [&](double first, double last) {
+    const double from_angle = std::atan2(first, distance), to_angle = std::atan2(last, distance);
+    const double points = std::ceil(std::abs(to_angle - from_angle) * seen_radius_ / step);
+    for (double i = 1.0; i < points; i += 1.0)
+      bounds.add(point(distance * std::tan(from_angle + (to_angle - from_angle) * (i / points))));
+    bounds.add(point(last));
+  };
+  const double reach =
+      distance < seen_radius_ ? std::sqrt(seen_radius_ * seen_radius_ - distance * distance) : 0.0;
+  const double first = std::clamp(-reach, begin, end), last = std::clamp(reach, begin, end);
+  if (first > begin) add_outside(begin, first);
+  const double points = std::max(1.0, std::ceil((last - first) / step)), each = (last - first) / points;
+  dvec2 before = point(first), here = point(first + each);
+  bounds.add(before);
+  bounds.add(here);
+  for (double i = 2.0; i <= points; i += 1.0) {
+    const dvec2 next = point(first + i * each);
+    bounds.add(next);
+    // Where a coordinate turns round: the vertex of the parabola through three points.
+    for (int axis = 0; axis < 2; ++axis)
+      if (const double rise = here[axis] - before[axis], fall = next[axis] - here[axis]; rise * fall < 0.0)
+        bounds.add(point(first + (i - 1.0 + 0.5 * (rise + fall) / (rise - fall)) * each));
+    before = here;
+    here = next;
+  }
+  if (last < end) add_outside(last, end);
 }
 
 dvec4 Projection::bounds(std::span<const dvec2> polygon) const {
-  dvec4 bounds(infinity, infinity, -infinity, -infinity);
-  const auto add = [&](const dvec2& p) {
-    bounds = {std::min(bounds.x, p.x), std::min(bounds.y, p.y), std::max(bounds.z, p.x),
-              std::max(bounds.w, p.y)};
-  };
+  Bounds bounds;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    if (!distorted()) {
-      add(polygon[i]);
-      continue;
-    }
-    const dvec2 along = polygon[(i + 1) % polygon.size()] - polygon[i];
-    const double points = std::clamp(std::ceil(glm::length(along) / edge_step), 1.0, most_edge_points);
-    for (double s = 0.0; s < points; s += 1.0) add(picture(polygon[i] + along * (s / points)));
+    if (distorted())
+      add_edge(polygon[i], polygon[(i + 1) % polygon.size()], bounds);
+    else
+      bounds.add(polygon[i]);
   }
-  return bounds;
+  return bounds.sides;
 }
 
 Coverage::Coverage(const Projection& projection)
@@ -142,19 +185,12 @@ void Coverage::add_straight(std::span<const dvec2> polygon) {
 }
 
 void Coverage::add_distorted(std::span<const dvec2> polygon, const dvec4& bounds) {
-  // Between two points of an edge the lens bends it by a fraction of a pixel, with the square of their distance; an edge
-  // too long for that may be anywhere.
-  constexpr double most_bend = 2.0;
-  double doubled_area = 0.0, longest = 0.0;
+  constexpr double margin = 1.0;  // bounds are good to a small part of a pixel
+  double doubled_area = 0.0;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const dvec2& next = polygon[(i + 1) % polygon.size()];
-    const dvec2 a = polygon[i] - polygon[0], b = next - polygon[0];
+    const dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
     doubled_area += a.x * b.y - a.y * b.x;
-    longest = std::max(longest, glm::length(next - polygon[i]));
   }
-  const double step = std::min(longest / Projection::edge_step, 1.0);
-  const double margin =
-      longest > Projection::edge_step * Projection::most_edge_points ? infinity : most_bend * step * step;
   const dvec4 within = bounds + dvec4(-margin, -margin, margin, margin);
   if (doubled_area == 0.0) return;
   const double side = doubled_area > 0.0 ? 1.0 : -1.0;

@@ -27,11 +27,10 @@ class Projection {
   /// the fold.
   dvec2 picture(const dvec2& pinhole) const;
   /// Bounds in the picture of a polygon of pinhole coordinates: u_min, v_min, u_max, v_max. A lens bends its edges:
-  /// points are taken every `edge_step` pixels of them.
+  /// points are taken every `edge_step` pixels of them where the picture may show them, however far they go on beyond, and
+  /// between those where a side turns round.
   dvec4 bounds(std::span<const dvec2> polygon) const;
   static constexpr double edge_step = 8.0;
-  /// Points of an edge at most; a longer edge is sampled more coarsely.
-  static constexpr double most_edge_points = 256.0;
   bool distorted() const { return distortion_.any(); }
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
@@ -43,10 +42,17 @@ class Projection {
   const dvec2& most() const { return most_; }
 
  private:
+  struct Bounds;
+  void add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) const;
+  dvec2 normalised(const dvec2& pinhole) const { return {(pinhole.x - cx_) / fx_, (pinhole.y - cy_) / fy_}; }
+  /// In the picture, of normalised coordinates.
+  dvec2 shown(dvec2 direction) const;
+
   uint32_t width_, height_;
   double fx_, fy_, cx_, cy_, near_m_;
   render::Distortion distortion_;
   double fold_radius_;
+  double seen_radius_ = 0.0;  ///< about the axis, normalised: of all that the picture shows
   dvec2 least_, most_;
   std::vector<dvec2> centers_;
 };

@@ -259,12 +259,12 @@ void EventSensor::count(std::map<std::string, uint64_t>& counters) const {
   if (events_.desc().adaptive()) counters[spec_.name + ".event_pictures_too_coarse"] += coarse_;
 }
 
-void EventSensor::note(std::vector<std::pair<std::string, std::string>>& notes) const {
+void EventSensor::warn(std::vector<std::string>& warnings) const {
   if (dropped_ == 0) return;
-  notes.emplace_back(spec_.name + ".overflow",
-                     fmt::format("{} events were left out, beyond the {} an interval that there is room for; "
-                                 "max_events_per_pixel makes more",
-                                 dropped_, events_.desc().capacity));
+  warnings.push_back(
+      fmt::format("{}: {} events were left out, beyond the {} an interval that there is room for; "
+                  "max_events_per_pixel makes more",
+                  spec_.name, dropped_, events_.desc().capacity));
 }
 
 }  // namespace greatx::sim

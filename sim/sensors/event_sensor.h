@@ -31,7 +31,7 @@ class EventSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   void catch_up(const gpu::TickSlot& slot) override;
   void count(std::map<std::string, uint64_t>& counters) const override;
-  void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
+  void warn(std::vector<std::string>& warnings) const override;
 
   /// The interval collected last.
   const render::EventFrame& frame() const { return frame_; }

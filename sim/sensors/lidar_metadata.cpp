@@ -64,13 +64,15 @@ Array column(const std::vector<T>& values) {
 
 }  // namespace
 
-std::vector<ArraySpec> lidar_arrays() {
+std::vector<ArraySpec> lidar_arrays(const LidarConfig::Outputs& outputs) {
+  const ArraySpec points{"points",
+                         DType::f32,
+                         {-1, 4},
+                         "m",
+                         "[return, x y z intensity] in the sensor frame at the shot's own time"};
+  if (!outputs.clouds()) return {points};
   return {
-      {"points",
-       DType::f32,
-       {-1, 4},
-       "m",
-       "[return, x y z intensity] in the sensor frame at the shot's own time"},
+      points,
       {"ring", DType::u16, {-1}, "1", "[return] channel"},
       {"time_offset", DType::f32, {-1}, "s", "[return] of the shot after the tick"},
       {"range", DType::f32, {-1}, "m", "[return] along the beam"},
@@ -83,11 +85,12 @@ std::vector<ArraySpec> lidar_arrays() {
   };
 }
 
-std::vector<Array> arrays_of(const render::LidarScan& scan) {
+std::vector<Array> arrays_of(const render::LidarScan& scan, const LidarConfig::Outputs& outputs) {
   const auto count = static_cast<int64_t>(scan.size());
   std::vector<Array> arrays;
   arrays.push_back(
       Array::of<float>({count, 4}, std::span(count > 0 ? &scan.points[0].x : nullptr, scan.size() * 4)));
+  if (!outputs.clouds()) return arrays;
   arrays.push_back(column(scan.ring));
   arrays.push_back(column(scan.time_offset_s));
   arrays.push_back(column(scan.range_m));

@@ -13,9 +13,10 @@
 
 namespace greatx::sim {
 
-/// The arrays of a record, in the order of arrays_of.
-std::vector<ArraySpec> lidar_arrays();
-std::vector<Array> arrays_of(const render::LidarScan& scan);
+/// The arrays that some output holds, in the order of arrays_of: `points` alone for bare points (npy, KITTI), all of them for
+/// clouds with their properties (PLY, PCD).
+std::vector<ArraySpec> lidar_arrays(const LidarConfig::Outputs& outputs);
+std::vector<Array> arrays_of(const render::LidarScan& scan, const LidarConfig::Outputs& outputs);
 /// Scan pattern, beam, returns and receiver as they are used, effects that are off left out.
 nlohmann::json lidar_metadata(const LidarConfig& config, const render::LidarDesc& desc);
 

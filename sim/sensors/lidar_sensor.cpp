@@ -62,7 +62,7 @@ void LidarSensor::describe(const SensorConfig& sensor) {
   spec_.name = pass_.name();
   spec_.kind = "lidar";
   spec_.rate = sensor.rate_hz.str();
-  spec_.arrays = lidar_arrays();
+  spec_.arrays = lidar_arrays(config_.outputs);
   std::vector<std::string> all;
   for (const ArraySpec& array : spec_.arrays) all.push_back(array.name);
   const LidarConfig::Outputs& outputs = config_.outputs;
@@ -109,7 +109,7 @@ void LidarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
 std::vector<Array> LidarSensor::collect(const gpu::TickSlot& slot) {
   const Sweep& sweep = sweeps_[slot.index];
   scan_ = pass_.collect(sweep.pending, sweep.noise);
-  return arrays_of(scan_);
+  return arrays_of(scan_, config_.outputs);
 }
 
 }  // namespace greatx::sim

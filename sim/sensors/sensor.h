@@ -79,6 +79,8 @@ class Sensor {
   virtual void report(Consistency&) const {}
   /// Adds what this sensor counted over the run: candidates, paths, overflows.
   virtual void count(std::map<std::string, uint64_t>&) const {}
+  /// Adds what a user must hear of, whatever else is printed: data that the run lost. A sentence each.
+  virtual void warn(std::vector<std::string>&) const {}
   /// Adds what the run's summary should say in words, (name, text).
   virtual void note(std::vector<std::pair<std::string, std::string>>&) const {}
 };

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
 
@@ -69,6 +70,36 @@ TEST_F(EventCli, AKilledRunIsFinishedToTheSameBytes) {
   const Outcome resumed = generate("cut", longer + " --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(manifest("cut"), manifest("whole"));
+}
+
+TEST_F(EventCli, LostEventsAreWarnedOfHoweverQuiet) {
+  std::string text = read_file(path("events.yaml"));
+  const std::string cutoff = "cutoff_hz: 300";
+  text.replace(text.find(cutoff), cutoff.size(), "max_events_per_pixel: 1");
+  const std::string threshold = "on: 0.15, off: 0.2";
+  text.replace(text.find(threshold), threshold.size(), "on: 0.02, off: 0.02");
+  std::ofstream(path("events.yaml")) << text;
+  const Outcome quiet = generate("lossy", "");
+  ASSERT_EQ(quiet.code, 0) << quiet.err;
+  EXPECT_TRUE(quiet.out.empty());
+  EXPECT_THAT(quiet.err, testing::HasSubstr("warning: eye/dvs: "));
+  EXPECT_THAT(quiet.err, testing::HasSubstr(" events were left out"));
+  const Outcome json = generate("lossy_json", "--json");
+  ASSERT_EQ(json.code, 0) << json.err;
+  EXPECT_EQ(json.err, quiet.err);
+  const auto summary = nlohmann::json::parse(json.out);
+  ASSERT_EQ(summary["warnings"].size(), 1u);
+  const std::string warning = summary["warnings"][0];
+  EXPECT_THAT(json.err, testing::HasSubstr(warning));
+  EXPECT_THAT(warning, testing::HasSubstr(fmt::format(
+                           "{} events", summary["counters"]["eye/dvs.event_overflow"].get<uint64_t>())));
+}
+
+TEST_F(EventCli, NothingIsWarnedOfWhereNothingIsLost) {
+  const Outcome json = generate("data", "--json");
+  ASSERT_EQ(json.code, 0);
+  EXPECT_EQ(json.err, "");
+  EXPECT_TRUE(nlohmann::json::parse(json.out)["warnings"].empty());
 }
 
 TEST_F(EventCli, AChangedExportIsFound) {

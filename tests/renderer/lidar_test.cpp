@@ -50,7 +50,8 @@ TEST(Lidar, WallInClosedForm) {
     ASSERT_NEAR(scan.points[i].x, 10.0, 2e-5);
     ASSERT_NEAR(scan.points[i].y, range * beam.y, 2e-5);
     ASSERT_NEAR(scan.points[i].z, range * beam.z, 2e-5);
-    ASSERT_NEAR(scan.points[i].w, 0.8 * cosine, 1e-6);  // intensity: rho cos(theta), no range in it
+    // Intensity: rho cos(theta), corrected for the range but not for the air.
+    ASSERT_NEAR(scan.points[i].w, 0.8 * cosine * std::exp(-2e-3 * range), 1e-6);
     const double power = 0.8 * cosine * 0.04 * 0.04 * 0.7 / (4.0 * range * range) * std::exp(-2e-3 * range);
     ASSERT_NEAR(scan.power[i], power, 2e-6 * power);
     ASSERT_EQ(scan.instance[i], 1u);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -217,6 +218,90 @@ void check_lens(const render::Distortion& distortion) {
 TEST(Boxes, BehindALensThatDistorts) {
   check_lens({-0.22, 0.04, 0.002, -0.003, 0.0});
   check_lens({0.25, 0.02, -0.004, 0.002, 0.01});
+}
+
+/// What is as long as a street, and what the eye stands on, beside what is near and far.
+Crowd crowd_of_long_things() {
+  Crowd around = crowd(40, 2, 30);
+  const auto add = [&](const char* name, const dvec3& low, const dvec3& high) {
+    around.tiny.object(name, around.tiny.body(name)).box(low, high);
+    around.bodies.push_back({});
+  };
+  add("pavement", {-60, -9, -1.7}, {400, -6, -1.6});
+  add("plank", {-5, -0.4, -1.4}, {8, 0.4, -1.3});
+  add("fence", {-30, 5, -1.6}, {300, 5.1, 0.4});
+  add("cable", {-500, -3, 6}, {900, -2.95, 6.05});
+  add("slab", {14, -200, -1.6}, {18, 200, -1.5});
+  add("mast", {9, 3.5, -300}, {9.4, 3.9, 300});
+  add("bridge", {11, -80, 5}, {16, 80, 6});
+  return around;
+}
+
+/// Pixels whose rays meet an object: first and last column and row. Empty: none does.
+std::optional<std::array<uint32_t, 4>> mask_by_rays(const Boxes::Object& object, const Pose& local_from_body,
+                                                    const CameraDesc& desc, const Pose& camera,
+                                                    const std::vector<dvec2>& undistorted) {
+  std::vector<dvec3> corners;
+  for (const uint32_t i : object.indices) corners.push_back(local_from_body.apply(object.vertices[i]));
+  std::optional<std::array<uint32_t, 4>> mask;
+  for (uint32_t pixel = 0; pixel < undistorted.size(); ++pixel) {
+    const uint32_t column = pixel % desc.width, row = pixel / desc.width;
+    const dvec3 ray = camera.rotate({1.0, -undistorted[pixel].x, -undistorted[pixel].y});
+    bool met = false;
+    for (size_t i = 0; !met && i < corners.size(); i += 3)
+      met = meets(camera.position, ray, corners[i], corners[i + 1], corners[i + 2], desc.near_m);
+    if (!met) continue;
+    if (!mask) mask = {column, row, column, row};
+    mask = {std::min((*mask)[0], column), (*mask)[1], std::max((*mask)[2], column), row};
+  }
+  return mask;
+}
+
+TEST(Boxes, BehindALensHoldTheirMasks) {
+  const Crowd around = crowd_of_long_things();
+  const scene::Scene scene = labelled(around.tiny);
+  const std::vector<Pose> moving(around.bodies.begin() + 1, around.bodies.end());
+  const Pose camera = look({0.3, -0.2, 0.1}, 4, 3, 2);
+  for (const render::Distortion& distortion : {render::Distortion{-0.22, 0.04, 0.002, -0.003, 0.0},
+                                               {.k1 = -0.1, .p2 = 0.01},
+                                               {0.25, 0.02, -0.004, 0.002, 0.01}}) {
+    CameraDesc desc = box_camera(160, 120);
+    desc.distortion = distortion;
+    const std::vector<dvec2> undistorted = render::Lens(render::lens_geometry(desc)).centers();
+    Boxes boxes(scene, desc, {});
+    test::CameraRig rig(scene, test::plain_light(), desc);
+    const std::vector<ObjectBox> found =
+        boxes.find(camera, around.bodies, rig.shoot(camera, moving).instance);
+    size_t at = 0, seen = 0;
+    for (uint32_t i = 0; i < boxes.objects().size(); ++i) {
+      const Boxes::Object& object = boxes.objects()[i];
+      const auto mask = mask_by_rays(object, around.bodies[object.body], desc, camera, undistorted);
+      const bool is_found = at < found.size() && found[at].object == i;
+      EXPECT_TRUE(is_found || !mask) << i;
+      if (!is_found) continue;
+      const ObjectBox& box = found[at++];
+      // Alone: every pixel's centre, and no side a whole pixel beyond the last one (corners reach between centres).
+      constexpr double small = 1.0 / 128, nearest = 0.75;
+      for (size_t side = 0; mask && side < 4; ++side) {
+        const double center = (*mask)[side] + 0.5, edge = box.amodal[static_cast<int>(side)],
+                     out = side < 2 ? center - edge : edge - center;
+        EXPECT_GE(out, -small) << scene.instances[object.first_instance].name << ", side " << side;
+        // Of what lies within the picture: no side far from its pixels (a corner reaches between centres).
+        if (box.unclipped == box.amodal && (*mask)[2] - (*mask)[0] > 8 && (*mask)[3] - (*mask)[1] > 8) {
+          EXPECT_LT(out, 3.0) << scene.instances[object.first_instance].name << ", side " << side;
+        }
+      }
+      // In the picture: faces less than a pixel across go by the nearest sample.
+      if (box.visible == 0) continue;
+      ++seen;
+      EXPECT_GE(box.modal[0] + 0.5, box.amodal.x - nearest) << i;
+      EXPECT_GE(box.modal[1] + 0.5, box.amodal.y - nearest) << i;
+      EXPECT_LE(box.modal[2] - 0.5, box.amodal.z + nearest) << i;
+      EXPECT_LE(box.modal[3] - 0.5, box.amodal.w + nearest) << i;
+    }
+    EXPECT_EQ(at, found.size());
+    EXPECT_GT(seen, 20u);
+  }
 }
 
 TEST(Boxes, OfWhatCrossesTheNearPlaneReachToIt) {

@@ -192,8 +192,10 @@ TEST(EventSensor, OverflowIsReported) {
   for (const uint64_t d : r.joined<uint64_t>("eye/dvs", "dropped")) sum += d;
   EXPECT_EQ(sum, dropped);
   EXPECT_EQ(r.arrays("eye/dvs", "t")[1].element_count(), 62 * 46);
-  ASSERT_FALSE(r.statistics.notes.empty());
-  EXPECT_THAT(r.statistics.notes.back().second, testing::HasSubstr("max_events_per_pixel"));
+  ASSERT_EQ(r.statistics.warnings.size(), 1u);
+  EXPECT_THAT(r.statistics.warnings[0],
+              testing::StartsWith(fmt::format("eye/dvs: {} events were left out", dropped)));
+  EXPECT_THAT(r.statistics.warnings[0], testing::HasSubstr("max_events_per_pixel"));
 }
 
 }  // namespace

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // LiDARs of whole runs: targets at the shot's time, effects of the plan, draws.
+#include <cmath>
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "assets/assets.h"
+#include "core/units.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -115,6 +120,76 @@ TEST(LidarRun, DrawsAreTheTicksAndTheSensorsAlone) {
   const size_t count = std::min(first.size(), second.size());
   EXPECT_GT(count, 500u);
   EXPECT_FALSE(std::equal(first.begin(), first.begin() + 100, second.begin()));
+}
+
+/// Returns of surfaces by what they have in common in every air: channel and direction.
+struct Shot {
+  double range_m = 0.0, intensity = 0.0, power = 0.0;
+};
+std::map<std::pair<uint16_t, int>, Shot> surfaces_of(const KeptRun& run) {
+  const auto points = run.array<float>(0, "uav/lidar", "points"),
+             range = run.array<float>(0, "uav/lidar", "range"),
+             power = run.array<float>(0, "uav/lidar", "power");
+  const auto ring = run.array<uint16_t>(0, "uav/lidar", "ring");
+  const auto instance = run.array<uint32_t>(0, "uav/lidar", "instance");
+  std::map<std::pair<uint16_t, int>, Shot> shots;
+  for (size_t i = 0; i < range.size(); ++i) {
+    if (instance[i] == 0) continue;
+    const double azimuth = std::atan2(points[4 * i + 1], points[4 * i]);
+    shots[{ring[i], static_cast<int>(std::lround(azimuth / (2.0 * pi) * 1024))}] = {
+        range[i], points[4 * i + 3], power[i]};
+  }
+  return shots;
+}
+
+/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is weaker by what the air
+/// takes there and back.
+TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
+  const auto embedded = std::ranges::find(embedded_scenarios(), "city_fog", &EmbeddedScenario::name);
+  Scenario fog = parse_scenario(std::string(embedded->text), "city_fog.yaml", ".");
+  ASSERT_GT(fog.environment.fog_g_m3, 0.0);
+  fog.ticks = 1;
+  fog.channels.clear();
+  for (NodeConfig& node : fog.nodes)
+    std::erase_if(node.sensors, [](const SensorConfig& sensor) {
+      return !std::holds_alternative<LidarConfig>(sensor.config);
+    });
+  Scenario clear = fog;
+  clear.environment.fog_g_m3 = 0.0;
+  Scenario blind = fog;  // to its own noise
+  blind.effects["lidar_detection"] = blind.effects["lidar_backscatter"] = Switch::off;
+  const World world = load_world(fog);
+  const KeptRun in_fog = keep_run(fog, world), in_clear = keep_run(clear, world),
+                all = keep_run(blind, world);
+  EXPECT_TRUE(in_fog.plan.lidar_haze.on && in_fog.plan.lidar_detection.on &&
+              in_fog.plan.lidar_backscatter.on);
+  const auto with = surfaces_of(in_fog), without = surfaces_of(in_clear), whatever = surfaces_of(all);
+  const auto count = static_cast<double>(with.size());
+  EXPECT_LT(count, 0.8 * static_cast<double>(without.size()));
+  EXPECT_GT(count, 0.2 * static_cast<double>(without.size()));
+  EXPECT_LT(without.size(), whatever.size());
+  // A few shots are answered by the fog itself.
+  const size_t returns = in_fog.array<float>(0, "uav/lidar", "range").size();
+  EXPECT_GT(returns, with.size());
+  EXPECT_LT(static_cast<double>(returns), 1.2 * count);
+
+  const double extinction = 0.1447 * std::pow(0.05, 0.88);  // Kunkel 1984
+  size_t both = 0;
+  double farthest_with = 0.0, farthest_without = 0.0;
+  for (const auto& [shot, clear_return] : without) {
+    farthest_without = std::max(farthest_without, clear_return.range_m);
+    const auto found = with.find(shot);
+    if (found == with.end()) continue;
+    ++both;
+    const Shot& foggy = found->second;
+    farthest_with = std::max(farthest_with, foggy.range_m);
+    EXPECT_EQ(foggy.range_m, clear_return.range_m);
+    const double left = std::exp(-2.0 * extinction * foggy.range_m);
+    EXPECT_NEAR(foggy.intensity, clear_return.intensity * left, 1e-6);
+    EXPECT_NEAR(foggy.power, clear_return.power * left, 1e-6 * clear_return.power);
+  }
+  EXPECT_GT(static_cast<double>(both), 0.95 * count);  // others were lucky
+  EXPECT_LT(farthest_with, farthest_without);
 }
 
 TEST(LidarRun, ThePlanSaysWhatTheSceneCallsFor) {
