@@ -54,8 +54,9 @@ VkTransformMatrixKHR rows_of(const dmat4& m) {
 }  // namespace
 
 AccelerationStructure::~AccelerationStructure() {
-  if (handle_ != VK_NULL_HANDLE)
-    device_->functions().destroy_acceleration_structure(device_->handle(), handle_, nullptr);
+  if (handle_ == VK_NULL_HANDLE) return;
+  device_->finish();
+  device_->functions().destroy_acceleration_structure(device_->handle(), handle_, nullptr);
 }
 AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept {
   *this = std::move(other);

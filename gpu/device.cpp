@@ -320,4 +320,16 @@ std::string Device::name_of_large(VkBuffer buffer) const {
 
 void Device::wait_idle() const { GREATX_VK(vkDeviceWaitIdle(device_)); }
 
+void Device::finished(uint64_t submission) {
+  uint64_t known = finished_;
+  while (known < submission && !finished_.compare_exchange_weak(known, submission)) continue;
+}
+
+void Device::finish() noexcept {
+  const uint64_t submission = submitted_;
+  if (finished_ >= submission) return;
+  vkDeviceWaitIdle(device_);  // fails if the device is lost: then nothing runs either
+  finished(submission);
+}
+
 }  // namespace greatx::gpu

@@ -131,6 +131,15 @@ class Device {
   void remove_large(VkBuffer buffer) { large_.erase(buffer); }
   std::string name_of_large(VkBuffer buffer) const;
 
+  /// Numbers a submission that was just handed to the queue.
+  uint64_t submitted() { return ++submitted_; }
+  /// Says that the host has waited for a submission; those before it are done, too, since there is one queue.
+  void finished(uint64_t submission);
+  /// Blocks while any submission may still run that nobody has waited for. The destructor of everything that a submission
+  /// may use calls it first: whoever throws between a submission and its wait leaves nothing behind that works on freed
+  /// memory, whatever the order in which owners keep their members. Costs nothing where all has been waited for.
+  void finish() noexcept;
+
  private:
   void create_instance(bool validation);
   void destroy_instance();  ///< and the messenger, before it
@@ -153,6 +162,7 @@ class Device {
   VkPhysicalDeviceMemoryProperties memory_{};
   Counters counters_;
   std::map<VkBuffer, std::string> large_;
+  std::atomic<uint64_t> submitted_{0}, finished_{0};
 };
 
 }  // namespace greatx::gpu

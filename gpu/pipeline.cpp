@@ -106,6 +106,7 @@ TextureTable::TextureTable(Device& device, std::span<const VkDescriptorImageInfo
 
 TextureTable::~TextureTable() {
   if (layout_ == VK_NULL_HANDLE) return;
+  device_->finish();
   vkDestroyDescriptorPool(device_->handle(), pool_, nullptr);
   vkDestroyDescriptorSetLayout(device_->handle(), layout_, nullptr);
 }
@@ -152,6 +153,7 @@ void Pipeline::created(std::string_view name) {
 
 Pipeline::~Pipeline() {
   if (device_ == nullptr) return;
+  device_->finish();
   vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
   vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
   vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);

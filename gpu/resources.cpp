@@ -83,6 +83,7 @@ Buffer::Buffer(Device& device, VkDeviceSize size, Memory memory, std::string_vie
 Buffer::~Buffer() {
   if (buffer_ == VK_NULL_HANDLE) return;
   device_->remove_large(buffer_);
+  device_->finish();
   vkDestroyBuffer(device_->handle(), buffer_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);
 }
@@ -127,6 +128,7 @@ Image::Image(Device& device, const ImageDesc& desc, std::string_view name) : dev
 
 Image::~Image() {
   if (image_ == VK_NULL_HANDLE) return;
+  device_->finish();
   vkDestroyImageView(device_->handle(), view_, nullptr);
   vkDestroyImage(device_->handle(), image_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);
@@ -165,7 +167,9 @@ Sampler::Sampler(Device& device, const SamplerDesc& desc, std::string_view name)
 }
 
 Sampler::~Sampler() {
-  if (sampler_ != VK_NULL_HANDLE) vkDestroySampler(device_->handle(), sampler_, nullptr);
+  if (sampler_ == VK_NULL_HANDLE) return;
+  device_->finish();
+  vkDestroySampler(device_->handle(), sampler_, nullptr);
 }
 Sampler::Sampler(Sampler&& other) noexcept { *this = std::move(other); }
 Sampler& Sampler::operator=(Sampler&& other) noexcept {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Buffers, images and samplers: move-only, each with its memory and its name.
+// Buffers, images and samplers: move-only, each with its memory and its name. As everything in gpu/ they wait, before they
+// are destroyed, for submissions that nobody has waited for (Device::finish).
 #pragma once
 
 #include <cstddef>

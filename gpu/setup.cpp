@@ -52,6 +52,7 @@ SetupSubmission::SetupSubmission(Device& device) : device_(device), cmd_(device,
 }
 
 SetupSubmission::~SetupSubmission() {
+  device_.finish();
   vkDestroyFence(device_.handle(), fence_, nullptr);
   vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
@@ -68,7 +69,9 @@ void SetupSubmission::submit_and_wait() {
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &command;
   GREATX_VK(vkQueueSubmit2(device_.queue(), 1, &submit, fence_));
+  const uint64_t number = device_.submitted();
   GREATX_VK(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX));
+  device_.finished(number);
   ++device_.counters().setup_submits;
 }
 

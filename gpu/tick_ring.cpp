@@ -66,7 +66,7 @@ TickRing::TickRing(Device& device, uint32_t slots, VkDeviceSize upload_bytes, Vk
 }
 
 TickRing::~TickRing() {
-  vkDeviceWaitIdle(device_.handle());
+  device_.finish();
   for (const VkCommandPool pool : pools_) vkDestroyCommandPool(device_.handle(), pool, nullptr);
   vkDestroySemaphore(device_.handle(), timeline_, nullptr);
 }
@@ -103,6 +103,7 @@ void TickRing::submit(TickSlot& slot, Kind kind) {
   submit.signalSemaphoreInfoCount = 1;
   submit.pSignalSemaphoreInfos = &signal;
   GREATX_VK(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE));
+  slot.number = device_.submitted();
   slot.cmd = nullptr;
   ++(kind == Kind::tick ? device_.counters().submits : device_.counters().setup_submits);
 }
@@ -114,6 +115,7 @@ void TickRing::wait(const TickSlot& slot) const {
   info.pSemaphores = &timeline_;
   info.pValues = &slot.submission;
   GREATX_VK(vkWaitSemaphores(device_.handle(), &info, UINT64_MAX));
+  device_.finished(slot.number);
 }
 
 }  // namespace greatx::gpu

@@ -56,6 +56,7 @@ struct TickSlot {
   Arena readback;
   Timestamps timestamps;
   uint64_t submission = 0;  ///< value of the timeline when it is done
+  uint64_t number = 0;      ///< of the device's submissions
 };
 
 class TickRing {

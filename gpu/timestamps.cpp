@@ -14,7 +14,9 @@ Timestamps::Timestamps(Device& device, uint32_t max_scopes) : device_(&device), 
   vkResetQueryPool(device.handle(), pool_, 0, 2 * max_scopes);
 }
 Timestamps::~Timestamps() {
-  if (pool_ != VK_NULL_HANDLE) vkDestroyQueryPool(device_->handle(), pool_, nullptr);
+  if (pool_ == VK_NULL_HANDLE) return;
+  device_->finish();
+  vkDestroyQueryPool(device_->handle(), pool_, nullptr);
 }
 Timestamps::Timestamps(Timestamps&& other) noexcept { *this = std::move(other); }
 Timestamps& Timestamps::operator=(Timestamps&& other) noexcept {

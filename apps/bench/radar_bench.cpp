@@ -92,6 +92,7 @@ void refine(sim::RadarConfig& config, double factor) {
   };
   config.echoes.tubes = times(config.echoes.tubes);
   config.echoes.target_budget = times(config.echoes.target_budget);
+  config.echoes.mirror_budget = times(config.echoes.mirror_budget);
   config.echoes.target_tube_m /= std::sqrt(factor);
   config.echoes.max_echoes = times(config.echoes.max_echoes);
   config.updates = 1;

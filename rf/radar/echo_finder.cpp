@@ -183,12 +183,15 @@ EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, co
       monostatic_(!receiver.has_value()),
       options_((check(options), options)),
       world_(scene.scene()),
-      trees_(scene.scene()) {
+      trees_(scene.scene()),
+      traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
   const bool on_cpu = scene.device().info().type == "cpu";
-  if (options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu))
-    tracer_.emplace(scene.scene(), trees_);
-  else
-    pass_.emplace(scene, options.max_bounces, monostatic_, transmitter.own_body != 0);
+  const bool on_host =
+      options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu);
+  const bool over_mirrors = traced_ > options.max_bounces && options.mirror_budget > 0;
+  if (on_host || over_mirrors) tracer_.emplace(scene.scene(), trees_);
+  if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
+  if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
 }
 
 std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
@@ -203,9 +206,18 @@ std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) con
     if (!named && !moving) continue;
     scene::Bounds bounds = instance.bounds;
     if (instance.body != 0) bounds.add(scene.reach_of(instance.body));  // with the parts that it carries
-    boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body]});
+    boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body], i, instance.body});
   }
   return boxes;
+}
+
+std::shared_ptr<const RayGrid> EchoFinder::grid_for(const Pose& transmitter,
+                                                    std::span<const Pose> body_poses) const {
+  const std::vector<TargetBox> boxes = targets(body_poses);
+  std::vector<TargetImage> images;
+  if (mirrors_)
+    images = mirrors_->find(boxes, world_, trees_, *tracer_, transmitter.position, transmitter_.own_body);
+  return std::make_shared<const RayGrid>(options_, transmitter, boxes, images);
 }
 
 EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmitter, const Pose& receiver,
@@ -216,8 +228,9 @@ EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmit
   Pending pending;
   pending.transmitter = transmitter, pending.receiver = receiver;
   pending.body_poses.assign(body_poses.begin(), body_poses.end());
-  pending.grid = std::make_shared<const RayGrid>(options_, transmitter, targets(body_poses));
   if (!pass_) return pending;
+  pose_world(body_poses);
+  pending.grid = grid_for(transmitter, body_poses);
   std::vector<vec3> directions(pending.grid->size());
   for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
   pending.rays = pass_->record(slot, rays_of(pending), directions);
@@ -234,15 +247,15 @@ void EchoFinder::pose_world(std::span<const Pose> body_poses) {
   }
 }
 
-void EchoFinder::check_antenna(const Pending& pending, std::span<const uint32_t> hits) const {
+void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<const uint32_t> hits) const {
   const scene::Scene& scene = scene_->scene();
-  for (uint32_t tube = 0; tube < pending.grid->size(); ++tube) {
+  for (uint32_t tube = 0; tube < grid.size(); ++tube) {
     const uint32_t index = RayHits::facet(hits[tube]);
     if (index == VisibleCell::nothing) continue;
     const PosedFacet& facet = world_.facet(index);
-    const double distance = std::abs(facet.distance(pending.transmitter.position));
+    const double distance = std::abs(facet.distance(at));
     if (distance >= options_.antenna_radius_m) continue;  // nothing on the plane is nearer
-    const double reach = distance / std::abs(glm::dot(facet.normal, pending.grid->axis(tube)));
+    const double reach = distance / std::abs(glm::dot(facet.normal, grid.axis(tube)));
     if (reach < options_.antenna_radius_m)
       throw_user_error("radar '{}': expected nothing within {} m of its antenna, found '{}' at {:.4f} m",
                        transmitter_.name, options_.antenna_radius_m,
@@ -257,18 +270,22 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   const TurnedElement receiver = turned(receiver_, pending.receiver);
   const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
   const auto reflects = [&](uint32_t facet) { return field.reflects(facet); };
-  EchoTracer::Answer traced;
-  if (tracer_)
-    traced = tracer_->trace(world_, rays_of(pending), *pending.grid, options_.max_bounces, monostatic_,
-                            reflects, options_.threads);
-  const std::span<const uint32_t> words = tracer_ ? traced.words : pass_->collect(pending.rays);
-  const bool direct = tracer_ ? traced.direct : pass_->direct(pending.rays);
-  check_antenna(pending, words);
-  RayHits hits(words, pending.grid->size());
-  if (monostatic_) hits.find_seen(*pending.grid, world_, pending.transmitter.position, options_.threads);
+  const std::shared_ptr<const RayGrid> grid =
+      pending.grid ? pending.grid : grid_for(pending.transmitter, pending.body_poses);
   const dvec3& source = pending.transmitter.position;
-  RawEchoes raw =
-      TubeEchoes(*pending.grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
+  EchoTracer::Answer traced;
+  const auto last = [&](uint32_t first, uint32_t second) {
+    return traced_ > options_.max_bounces && mirrors(world_, first, second) ? traced_ : options_.max_bounces;
+  };
+  if (!pass_)
+    traced = tracer_->trace(world_, rays_of(pending), *grid, traced_, monostatic_, reflects, last,
+                            options_.threads);
+  const std::span<const uint32_t> words = pass_ ? pass_->collect(pending.rays) : traced.words;
+  const bool direct = pass_ ? pass_->direct(pending.rays) : traced.direct;
+  check_antenna(source, *grid, words);
+  RayHits hits(words, grid->size());
+  if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
+  RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
   const dvec3 arm = pending.receiver.position - source;
   // Two elements at one place (of other polarizations) have no way from one to the other.
   if (const double length = glm::length(arm); !monostatic_ && direct && length > 0.0) {
@@ -276,9 +293,11 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   }
 
   EchoStatistics counted;
-  counted.tubes = pending.grid->size();
-  counted.target_tubes = pending.grid->target_tubes();
-  counted.target_tube_m = pending.grid->target_tube_m();
+  counted.tubes = grid->size();
+  counted.target_tubes = grid->target_tubes();
+  counted.target_tube_m = grid->target_tube_m();
+  counted.mirror_tubes = grid->mirror_tubes();
+  counted.mirror_tube_m = grid->mirror_tube_m();
   counted.contributions = raw.echoes.size();
   counted.below_floor = raw.below_floor;
   const Movers movers(scene, world_, raw, motion, source, options_.threads);

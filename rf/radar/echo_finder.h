@@ -20,6 +20,7 @@
 #include "rf/radar/echo_pass.h"
 #include "rf/radar/echo_tracer.h"
 #include "rf/radar/facet_trees.h"
+#include "rf/radar/mirrors.h"
 #include "rf/radar/ray_grid.h"
 #include "rf/surfaces.h"
 #include "scene/gpu_scene.h"
@@ -35,7 +36,7 @@ class EchoFinder {
 
   /// What is under way; the slices are valid until the slot is begun again.
   struct Pending {
-    std::shared_ptr<const RayGrid> grid;
+    std::shared_ptr<const RayGrid> grid;  ///< none yet if the host traces
     Pose transmitter, receiver;
     std::vector<Pose> body_poses;
     EchoPass::Pending rays;  ///< nothing if the host traces
@@ -61,12 +62,14 @@ class EchoFinder {
 
  private:
   std::vector<TargetBox> targets(std::span<const Pose> body_poses) const;
+  /// Tubes for where everything is; world_ is posed so.
+  std::shared_ptr<const RayGrid> grid_for(const Pose& transmitter, std::span<const Pose> body_poses) const;
   EchoRays rays_of(const Pending& pending) const {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
             receiver_.own_body};
   }
   void pose_world(std::span<const Pose> body_poses);
-  void check_antenna(const Pending& pending, std::span<const uint32_t> hits) const;
+  void check_antenna(const dvec3& at, const RayGrid& grid, std::span<const uint32_t> hits) const;
 
   scene::GpuScene* scene_;
   RadioSurfaces surfaces_;
@@ -75,8 +78,10 @@ class EchoFinder {
   EchoOptions options_;
   FacetWorld world_;
   FacetTrees trees_;
-  std::optional<EchoPass> pass_;  ///< one of the two
-  std::optional<EchoTracer> tracer_;
+  uint32_t traced_;                   ///< surfaces that a ray may meet
+  std::optional<EchoPass> pass_;      ///< none: the host traces
+  std::optional<EchoTracer> tracer_;  ///< if it does, or looks for mirrors
+  std::optional<MirrorFinder> mirrors_;
 };
 
 }  // namespace greatx::rf

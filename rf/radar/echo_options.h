@@ -29,12 +29,17 @@ enum class EchoTracing : uint8_t {
 
 struct EchoOptions {
   FieldOfView field_of_view;
-  uint32_t tubes = 6000;     ///< of the field of view, before subdivision
-  uint32_t max_bounces = 3;  ///< surfaces that a tube meets, 1 to most_bounces
+  uint32_t tubes = 6000;  ///< of the field of view, before subdivision
+  /// Surfaces that a tube meets, 1 to most_bounces. From 3 on a monostatic radar sees targets over mirrors, out and back over
+  /// the same one, with so many bounces on the target itself: the mirror does not count.
+  uint32_t max_bounces = 3;
   /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their distance, metres.
   double target_tube_m = 0.03;
   /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says to what).
   uint32_t target_budget = 4096;
+  /// The same for where a monostatic radar sees targets over mirrors: tubes that it may add there on top. 0: the images of
+  /// targets are seen by the tubes that happen to be there.
+  uint32_t mirror_budget = 2048;
   bool moving_targets = true;
   std::vector<uint32_t> targets;  ///< indices into Scene::instances
 
@@ -66,6 +71,10 @@ struct EchoOptions {
 };
 
 inline constexpr uint32_t most_bounces = 6;
+/// The least max_bounces with ghosts by a mirror both ways.
+inline constexpr uint32_t mirror_bounces = 3;
+/// Surfaces on an echo's way: most_bounces on the target, the mirror twice.
+inline constexpr uint32_t most_surfaces = most_bounces + 2;
 
 /// One end of a radar: an element at the origin of its frame, which looks along +x.
 struct EchoEnd {
@@ -96,6 +105,8 @@ EchoMotion at_rest(const Pose& transmitter, const Pose& receiver, const std::vec
 struct EchoStatistics {
   uint32_t tubes = 0, target_tubes = 0;
   double target_tube_m = 0.0;   ///< width of tubes on targets that the budget allowed
+  uint32_t mirror_tubes = 0;    ///< that were added on targets seen over mirrors
+  double mirror_tube_m = 0.0;   ///< their width there
   uint64_t contributions = 0;   ///< before merging
   uint64_t below_floor = 0;     ///< edges and corners below EchoOptions::border_floor_m2
   uint64_t left_out = 0;        ///< echoes beyond EchoOptions::max_echoes

@@ -278,9 +278,24 @@ bool EchoTracer::sees(std::span<const Standing> trees, const dvec3& from, const 
   return query.facet == ~0u;
 }
 
+EchoTracer::View EchoTracer::view(const FacetWorld& world, uint32_t hidden_owner) const {
+  View view;
+  view.trees_ = standing(world, {hidden_owner, 0});
+  return view;
+}
+
+EchoTracer::Met EchoTracer::first(const View& view, const dvec3& origin, const dvec3& direction,
+                                  uint32_t leaving) const {
+  Query query{origin, direction};
+  query.leaving = leaving;
+  meet_all(view.trees_, query);
+  return {query.facet, query.nearest};
+}
+
 EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& rays, const RayGrid& grid,
                                      uint32_t max_bounces, bool monostatic,
                                      const std::function<bool(uint32_t facet)>& reflects,
+                                     const std::function<uint32_t(uint32_t first, uint32_t second)>& last,
                                      uint32_t threads) const {
   Answer answer;
   const uint32_t tubes = grid.size();
@@ -292,10 +307,13 @@ EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& ra
     const uint32_t first = static_cast<uint32_t>(part) * tubes_at_once;
     for (uint32_t tube = first; tube < std::min(tubes, first + tubes_at_once); ++tube) {
       Query query{rays.source, grid.axis(tube)};
-      for (uint32_t bounce = 0; bounce < max_bounces; ++bounce) {
+      uint32_t most = max_bounces, before = ~0u;
+      for (uint32_t bounce = 0; bounce < most; ++bounce) {
         query.nearest = 1e30, query.facet = ~0u;
         meet_all(own, query);
         if (query.facet == ~0u) break;
+        if (bounce == 1) most = last(before, query.facet);
+        before = query.facet;
         const PosedFacet& facet = world.facet(query.facet);
         const double towards = glm::dot(facet.normal, query.direction);
         const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;

@@ -29,9 +29,22 @@ class EchoTracer {
     std::vector<uint32_t> words;  ///< [max_bounces * tubes], as EchoPass::collect's
     bool direct = false;          ///< as EchoPass::direct
   };
-  /// `reflects`: rays end at facets that do not. The same bytes whatever the threads.
+  /// `reflects`: rays end at facets that do not. `last`: the surfaces, at most max_bounces, that a ray may meet whose first two
+  /// these are. The same bytes whatever the threads.
   Answer trace(const FacetWorld& world, const EchoRays& rays, const RayGrid& grid, uint32_t max_bounces,
-               bool monostatic, const std::function<bool(uint32_t facet)>& reflects, uint32_t threads) const;
+               bool monostatic, const std::function<bool(uint32_t facet)>& reflects,
+               const std::function<uint32_t(uint32_t first, uint32_t second)>& last, uint32_t threads) const;
+
+  /// What single rays meet, as all bodies stand.
+  class View;
+  /// Without the bodies of that owner; 0: with all.
+  View view(const FacetWorld& world, uint32_t hidden_owner) const;
+  struct Met {
+    uint32_t facet = ~0u;
+    double distance = 1e30;
+  };
+  /// `direction`: unit. `leaving`: a facet that is passed through; ~0: none.
+  Met first(const View& view, const dvec3& origin, const dvec3& direction, uint32_t leaving) const;
 
  private:
   static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
@@ -86,6 +99,11 @@ class EchoTracer {
   std::vector<Piece> pieces_;  ///< in the order of the leaves
   std::vector<Side> sides_;
   std::vector<Tree> trees_;
+};
+
+class EchoTracer::View {
+  friend class EchoTracer;
+  std::vector<Standing> trees_;
 };
 
 }  // namespace greatx::rf

@@ -27,7 +27,7 @@ struct CarriedPoint {
 
 /// The vertices of one path.
 struct CarriedPath {
-  std::array<CarriedPoint, most_bounces> points;
+  std::array<CarriedPoint, most_surfaces> points;
   uint32_t count = 0;
   operator std::span<const CarriedPoint>() const { return std::span(points).first(count); }
 };

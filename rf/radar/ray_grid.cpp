@@ -28,15 +28,18 @@ struct Footprint {
 
 Footprint whole_sphere(double distance_m) { return {0.0, pi, -0.5 * pi, 0.5 * pi, distance_m}; }
 
-Footprint footprint_of(const TargetBox& target, const Pose& radar_from_local) {
+/// `seen_at`: where a point of the target's (local coordinates) appears to be.
+template <typename SeenAt>
+Footprint footprint_of(const TargetBox& target, const Pose& radar_from_local, const SeenAt& seen_at) {
   const dvec3 half = 0.5 * target.bounds.size();
-  const dvec3 center = radar_from_local.apply(target.pose.apply(target.bounds.center()));
+  const auto in_radar = [&](const dvec3& p) { return radar_from_local.apply(seen_at(target.pose.apply(p))); };
+  const dvec3 center = in_radar(target.bounds.center());
   const double distance = glm::length(center), radius = glm::length(half);
   if (distance < 1.5 * radius) return whole_sphere(std::max(0.25 * radius, distance - radius));
   Footprint print{std::atan2(center.y, center.x), 0.0, 0.5 * pi, -0.5 * pi, distance - radius};
   for (int corner = 0; corner < 8; ++corner) {
     const dvec3 sign(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-    const dvec3 p = radar_from_local.apply(target.pose.apply(target.bounds.center() + sign * half));
+    const dvec3 p = in_radar(target.bounds.center() + sign * half);
     const double elevation = std::atan2(p.z, std::hypot(p.x, p.y));
     print.elevation_min = std::min(print.elevation_min, elevation);
     print.elevation_max = std::max(print.elevation_max, elevation);
@@ -79,11 +82,12 @@ void RayGrid::choose_cells(const EchoOptions& options) {
   wraps_ = azimuths >= 2.0 * pi - room;
 }
 
-RayGrid::RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets)
+RayGrid::RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets,
+                 std::span<const TargetImage> images)
     : view_(options.field_of_view), local_from_radar_(glm::mat3_cast(local_from_radar.orientation)) {
   choose_cells(options);
   set_vertices();
-  subdivide(options, local_from_radar, targets);
+  subdivide(options, local_from_radar, targets, images);
   first_.resize(count_.size());
   for (uint32_t cell = 0; cell < count_.size(); ++cell) {
     first_[cell] = size();
@@ -98,17 +102,23 @@ RayGrid::RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::
   }
 }
 
+bool RayGrid::shows(const TargetImage& image, uint32_t cell) const {
+  if (image.shows(at(cell, 0.5, 0.5))) return true;
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 1.0})
+      if (image.shows(at(cell, x, y))) return true;
+  return false;
+}
+
 void RayGrid::subdivide(const EchoOptions& options, const Pose& local_from_radar,
-                        std::span<const TargetBox> targets) {
+                        std::span<const TargetBox> targets, std::span<const TargetImage> images) {
   const double step_azimuth = (view_.azimuth_max - view_.azimuth_min) / columns_;
   const double step_elevation = (view_.elevation_max - view_.elevation_min) / rows_;
   const double cell_rad = std::max(step_azimuth, step_elevation);
   const size_t cells = size_t{columns_} * rows_;
-  std::vector<double> nearest(cells, 1e300);  // distance of the nearest target of each cell
   const Pose radar_from_local = local_from_radar.inverse();
-  for (const TargetBox& target : targets) {
-    if (target.bounds.empty()) continue;
-    const Footprint print = footprint_of(target, radar_from_local);
+  std::vector<double> nearest(cells, 1e300);  // distance of the nearest target of each cell
+  const auto mark = [&](const Footprint& print, const auto& counts) {
     for (uint32_t row = 0; row < rows_; ++row) {
       const double low = view_.elevation_min + row * step_elevation;
       if (low - step_elevation > print.elevation_max || low + 2.0 * step_elevation < print.elevation_min)
@@ -117,23 +127,48 @@ void RayGrid::subdivide(const EchoOptions& options, const Pose& local_from_radar
         const double middle = view_.azimuth_min + (column + 0.5) * step_azimuth;
         const double off = std::abs(std::remainder(middle - print.azimuth, 2.0 * pi));
         if (off > print.half_azimuth + 1.5 * step_azimuth) continue;
-        double& distance = nearest[size_t{row} * columns_ + column];
-        distance = std::min(distance, print.distance_m);
+        const uint32_t cell = row * columns_ + column;
+        if (print.distance_m < nearest[cell] && counts(cell)) nearest[cell] = print.distance_m;
       }
     }
-  }
-  target_tube_m_ = options.target_tube_m;
+  };
+  count_.assign(cells, 1);
+  target_tube_m_ = mirror_tube_m_ = options.target_tube_m;
+  for (const TargetBox& target : targets)
+    if (!target.bounds.empty())
+      mark(footprint_of(target, radar_from_local, [](const dvec3& p) { return p; }),
+           [](uint32_t) { return true; });
+  divide_cells(nearest, cell_rad, options.target_budget, target_tube_m_);
+  if (images.empty()) return;
+  nearest.assign(cells, 1e300);
+  for (const TargetImage& image : images)
+    mark(footprint_of(image.target, radar_from_local,
+                      [&](const dvec3& p) {
+                        return p - 2.0 * (glm::dot(image.normal, p) - image.offset) * image.normal;
+                      }),
+         [&](uint32_t cell) { return shows(image, cell); });
+  mirror_tubes_ =
+      static_cast<uint32_t>(divide_cells(nearest, cell_rad, options.mirror_budget, mirror_tube_m_));
+}
+
+uint64_t RayGrid::divide_cells(std::span<const double> nearest, double cell_rad, uint32_t budget,
+                               double& tube_m) {
   while (true) {
-    count_.assign(cells, 1);
+    std::vector<uint16_t> count = count_;
     uint64_t added = 0;
-    for (size_t cell = 0; cell < cells; ++cell) {
+    for (size_t cell = 0; cell < count.size(); ++cell) {
       if (nearest[cell] >= 1e300) continue;
-      const double n = std::ceil(cell_rad * nearest[cell] / target_tube_m_);
-      count_[cell] = static_cast<uint16_t>(std::clamp(n, 1.0, double{most_subdivisions}));
-      added += uint64_t{count_[cell]} * count_[cell] - 1;
+      const double n =
+          std::clamp(std::ceil(cell_rad * nearest[cell] / tube_m), 1.0, double{most_subdivisions});
+      if (n <= count[cell]) continue;
+      added += static_cast<uint64_t>(n * n) - uint64_t{count[cell]} * count[cell];
+      count[cell] = static_cast<uint16_t>(n);
     }
-    if (added <= options.target_budget) return;
-    target_tube_m_ *= std::max(1.02, std::sqrt(double(added) / std::max(1u, options.target_budget)));
+    if (added <= budget) {
+      count_.swap(count);
+      return added;
+    }
+    tube_m *= std::max(1.02, std::sqrt(double(added) / std::max(1u, budget)));
   }
 }
 

@@ -9,12 +9,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "rf/radar/mirrors.h"
 
 namespace greatx::rf {
 namespace {
 
 constexpr double smallest_share = 1e-9;  ///< of a tube: parts below it are dropped
-constexpr double mirror_ratio = 3.0;     ///< of extents, from which a surface is a mirror to another
 constexpr uint32_t most_pieces = 256;    ///< that a diffuse part is cut into
 
 PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3& receiver,
@@ -46,14 +46,14 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
-  std::array<dvec3, 4> corners{};                ///< of the whole tube
-  std::array<TubeBeam, most_bounces + 1> beams;  ///< [bounces before]
-  std::array<uint32_t, most_bounces> chain{};
+  std::array<dvec3, 4> corners{};             ///< of the whole tube
+  std::array<TubeBeam, most_surfaces> beams;  ///< [bounces before]
+  std::array<uint32_t, most_surfaces> chain{};
   Polygon part;  ///< the whole tube
   RawEchoes* out = nullptr;
   std::vector<Contribution> contributions;
   std::vector<uint32_t> facets;
-  std::array<std::vector<VisibleCell>, most_bounces> cells;
+  std::array<std::vector<VisibleCell>, most_surfaces> cells;
   VisibleScratch scratch;
   uint32_t chain_at = ~0u;  ///< of the chain as it is now, in out->chains
 };
@@ -70,11 +70,12 @@ TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorl
       source_(source),
       monostatic_(monostatic),
       options_(options),
-      bounces_(hits.bounces()) {
+      bounces_(hits.bounces()),
+      home_(monostatic && options.max_bounces >= mirror_bounces) {
   // sigma = 4 pi |value|^2 / lambda^2
   limits_.floor = std::sqrt(options.border_floor_m2 * pi) / field.wavenumber();
   hidden_floor_ = std::sqrt(options.hidden_floor_m2 * pi) / field.wavenumber();
-  GREATX_CHECK(bounces_ <= most_bounces, "{} bounces", bounces_);
+  GREATX_CHECK(bounces_ < most_surfaces, "{} bounces", bounces_);
   whole_.assign(size_t{grid.size()} * bounces_, Whole::no);
   parallel_for((grid.size() + chunk - 1) / chunk, options.threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(grid.size(), first + chunk);
@@ -105,8 +106,12 @@ void TubeEchoes::classify(uint32_t tube) {
       return;
     }
     whole = Whole::silent;
-    if (RayHits::sees_receiver(word)) {
-      const PhasePlane plane = phase_plane(facet, beam.source, field_.receiver_at(), field_.wavenumber());
+    // From the second surface the receiver is seen directly or over the first, never both.
+    const bool over = bounce == 1 && RayHits::sees_over(word);
+    if (over || RayHits::sees_receiver(word)) {
+      const dvec3 receiver =
+          over ? field_.mirrored_receiver(RayHits::facet(hits_.word(tube, 0))) : field_.receiver_at();
+      const PhasePlane plane = phase_plane(facet, beam.source, receiver, field_.wavenumber());
       whole = integral_form(plane, piece) == IntegralForm::border ? Whole::border : Whole::other;
     }
     beam = beam.mirrored(facet);
@@ -200,23 +205,22 @@ void TubeEchoes::divide(Job& job, uint32_t bounce, const Polygon& part, const Be
 }
 
 bool TubeEchoes::may_send(uint32_t tube, uint32_t bounce) const {
-  for (uint32_t b = bounce; b < bounces_ && RayHits::met(hits_.word(tube, b)); ++b)
-    if (RayHits::sees_receiver(hits_.word(tube, b)) &&
-        !(b == 1 &&
-          found_backwards(RayHits::facet(hits_.word(tube, 0)), RayHits::facet(hits_.word(tube, 1)))))
-      return true;
+  for (uint32_t b = bounce; b < bounces_ && RayHits::met(hits_.word(tube, b)); ++b) {
+    const uint32_t word = hits_.word(tube, b);
+    if ((RayHits::sees_receiver(word) && b < options_.max_bounces) || RayHits::sees_over(word)) return true;
+  }
   return false;
 }
 
-bool TubeEchoes::sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const {
+uint32_t TubeEchoes::word_of(const Job& job, uint32_t bounce, uint32_t facet) const {
   const auto asks = [&](uint32_t tube) {
     return tube != RayGrid::outside && RayHits::facet(hits_.word(tube, bounce)) == facet &&
            same_chain(job, tube, bounce);
   };
-  if (asks(job.tube)) return RayHits::sees_receiver(hits_.word(job.tube, bounce));
+  if (asks(job.tube)) return hits_.word(job.tube, bounce);
   for (const uint32_t other : job.ring)
-    if (asks(other)) return RayHits::sees_receiver(hits_.word(other, bounce));
-  return false;
+    if (asks(other)) return hits_.word(other, bounce);
+  return RayHits::nothing;
 }
 
 void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet,
@@ -225,9 +229,13 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
   job.chain[bounce] = facet;
   job.chain_at = ~0u;
   if (!field_.reflects(facet)) return;
-  if (whole ? RayHits::sees_receiver(hits_.word(job.tube, bounce)) : sees_receiver(job, bounce, facet))
+  const uint32_t word = whole ? hits_.word(job.tube, bounce) : word_of(job, bounce, facet);
+  if (RayHits::sees_receiver(word) && bounce < options_.max_bounces)
     send_back(job, bounce, part, facet, whole);
+  if (RayHits::sees_over(word)) send_over(job, bounce, part, job.chain[0], Over::first, whole && bounce == 1);
   if (bounce + 1 == bounces_) return;
+  // Beyond max_bounces hits are there of those alone that came by a mirror.
+  if (bounce + 1 == options_.max_bounces && !mirrors(world_, job.chain[0], job.chain[1])) return;
   const TubeBeam& beam = job.beams[bounce];
   job.beams[bounce + 1] = beam.mirrored(posed);
   // Rays go on to the side that they came from, which is where the source of before is.
@@ -267,18 +275,6 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
   return marks;
 }
 
-bool TubeEchoes::spreads(uint32_t first, uint32_t second) const {
-  const auto extent = [&](uint32_t facet) {
-    const PosedFacet& posed = world_.facet(facet);
-    return std::max(posed.max_u - posed.min_u, posed.max_v - posed.min_v);
-  };
-  return mirror_ratio * extent(first) < extent(second);
-}
-
-bool TubeEchoes::found_backwards(uint32_t first, uint32_t second) const {
-  return monostatic_ && spreads(second, first);
-}
-
 /// With the floor where the piece is nearest to both ends.
 IntegralLimits TubeEchoes::limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
                                      const dvec3& receiver) const {
@@ -294,42 +290,49 @@ IntegralLimits TubeEchoes::limits_of(const PosedFacet& facet, const Polygon& pie
   return limits;
 }
 
-void TubeEchoes::send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const {
-  const PosedFacet &posed = world_.facet(job.chain[bounce - 1]), &wall = world_.facet(mirror);
-  const TubeBeam& beam = job.beams[bounce - 1];
+void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
+                           bool whole) const {
+  const PosedFacet &posed = world_.facet(job.chain[last]), &wall = world_.facet(mirror);
+  const TubeBeam& beam = job.beams[last];
   const dvec3 image = field_.mirrored_receiver(mirror);
   if (posed.distance(beam.source) * posed.distance(image) <= 0.0) return;
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return;
   job.contributions.clear();
-  job.out->below_floor += integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece, 0,
-                                    job.contributions, limits_of(posed, piece, beam.source, image));
+  const uint32_t omitted = way_home == Over::other ? 0 : omitted_sides(job, last, posed, piece, whole);
+  job.out->below_floor += integrate(phase_plane(posed, beam.source, image, field_.wavenumber()), piece,
+                                    omitted, job.contributions, limits_of(posed, piece, beam.source, image));
   for (const Contribution& c : job.contributions) {
     const dvec3 point = point_of(posed, c.at), way = image - point;
     const double before = glm::distance(point, beam.source), after = glm::length(way);
     const double share = -wall.distance(point) / glm::dot(wall.normal, way);
     const dvec3 over = point + share * way;
-    if (!(share > 0.0 && share < 1.0) || !trees_.contains(world_, mirror, over)) continue;
+    if (!(share > 0.0 && share < 1.0)) continue;
+    // Where the tube came by the mirror straight to this surface, so does the way back.
+    if (!(way_home == Over::first && last == 1) && !trees_.contains(world_, mirror, over)) continue;
     const dvec3 departure = glm::normalize(job.beams[0].along(beam.uv(point)));
     const Complex amplitude =
-        c.value * field_.density({departure, before, point, std::span(job.chain.data(), bounce), mirror});
+        c.value * field_.density({departure, before, point, std::span(job.chain.data(), last + 1), mirror});
     if (amplitude == 0.0) continue;
     const dvec3 arrival = glm::normalize(over - field_.receiver_at());
-    const auto push = [&](const dvec3& out, const dvec3& in, const dvec3& last, bool backwards) {
+    const auto push = [&](const dvec3& out, const dvec3& in, const dvec3& at, bool reversed) {
       std::vector<uint32_t>& chains = job.out->chains;
       const uint32_t first = static_cast<uint32_t>(chains.size());
-      chains.insert(chains.end(), job.chain.begin(), job.chain.begin() + bounce + 1);
-      if (backwards) std::reverse(chains.begin() + first, chains.end());
-      job.out->echoes.push_back({amplitude, out, in, last, before + after, first, bounce + 1});
+      chains.insert(chains.end(), job.chain.begin(), job.chain.begin() + last + 1);
+      chains.push_back(mirror);
+      if (reversed) std::reverse(chains.begin() + first, chains.end());
+      job.out->echoes.push_back({amplitude, out, in, at, before + after, first, last + 2});
     };
     push(departure, arrival, over, false);
-    if (monostatic_ && bounce == 1) push(arrival, departure, point, true);
+    if (way_home == Over::other && monostatic_ && last == 0) push(arrival, departure, point, true);
   }
 }
 
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
-  if (bounce > 0 && spreads(job.chain[bounce - 1], facet)) return send_over(job, bounce, part, facet);
-  if (bounce == 1 && found_backwards(job.chain[0], facet)) return;
+  if (bounce > 0 && mirrors(world_, facet, job.chain[bounce - 1])) {
+    if (bounce > 1 && home_ && facet == job.chain[0]) return;  // sent home from the surface before
+    return send_over(job, bounce - 1, part, facet, Over::other, false);
+  }
   const PosedFacet& posed = world_.facet(facet);
   const TubeBeam& beam = job.beams[bounce];
   // The receiver is on the lit side: where the source was before the last surface turned the rays.

@@ -44,7 +44,11 @@ struct RawEchoes {
 /// one is a mirror on the way to the receiver: on the large one the wave of a small surface has no parallel rays, and currents
 /// there would be stronger than they are (by 10 dB in the test). The same path backwards, out over the mirror, is its
 /// reciprocal for a monostatic radar: it is added with it, and not looked for on its own where the small surface is seen
-/// directly, since the tubes that find it there are fine and those about its image are not.
+/// directly.
+///
+/// A tube that came by a mirror sends back over it, too (wall, target, wall), from all surfaces from which the radar is seen
+/// there, wherever their own reflections go: what the wall shows is an image of the radar, and it sees the target as the radar
+/// itself would from there.
 ///
 /// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine mesh) what is
 /// left uncovered counts as the middle ray's facet.
@@ -70,16 +74,17 @@ class TubeEchoes {
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
   void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
-  /// Of two surfaces in turn, whether the first is so small that waves spread from it rather than mirror.
-  bool spreads(uint32_t first, uint32_t second) const;
-  void send_over(Job& job, uint32_t bounce, const Polygon& part, uint32_t mirror) const;
+  /// Which mirror the way to the receiver goes over: the tube's first surface, or another one that its ray meets next.
+  enum class Over : uint8_t { first, other };
+  /// Currents on surface `last` of the chain, and what they send over `mirror`; with the same path backwards where only this
+  /// one is looked for.
+  void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
+                 bool whole) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;
-  /// A monostatic radar sees the second of two surfaces (else nobody would ask): what finds it directly has this path
-  /// backwards, over the first.
-  bool found_backwards(uint32_t first, uint32_t second) const;
   /// Whether the ray of a tube, from that bounce on, met anything that sends something to the receiver.
   bool may_send(uint32_t tube, uint32_t bounce) const;
-  bool sees_receiver(const Job& job, uint32_t bounce, uint32_t facet) const;
+  /// Of the ray, this one's or one's around it, that met the facet after the same ones.
+  uint32_t word_of(const Job& job, uint32_t bounce, uint32_t facet) const;
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
   uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
                          bool whole) const;
@@ -96,7 +101,8 @@ class TubeEchoes {
   dvec3 source_;
   bool monostatic_;
   const EchoOptions& options_;
-  uint32_t bounces_;
+  uint32_t bounces_;  ///< traced
+  bool home_;         ///< tubes that come by mirrors send back over them
   IntegralLimits limits_;
   double hidden_floor_;       ///< of a border's contribution 1 m from both ends, m^2
   std::vector<Whole> whole_;  ///< [tubes * bounces]

@@ -14,10 +14,12 @@ const uint radar_hits_binding =
 // then whether the source itself sees the receiver
 const uint radar_group = 64u;
 
-// A hit: its facet, and whether the receiver is seen from there; radar_none: nothing is met.
+// A hit: its facet, and whether the receiver is seen from there, and over the first surface (the host says so); radar_none:
+// nothing is met.
 const uint radar_none = 0xffffffffu;
 const uint radar_sees_receiver = 0x80000000u;
-const uint radar_facet_mask = 0x7fffffffu;
+const uint radar_sees_over = 0x40000000u;
+const uint radar_facet_mask = 0x3fffffffu;
 
 struct EchoConstants {
   vec3 source;

@@ -110,6 +110,31 @@ TEST(Validation, AMessageIsCaught) {
   EXPECT_FALSE(device.validation_log()->take().empty()) << "validation is not on";
 }
 
+/// An error between a submission and its wait takes everything down that the submission works with, in the order in which
+/// scopes end; the validation layer calls out what dies too early.
+TEST(Ticks, NothingDiesBeforeTheSubmissionThatUsesIt) {
+  Device& device = test::device();
+  const auto run = [&](bool next_begun) {
+    TickRing ring(device, 2, 1 << 16, 1 << 16);
+    const Buffer in(device, 4u << 20, Memory::device, "in"), out(device, 4u << 20, Memory::device, "out");
+    const ComputePipeline pipeline = add_pipeline(1);
+    const auto record = [&](TickSlot& slot) {
+      const auto scope = slot.cmd->scope("add");
+      slot.cmd->bind(pipeline);
+      slot.cmd->push({Descriptor::buffer(0, in.slice()), Descriptor::buffer(1, out.slice())});
+      slot.cmd->constants(AddConstants{1u << 20, 1});
+      slot.cmd->dispatch((1u << 20) / 64);
+    };
+    TickSlot& slot = ring.begin();
+    record(slot);
+    ring.submit(slot);
+    if (next_begun) record(ring.begin());
+    throw_user_error("of a sensor");
+  };
+  EXPECT_THROW(run(false), UserError);
+  EXPECT_THROW(run(true), UserError);
+}
+
 TEST(Compute, AddsWithSpecializationAndPushConstants) {
   Device& device = test::device();
   const ComputePipeline pipeline = add_pipeline(100);

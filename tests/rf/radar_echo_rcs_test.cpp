@@ -4,111 +4,12 @@
 // Radar cross-sections that closed forms are known for, at 77 GHz, a = 0.1 m.
 #include <gtest/gtest.h>
 
-#include "core/random.h"
-#include "tests/rf/radar_echo_scenes.h"
+#include "tests/rf/radar_reflectors.h"
 
 namespace greatx::rf {
 namespace {
 
-using test::TinyScene;
 using namespace rf::testing;
-
-constexpr double a = 0.1, range_m = 400.0, k = 2.0 * pi / radar_wavelength_m;
-
-TinyScene plate() {
-  TinyScene tiny;
-  const double h = 0.5 * a;
-  tiny.object("plate").quad({0, -h, -h}, {0, h, -h}, {0, h, h}, {0, -h, h});
-  return tiny;
-}
-
-TinyScene dihedral() {
-  TinyScene tiny;
-  tiny.object("dihedral")
-      .quad({0, 0, 0}, {a, 0, 0}, {a, 0, a}, {0, 0, a})
-      .quad({0, 0, 0}, {0, 0, a}, {0, a, a}, {0, a, 0});
-  return tiny;
-}
-
-TinyScene trihedral() {
-  TinyScene tiny;
-  const dvec3 o(0.0), x(a, 0, 0), y(0, a, 0), z(0, 0, a);
-  tiny.object("trihedral").triangle(o, x, y).triangle(o, z, x).triangle(o, y, z);
-  return tiny;
-}
-
-/// A sphere of some 24 n^2 triangles about a step of r pi/(2 n) wide: a cube of n x n squares a face, blown up, and turned
-/// and shaken so that no rows of facets stand half a wavelength behind each other (those of a regular mesh do somewhere near
-/// the shadow's edge, and send back their own Bragg reflection: up to .7 dB).
-TinyScene ball(double radius, int n) {
-  TinyScene tiny;
-  tiny.object("ball");
-  const dquat turn = orientation_from_yaw_pitch_roll(0.4, 0.7, 1.1);
-  for (int face = 0; face < 6; ++face) {
-    const auto at = [&](int i, int j) {
-      const double u = std::tan(0.25 * pi * (2.0 * i / n - 1.0)),
-                   v = std::tan(0.25 * pi * (2.0 * j / n - 1.0));
-      const double sign = face < 3 ? 1.0 : -1.0;
-      dvec3 p(sign, sign * u, v);
-      p = glm::normalize(face % 3 == 0 ? p : face % 3 == 1 ? dvec3(p.z, p.x, p.y) : dvec3(p.y, p.z, p.x));
-      const dvec3 place = glm::floor(p * 1e6 + 0.5);  // what faces share is shaken the same way
-      RandomStream random(1, static_cast<uint32_t>(int64_t(place.x) * 7919 + int64_t(place.y)),
-                          static_cast<uint32_t>(int64_t(place.z)));
-      const double step = 0.25 * 0.5 * pi / n;
-      p += step * dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-      return radius * (turn * glm::normalize(p));
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        tiny.triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1))
-            .triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-  }
-  return tiny;
-}
-
-/// Physical optics of a convex mesh of conductors by brute force: quadrature over 2 m^2 points of every lit triangle.
-double brute_force_db(const scene::Scene& scene, const dvec3& radar, int m) {
-  Complex sum(0.0);
-  const double distance = glm::length(radar);
-  for (const scene::FacetTriangle& t : scene.facet_triangles) {
-    const dvec3 u = t.corners[1] - t.corners[0], v = t.corners[2] - t.corners[0], cross = glm::cross(u, v);
-    const double area = 0.5 * glm::length(cross);
-    const dvec3 normal = cross / (2.0 * area);
-    if (glm::dot(normal, radar - t.corners[0]) <= 0.0) continue;
-    for (int i = 0; i < m; ++i)
-      for (int h = 0; h < 2 * (m - i) - 1; ++h) {
-        const double third = (h % 2 + 1) / 3.0, b = (i + third) / m, c = (h / 2 + third) / m;
-        const dvec3 arm = radar - (t.corners[0] + b * u + c * v);
-        const double r = glm::length(arm);
-        sum += std::polar(area / (m * m) * glm::dot(normal, arm) / r * std::pow(distance / r, 2),
-                          -2.0 * k * (r - distance));
-      }
-  }
-  return decibels(4.0 * pi / (radar_wavelength_m * radar_wavelength_m) * std::norm(sum));
-}
-
-dvec3 from(double azimuth_deg, double elevation_deg, double distance = range_m) {
-  const double az = radians(azimuth_deg), el = radians(elevation_deg);
-  return distance * dvec3(std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el));
-}
-
-double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
-
-double plate_db(double pattern) {
-  return decibels(4.0 * pi * std::pow(a, 4) / (radar_wavelength_m * radar_wavelength_m) * pattern * pattern);
-}
-
-/// 4 pi a^4/lambda^2 (cos(theta) sinc(k a sin(theta)))^2 (C. A. Balanis, Advanced Engineering Electromagnetics, 11.3).
-double plate_db_at(double degrees) {
-  return plate_db(std::cos(radians(degrees)) * sinc(k * a * std::sin(radians(degrees))));
-}
-
-EchoOptions exact(double half_m, uint32_t tubes) {
-  EchoOptions options = around(half_m, range_m, tubes);
-  options.border_floor_m2 = 0.0;
-  options.max_echoes = 1u << 24;
-  return options;
-}
 
 TEST(RadarEchoRcs, PlateIsThatOfPhysicalOpticsUpTo60Degrees) {
   EXPECT_NEAR(plate_db_at(0.0), 19.185, 1e-3);
@@ -182,15 +83,6 @@ TEST(RadarEchoRcs, DihedralAtSeveralAngles) {
     EXPECT_NEAR(section_db(field_of(list), range_m, range_m), expected, 0.1) << angle;
     EXPECT_LT(section_db(field_of(list, 3), range_m, range_m), -60.0) << angle;
   }
-}
-
-/// 4 pi A^2/lambda^2 of the part of the aperture whose mirror image in the apex is in it, too (A. C. Bonkowski et al. 1953;
-/// for direction cosines (l, m, n), ascending, A = a^2 4 l m/(l + m + n) if l + m <= n, else a^2 (l + m + n - 2/(l + m + n))).
-double trihedral_db(dvec3 d) {
-  const double low = std::min({d.x, d.y, d.z}), high = std::max({d.x, d.y, d.z}), sum = d.x + d.y + d.z,
-               mid = sum - low - high;
-  const double area = a * a * (low + mid <= high ? 4.0 * low * mid / sum : sum - 2.0 / sum);
-  return decibels(4.0 * pi * area * area / (radar_wavelength_m * radar_wavelength_m));
 }
 
 TEST(RadarEchoRcs, TrihedralAtSeveralAngles) {

@@ -73,9 +73,9 @@ TEST(Scenario, EverythingTop) {
   EXPECT_EQ(s.environment.water_vapour_g_m3, 10.0);
   EXPECT_EQ(s.environment.rain_mm_h, 12.5);
   EXPECT_EQ(s.environment.fog_g_m3, 0.05);
-  EXPECT_EQ(s.effects.at("shadows"), Switch::on);
+  EXPECT_EQ(s.effects.at("static_shadows"), Switch::on);
   EXPECT_EQ(s.effects.at("reflection"), Switch::off);
-  EXPECT_EQ(s.effects.at("gas_attenuation"), Switch::automatic);
+  EXPECT_EQ(s.effects.at("gas"), Switch::automatic);
   EXPECT_EQ(s.tolerance_db, 0.05);
 }
 
