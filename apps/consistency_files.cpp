@@ -9,10 +9,11 @@
 #include <mutex>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
 #include "io/dataset_reader.h"
+#include "io/inside.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::apps {
 
@@ -23,6 +24,7 @@ namespace {
 constexpr const char* header = "figure,sequence,tick,sensor,other,compared,largest_relative_error";
 /// Both are of the same arrays; what is left are sums in another order.
 constexpr double agreement = 1e-12;
+constexpr size_t most_instances = 1 << 22;
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields{""};
@@ -103,20 +105,26 @@ class Recomputer {
   };
 
   void read_boxes() {
-    const nlohmann::json run = nlohmann::json::parse(reader_.info().run_json);
-    if (!run.contains("instances") || !sensor("poses")) return;
-    const nlohmann::json nodes = nlohmann::json::parse(sensor("poses")->metadata_json).at("nodes");
-    for (const nlohmann::json& instance : run["instances"]) {
+    const fs::path file = reader_.folder() / io::dataset_file;
+    const io::JsonDocument run(reader_.info().run_json, {file.string() + ": run", 0});
+    const SensorSpec* const poses = sensor("poses");
+    if (!run.root().has("instances") || poses == nullptr) return;
+    const io::JsonDocument metadata(poses->metadata_json, {file.string() + ": poses: metadata", 0});
+    std::map<std::string, uint32_t> nodes;
+    for (const io::JsonValue& node : metadata.root().at("nodes").list(most_instances))
+      nodes.emplace(node.text(), static_cast<uint32_t>(nodes.size()));
+    for (const io::JsonValue& instance : run.root().at("instances").list(most_instances)) {
       sim::InstanceBox& box = boxes_.emplace_back();
-      if (!instance.contains("box_m")) continue;
-      for (const nlohmann::json& corner : instance["box_m"])
-        box.box.add(dvec3(corner[0], corner[1], corner[2]));
-      if (!instance.contains("node")) continue;
-      const auto node = std::find(nodes.begin(), nodes.end(), instance["node"]);
-      if (node == nodes.end())
-        throw_user_error("{}: instances: expected one of the nodes of the poses, found {}", io::dataset_file,
-                         instance["node"].dump());
-      box.node = static_cast<uint32_t>(node - nodes.begin());
+      if (!instance.has("box_m")) continue;
+      for (const io::JsonValue& corner : instance.at("box_m").tuple(2)) {
+        const std::vector<io::JsonValue> xyz = corner.tuple(3);
+        const auto metres = [&](size_t axis) { return xyz[axis].number(-1e12, 1e12); };
+        box.box.add(dvec3(metres(0), metres(1), metres(2)));
+      }
+      if (!instance.has("node")) continue;
+      const auto node = nodes.find(instance.at("node").text());
+      if (node == nodes.end()) instance.at("node").fail("one of the nodes of the poses");
+      box.node = node->second;
     }
   }
 
@@ -165,7 +173,9 @@ std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, 
     const std::string line = text.substr(begin, end - begin);
     begin = end + 1;
     if (++number == 1) {
-      if (line != header) throw_user_error("{}:1: expected '{}', found '{}'", name, header, line);
+      if (line != header)
+        throw_user_error("{}:1: expected '{}', found '{}'", name, header,
+                         io::plain_text(std::string_view(line).substr(0, 200)));
       continue;
     }
     const std::vector<std::string> fields = split(line);
@@ -175,7 +185,8 @@ std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, 
     const bool known = whole && (fields[0] == sim::lidar_figure || fields[0] == sim::sight_figure ||
                                  fields[0] == sim::radar_figure);
     if (!known)
-      throw_user_error("{}:{}: expected a figure's line ({}), found '{}'", name, number, header, line);
+      throw_user_error("{}:{}: expected a figure's line ({}), found '{}'", name, number, header,
+                       io::plain_text(std::string_view(line).substr(0, 200)));
     row.figure = fields[0];
     row.sensor = fields[3];
     row.other = fields[4];
@@ -189,7 +200,7 @@ ConsistencyReport verify_consistency(const fs::path& folder, uint32_t threads) {
   ConsistencyReport report;
   const fs::path file = folder / io::consistency_file;
   const Recomputer recomputer(folder);
-  if (!fs::exists(file)) {
+  if (!io::exists_inside(folder, io::consistency_file)) {
     report.notes.push_back(
         fmt::format("{} is not there: nothing to hold the files against", io::consistency_file));
     return report;

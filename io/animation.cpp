@@ -30,6 +30,10 @@ Playback playback_of(const std::vector<Moment>& moments) {
   const double total_ms = 1e-6 * static_cast<double>(moments.back().time_ns - moments.front().time_ns);
   const double own_step_ms = total_ms / static_cast<double>(moments.size() - 1);
   const bool own = own_step_ms >= shortest_own_step_ms && own_step_ms <= longest_own_step_ms;
+  for (size_t i = 1; i < moments.size(); ++i)
+    if (moments[i].time_ns <= moments[i - 1].time_ns)
+      throw_user_error("animation: expected times that ascend, found {} ns behind {} ns", moments[i].time_ns,
+                       moments[i - 1].time_ns);
   Playback playback;
   playback.speed = own ? 1.0 : own_step_ms / step_otherwise_ms;
   for (size_t i = 0; i < moments.size(); ++i) {

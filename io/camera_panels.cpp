@@ -12,7 +12,7 @@ namespace {
 
 class RgbPanel : public PicturePanel {
  public:
-  explicit RgbPanel(const PanelSource& source) : PicturePanel(source, "rgb", "rgb") {}
+  explicit RgbPanel(const PanelSource& source) : PicturePanel(source, "rgb", "rgb", {DType::u8}, 3) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array image = load(row);
     canvas.picture(picture, image);
@@ -23,7 +23,7 @@ class RgbPanel : public PicturePanel {
 /// Planar depth; one scale for all rows, so that they can be compared.
 class DepthPanel : public PicturePanel {
  public:
-  explicit DepthPanel(const PanelSource& source) : PicturePanel(source, "depth", "depth") {
+  explicit DepthPanel(const PanelSource& source) : PicturePanel(source, "depth", "depth", {DType::f32}) {
     std::vector<float> values;
     for (size_t row = 0; row < source_.chosen.size(); ++row) {
       const Array depth = load(row);
@@ -58,7 +58,8 @@ class DepthPanel : public PicturePanel {
 class IdPanel : public PicturePanel {
  public:
   IdPanel(const PanelSource& source, const std::string& array)
-      : PicturePanel(source, array, array == "instance" ? "instances" : array.c_str()) {}
+      : PicturePanel(source, array, array == "instance" ? "instances" : array.c_str(),
+                     {DType::u8, DType::u16, DType::u32}) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array image = load(row);
     std::vector<uint32_t> ids;

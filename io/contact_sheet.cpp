@@ -61,6 +61,14 @@ int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
   return y;
 }
 
+/// A data set may declare any number of sensors.
+void check_size(const DatasetReader& reader, int64_t width, int64_t height) {
+  constexpr int64_t most_pixels = int64_t{1} << 28;
+  if (width * height > most_pixels)
+    throw_user_error("{}: expected a contact sheet of at most {} pixels, found {} x {}, of {} sensors",
+                     reader.folder().string(), most_pixels, width, height, reader.sensors().size());
+}
+
 /// A column of a comparison: what one data set shows at one moment.
 struct Column {
   std::string title;
@@ -86,6 +94,7 @@ Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
   for (const Band& band : bands)
     height += title_height + static_cast<int>(moments.size()) * row_height(band) + gap;
 
+  check_size(reader, width, height);
   Canvas canvas(width, height, theme::page);
   draw_header(canvas, reader, sequence);
   int y = margin + header_height;

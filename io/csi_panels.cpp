@@ -4,8 +4,6 @@
 #include <cmath>
 #include <complex>
 
-#include <nlohmann/json.hpp>
-
 #include "core/units.h"
 #include "io/panels.h"
 
@@ -14,7 +12,7 @@ namespace greatx::io {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr size_t most_columns = 600;
+constexpr size_t most_columns = 600, most_cells = 1 << 22;
 constexpr double dynamic_range_db = 50.0;
 
 /// In place, radix 2, e^{+j}: x[n] = sum_k X[k] e^{+j 2 pi k n / N}.
@@ -47,16 +45,17 @@ struct Link {
   std::vector<std::vector<std::complex<float>>> columns;  ///< [time][subcarrier]
 
   explicit Link(const PanelSource& source) : sensor(source.spec().name) {
-    const nlohmann::json metadata = nlohmann::json::parse(source.spec().metadata_json, nullptr, false);
-    if (metadata.is_object()) spacing_hz = metadata.value("subcarrier_spacing_hz", 1.0);
+    spacing_hz = number_of(metadata_of(source.spec()), "subcarrier_spacing_hz", 1.0, 1e-6, 1e15);
     const std::vector<IndexRow> rows = source.reader.records_of(source.sequence, source.sensor);
     if (rows.empty()) return;
     first_time_s = 1e-9 * static_cast<double>(rows.front().time_ns);
     last_time_s = 1e-9 * static_cast<double>(rows.back().time_ns);
-    const size_t count = std::min(rows.size(), most_columns);
+    size_t count = std::min(rows.size(), most_columns);
     for (size_t i = 0; i < count; ++i) {
-      const Array cfr = source.load(rows[i * rows.size() / count], "cfr");
+      const Array cfr =
+          source.load(rows[i * rows.size() / count], "cfr", {DType::complex64}, {0, 0, 0, 0, 0, 0});
       subcarriers = static_cast<size_t>(cfr.shape.back());
+      if (i == 0) count = std::min(count, std::max<size_t>(2, most_cells / subcarriers));
       const auto values = cfr.as<std::complex<float>>().first(subcarriers);
       columns.emplace_back(values.begin(), values.end());
     }

@@ -26,6 +26,10 @@ inline constexpr const char* consistency_file = "consistency.csv";
 /// What `greatx generate` and `greatx inspect` may leave beside the data; not part of the manifest.
 inline constexpr const char* companion_files[] = {"contact_sheet.png", "animation.webp", consistency_file};
 
+/// Bounds of what a data set may say, so that numbers that lie ask for no time and no memory.
+inline constexpr int64_t most_sequences = 1'000'000, most_ticks = 1'000'000'000'000;
+inline constexpr uint64_t largest_array = uint64_t{4} << 30;  ///< bytes of one array of one record
+
 /// What does not change during a run. Two runs whose DatasetInfo agree give the same bytes on the same device, so it
 /// must not hold wall-clock times, host names or paths.
 struct DatasetInfo {
@@ -51,7 +55,7 @@ struct IndexRow {
 inline constexpr const char* index_columns = "tick,time_ns,sensor,sample,row";
 
 /// Throws UserError for names that are no plain relative paths or meet on disk, ContractError for outputs that do not
-/// fit their arrays, or an array that no output keeps.
+/// fit their arrays, an array that no output keeps or one that is larger than largest_array.
 void check_sensors(const std::vector<SensorSpec>& sensors);
 /// The arrays of an output, as indices into SensorSpec::arrays.
 std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output);
@@ -78,17 +82,22 @@ uint64_t stack_row_bytes(const ArraySpec& array);
 std::string dataset_json(const DatasetInfo& info);
 /// The inverse, except for scenario_text. `name` stands for the file in messages. Throws UserError.
 DatasetInfo parse_dataset_json(const std::string& text, const std::string& name);
-/// The fields in which two dataset.json differ, "path: the data set has X, this run has Y", at most eight lines.
-std::string describe_differences(const std::string& stored, const std::string& wanted);
+/// The fields in which two dataset.json differ, "path: the data set has X, this run has Y", at most eight lines. `name` is the
+/// stored one's file. Throws UserError if that is no JSON.
+std::string describe_differences(const std::string& stored, const std::string& wanted,
+                                 const std::string& name);
 
 std::string index_csv(const DatasetInfo& info, const std::vector<IndexRow>& rows);
 Bytes index_npy(const std::vector<IndexRow>& rows);
 std::vector<IndexRow> read_index_npy(const std::filesystem::path& path);
+/// Throws UserError, with the file's name and the row, for a row whose numbers can be those of no record.
+void check_index_rows(const std::string& name, const DatasetInfo& info, const std::vector<IndexRow>& rows);
 
 /// When samples fire: sample k at tick round(k * tick_rate / rate), half up, and when ticks are, exactly.
 class SampleClock {
  public:
-  /// Rationals as text: "30", "29.97", "30000/1001". Throws UserError.
+  /// Rationals as text: "30", "29.97", "30000/1001", numerator and denominator up to 10^12. Throws UserError. Ticks and
+  /// samples must lie within most_ticks; a result beyond 64 bits is a UserError.
   SampleClock(const std::string& tick_rate, const std::string& rate);
   int64_t tick_of(int64_t sample) const;
   int64_t samples_before(int64_t tick) const;  ///< how many fire at ticks 0 .. tick-1

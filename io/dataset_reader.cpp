@@ -6,11 +6,13 @@
 #include <cstring>
 
 #include "io/exr.h"
+#include "io/inside.h"
 #include "io/npy.h"
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/png.h"
 #include "io/recovery.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -22,7 +24,8 @@ std::vector<std::vector<IndexRow>> rows_of_journal(const fs::path& folder, const
   const Recovered recovered = read_committed(folder, info);
   std::vector<std::vector<IndexRow>> sequences(recovered.closed.size());
   std::vector<int64_t> counts(info.sensors.size());
-  for (const JournalPacket& packet : recovered.packets) {
+  for (const JournalPacket& packet :
+       recovered.packets) {  // of sequences one after the other, as read_committed knows
     if (packet.sequence >= sequences.size()) sequences.resize(packet.sequence + 1);
     if (sequences[packet.sequence].empty()) std::fill(counts.begin(), counts.end(), 0);
     for (const auto& record : packet.records) {
@@ -47,6 +50,18 @@ Array points_of(const std::map<std::string, Array>& properties, const std::strin
   return points;
 }
 
+/// Of the shape that the sensor declares: the file may say something else, and be sparse.
+Array read_npy_frame(const fs::path& path, const ArraySpec& spec) {
+  const NpyFile file(path);
+  bool fits = file.shape().size() == spec.shape.size();
+  for (size_t i = 0; fits && i < spec.shape.size(); ++i)
+    fits = spec.shape[i] < 0 || spec.shape[i] == file.shape()[i];
+  if (!fits || file.file_bytes() > largest_array)
+    throw_user_error("{}: expected {} [{}], found {} [{}]", path.string(), numpy_name(spec.dtype),
+                     fmt::join(spec.shape, ", "), numpy_name(file.dtype()), fmt::join(file.shape(), ", "));
+  return file.read();
+}
+
 Array widened(const Array& grey16) {
   Array ids(DType::u32, grey16.shape);
   std::copy(grey16.as<uint16_t>().begin(), grey16.as<uint16_t>().end(), ids.as<uint32_t>().begin());
@@ -56,23 +71,20 @@ Array widened(const Array& grey16) {
 }  // namespace
 
 DatasetReader::DatasetReader(const fs::path& folder) : folder_(folder) {
-  const fs::path description = folder / dataset_file;
-  if (!fs::exists(description))
+  if (!exists_inside(folder, dataset_file))
     throw_user_error("{}: expected a data set, found no {}", folder.string(), dataset_file);
-  info_ = parse_dataset_json(read_text_file(description), description.string());
-  info_.scenario_text = read_text_file(folder / scenario_file);
-  finished_ = fs::exists(folder / manifest_file);
+  const fs::path description = folder / dataset_file;
+  info_ = parse_dataset_json(read_text_file(description, JsonLimits{}.bytes), description.string());
+  info_.scenario_text = read_text_file(inside(folder, scenario_file), JsonLimits{}.bytes);
+  finished_ = exists_inside(folder, manifest_file);
   if (!finished_) {
     rows_ = rows_of_journal(folder, info_);
     return;
   }
   for (uint32_t sequence = 0; sequence < info_.sequences; ++sequence) {
-    rows_.push_back(read_index_npy(folder / index_path(sequence, "npy")));
-    for (const IndexRow& row : rows_.back()) {
-      if (row.sensor < 0 || row.sensor >= static_cast<int64_t>(info_.sensors.size()))
-        throw_user_error("{}: expected a sensor below {}, found {}", index_path(sequence, "npy"),
-                         info_.sensors.size(), row.sensor);
-    }
+    const fs::path index = inside(folder, index_path(sequence, "npy"));
+    rows_.push_back(read_index_npy(index));
+    check_index_rows(index.string(), info_, rows_.back());
   }
 }
 DatasetReader::~DatasetReader() = default;
@@ -103,20 +115,23 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
   const SensorSpec& sensor = info_.sensors.at(static_cast<size_t>(row.sensor));
   const ArraySpec& spec = sensor.arrays[arrays_of(sensor, output).at(array)];
   if (is_stack(output.format)) return load_stack(sequence, row, output, spec);
-  const fs::path path = folder_ / frame_path(sequence, sensor, output, row.sample);
+  const fs::path path = inside(folder_, frame_path(sequence, sensor, output, row.sample));
+  const bool varies = is_cloud(output.format) || (!spec.shape.empty() && spec.shape[0] < 0);
+  // Packed pictures are hardly ever larger than their pixels.
+  const uint64_t most_bytes = varies ? largest_read : 2 * stack_row_bytes(spec) + (uint64_t{1} << 20);
   Array result;
   switch (output.format) {
     case FileFormat::npy_frame:
-      result = NpyFile(path).read();
+      result = read_npy_frame(path, spec);
       break;
     case FileFormat::png:
-      result = decode_png(read_file(path), path.string());
+      result = decode_png(read_file(path, most_bytes), path.string(), spec.shape);
       break;
     case FileFormat::png_depth24:
-      result = decode_png_depth24(read_file(path), path.string());
+      result = decode_png_depth24(read_file(path, most_bytes), path.string(), spec.shape);
       break;
     case FileFormat::exr:
-      result = read_exr(path);
+      result = read_exr(path, spec.shape);
       break;
     case FileFormat::kitti:
       result = decode_kitti(read_file(path), path.string());
@@ -163,14 +178,23 @@ Array DatasetReader::load_stack(uint32_t sequence, const IndexRow& row, const Ou
 Array DatasetReader::read_stack_rows(const std::string& path, DType dtype, std::vector<int64_t> row_shape,
                                      int64_t first, int64_t last) const {
   row_shape.insert(row_shape.begin(), last - first);
-  const fs::path whole = folder_ / path;
-  if (fs::exists(whole)) {
+  uint64_t row_bytes = size_of(dtype), bytes = 0;
+  for (size_t axis = 1; axis < row_shape.size(); ++axis)
+    row_bytes *= static_cast<uint64_t>(row_shape[axis]);  // of one row: bounded when dataset.json was read
+  const bool sized = first >= 0 && first <= last &&
+                     !__builtin_mul_overflow(static_cast<uint64_t>(last - first), row_bytes, &bytes) &&
+                     bytes <= largest_array;
+  const fs::path whole = inside(folder_, path);
+  if (!sized)
+    throw_user_error("{}: expected a record of at most {} bytes, found rows {} to {} of {}", whole.string(),
+                     largest_array, first, last, row_bytes);
+  if (exists_inside(folder_, path)) {
     std::unique_ptr<NpyFile>& file = open_stacks_[path];
     if (!file) file = std::make_unique<NpyFile>(whole);
     std::vector<int64_t> shape = file->shape();
     const int64_t rows = file->rows();
     if (!shape.empty()) shape[0] = last - first;
-    if (file->dtype() != dtype || shape != row_shape || first < 0 || first > last || last > rows) {
+    if (file->dtype() != dtype || shape != row_shape || last > rows) {
       throw_user_error("{}: expected rows {} to {} of {} [{}], found {} [{}]", whole.string(), first, last,
                        numpy_name(dtype), fmt::join(row_shape, ", "), numpy_name(file->dtype()),
                        fmt::join(file->shape(), ", "));
@@ -178,13 +202,13 @@ Array DatasetReader::read_stack_rows(const std::string& path, DType dtype, std::
     return file->read_rows(first, last);
   }
   // Unfinished: the header does not yet say how many rows there are.
-  if (first < 0 || first > last) throw_user_error("{}: rows {} to {}", whole.string(), first, last);
+  const File file = File::open_for_reading(inside(folder_, path + ".part"));
+  const uint64_t size = file.size(), stored = size < npy_header_bytes ? 0 : size - npy_header_bytes;
+  if (row_bytes > 0 && stored / row_bytes < static_cast<uint64_t>(last))
+    throw_user_error("{}: expected {} rows of {} bytes, found {} bytes", file.path().string(), last,
+                     row_bytes, stored);
   Array array(dtype, row_shape);
-  const File file = File::open_for_reading(part_name(whole));
-  if (last > first) {
-    const uint64_t row_bytes = array.bytes.size() / static_cast<uint64_t>(last - first);
-    file.read_at(npy_header_bytes + static_cast<uint64_t>(first) * row_bytes, array.bytes);
-  }
+  if (last > first) file.read_at(npy_header_bytes + static_cast<uint64_t>(first) * row_bytes, array.bytes);
   return array;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/hash.h"
 #include "io/dataset_writer_state.h"
+#include "io/inside.h"
 #include "io/journal.h"
 #include "io/sequence_exports.h"
 
@@ -46,10 +47,14 @@ void DatasetWriter::State::end_sequence() {
     for (const FileEntry& file : exports) rename_file(part_name(folder_ / file.path), folder_ / file.path);
     const Bytes npy = index_npy(rows_);
     const std::string csv = index_csv(info_, rows_);
-    write_file_atomically(folder_ / index_path(next_sequence_, "npy"), npy);
-    write_file_atomically(folder_ / index_path(next_sequence_, "csv"), csv);
+    write_file_atomically(inside(folder_, index_path(next_sequence_, "npy")), npy);
+    write_file_atomically(inside(folder_, index_path(next_sequence_, "csv")), csv);
     entries.push_back({index_path(next_sequence_, "npy"), npy.size(), sha256_hex(npy)});
     entries.push_back({index_path(next_sequence_, "csv"), csv.size(), sha256_hex(bytes_of(csv))});
+    // The frames of this sequence are the last ones.
+    size_t first = manifest_.frames.size();
+    while (first > 0 && manifest_.frames[first - 1].sequence == next_sequence_) --first;
+    check_frames(first);
     append_journal(journal_line(JournalEnd{next_sequence_, entries}));
     manifest_.files.insert(manifest_.files.end(), entries.begin(), entries.end());
   } catch (const WriteError& error) {
@@ -67,6 +72,8 @@ void DatasetWriter::State::finish() {
   GREATX_CHECK(!files_ && next_sequence_ == info_.sequences, "sequence {} of {}", next_sequence_,
                info_.sequences);
   try {
+    for (const FileEntry& file : manifest_.files) check_written(file.path, file.size);
+    check_frames(0);
     const auto [files, bytes] = write_manifest(folder_, info_, manifest_);
     stats_.files = files;
     stats_.bytes = bytes;
@@ -77,6 +84,23 @@ void DatasetWriter::State::finish() {
   fs::remove(folder_ / journal_file, ignored);
   journal_ = File();
   finished_ = true;
+}
+
+void DatasetWriter::State::check_written(const std::string& path, uint64_t size) const {
+  const std::optional<uint64_t> found = size_inside(folder_, path);
+  if (!found)
+    throw_user_error("{}: was deleted while the data set was being written", (folder_ / path).string());
+  if (*found != size)
+    throw_user_error("{}: expected {} bytes, found {}: it was changed while the data set was being written",
+                     (folder_ / path).string(), size, *found);
+}
+
+void DatasetWriter::State::check_frames(size_t first) const {
+  for (size_t i = first; i < manifest_.frames.size(); ++i) {
+    const Manifest::Frame& frame = manifest_.frames[i];
+    const SensorSpec& sensor = info_.sensors[frame.sensor];
+    check_written(frame_path(frame.sequence, sensor, sensor.outputs[frame.output], frame.sample), frame.size);
+  }
 }
 
 WriterStats DatasetWriter::State::stats() const {

@@ -7,8 +7,10 @@
 
 #include "core/hash.h"
 #include "io/dataset_writer_state.h"
+#include "io/inside.h"
 #include "io/journal.h"
 #include "io/recovery.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -33,8 +35,8 @@ DatasetWriter::State::State(const fs::path& folder, DatasetInfo info, WriterOpti
 void DatasetWriter::State::prepare_folder() {
   create_folders(folder_);
   const fs::path description = folder_ / dataset_file;
-  if (fs::exists(description)) {
-    open_existing(read_text_file(description));
+  if (exists_inside(folder_, dataset_file)) {
+    open_existing(read_text_file(description, JsonLimits{}.bytes));
   } else {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       if (entry.path() == part_name(description)) continue;  // killed before anything else was written
@@ -46,7 +48,7 @@ void DatasetWriter::State::prepare_folder() {
     write_file_atomically(description, description_);
   }
   if (finished_) return;
-  write_file_atomically(folder_ / scenario_file, info_.scenario_text);
+  write_file_atomically(inside(folder_, scenario_file), info_.scenario_text);
   if (!journal_.is_open()) open_journal(0);
   manifest_.files = {{dataset_file, description_.size(), sha256_hex(bytes_of(description_))},
                      {scenario_file, info_.scenario_text.size(), sha256_hex(bytes_of(info_.scenario_text))}};
@@ -54,7 +56,7 @@ void DatasetWriter::State::prepare_folder() {
 }
 
 void DatasetWriter::State::open_existing(const std::string& stored) {
-  const bool complete = fs::exists(folder_ / manifest_file);
+  const bool complete = exists_inside(folder_, manifest_file);
   if (!options_.resume) {
     if (complete)
       throw_user_error("{}: holds a finished data set, which is not overwritten; choose another folder",
@@ -63,7 +65,8 @@ void DatasetWriter::State::open_existing(const std::string& stored) {
                      folder_.string());
   }
   if (stored != description_) {
-    const std::string differences = describe_differences(stored, description_);
+    const std::string differences =
+        describe_differences(stored, description_, (folder_ / dataset_file).string());
     throw_user_error("{}: holds a data set of another run, which this one cannot resume:\n{}",
                      folder_.string(),
                      differences.empty() ? "  the text of dataset.json differs\n" : differences);
@@ -76,7 +79,7 @@ void DatasetWriter::State::open_existing(const std::string& stored) {
 }
 
 void DatasetWriter::State::open_journal(uint64_t bytes) {
-  journal_ = File::open_for_writing(folder_ / journal_file);
+  journal_ = File::open_for_writing(inside(folder_, journal_file));
   if (::flock(journal_.descriptor(), LOCK_EX | LOCK_NB) != 0)
     throw_user_error("{}: is being written by another process", folder_.string());
   journal_bytes_ = bytes;
@@ -85,7 +88,7 @@ void DatasetWriter::State::open_journal(uint64_t bytes) {
 void DatasetWriter::State::recover() {
   const Recovered recovered = read_committed(folder_, info_);
   clear_uncommitted(folder_, info_, recovered);
-  fs::remove(part_name(folder_ / manifest_file));
+  fs::remove(inside(folder_, std::string(manifest_file) + ".part"));
   journal_.truncate(recovered.journal_bytes);
   journal_bytes_ = recovered.journal_bytes;
   next_sequence_ = static_cast<uint32_t>(recovered.closed.size());

@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "io/dataset_writer_state.h"
 #include "io/exr.h"
+#include "io/inside.h"
 #include "io/journal.h"
 #include "io/npy.h"
 #include "io/pcd.h"
@@ -141,7 +142,7 @@ void DatasetWriter::State::write_frame(const Pending& pending, Pending::Frame& f
   const Record& record = pending.packet.records[frame.record];
   const SensorSpec& sensor = info_.sensors[record.sensor];
   const OutputSpec& output = sensor.outputs[frame.output];
-  const fs::path path = folder_ / frame_path(next_sequence_, sensor, output, record.sample);
+  const fs::path path = inside(folder_, frame_path(next_sequence_, sensor, output, record.sample));
   Bytes bytes;
   try {
     bytes = encode_frame(sensor, output, record.arrays);
@@ -209,6 +210,7 @@ void DatasetWriter::State::commit(const Pending& pending) {
 }
 
 void DatasetWriter::State::append_journal(const std::string& line) {
+  journal_.check_untouched(journal_bytes_);
   journal_.write_at(journal_bytes_, bytes_of(line));
   journal_bytes_ += line.size();
 }

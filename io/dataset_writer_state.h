@@ -54,6 +54,10 @@ class DatasetWriter::State {
   void write(Packet packet);
 
  private:
+  /// Throw UserError for a file of the data set, the frames from `first` on, that are not there as they were written: somebody
+  /// else deleted or changed them meanwhile.
+  void check_written(const std::string& path, uint64_t size) const;
+  void check_frames(size_t first) const;
   void rethrow_error();
   [[noreturn]] void explain(const WriteError& error) const;
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "io/picture_panel.h"
 
 namespace greatx::io {
@@ -21,7 +19,10 @@ class EventPanel : public FramePanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const IndexRow& record = source_.chosen[row];
-    const Array x = source_.load(record, "x"), y = source_.load(record, "y"), p = source_.load(record, "p");
+    const Array x = source_.load(record, "x", {DType::u16}, {-1}),
+                y = source_.load(record, "y", {DType::u16}, {-1}),
+                p = source_.load(record, "p", {DType::u8}, {-1});
+    expect_same_rows(source_, {&x, &y, &p});
     canvas.picture(picture,
                    event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
     const size_t count = p.as<uint8_t>().size();
@@ -47,7 +48,7 @@ class EventPanel : public FramePanel {
 class DifferencePanel : public PicturePanel {
  public:
   explicit DifferencePanel(const PanelSource& source)
-      : PicturePanel(source, "difference_picture", "differences") {}
+      : PicturePanel(source, "difference_picture", "differences", {DType::u8}) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array grey = load(row);
     const std::span<const uint8_t> values = grey.as<uint8_t>();
@@ -85,11 +86,12 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 }
 
 void add_event_panels(const PanelSource& source, Panels& panels) {
-  const nlohmann::json metadata = nlohmann::json::parse(source.spec().metadata_json, nullptr, false);
-  const bool sized = metadata.is_object() && metadata.contains("width") && metadata.contains("height");
-  if (sized && source.has("x") && source.has("y") && source.has("p"))
-    panels.frames.push_back(std::make_unique<EventPanel>(source, metadata["width"].get<int64_t>(),
-                                                         metadata["height"].get<int64_t>()));
+  const JsonDocument metadata = metadata_of(source.spec());
+  const JsonValue root = metadata.root();
+  constexpr int64_t longest_side = 16384;
+  if (root.has("width") && root.has("height") && source.has("x") && source.has("y") && source.has("p"))
+    panels.frames.push_back(std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
+                                                         root.at("height").integer(1, longest_side)));
   if (source.has("difference_picture")) panels.frames.push_back(std::make_unique<DifferencePanel>(source));
 }
 

@@ -8,12 +8,15 @@
 #include <memory>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/openexr.h>
 #include <libdeflate.h>
+
+#include "io/picture_shape.h"
 
 namespace greatx::io {
 
@@ -159,7 +162,7 @@ Bytes encode_exr(const Array& image) {
   return file;
 }
 
-Array read_exr(const std::filesystem::path& path) try {
+Array read_exr(const std::filesystem::path& path, const std::vector<int64_t>& expected_shape) try {
   Imf::InputFile file(path.c_str(), no_threads());
   const Imath::Box2i window = file.header().dataWindow();
   const int64_t width = int64_t{window.max.x} - window.min.x + 1,
@@ -170,8 +173,15 @@ Array read_exr(const std::filesystem::path& path) try {
     if (list.findChannel(name) == nullptr)
       throw_user_error("{}: expected a channel Y or Z, or R, G and B; {} is missing", path.string(), name);
   }
-  Array image(DType::f32, names.size() == 1 ? std::vector<int64_t>{height, width}
-                                            : std::vector<int64_t>{height, width, 3});
+  const Imf::Compression compression = file.header().compression();
+  if (compression != Imf::NO_COMPRESSION && compression != Imf::ZIPS_COMPRESSION &&
+      compression != Imf::ZIP_COMPRESSION)
+    throw_user_error("{}: expected no compression or ZIP, found number {}", path.string(),
+                     static_cast<int>(compression));
+  const std::vector<int64_t> shape = names.size() == 1 ? std::vector<int64_t>{height, width}
+                                                       : std::vector<int64_t>{height, width, 3};
+  check_picture_shape(path.string(), DType::f32, shape, expected_shape);
+  Array image(DType::f32, shape);
   file.setFrameBuffer(frame_buffer(names, reinterpret_cast<char*>(image.bytes.data()), window));
   file.readPixels(window.min.y, window.max.y);
   return image;

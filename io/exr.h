@@ -13,7 +13,9 @@ namespace greatx::io {
 /// f32 [h, w] as one channel "Y", f32 [h, w, 3] as channels R, G, B. Readers of pictures know a single channel by that name
 /// alone: OpenCV and FreeImage (imageio) give zeros for "Z" (docs/dataset.md).
 Bytes encode_exr(const Array& image);
-/// The inverse: [h, w] of channel "Y", or of "Z" (data sets of before), else [h, w, 3] of R, G, B. Throws UserError.
-Array read_exr(const std::filesystem::path& path);
+/// The inverse: [h, w] of channel "Y", or of "Z" (data sets of before), else [h, w, 3] of R, G, B. Throws
+/// UserError, also for compressions that greatx does not write, and for a picture that has not the expected
+/// shape (negative extents: any), before room is made for it.
+Array read_exr(const std::filesystem::path& path, const std::vector<int64_t>& expected_shape = {});
 
 }  // namespace greatx::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -10,6 +11,8 @@
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include "core/hash.h"
 
 namespace greatx::io {
 
@@ -20,16 +23,38 @@ std::string reason(int error_number) { return std::generic_category().message(er
 WriteError::WriteError(const std::filesystem::path& file, int error_number)
     : UserError(fmt::format("{}: cannot be written: {}", file.string(), reason(error_number))) {}
 
+const char* kind_of_file(mode_t mode) {
+  return S_ISREG(mode)    ? "a file"
+         : S_ISDIR(mode)  ? "a folder"
+         : S_ISLNK(mode)  ? "a symbolic link"
+         : S_ISFIFO(mode) ? "a FIFO"
+         : S_ISSOCK(mode) ? "a socket"
+                          : "a device";
+}
+
+void File::expect_plain() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) throw_user_error("{}: {}", path_.string(), reason(errno));
+  if (!S_ISREG(status.st_mode))
+    throw_user_error("{}: expected a file, found {}", path_.string(), kind_of_file(status.st_mode));
+}
+
 File File::open_for_reading(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) throw_user_error("{}: cannot be read: {}", path.string(), reason(errno));
-  return {path, descriptor};
+  File file(path, descriptor);
+  file.expect_plain();
+  return file;
 }
 
 File File::open_for_writing(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (descriptor < 0 && errno == ELOOP)
+    throw_user_error("{}: expected a file to write, found a symbolic link", path.string());
   if (descriptor < 0) throw WriteError(path, errno);
-  return {path, descriptor};
+  File file(path, descriptor);
+  file.expect_plain();
+  return file;
 }
 
 File::~File() {
@@ -81,6 +106,16 @@ void File::truncate(uint64_t size) {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw WriteError(path_, errno);
 }
 
+void File::check_untouched(uint64_t size) const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) throw_user_error("{}: {}", path_.string(), reason(errno));
+  if (status.st_nlink == 0)
+    throw_user_error("{}: was deleted while the data set was being written", path_.string());
+  if (static_cast<uint64_t>(status.st_size) != size)
+    throw_user_error("{}: expected {} bytes, found {}: it was changed while the data set was being written",
+                     path_.string(), size, status.st_size);
+}
+
 void File::close() {
   if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)
     throw WriteError(path_, errno);
@@ -122,18 +157,39 @@ void create_folder_of(const std::filesystem::path& file) {
   if (file.has_parent_path()) create_folders(file.parent_path());
 }
 
-Bytes read_file(const std::filesystem::path& path) {
+namespace {
+uint64_t size_to_read(const File& file, uint64_t most) {
+  const uint64_t size = file.size();
+  if (size > most)
+    throw_user_error("{}: expected a file of at most {} bytes, found {}", file.path().string(), most, size);
+  return size;
+}
+}  // namespace
+
+Bytes read_file(const std::filesystem::path& path, uint64_t most) {
   const File file = File::open_for_reading(path);
-  Bytes bytes(file.size());
+  Bytes bytes(size_to_read(file, most));
   file.read_at(0, bytes);
   return bytes;
 }
 
-std::string read_text_file(const std::filesystem::path& path) {
+std::string read_text_file(const std::filesystem::path& path, uint64_t most) {
   const File file = File::open_for_reading(path);
-  std::string text(file.size(), '\0');
+  std::string text(size_to_read(file, most), '\0');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   return text;
+}
+
+std::string sha256_of(const File& file) {
+  Sha256 hash;
+  Bytes block(1 << 20);
+  const uint64_t size = file.size();
+  for (uint64_t at = 0; at < size; at += block.size()) {
+    const auto piece = std::span(block).first(std::min<uint64_t>(block.size(), size - at));
+    file.read_at(at, piece);
+    hash.update(piece);
+  }
+  return hash.hex();
 }
 
 void append(Bytes& out, std::span<const std::byte> bytes) {

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/journal.h"
 
+#include <algorithm>
 #include <zlib.h>
 
 #include <nlohmann/json.hpp>
+
+#include "io/dataset_format.h"
+#include "io/inside.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -19,17 +24,37 @@ uint32_t crc(std::string_view text) {
 }
 std::string sealed(const std::string& text) { return fmt::format("{}\t{:08x}\n", text, crc(text)); }
 
-JournalEnd end_from(const Json& json) {
-  JournalEnd end{json.at("end"), {}};
-  for (const Json& file : json.at("files")) end.files.push_back({file.at(0), file.at(1), file.at(2)});
+/// More than any packet or sequence has.
+constexpr size_t most_files = 1 << 20;
+constexpr int64_t largest_file = int64_t{1} << 60;
+
+uint64_t size_from(const JsonValue& json) { return static_cast<uint64_t>(json.integer(0, largest_file)); }
+
+JournalEnd end_from(const JsonValue& json) {
+  JournalEnd end{static_cast<uint32_t>(json.at("end").integer(0, most_sequences - 1)), {}};
+  for (const JsonValue& file : json.at("files").list(most_files)) {
+    const std::vector<JsonValue> entry = file.tuple(3);
+    end.files.push_back({path_from(entry[0]), size_from(entry[1]), sha256_from(entry[2])});
+  }
   return end;
 }
 
-JournalPacket packet_from(const Json& json) {
-  const Json& head = json.at("packet");
-  JournalPacket packet{head.at(0), head.at(1), head.at(2), {}, {}};
-  for (const Json& record : json.at("records")) packet.records.push_back({record.at(0), record.at(1)});
-  for (const Json& file : json.at("files")) packet.frames.push_back({file.at(0), file.at(1)});
+JournalPacket packet_from(const JsonValue& json) {
+  const std::vector<JsonValue> head = json.at("packet").tuple(3);
+  JournalPacket packet{static_cast<uint32_t>(head[0].integer(0, most_sequences - 1)),
+                       head[1].integer(0, most_ticks),
+                       head[2].integer(0, INT64_MAX),
+                       {},
+                       {}};
+  for (const JsonValue& record : json.at("records").list(most_files)) {
+    const std::vector<JsonValue> entry = record.tuple(2);
+    packet.records.push_back(
+        {static_cast<uint32_t>(entry[0].integer(0, INT32_MAX)), entry[1].integer(0, most_ticks)});
+  }
+  for (const JsonValue& file : json.at("files").list(most_files)) {
+    const std::vector<JsonValue> entry = file.tuple(2);
+    packet.frames.push_back({size_from(entry[0]), sha256_from(entry[1])});
+  }
   return packet;
 }
 
@@ -52,21 +77,37 @@ std::string journal_line(const JournalEnd& end) {
   return sealed(Json({{"end", end.sequence}, {"files", std::move(files)}}).dump());
 }
 
-std::vector<JournalEntry> parse_journal(const std::string& text) {
+std::string path_from(const JsonValue& json) {
+  std::string path = json.text();
+  if (const std::string fault = fault_of_path(path); !fault.empty()) json.fail(fault);
+  return path;
+}
+
+std::string sha256_from(const JsonValue& json) {
+  std::string digest = json.text();
+  const bool hex = std::all_of(digest.begin(), digest.end(),
+                               [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+  if (digest.size() != 64 || !hex) json.fail("a SHA-256 of 64 hexadecimal digits");
+  return digest;
+}
+
+std::vector<JournalEntry> parse_journal(const std::string& text, const std::string& name) {
   std::vector<JournalEntry> entries;
+  int number = 0;
   for (size_t start = 0; start < text.size();) {
     const size_t end = text.find('\n', start);
     if (end == text.npos || end - start <= checksum_size) break;
     const std::string_view line(text.data() + start, end - start - checksum_size);
     const std::string_view checksum(text.data() + end - checksum_size, checksum_size);
     if (fmt::format("\t{:08x}", crc(line)) != checksum) break;
-    const Json json = Json::parse(line);
+    const JsonDocument json(std::string(line), {name, ++number});
     JournalEntry& entry = entries.emplace_back();
     entry.end = end + 1;
-    if (json.contains("end")) {
-      entry.entry = end_from(json);
+    entry.line = number;
+    if (json.root().has("end")) {
+      entry.entry = end_from(json.root());
     } else {
-      entry.entry = packet_from(json);
+      entry.entry = packet_from(json.root());
     }
     start = end + 1;
   }

@@ -15,6 +15,8 @@
 
 namespace greatx::io {
 
+class JsonValue;
+
 /// A file of the data set as the manifest lists it.
 struct FileEntry {
   std::string path;  ///< relative to the data set's folder
@@ -46,11 +48,17 @@ struct JournalEnd {
 struct JournalEntry {
   std::variant<JournalPacket, JournalEnd> entry;
   uint64_t end = 0;  ///< bytes of the journal up to and with this line
+  int line = 0;      ///< its number, from 1 on
 };
 
 std::string journal_line(const JournalPacket& packet);
 std::string journal_line(const JournalEnd& end);
-/// All whole lines; reading stops at the first one that is torn.
-std::vector<JournalEntry> parse_journal(const std::string& text);
+/// All whole lines; reading stops at the first one that is torn. `name` stands for the file in messages. Throws UserError for
+/// a line whose checksum is right and that still is none of a journal.
+std::vector<JournalEntry> parse_journal(const std::string& text, const std::string& name = "journal.txt");
+
+/// A path below the data set's folder, and a SHA-256 in hexadecimal digits. Throw UserError.
+std::string path_from(const JsonValue& json);
+std::string sha256_from(const JsonValue& json);
 
 }  // namespace greatx::io

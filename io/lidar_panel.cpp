@@ -58,7 +58,7 @@ class LidarPanel : public FramePanel {
 
  private:
   std::vector<dvec3> turned(const IndexRow& row) {
-    const Array array = source_.load(row, "points");
+    const Array array = source_.load(row, "points", {DType::f32}, {-1, 4});
     const std::span<const float> values = array.as<float>();
     const std::optional<Pose> pose = world_from_sensor(source_, row);
     north_up_ = north_up_ && pose.has_value();

@@ -7,6 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/inside.h"
+#include "io/untrusted_json.h"
+
 namespace greatx::io {
 
 using Json = nlohmann::ordered_json;
@@ -77,7 +80,7 @@ std::pair<int64_t, uint64_t> write_manifest(const std::filesystem::path& folder,
   for (const FileEntry& file : manifest.files) bytes += file.size;
   for (const Manifest::Frame& frame : manifest.frames) bytes += frame.size;
 
-  const std::filesystem::path path = folder / manifest_file, part = part_name(path);
+  const std::filesystem::path path = inside(folder, manifest_file), part = part_name(path);
   try {
     TextFile out(part);
     out.add(fmt::format(
@@ -106,19 +109,18 @@ std::pair<int64_t, uint64_t> write_manifest(const std::filesystem::path& folder,
 }
 
 std::vector<FileEntry> read_manifest(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / manifest_file;
-  const std::string text = read_text_file(path);
-  try {
-    const Json json = Json::parse(text);
-    if (json.at("format") != "greatx-manifest" || json.at("format_version") != format_version)
-      throw_user_error("expected greatx-manifest version {}", format_version);
-    std::vector<FileEntry> files;
-    for (const Json& file : json.at("files"))
-      files.push_back({file.at("path"), file.at("size"), file.at("sha256")});
-    return files;
-  } catch (const std::exception& error) {
-    throw_user_error("{}: not a manifest: {}", path.string(), error.what());
-  }
+  constexpr JsonLimits limits{uint64_t{2} << 30, uint64_t{1} << 26, 8};  // some 16 million files
+  const std::filesystem::path path = inside(folder, manifest_file);
+  const JsonDocument document(read_text_file(path, limits.bytes), {path.string(), 1}, limits);
+  const JsonValue json = document.root();
+  if (json.at("format").text() != "greatx-manifest") json.at("format").fail("\"greatx-manifest\"");
+  if (json.at("format_version").integer(INT64_MIN, INT64_MAX) != format_version)
+    json.at("format_version").fail(fmt::format("version {}", format_version));
+  std::vector<FileEntry> files;
+  for (const JsonValue& file : json.at("files").list(limits.values))
+    files.push_back({path_from(file.at("path")), static_cast<uint64_t>(file.at("size").integer(0, INT64_MAX)),
+                     sha256_from(file.at("sha256"))});
+  return files;
 }
 
 }  // namespace greatx::io

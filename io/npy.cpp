@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/npy.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstring>
 #include <optional>
+
+#include <fmt/ranges.h>
 
 namespace greatx::io {
 
@@ -43,7 +46,7 @@ std::vector<int64_t> parse_shape(std::string_view text, const std::string& file)
     int64_t extent = 0;
     const auto [next, error] = std::from_chars(at, end, extent);
     if (error != std::errc{} || extent < 0)
-      throw_user_error("{}: expected a shape, found \"{}\"", file, text);
+      throw_user_error("{}: expected a shape of integers from 0 on", file);
     shape.push_back(extent);
     at = next;
   }
@@ -87,16 +90,19 @@ NpyFile::NpyFile(const std::filesystem::path& path) : file_(File::open_for_readi
   file_.read_at(preamble, std::as_writable_bytes(std::span(text)));
   const std::string_view descr = between(text, "'descr': '", "'");
   const std::optional<DType> dtype = dtype_named(descr);
-  if (!dtype) throw_user_error("{}: expected a known element type, found \"{}\"", path.string(), descr);
+  if (!dtype) throw_user_error("{}: expected an element type that greatx writes", path.string());
   if (text.find("'fortran_order': False") == text.npos)
     throw_user_error("{}: expected C order", path.string());
   dtype_ = *dtype;
   shape_ = parse_shape(between(text, "'shape': (", ")"), path.string());
   data_offset_ = preamble + length;
-  uint64_t expected = size_of(dtype_);
+  uint64_t expected = size_of(dtype_), bound = expected;
   for (const int64_t extent : shape_) {
-    if (__builtin_mul_overflow(expected, static_cast<uint64_t>(extent), &expected))
-      throw_user_error("{}: shape out of range", path.string());
+    // Of an array without elements, too: its rows must not overflow.
+    if (__builtin_mul_overflow(bound, std::max<uint64_t>(1, static_cast<uint64_t>(extent)), &bound))
+      throw_user_error("{}: expected a shape of less than 2^64 bytes, found [{}]", path.string(),
+                       fmt::join(shape_, ", "));
+    expected *= static_cast<uint64_t>(extent);
   }
   if (size - data_offset_ != expected) {
     throw_user_error("{}: expected {} bytes of data, found {}", path.string(), expected, size - data_offset_);
@@ -107,8 +113,8 @@ Array NpyFile::read_rows(int64_t first, int64_t last) const {
   GREATX_CHECK(!shape_.empty() && 0 <= first && first <= last && last <= shape_[0], "rows {}..{} of {}",
                first, last, rows());
   std::vector<int64_t> shape = shape_;
-  shape[0] = 1;
-  const uint64_t row_bytes = Array(dtype_, shape).bytes.size();
+  uint64_t row_bytes = size_of(dtype_);
+  for (size_t axis = 1; axis < shape.size(); ++axis) row_bytes *= static_cast<uint64_t>(shape[axis]);
   shape[0] = last - first;
   Array array(dtype_, shape);
   file_.read_at(data_offset_ + static_cast<uint64_t>(first) * row_bytes, array.bytes);

@@ -30,6 +30,7 @@ class NpyFile {
   explicit NpyFile(const std::filesystem::path& path);
   DType dtype() const { return dtype_; }
   const std::vector<int64_t>& shape() const { return shape_; }
+  uint64_t file_bytes() const { return file_.size(); }
   int64_t rows() const { return shape_.empty() ? 1 : shape_[0]; }
   Array read() const { return shape_.empty() ? read_scalar() : read_rows(0, rows()); }
   /// Rows first..last-1 along the first axis.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
+#include <fmt/ranges.h>
 
 namespace greatx::io {
 
@@ -22,16 +22,24 @@ constexpr Maker makers[] = {
     {"csi", false, add_csi_panels},      {"pose", false, add_pose_panels},
 };
 
+constexpr double farthest_m = 1e12;
+constexpr size_t most_nodes = 1'000'000;
+
 /// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
 Pose mount_of(const SensorSpec& sensor) {
-  const nlohmann::json metadata = nlohmann::json::parse(sensor.metadata_json, nullptr, false);
+  const JsonDocument metadata = metadata_of(sensor);
   Pose mount;
-  if (!metadata.is_object() || !metadata.contains("body_from_sensor")) return mount;
-  const nlohmann::json& json = metadata["body_from_sensor"];
-  const auto p = json.value("position_m", std::vector<double>{0, 0, 0});
-  const auto q = json.value("orientation_wxyz", std::vector<double>{1, 0, 0, 0});
-  if (p.size() == 3) mount.position = {p[0], p[1], p[2]};
-  if (q.size() == 4) mount.orientation = dquat(q[0], q[1], q[2], q[3]);
+  if (!metadata.root().has("body_from_sensor")) return mount;
+  const JsonValue json = metadata.root().at("body_from_sensor");
+  if (json.has("position_m")) {
+    const std::vector<JsonValue> p = json.at("position_m").tuple(3);
+    for (int i = 0; i < 3; ++i) mount.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
+  }
+  if (json.has("orientation_wxyz")) {
+    const std::vector<JsonValue> q = json.at("orientation_wxyz").tuple(4);
+    const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
+    mount.orientation = dquat(part(0), part(1), part(2), part(3));
+  }
   return mount;
 }
 
@@ -40,6 +48,51 @@ Pose mount_of(const SensorSpec& sensor) {
 bool PanelSource::has(std::string_view array) const {
   return std::any_of(spec().arrays.begin(), spec().arrays.end(),
                      [&](const ArraySpec& candidate) { return candidate.name == array; });
+}
+
+Array PanelSource::load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
+                        const std::vector<int64_t>& shape) const {
+  const auto& arrays = spec().arrays;
+  const auto declared =
+      std::find_if(arrays.begin(), arrays.end(), [&](const ArraySpec& a) { return a.name == array; });
+  bool fits = declared != arrays.end() &&
+              std::find(types.begin(), types.end(), declared->dtype) != types.end() &&
+              declared->shape.size() == shape.size();
+  for (size_t axis = 0; fits && axis < shape.size(); ++axis)
+    fits = shape[axis] < 0 ||
+           (shape[axis] == 0 ? declared->shape[axis] > 0 : declared->shape[axis] == shape[axis]);
+  if (!fits) {
+    std::vector<std::string> names, axes;
+    for (const DType type : types) names.emplace_back(numpy_name(type));
+    for (const int64_t extent : shape) axes.push_back(extent > 0 ? std::to_string(extent) : "n");
+    throw_user_error("{}: {}: expected an array {} of {} [{}], found {}", dataset_file, spec().name, array,
+                     fmt::join(names, " or "), fmt::join(axes, ", "),
+                     declared == arrays.end() ? "none"
+                                              : fmt::format("{} [{}]", numpy_name(declared->dtype),
+                                                            fmt::join(declared->shape, ", ")));
+  }
+  Array loaded = reader.load(sequence, row, array);
+  if (const std::string bad = find_bad_value(spec(), *declared, loaded); !bad.empty())
+    throw_user_error("{}: {}, tick {}: expected finite values, found {}", sequence_folder(sequence),
+                     spec().name, row.tick, bad);
+  return loaded;
+}
+
+JsonDocument metadata_of(const SensorSpec& sensor) {
+  return JsonDocument(sensor.metadata_json.empty() ? "{}" : sensor.metadata_json,
+                      {fmt::format("{}: {}: metadata", dataset_file, sensor.name), 0});
+}
+
+double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most) {
+  return metadata.root().has(key) ? metadata.root().at(key).number(least, most) : otherwise;
+}
+
+void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays) {
+  for (const Array* array : arrays)
+    if (array->shape[0] != (*arrays.begin())->shape[0])
+      throw_user_error("{}: {}: expected arrays of as many rows, found {} and {}",
+                       sequence_folder(source.sequence), source.spec().name, (*arrays.begin())->shape[0],
+                       array->shape[0]);
 }
 
 void add_panels(const PanelSource& source, Panels& panels) {
@@ -53,11 +106,10 @@ bool has_frame_panels(std::string_view kind) {
 }
 
 std::vector<std::string> node_names(const SensorSpec& pose) {
-  const nlohmann::json metadata = nlohmann::json::parse(pose.metadata_json, nullptr, false);
-  if (!metadata.is_object() || !metadata.contains("nodes") || !metadata["nodes"].is_array()) return {};
+  const JsonDocument metadata = metadata_of(pose);
   std::vector<std::string> names;
-  for (const auto& name : metadata["nodes"])
-    names.push_back(name.is_string() ? name.get<std::string>() : name.dump());
+  if (!metadata.root().has("nodes")) return names;
+  for (const JsonValue& name : metadata.root().at("nodes").list(most_nodes)) names.push_back(name.text());
   return names;
 }
 
@@ -80,10 +132,16 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
   const auto at =
       std::find_if(rows.begin(), rows.end(), [&](const IndexRow& r) { return r.tick == row.tick; });
   if (at == rows.end()) return std::nullopt;
-  const Array positions = source.reader.load(source.sequence, *at, "position");
-  const Array orientations = source.reader.load(source.sequence, *at, "orientation");
-  const double* const p = positions.as<double>().data() + 3 * (found - names.begin());
-  const double* const q = orientations.as<double>().data() + 4 * (found - names.begin());
+  const auto number = static_cast<size_t>(found - names.begin());
+  const PanelSource poses{source.reader, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
+  const Array positions = poses.load(*at, "position", {DType::f64}, {0, 3});
+  const Array orientations = poses.load(*at, "orientation", {DType::f64}, {0, 4});
+  expect_same_rows(poses, {&positions, &orientations});
+  if (number >= static_cast<size_t>(positions.shape[0]))
+    throw_user_error("{}: {}: expected poses of {} nodes, found {}", dataset_file, pose->name, names.size(),
+                     positions.shape[0]);
+  const std::span<const double> p = positions.as<double>().subspan(3 * number, 3);
+  const std::span<const double> q = orientations.as<double>().subspan(4 * number, 4);
   return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source.spec());
 }
 

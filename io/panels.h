@@ -5,6 +5,7 @@
 // SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one line in panels.cpp.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include "core/vec.h"
 #include "io/dataset_reader.h"
 #include "io/plot.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -26,9 +28,10 @@ struct PanelSource {
   std::vector<IndexRow> chosen;
   const SensorSpec& spec() const { return reader.sensors()[sensor]; }
   bool has(std::string_view array) const;
-  Array load(const IndexRow& row, const std::string& array) const {
-    return reader.load(sequence, row, array);
-  }
+  /// An array as panels need it, whatever the data set makes of its name: of one of these types and this shape (-1: any
+  /// extent, 0: any from 1 on), without numbers that must not be there. Throws UserError.
+  Array load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
+             const std::vector<int64_t>& shape) const;
 };
 
 class FramePanel {
@@ -82,6 +85,12 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 /// A sensor's pose in the world at a record: that of its node from the "pose" sensor, times its mount
 /// ("body_from_sensor" of its metadata). Empty if the data set does not say.
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
+/// A sensor's metadata, in messages "dataset.json: SENSOR: metadata".
+JsonDocument metadata_of(const SensorSpec& sensor);
+/// A number of them if it is there. Throws UserError.
+double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most);
+/// Throws UserError unless all have as many rows.
+void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays);
 /// The names of the nodes of a "pose" sensor.
 std::vector<std::string> node_names(const SensorSpec& pose);
 

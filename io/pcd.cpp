@@ -7,6 +7,7 @@
 
 #include <fmt/ranges.h>
 
+#include "io/untrusted_json.h"
 #include "io/vertex_rows.h"
 
 namespace greatx::io {
@@ -48,6 +49,7 @@ const std::vector<std::string>& values_of(const Header& header, const std::strin
 
 std::vector<VertexProperty> properties_of(const Header& header, const std::string& name) {
   const std::vector<std::string>& fields = values_of(header, "FIELDS", 0, name);
+  if (fields.empty()) throw_user_error("{}: expected a line FIELDS with one field or more, found none", name);
   const std::vector<std::string>&sizes = values_of(header, "SIZE", fields.size(), name),
         &types = values_of(header, "TYPE", fields.size(), name),
         &counts = values_of(header, "COUNT", fields.size(), name);
@@ -60,7 +62,7 @@ std::vector<VertexProperty> properties_of(const Header& header, const std::strin
     if (type == std::end(type_letters) || counts[i] != "1")
       throw_user_error(
           "{}: expected fields of one value of a known type, found {} of size {}, type {}, count {}", name,
-          fields[i], sizes[i], types[i], counts[i]);
+          plain_text(fields[i]), plain_text(sizes[i]), plain_text(types[i]), plain_text(counts[i]));
     properties.push_back({fields[i], type->dtype});
   }
   return properties;
@@ -103,7 +105,8 @@ std::map<std::string, Array> decode_pcd(std::span<const std::byte> file, const s
   const size_t stride = row_bytes(properties);
   const std::string& points = values_of(header, "POINTS", 1, name)[0];
   if (data.size() % stride != 0 || points != std::to_string(data.size() / stride))
-    throw_user_error("{}: expected {} points of {} bytes, found {} bytes", name, points, stride, data.size());
+    throw_user_error("{}: expected {} points of {} bytes, found {} bytes", name, plain_text(points), stride,
+                     data.size());
   return vertex_columns(properties, data.size() / stride, data);
 }
 

@@ -12,6 +12,8 @@
 
 #include <libdeflate.h>
 
+#include "io/picture_shape.h"
+
 namespace greatx::io {
 
 namespace {
@@ -195,7 +197,8 @@ Bytes encode_png(const Array& image) {
   return {};
 }
 
-Array decode_png(std::span<const std::byte> file, const std::string& name) {
+Array decode_png(std::span<const std::byte> file, const std::string& name,
+                 const std::vector<int64_t>& expected_shape) {
   ReadSession session;
   session.in = file;
   Layout layout;
@@ -211,8 +214,11 @@ Array decode_png(std::span<const std::byte> file, const std::string& name) {
         name, layout.bit_depth, layout.color_type, interlaced ? ", interlaced" : "");
   }
   const int64_t height = layout.height, width = layout.width;
-  Array image(layout.bit_depth == 16 ? DType::u16 : DType::u8,
-              rgb ? std::vector<int64_t>{height, width, 3} : std::vector<int64_t>{height, width});
+  const DType dtype = layout.bit_depth == 16 ? DType::u16 : DType::u8;
+  const std::vector<int64_t> shape =
+      rgb ? std::vector<int64_t>{height, width, 3} : std::vector<int64_t>{height, width};
+  check_picture_shape(name, dtype, shape, expected_shape);
+  Array image(dtype, shape);
   if (!read_pixels(session, layout, image.bytes.data()))
     throw_user_error("{}: cannot be read as PNG: {}", name, session.message);
   return image;
@@ -239,8 +245,11 @@ Bytes encode_png_depth24(const Array& depth) {
   return encode(layout_of(depth, 8, PNG_COLOR_TYPE_RGB), std::as_bytes(std::span(pixels)));
 }
 
-Array decode_png_depth24(std::span<const std::byte> file, const std::string& name) {
-  const Array image = decode_png(file, name);
+Array decode_png_depth24(std::span<const std::byte> file, const std::string& name,
+                         const std::vector<int64_t>& expected_shape) {
+  std::vector<int64_t> colors = expected_shape;
+  if (!colors.empty()) colors.push_back(3);
+  const Array image = decode_png(file, name, colors);
   if (image.shape.size() != 3) throw_user_error("{}: expected an 8-bit RGB PNG", name);
   const std::span<const uint8_t> pixels = image.as<uint8_t>();
   Array depth(DType::f32, {image.shape[0], image.shape[1]});

@@ -14,8 +14,10 @@ namespace greatx::io {
 /// value fits, otherwise UserError.
 Bytes encode_png(const Array& image);
 /// 8-bit RGB and grey, 16-bit grey, not interlaced; `name` stands for the file in messages. Throws UserError,
-/// also for whatever libpng only warns of.
-Array decode_png(std::span<const std::byte> file, const std::string& name);
+/// also for whatever libpng only warns of, and for a picture that has not the expected shape (negative extents: any), before
+/// room is made for it.
+Array decode_png(std::span<const std::byte> file, const std::string& name,
+                 const std::vector<int64_t>& expected_shape = {});
 
 /// Depth in metres as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1), rounded to nearest.
 inline constexpr double depth24_range_m = 1000.0;
@@ -26,6 +28,7 @@ uint32_t depth24_code(float depth_m);
 /// f32 [h, w] in metres to an 8-bit RGB PNG.
 Bytes encode_png_depth24(const Array& depth);
 /// Back to f32 [h, w] in metres; full scale reads 1000 m.
-Array decode_png_depth24(std::span<const std::byte> file, const std::string& name);
+Array decode_png_depth24(std::span<const std::byte> file, const std::string& name,
+                         const std::vector<int64_t>& expected_shape = {});
 
 }  // namespace greatx::io

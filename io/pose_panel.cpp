@@ -19,7 +19,7 @@ class TrajectoryPanel : public SeriesPanel {
     const size_t step = std::max<size_t>(1, rows.size() / most_points);
     for (size_t i = 0; i < rows.size();
          i += (i + step < rows.size() || i + 1 == rows.size() ? step : rows.size() - 1 - i)) {
-      const Array array = source.load(rows[i], "position");
+      const Array array = source.load(rows[i], "position", {DType::f64}, {-1, 3});
       const std::span<const double> p = array.as<double>();
       lines_.resize(p.size() / 3);
       for (size_t n = 0; n < lines_.size(); ++n) lines_[n].push_back({p[3 * n], p[3 * n + 1]});

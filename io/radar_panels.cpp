@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "io/panels.h"
 
 namespace greatx::io {
@@ -19,14 +17,17 @@ struct Axes {
 };
 
 Axes axes_of(const SensorSpec& spec) {
-  const nlohmann::json json = nlohmann::json::parse(spec.metadata_json, nullptr, false);
+  const JsonDocument metadata = metadata_of(spec);
   Axes axes;
-  if (!json.is_object()) return axes;
-  axes.range_bin_m = json.value("range_bin_m", axes.range_bin_m);
-  axes.velocity_min = json.value("velocity_min_m_s", axes.velocity_min);
-  axes.velocity_bin = json.value("velocity_bin_m_s", axes.velocity_bin);
-  axes.azimuth_min = json.value("azimuth_min_rad", axes.azimuth_min);
-  axes.azimuth_max = json.value("azimuth_max_rad", axes.azimuth_max);
+  axes.range_bin_m = number_of(metadata, "range_bin_m", axes.range_bin_m, 1e-6, 1e9);
+  axes.velocity_min = number_of(metadata, "velocity_min_m_s", axes.velocity_min, -1e9, 1e9);
+  axes.velocity_bin = number_of(metadata, "velocity_bin_m_s", axes.velocity_bin, 1e-9, 1e9);
+  axes.azimuth_min = number_of(metadata, "azimuth_min_rad", axes.azimuth_min, -7.0, 7.0);
+  axes.azimuth_max = number_of(metadata, "azimuth_max_rad", axes.azimuth_max, -7.0, 7.0);
+  if (axes.azimuth_max <= axes.azimuth_min)
+    metadata.root()
+        .at("azimuth_max_rad")
+        .fail(fmt::format("more than azimuth_min_rad, {}", axes.azimuth_min));
   return axes;
 }
 
@@ -39,7 +40,7 @@ class RadarPanel : public FramePanel {
     double top = -400.0;
     std::vector<double> middles;
     for (const IndexRow& row : source_.chosen) {
-      const Array map = source_.load(row, array);
+      const Array map = source_.load(row, array, {DType::f32}, {0, 0});
       rows_ = map.shape.at(0);
       columns_ = map.shape.at(1);
       std::vector<double>& levels = maps_.emplace_back();
@@ -91,8 +92,10 @@ class RadarPanel : public FramePanel {
   void load_detections(const IndexRow& row) {
     std::vector<Detection>& list = detections_.emplace_back();
     if (!source_.has("detections")) return;
-    const Array range = source_.load(row, "range"), velocity = source_.load(row, "velocity"),
-                azimuth = source_.load(row, "azimuth"), instance = source_.load(row, "instance");
+    const auto column = [&](const char* name) { return source_.load(row, name, {DType::f32}, {-1}); };
+    const Array range = column("range"), velocity = column("velocity"), azimuth = column("azimuth"),
+                instance = source_.load(row, "instance", {DType::u32}, {-1});
+    expect_same_rows(source_, {&range, &velocity, &azimuth, &instance});
     for (size_t i = 0; i < range.as<float>().size(); ++i)
       list.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i],
                       instance.as<uint32_t>()[i] != 0});

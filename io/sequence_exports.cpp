@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/sequence_exports.h"
 
-#include "core/hash.h"
 #include "io/event_files.h"
+#include "io/inside.h"
 
 namespace greatx::io {
 
@@ -15,18 +15,20 @@ std::vector<FileEntry> export_sequence(const fs::path& folder, const DatasetInfo
     for (const OutputSpec& output : sensor.outputs) {
       if (!is_export(output.format)) continue;
       const auto stack = [&](size_t i) {
-        return part_name(folder / stack_path(sequence, sensor, *ragged_output(sensor, output.arrays[i])));
+        return inside(folder,
+                      stack_path(sequence, sensor, *ragged_output(sensor, output.arrays[i])) + ".part");
       };
       const EventArrays events(stack(0), stack(1), stack(2), stack(3));
       const std::string path = export_path(sequence, sensor, output);
-      const fs::path part = part_name(folder / path);
+      create_folders_inside(folder, path.substr(0, path.rfind('/')));
+      const fs::path part = inside(folder, path + ".part");
       fs::remove(part);
-      create_folder_of(part);
       if (output.format == FileFormat::hdf5_events)
         write_hdf5_events(part, events);
       else
         write_text_events(part, events);
-      entries.push_back({path, fs::file_size(part), sha256_file(part)});
+      const File file = File::open_for_reading(part);
+      entries.push_back({path, file.size(), sha256_of(file)});
     }
   }
   return entries;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/hash.h"
+#include "io/inside.h"
 #include "io/npy.h"
 
 namespace greatx::io {
@@ -13,15 +13,14 @@ namespace greatx::io {
 namespace {
 
 /// Where a stack lies now: under its final name if closing the sequence was cut short behind its renaming.
-std::filesystem::path current_name(const std::filesystem::path& final) {
-  return std::filesystem::exists(final) ? final : part_name(final);
+std::string current_name(const std::filesystem::path& folder, const std::string& final) {
+  return exists_inside(folder, final) ? final : final + ".part";
 }
 
 /// Data bytes behind the header of a stack; 0 if it is not there.
-uint64_t data_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const uint64_t size = std::filesystem::file_size(file, error);
-  return error || size < npy_header_bytes ? 0 : size - npy_header_bytes;
+uint64_t data_bytes(const std::filesystem::path& folder, const std::string& file) {
+  const uint64_t size = size_inside(folder, file).value_or(0);
+  return size < npy_header_bytes ? 0 : size - npy_header_bytes;
 }
 
 int64_t read_offset(const File& file, int64_t row) {
@@ -31,15 +30,30 @@ int64_t read_offset(const File& file, int64_t row) {
   return value;
 }
 
-/// Whole records of a ragged stack: the last offset that its data reach.
-int64_t whole_ragged(const std::filesystem::path& data, const std::filesystem::path& offsets,
+/// Whole records of a ragged stack: as far as its offsets ascend and its data reach.
+int64_t whole_ragged(const std::filesystem::path& folder, const std::string& data, const std::string& offsets,
                      uint64_t row_bytes) {
-  const auto entries = static_cast<int64_t>(data_bytes(offsets) / sizeof(int64_t));
+  const auto entries = static_cast<int64_t>(data_bytes(folder, offsets) / sizeof(int64_t));
   if (entries == 0) return 0;
-  const File file = File::open_for_reading(offsets);
-  const uint64_t bytes = data_bytes(data);
-  int64_t records = entries - 1;
-  while (records > 0 && static_cast<uint64_t>(read_offset(file, records)) * row_bytes > bytes) --records;
+  const File file = File::open_for_reading(inside(folder, offsets));
+  const uint64_t bytes = data_bytes(folder, data);
+  std::vector<int64_t> piece(4096);
+  int64_t last = 0, records = -1;  // the first offset belongs to no record
+  for (int64_t first = 0; first < entries; first += std::ssize(piece)) {
+    const auto part =
+        std::span(piece).first(static_cast<size_t>(std::min<int64_t>(std::ssize(piece), entries - first)));
+    file.read_at(npy_header_bytes + static_cast<uint64_t>(first) * sizeof(int64_t),
+                 std::as_writable_bytes(part));
+    for (const int64_t offset : part) {
+      uint64_t needed = 0;
+      const bool whole = offset >= last && (records >= 0 || offset == 0) &&
+                         !__builtin_mul_overflow(static_cast<uint64_t>(offset), row_bytes, &needed) &&
+                         needed <= bytes;
+      if (!whole) return std::max<int64_t>(records, 0);
+      last = offset;
+      ++records;
+    }
+  }
   return records;
 }
 
@@ -51,18 +65,18 @@ SequenceFiles::SequenceFiles(const std::filesystem::path& folder, const DatasetI
   GREATX_CHECK(records_.size() == info.sensors.size(), "{} counts", records_.size());
   for (size_t s = 0; s < info.sensors.size(); ++s) {
     const SensorSpec& sensor = info.sensors[s];
-    create_folders(folder / sequence_folder(sequence) / sensor.name);
+    create_folders_inside(folder, sequence_folder(sequence) + "/" + sensor.name);
     for (const OutputSpec& output : sensor.outputs) {
       if (is_export(output.format)) continue;
       if (!is_stack(output.format)) {
-        create_folders(folder / frame_folder(sequence, sensor, output));
+        create_folders_inside(folder, frame_folder(sequence, sensor, output));
         continue;
       }
       const size_t index = arrays_of(sensor, output)[0];
       const ArraySpec& array = sensor.arrays[index];
       const bool ragged = output.format == FileFormat::npy_ragged;
       const std::string path = stack_path(sequence, sensor, output);
-      create_folders((folder / path).parent_path());
+      create_folders_inside(folder, path.substr(0, path.rfind('/')));
       slots_[s].push_back({index, files_.size(), ragged});
       const std::vector<int64_t> row_shape(array.shape.begin() + (ragged ? 1 : 0), array.shape.end());
       if (!ragged) {
@@ -70,7 +84,7 @@ SequenceFiles::SequenceFiles(const std::filesystem::path& folder, const DatasetI
         continue;
       }
       const std::string offsets = offsets_path(sequence, sensor, output);
-      const std::filesystem::path part = part_name(folder / offsets);
+      const std::filesystem::path part = inside(folder, offsets + ".part");
       const int64_t rows = records_[s] > 0 ? read_offset(File::open_for_reading(part), records_[s]) : 0;
       open(path, array.dtype, row_shape, rows);
       open(offsets, DType::i64, {}, records_[s] > 0 ? records_[s] + 1 : 0);
@@ -83,7 +97,8 @@ SequenceFiles::SequenceFiles(const std::filesystem::path& folder, const DatasetI
 }
 
 void SequenceFiles::open(const std::string& path, DType dtype, std::vector<int64_t> row_shape, int64_t rows) {
-  StackFile stack{File::open_for_writing(part_name(folder_ / path)), path, dtype, {rows}, size_of(dtype)};
+  StackFile stack{
+      File::open_for_writing(inside(folder_, path + ".part")), path, dtype, {rows}, size_of(dtype)};
   for (const int64_t extent : row_shape) stack.row_bytes *= static_cast<uint64_t>(extent);
   stack.shape.insert(stack.shape.end(), row_shape.begin(), row_shape.end());
   const uint64_t size = npy_header_bytes + static_cast<uint64_t>(rows) * stack.row_bytes;
@@ -98,9 +113,14 @@ void SequenceFiles::open(const std::string& path, DType dtype, std::vector<int64
   files_.push_back(std::move(stack));
 }
 
+uint64_t SequenceFiles::StackFile::bytes_so_far() const {
+  return npy_header_bytes + static_cast<uint64_t>(shape[0]) * row_bytes;
+}
+
 void SequenceFiles::StackFile::append(std::span<const std::byte> bytes, int64_t rows) {
   GREATX_CHECK(bytes.size() == static_cast<uint64_t>(rows) * row_bytes, "{}: {} bytes for {} rows of {}",
                path, bytes.size(), rows, row_bytes);
+  file.check_untouched(bytes_so_far());
   file.write_at(npy_header_bytes + static_cast<uint64_t>(shape[0]) * row_bytes, bytes);
   shape[0] += rows;
 }
@@ -122,13 +142,13 @@ std::vector<int64_t> SequenceFiles::whole_records(const std::filesystem::path& f
     int64_t count = std::numeric_limits<int64_t>::max();
     for (const OutputSpec& output : sensor.outputs) {
       if (!is_stack(output.format)) continue;
-      const std::filesystem::path data = current_name(folder / stack_path(sequence, sensor, output));
+      const std::string data = current_name(folder, stack_path(sequence, sensor, output));
       const uint64_t row_bytes = stack_row_bytes(sensor.arrays[arrays_of(sensor, output)[0]]);
       if (output.format == FileFormat::npy_ragged) {
-        const std::filesystem::path offsets = current_name(folder / offsets_path(sequence, sensor, output));
-        count = std::min(count, whole_ragged(data, offsets, row_bytes));
+        const std::string offsets = current_name(folder, offsets_path(sequence, sensor, output));
+        count = std::min(count, whole_ragged(folder, data, offsets, row_bytes));
       } else if (row_bytes > 0) {
-        count = std::min(count, static_cast<int64_t>(data_bytes(data) / row_bytes));
+        count = std::min(count, static_cast<int64_t>(data_bytes(folder, data) / row_bytes));
       }
     }
     whole.push_back(count);
@@ -149,11 +169,11 @@ std::vector<std::string> SequenceFiles::stack_paths(const DatasetInfo& info, uin
 
 FileEntry SequenceFiles::seal(size_t index) {
   StackFile& stack = files_[index];
+  stack.file.check_untouched(stack.bytes_so_far());
   stack.file.write_at(0, npy_header(stack.dtype, stack.shape));
+  FileEntry entry{stack.path, stack.bytes_so_far(), sha256_of(stack.file)};
   stack.file.close();
-  const std::filesystem::path part = part_name(folder_ / stack.path);
-  return {stack.path, npy_header_bytes + static_cast<uint64_t>(stack.shape[0]) * stack.row_bytes,
-          sha256_file(part)};
+  return entry;
 }
 
 void SequenceFiles::publish() {

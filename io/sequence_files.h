@@ -20,7 +20,8 @@ class SequenceFiles {
   SequenceFiles(const std::filesystem::path& folder, const DatasetInfo& info, uint32_t sequence,
                 std::vector<int64_t> records_per_sensor);
 
-  /// Appends the record's stacked arrays. After an exception the files may hold part of a record.
+  /// Appends the record's stacked arrays. After an exception the files may hold part of a record. A file that somebody else
+  /// deleted or cut meanwhile is a UserError.
   void append(const Record& record);
   int64_t records_of(uint32_t sensor) const { return records_[sensor]; }
 
@@ -43,6 +44,7 @@ class SequenceFiles {
     DType dtype = DType::f32;
     std::vector<int64_t> shape;  ///< shape[0] is the number of rows so far
     uint64_t row_bytes = 0;
+    uint64_t bytes_so_far() const;
     void append(std::span<const std::byte> bytes, int64_t rows);
   };
   struct Slot {

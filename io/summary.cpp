@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/manifest.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -85,17 +86,18 @@ Summary summarize(const DatasetReader& reader) {
 }
 
 std::string to_text(const Summary& summary) {
-  std::string text =
-      fmt::format("{}: {}{}\n", summary.folder, summary.title, summary.finished ? "" : " (unfinished)");
+  // Names come from the data set: what reaches a terminal is printable.
+  std::string text = fmt::format("{}: {}{}\n", plain_text(summary.folder), plain_text(summary.title),
+                                 summary.finished ? "" : " (unfinished)");
   text += fmt::format("  {} of {} sequences, {} ticks of 1/{} s each ({:.4g} s), {} records",
                       summary.sequences_present, summary.sequences, summary.ticks_per_sequence,
                       summary.tick_rate_hz, summary.duration_s, summary.records);
   text += summary.finished ? fmt::format(", {} files, {}\n", summary.files, size_text(summary.bytes)) : "\n";
   for (const Summary::Sensor& sensor : summary.sensors) {
-    text += fmt::format("  {} ({}{}): {} records{}\n", sensor.name, sensor.kind,
+    text += fmt::format("  {} ({}{}): {} records{}\n", plain_text(sensor.name), plain_text(sensor.kind),
                         sensor.rate_hz.empty() ? "" : ", " + sensor.rate_hz + " Hz", sensor.records,
                         summary.finished ? ", " + size_text(sensor.bytes) : "");
-    for (const std::string& output : sensor.outputs) text += fmt::format("    {}\n", output);
+    for (const std::string& output : sensor.outputs) text += fmt::format("    {}\n", plain_text(output));
   }
   return text;
 }
@@ -122,7 +124,7 @@ std::string to_json(const Summary& summary) {
                {"files", summary.files},
                {"bytes", summary.bytes},
                {"sensors", std::move(sensors)}})
-      .dump();
+      .dump(-1, ' ', false, Json::error_handler_t::replace);  // a folder may be called anything
 }
 
 }  // namespace greatx::io

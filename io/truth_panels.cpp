@@ -13,7 +13,8 @@ namespace {
 /// Axes as colours: each component from -1..1 to 0..255.
 class NormalsPanel : public PicturePanel {
  public:
-  explicit NormalsPanel(const PanelSource& source) : PicturePanel(source, "normals", "normals") {}
+  explicit NormalsPanel(const PanelSource& source)
+      : PicturePanel(source, "normals", "normals", {DType::f32}, 3) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const Array array = load(row);
     const std::span<const float> normals = array.as<float>();
@@ -34,7 +35,7 @@ class NormalsPanel : public PicturePanel {
 /// and Evaluation Methodology for Optical Flow", IJCV 92, 2011); one full scale for all rows.
 class FlowPanel : public PicturePanel {
  public:
-  explicit FlowPanel(const PanelSource& source) : PicturePanel(source, "flow", "flow") {
+  explicit FlowPanel(const PanelSource& source) : PicturePanel(source, "flow", "flow", {DType::f32}, 2) {
     std::vector<float> lengths;
     for (size_t row = 0; row < source_.chosen.size(); ++row) {
       const Array flow = load(row);
@@ -76,10 +77,13 @@ class FlowPanel : public PicturePanel {
 /// Rectangles of the objects over the darkened picture: what is seen of each, in its colour; hidden ones thin.
 class BoxesPanel : public PicturePanel {
  public:
-  explicit BoxesPanel(const PanelSource& source) : PicturePanel(source, "rgb", "boxes") {}
+  explicit BoxesPanel(const PanelSource& source) : PicturePanel(source, "rgb", "boxes", {DType::u8}, 3) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const Array rgb = load(row), rectangles = load(row, "box_amodal"), ids = load(row, "box_instance"),
-                visibility = load(row, "box_visibility");
+    const IndexRow& record = source_.chosen[row];
+    const Array rgb = load(row), rectangles = source_.load(record, "box_amodal", {DType::f32}, {-1, 4}),
+                ids = source_.load(record, "box_instance", {DType::u32}, {-1}),
+                visibility = source_.load(record, "box_visibility", {DType::f32}, {-1});
+    expect_same_rows(source_, {&rectangles, &ids, &visibility});
     canvas.clip(picture);
     canvas.picture(picture, rgb);
     canvas.fill(picture, theme::page, 0.35);

@@ -6,10 +6,11 @@
 #include <map>
 #include <set>
 
-#include "core/hash.h"
 #include "io/dataset_reader.h"
+#include "io/inside.h"
 #include "io/manifest.h"
 #include "io/npy.h"
+#include "io/untrusted_json.h"
 #include "io/worker_pool.h"
 
 namespace greatx::io {
@@ -50,9 +51,9 @@ class Verifier {
 };
 
 std::vector<Problem> Verifier::run() {
-  if (!fs::exists(folder_ / dataset_file))
+  if (!exists_inside(folder_, dataset_file))
     throw_user_error("{}: expected a data set, found no {}", folder_.string(), dataset_file);
-  if (!fs::exists(folder_ / manifest_file)) {
+  if (!exists_inside(folder_, manifest_file)) {
     size_t records = 0;
     const DatasetReader reader(folder_);
     for (uint32_t sequence = 0; sequence < reader.sequences(); ++sequence)
@@ -92,16 +93,19 @@ void Verifier::check_files() {
   std::vector<std::vector<Problem>> found(files_.size());
   workers_.for_each(files_.size(), [&](size_t i) {
     const FileEntry& file = files_[i];
-    const fs::path path = folder_ / file.path;
-    std::error_code error;
-    const uint64_t size = fs::file_size(path, error);
-    if (error) {
-      found[i].push_back({file.path, "is missing", fmt::format("{} bytes", file.size), error.message()});
-    } else if (size != file.size) {
-      found[i].push_back(
-          {file.path, "has another size", fmt::format("{} bytes", file.size), fmt::format("{} bytes", size)});
-    } else if (const std::string hash = sha256_file(path); hash != file.sha256) {
-      found[i].push_back({file.path, "has another SHA-256", file.sha256, hash});
+    try {
+      const std::optional<uint64_t> size = size_inside(folder_, file.path);
+      if (!size) {
+        found[i].push_back({file.path, "is missing", fmt::format("{} bytes", file.size), "no file"});
+      } else if (*size != file.size) {
+        found[i].push_back({file.path, "has another size", fmt::format("{} bytes", file.size),
+                            fmt::format("{} bytes", *size)});
+      } else if (const std::string hash = sha256_of(File::open_for_reading(folder_ / file.path));
+                 hash != file.sha256) {
+        found[i].push_back({file.path, "has another SHA-256", file.sha256, hash});
+      }
+    } catch (const UserError& error) {
+      found[i].push_back({file.path, error.what(), {}, {}});
     }
   });
   for (std::vector<Problem>& list : found) {
@@ -116,20 +120,20 @@ void Verifier::check_foreign_files() {
   std::set<std::string> foreign;
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
     if (entry.is_directory() && !entry.is_symlink()) continue;
-    const std::string path = fs::relative(entry.path(), folder_).generic_string();
+    const std::string path = entry.path().lexically_relative(folder_).generic_string();
     const bool companion =
         std::find(std::begin(companion_files), std::end(companion_files), path) != std::end(companion_files);
     if (path != manifest_file && !companion && !listed_.contains(path)) foreign.insert(path);
   }
   for (const std::string& path : foreign)
-    report(path, "does not belong to the data set", "no such file", "a file");
+    report(plain_text(path), "does not belong to the data set", "no such file", "a file");
 }
 
 void Verifier::check_index(const DatasetReader& reader, uint32_t sequence) {
   const std::string npy = index_path(sequence, "npy"), csv = index_path(sequence, "csv");
   used_.insert({npy, csv});
   const std::vector<IndexRow>& rows = reader.records(sequence);
-  if (sound(csv) && read_text_file(folder_ / csv) != index_csv(reader.info(), rows))
+  if (sound(csv) && read_text_file(inside(folder_, csv)) != index_csv(reader.info(), rows))
     report(csv, "says something else than index.npy");
   std::vector<int64_t> counts(reader.sensors().size());
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -202,7 +206,7 @@ int64_t Verifier::check_offsets(const std::string& path, int64_t records) {
   used_.insert(path);
   if (!listed_.contains(path)) report(path, "is not in the manifest");
   if (!sound(path)) return -1;
-  const NpyFile file(folder_ / path);
+  const NpyFile file(inside(folder_, path));
   if (file.dtype() != DType::i64 || file.shape() != std::vector<int64_t>{records + 1}) {
     report(path, "shape", fmt::format("<i8 [{}]", records + 1),
            fmt::format("{} [{}]", numpy_name(file.dtype()), fmt::join(file.shape(), ", ")));
@@ -219,7 +223,7 @@ int64_t Verifier::check_offsets(const std::string& path, int64_t records) {
 
 void Verifier::check_stack_values(const SensorSpec& sensor, const ArraySpec& spec, const std::string& path,
                                   const std::vector<int64_t>& expected_shape) {
-  const NpyFile file(folder_ / path);
+  const NpyFile file(inside(folder_, path));
   if (file.dtype() != spec.dtype || file.shape() != expected_shape) {
     report(path, "shape", fmt::format("{} [{}]", numpy_name(spec.dtype), fmt::join(expected_shape, ", ")),
            fmt::format("{} [{}]", numpy_name(file.dtype()), fmt::join(file.shape(), ", ")));
@@ -274,8 +278,10 @@ std::string Problem::str() const {
   return text;
 }
 
-std::vector<Problem> verify(const fs::path& folder, uint32_t threads) {
+std::vector<Problem> verify(const fs::path& folder, uint32_t threads) try {
   return Verifier(folder, threads).run();
+} catch (const fs::filesystem_error& error) {
+  throw_user_error("{}: {}", error.path1().string(), error.code().message());
 }
 
 }  // namespace greatx::io

@@ -29,6 +29,15 @@ bool has(const SensorSpec& spec, const std::string& name) {
   return std::ranges::any_of(spec.arrays, [&](const ArraySpec& array) { return array.name == name; });
 }
 
+/// An array whose type is the one wanted and that has so many elements: records come from files, too.
+Array expect_array(const RecordView& record, const char* name, DType dtype, size_t elements) {
+  Array array = record.array(name);
+  if (array.dtype != dtype || array.element_count() != static_cast<int64_t>(elements))
+    throw_user_error("{}: {}: expected {} elements {}, found {} of {}", record.spec.name, name, elements,
+                     numpy_name(dtype), array.element_count(), numpy_name(array.dtype));
+  return array;
+}
+
 std::string node_of(const std::string& sensor) { return sensor.substr(0, sensor.find('/')); }
 
 /// The nodes of a tick, and where they go from there.
@@ -36,9 +45,12 @@ class Nodes {
  public:
   explicit Nodes(const RecordView& poses) {
     const Json nodes = metadata_of(poses).at("nodes");
-    const Array position = poses.array("position"), orientation = poses.array("orientation"),
-                velocity = poses.array("velocity"), acceleration = poses.array("acceleration"),
-                angular_velocity = poses.array("angular_velocity");
+    const auto of_nodes = [&](const char* name, size_t parts) {
+      return expect_array(poses, name, DType::f64, parts * nodes.size());
+    };
+    const Array position = of_nodes("position", 3), orientation = of_nodes("orientation", 4),
+                velocity = of_nodes("velocity", 3), acceleration = of_nodes("acceleration", 3),
+                angular_velocity = of_nodes("angular_velocity", 3);
     const auto vector = [](const Array& array, size_t node) {
       const std::span<const double> v = array.as<double>().subspan(3 * node, 3);
       return dvec3(v[0], v[1], v[2]);
@@ -87,10 +99,15 @@ render::CameraImages images_of(const RecordView& camera, const render::CameraDes
   render::CameraImages images;
   images.width = desc.width;
   images.height = desc.height;
-  const Array depth = camera.array("depth");
+  const size_t pixels = size_t{desc.width} * desc.height;
+  const Array depth = expect_array(camera, "depth", DType::f32, pixels);
   images.depth.assign(depth.as<float>().begin(), depth.as<float>().end());
   if (!has(camera.spec, "instance")) return images;
-  const Array instance = camera.array("instance"), material = camera.array("material");
+  const Array instance = camera.array("instance"),
+              material = expect_array(camera, "material", DType::u16, pixels);
+  if (instance.element_count() != static_cast<int64_t>(pixels))
+    throw_user_error("{}: instance: expected {} pixels, found {}", camera.spec.name, pixels,
+                     instance.element_count());
   if (instance.dtype == DType::u16)
     images.instance.assign(instance.as<uint16_t>().begin(), instance.as<uint16_t>().end());
   else
@@ -135,8 +152,10 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
   const render::CameraImages images = images_of(camera, desc);
   const Pose camera_from_lidar =
       pose_of(about.at("body_from_sensor")).inverse() * pose_of(metadata_of(lidar).at("body_from_sensor"));
-  const Array points = lidar.array("points"), instance = lidar.array("instance"),
-              material = lidar.array("material");
+  const Array instance = lidar.array("instance");
+  const auto returns = static_cast<size_t>(instance.element_count());
+  const Array points = expect_array(lidar, "points", DType::f32, 4 * returns),
+              material = expect_array(lidar, "material", DType::u32, returns);
   return lidar_against_depth(desc, images, camera_from_lidar, points.as<float>(), instance.as<uint32_t>(),
                              material.as<uint32_t>());
 }
@@ -152,6 +171,11 @@ ErrorStatistics compare_sights(const RecordView& channel, const RecordView& pose
               rx = channel.array("rx"), tx = channel.array("tx");
   const std::span<const double> delays = delay.as<double>();
   const size_t depth = delays.empty() ? 0 : static_cast<size_t>(interaction.element_count()) / delays.size();
+  for (const Array* array : {&interaction, &rx, &tx})
+    if (array->shape.empty() || array->shape[0] != std::ssize(delays) ||
+        (!delays.empty() && array->element_count() == 0))
+      throw_user_error("{}: expected arrays of {} paths, found one of {}", channel.spec.name, delays.size(),
+                       array->element_count());
   const auto number = [](const Array& array, size_t i) {
     uint64_t value = 0;
     std::copy_n(&array.bytes[i * size_of(array.dtype)], size_of(array.dtype),
@@ -179,7 +203,10 @@ ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
   if (about.at("bistatic").get<bool>())
     transmitter = nodes.after(node_of(about.at("illuminator")), middle_s)
                       .apply(pose_of(about.at("body_from_illuminator")).position);
-  const Array range = radar.array("range"), power = radar.array("power"), instance = radar.array("instance");
+  const Array instance = radar.array("instance");
+  const auto detections = static_cast<size_t>(instance.element_count());
+  const Array range = expect_array(radar, "range", DType::f32, detections),
+              power = expect_array(radar, "power", DType::f32, detections);
   std::map<uint32_t, size_t> strongest;
   for (size_t i = 0; i < instance.as<uint32_t>().size(); ++i) {
     const uint32_t id = instance.as<uint32_t>()[i];

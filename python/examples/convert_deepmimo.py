@@ -14,36 +14,49 @@ import numpy as np
 
 import greatx
 from greatx.convert import write_deepmimo
+from greatx.links import transmitters
+
+KEYS = "power", "phase", "delay", "inter", "aoa_el"
 
 # %% Every tick becomes one more user: fits channels whose transmitter stands still
 ds = greatx.load(sys.argv[1])
 sequence = ds.sequences[0]
-csi = next(s for s in sequence.sensors.values() if s.kind == "csi")
+csi = sequence.first("csi", ["cfr", "delay"])
 name = f"{ds.run['scenario']}_greatx".lower()
 out = pathlib.Path("deepmimo_scenarios", name)
 print(out, write_deepmimo(ds, out, channel=csi.name, sequence=sequence.number, layout="users"))
 
-# %% The matrices: [user, path], NaN where there is no path, the strongest first
-matrix = {key: np.load(out / f"{key}_t000_tx000_r001.npz")[key] for key in ("power", "phase", "delay", "inter", "aoa_el")}
-for key, value in matrix.items():
+# %% The matrices of each transmitter: [user, path], NaN where there is no path, the strongest first
+matrices = [{key: np.load(out / f"{key}_t000_tx{tx:03}_r001.npz")[key] for key in KEYS} for tx in range(len(transmitters(csi)))]
+for key, value in matrices[0].items():
     print(f"  {key:6} {value.shape} {value.dtype}: user 0: {value[0, :4]}")
 
-# %% H(f) between upright isotropic antennas, as DeepMIMO sums it: subcarrier 0 is the carrier
-amplitude = np.nan_to_num(10 ** (matrix["power"] / 20) * np.exp(1j * np.radians(matrix["phase"])))
-f = np.arange(csi.subcarriers // 2) * csi.subcarrier_spacing_hz
-h = np.einsum("up,upf->uf", amplitude, np.exp(-2j * np.pi * f * np.nan_to_num(matrix["delay"])[..., None]))
-print(f"H {h.shape}, mean gain {10 * np.log10(np.mean(np.abs(h) ** 2)):.1f} dB")
+# %% H(f) between upright isotropic antennas, as DeepMIMO sums it: subcarrier 0 is the carrier, and paths that are longer
+# than a symbol are left out
+f = np.arange(max(csi.subcarriers // 2, 1)) * csi.subcarrier_spacing_hz
+channels = []
+for matrix in matrices:
+    amplitude = np.nan_to_num(10 ** (matrix["power"] / 20) * np.exp(1j * np.radians(matrix["phase"])))
+    delay = np.nan_to_num(matrix["delay"])
+    amplitude[delay * csi.subcarrier_spacing_hz >= 1] = 0
+    channels.append(np.einsum("up,upf->uf", amplitude, np.exp(-2j * np.pi * f * delay[..., None])))
+h = np.stack(channels)  # [transmitter, user, subcarrier]
+print(f"H {h.shape}, mean gain {10 * np.log10(max(np.mean(np.abs(h) ** 2), 1e-30)):.1f} dB")
 
 # %% The same by DeepMIMO
 try:
     import deepmimo
 except ImportError:
-    print("no DeepMIMO here: pip install DeepMIMO, then deepmimo.load(%r, max_paths=%d)" % (name, matrix["power"].shape[1]))
+    print(f"no DeepMIMO here: pip install DeepMIMO, then deepmimo.load({name!r}, max_paths={matrices[0]['power'].shape[1]})")
 else:
-    dataset = deepmimo.load(name, max_paths=matrix["power"].shape[1])
+    paths = matrices[0]["power"].shape[1]
+    loaded = deepmimo.load(name, max_paths=paths)
+    pairs = loaded.datasets if isinstance(loaded, deepmimo.MacroDataset) else [loaded]  # one a transmitter
     one = {"shape": np.array([1, 1])}
-    theirs = dataset.compute_channels(deepmimo.ChannelParameters(
-        num_paths=matrix["power"].shape[1], bs_antenna=one, ue_antenna=one,
+    parameters = deepmimo.ChannelParameters(
+        num_paths=paths, bs_antenna=one, ue_antenna=one,
         ofdm={"subcarriers": csi.subcarriers, "bandwidth": csi.subcarriers * csi.subcarrier_spacing_hz,
-              "selected_subcarriers": np.arange(len(f))}))[:, 0, 0] * np.sqrt(csi.subcarriers)
-    print(f"DeepMIMO's channel differs by at most {np.abs(theirs - h).max() / np.abs(h).max():.1e} of the largest")
+              "selected_subcarriers": np.arange(len(f))})
+    theirs = np.stack([pair.compute_channels(parameters)[:, 0, 0] for pair in pairs]) * np.sqrt(csi.subcarriers)
+    difference = np.abs(theirs - h).max() / max(np.abs(h).max(), 1e-30)
+    print(f"DeepMIMO's channel differs by at most {difference:.1e} of the largest")

@@ -16,7 +16,7 @@ import greatx
 
 # %% The stream: t in integer nanoseconds since the sequence's first tick, in order; views of the files
 ds = greatx.load(sys.argv[1])
-camera = next(s for s in ds.sequences[0].sensors.values() if s.kind == "event_camera")
+camera = ds.sequences[0].first("event_camera", ["t", "x", "y", "p"])
 events = camera.events()
 duration_s = max(camera.times_s[-1] - camera.times_s[0], 1e-9)
 print(f"{camera.name}: {len(events)} events, {len(events) / duration_s / 1e6:.2f} million a second, "

@@ -17,7 +17,7 @@ import greatx
 ds = greatx.load(sys.argv[1])
 sequence = ds.sequences[0]
 print(ds)
-csi = next(s for s in sequence.sensors.values() if s.kind == "csi")
+csi = sequence.first("csi", ["cfr", "delay"])
 
 # %% The channel over time: complex64 [record, rx, rx_ant, tx, tx_ant, time, subcarrier], memory-mapped
 h = csi.cfr

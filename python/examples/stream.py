@@ -14,7 +14,9 @@ import greatx
 # %% A scenario with everything in it: base station, car with a camera, channel
 sim = greatx.Simulation(sys.argv[1] if len(sys.argv) > 1 else "canyon", ticks=20)
 print(sim)
-channel = next(iter(sim.channels))
+channel = next(iter(sim.channels), None)
+if channel is None:
+    sys.exit(f"{sim.name}: expected a scenario with a channel, found none")
 
 # %% Step it. What a tick holds is what `greatx generate` would write
 beam, loss_db, run = None, [], sim.run()

@@ -29,7 +29,7 @@ def links(item):
 
 # %% One item a tick at which the channel has a record, complex64 as on disk
 ds = greatx.load(sys.argv[1])
-name = next(name for name, sensor in ds.sensors.items() if sensor.kind == "csi") + "/cfr"
+name = ds.sequences[0].first("csi", ["cfr"]).name + "/cfr"
 data = ds.torch(name, transform=links)
 print(data.samples)
 

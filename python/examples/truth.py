@@ -3,7 +3,7 @@
 """A camera's ground truth: optical flow in colours and as Middlebury's .flo, and boxes drawn into the
 picture.
 
-    greatx generate SCENARIO -o out/truth        (a camera with `outputs: [rgb, depth, ids, flow, boxes]`)
+    greatx generate uav_medium -o out/truth        # a camera with `outputs: [rgb, depth, ids, flow, boxes]`
     python3 python/examples/truth.py out/truth
 
 Writes flow.png, flow.flo, boxes.png for the middle frame of the first camera that has flow and boxes.
@@ -30,7 +30,10 @@ def write_png(path, rgb):
 
 # %% The middle record of the first camera with flow and boxes
 ds = greatx.load(sys.argv[1])
-camera = next(s for s in ds.sequences[0].sensors.values() if "flow" in s and "box_amodal" in s)
+try:
+    camera = ds.sequences[0].first("camera", ["rgb", "flow", "box_amodal"])
+except greatx.Error as error:
+    sys.exit(f"{error}\n`greatx generate uav_medium` makes one that has them")
 record = camera.record(len(camera) // 2)
 flow = record.flow  # [h, w, 2] pixels to the right and down; NaN: out of sight at the next picture
 speed = np.hypot(flow[..., 0], flow[..., 1])

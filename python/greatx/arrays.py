@@ -41,6 +41,8 @@ class Ragged:
         values = _open(base.with_name(base.name + ".npy"), array.dtype, array.shape)
         path = base.with_name(base.name + "_offsets.npy")
         offsets = load_npy(path)
+        if offsets.dtype != np.int64:
+            raise DatasetError(f"{path}: expected int64, found {offsets.dtype.name}")
         if offsets.shape != (records + 1,) or offsets[0] != 0 or offsets[-1] != len(values) or np.any(np.diff(offsets) < 0):
             raise DatasetError(f"{path}: expected {records + 1} offsets from 0 up to {len(values)}, found "
                                f"{list(offsets.shape)}{f' from {offsets[0]} to {offsets[-1]}' if offsets.size else ''}")

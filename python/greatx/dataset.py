@@ -6,13 +6,13 @@ from __future__ import annotations
 import os
 import pathlib
 import warnings
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence as SequenceOf, Union
 
 import numpy as np
 
 from .arrays import Frames, Ragged, open_stack
 from .errors import DatasetError
+from .files import MOST_SEQUENCES, MOST_TICKS, Field, inside
 from .frames import load_npy
 from .layout import EXPORT_SUFFIX, ArrayInfo, SensorInfo, parse_sensors, read_info
 from .ticks import TickRecords
@@ -40,14 +40,19 @@ class Dataset:
     def __init__(self, folder: Union[str, "os.PathLike[str]"], incomplete: bool = False):
         self.path = pathlib.Path(os.path.abspath(folder))
         self._incomplete = incomplete
+        fields = read_info(self.path)
         #: dataset.json, as it is
-        self.info: Dict[str, Any] = read_info(self.path)
+        self.info: Dict[str, Any] = fields.value
+        fields["run"].object()
         #: every sensor's description by name, in the order of their numbers in the index
-        self.sensors: Dict[str, SensorInfo] = parse_sensors(self.path / "dataset.json", self.info)
-        self.complete = (self.path / "manifest.json").is_file()
-        self.tick_rate_hz = Fraction(self.info["tick_rate_hz"])
-        count = int(self.info["sequences"])
-        whole = [i for i in range(count) if (self.path / f"sequence_{i:04d}" / "index.npy").is_file()]
+        self.sensors: Dict[str, SensorInfo] = parse_sensors(fields)
+        self.complete = inside(self.path, "manifest.json").is_file()
+        self.tick_rate_hz = fields["tick_rate_hz"].rate()
+        self._ticks = fields["ticks_per_sequence"].integer(0, MOST_TICKS) if "ticks_per_sequence" in fields else MOST_TICKS
+        count = fields["sequences"].integer(1, MOST_SEQUENCES)
+        there = {entry.name for entry in os.scandir(self.path) if entry.name.startswith("sequence_")}
+        whole = [i for i in range(count) if f"sequence_{i:04d}" in there
+                 and inside(self.path, f"sequence_{i:04d}/index.npy").is_file()]
         if not self.complete:
             state = f"{self.path}: is incomplete (no manifest.json): {len(whole)} of {count} sequences are whole"
             if not incomplete or not whole:
@@ -55,7 +60,7 @@ class Dataset:
                                    + (", or load what is whole with incomplete=True" if whole else ""))
             warnings.warn(state, stacklevel=3)
         elif len(whole) < count:
-            missing = next(i for i in range(count) if i not in whole)
+            missing = next(n for n, i in enumerate([*whole, -1]) if n != i)
             raise DatasetError(f"{self.path / f'sequence_{missing:04d}' / 'index.npy'}: is missing")
         #: one for every run of the scenario
         self.sequences: List[Sequence] = [Sequence(self, i) for i in whole]
@@ -71,17 +76,27 @@ class Dataset:
     @property
     def materials(self) -> List[str]:
         """Names of the materials: the id k of `material` and `object_material` arrays is materials[k - 1]; 0: none."""
-        return self.run["materials"]
+        return self._names("materials")
 
     @property
     def instances(self) -> List[Dict[str, str]]:
         """Name and class of the instances: the id k of `instance` and `object` arrays is instances[k - 1]; 0: none."""
-        return self.run["instances"]
+        return self._run_list("instances", dict)
 
     @property
     def semantic_classes(self) -> List[str]:
         """Names by the values of `semantic` arrays."""
-        return self.run["semantic_classes"]
+        return self._names("semantic_classes")
+
+    def _names(self, key: str) -> List[str]:
+        return self._run_list(key, str)
+
+    def _run_list(self, key: str, kind: type) -> List[Any]:
+        field = Field(self.path / "dataset.json", self.run, "run")[key]
+        for entry in field.items(1 << 22):
+            if not isinstance(entry.value, kind):
+                raise entry.fail("an object" if kind is dict else "a string")
+        return field.value
 
     def single(self) -> "Sequence":
         """The sequence of a data set that has one; DatasetError if it has several."""
@@ -127,20 +142,44 @@ class Sequence:
         self.number = number
         self.path = dataset.path / f"sequence_{number:04d}"
         #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), in order of tick, then sensor
-        self.index: np.ndarray = load_npy(self.path / "index.npy")
-        if self.index.ndim != 2 or self.index.shape[1] != len(INDEX_COLUMNS):
-            raise DatasetError(f"{self.path / 'index.npy'}: expected [records, {len(INDEX_COLUMNS)}], "
-                               f"found {list(self.index.shape)}")
+        self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
         #: int64 [ticks]: at which something was recorded, ascending
         self.ticks: np.ndarray = np.unique(self.index[:, 0])
         self.sensors: Dict[str, Sensor] = {name: Sensor(self, i, info)
                                            for i, (name, info) in enumerate(dataset.sensors.items())}
+
+    def _read_index(self, path: pathlib.Path) -> np.ndarray:
+        index = load_npy(path)
+        if index.ndim != 2 or index.shape[1] != len(INDEX_COLUMNS) or index.dtype != np.int64:
+            raise DatasetError(f"{path}: expected int64 [records, {len(INDEX_COLUMNS)}], found {index.dtype.name} "
+                               f"{list(index.shape)}")
+        most = (self.dataset._ticks - 1, 2**62, len(self.dataset.sensors) - 1, MOST_TICKS, MOST_TICKS)
+        for column, (name, limit) in enumerate(zip(INDEX_COLUMNS, most)):
+            bad = np.flatnonzero((index[:, column] < 0) | (index[:, column] > limit))
+            if len(bad):
+                raise DatasetError(f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, found {index[bad[0], column]}")
+        ticks, sensors = index[:, 0], index[:, 2]
+        back = np.flatnonzero((np.diff(ticks) < 0) | ((np.diff(ticks) == 0) & (np.diff(sensors) <= 0)))
+        if len(back):
+            raise DatasetError(f"{path}: row {back[0] + 1} is not in order of tick and sensor")
+        return index
 
     def __getitem__(self, sensor: str) -> "Sensor":
         try:
             return self.sensors[sensor]
         except KeyError:
             raise KeyError(f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}") from None
+
+    def first(self, kind: str, arrays: Iterable[str] = ()) -> "Sensor":
+        """The first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of these arrays; DatasetError if
+        there is none."""
+        wanted = list(arrays)
+        for sensor in self.sensors.values():
+            if sensor.kind == kind and len(sensor) and all(name in sensor for name in wanted):
+                return sensor
+        has = ", ".join(f"{s.name} ({s.kind}, {len(s)} records)" for s in self.sensors.values()) or "none"
+        raise DatasetError(f"{self.path}: expected a sensor of kind {kind!r} with records"
+                           + (f" of {', '.join(wanted)}" if wanted else "") + f", found {has}")
 
     @property
     def poses(self) -> "Sensor":
@@ -256,7 +295,7 @@ class Sensor:
         output, array = located
         key = (output.name, array.name if array else None)
         if key not in self._opened:
-            base = self.sequence.path / self.name / output.name
+            base = inside(self.sequence.dataset.path, f"{self.sequence.path.name}/{self.name}/{output.name}")
             if output.format == "npy_stack":
                 opened: Any = open_stack(base.with_name(base.name + ".npy"), array, len(self))
             elif output.format == "npy_ragged":
@@ -269,7 +308,7 @@ class Sensor:
         return self._opened[key]
 
     def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_"):
+        if not name.startswith("_") and "info" in self.__dict__:  # not while a copy is being made
             if name in self:
                 return self[name]
             if name in self.metadata:
@@ -317,9 +356,10 @@ class Record:
         return self.sensor[name][self.row]
 
     def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_") and name in self.sensor:
+        sensor = self.__dict__.get("sensor")  # none while a copy is being made
+        if sensor is not None and not name.startswith("_") and name in sensor:
             return self[name]
-        raise AttributeError(f"a record of {self.sensor.name} has no array {name!r}")
+        raise AttributeError(f"a record of {sensor.name if sensor is not None else 'a sensor'} has no array {name!r}")
 
     def paths(self, rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
         """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see greatx.links)."""

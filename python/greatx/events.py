@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Optional, Tuple
 import numpy as np
 
 from .errors import DatasetError
+from .files import Field
 
 if TYPE_CHECKING:
     from .dataset import Sensor
@@ -35,8 +36,21 @@ class Events:
         if sensor.kind != "event_camera" or "t" not in sensor.arrays:
             raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")
         begin, end = (int(sensor["t"].offsets[i]) for i in (first, last))
+        for name, kind in (("x", np.uint16), ("y", np.uint16), ("p", np.uint8), ("t", np.int64)):
+            if name not in sensor.arrays or sensor.arrays[name].dtype != kind or sensor.arrays[name].shape != (-1,):
+                raise DatasetError(f"{sensor.metadata.where}: expected an event camera's array {name!r}, {np.dtype(kind).name} [n]")
+            if not np.array_equal(sensor[name].offsets, sensor["t"].offsets):
+                raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected as many of {name!r} as of 't' in each record")
         columns = {name: sensor[name].values[begin:end] for name in ("t", "x", "y", "p", "instance") if name in sensor.arrays}
-        return cls(width=sensor.metadata["width"], height=sensor.metadata["height"], **columns)
+        size = Field(sensor.metadata.where, sensor.metadata)
+        width, height = (size[side].integer(1, 65536) for side in ("width", "height"))
+        for name, side in (("x", width), ("y", height)):
+            if end > begin and columns[name].max() >= side:
+                raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected {name} below {side}, found "
+                                   f"{columns[name].max()}")
+        if end > begin and columns["p"].max() > 1:
+            raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected p of 0 and 1, found {columns['p'].max()}")
+        return cls(width=width, height=height, **columns)
 
     def __len__(self) -> int:
         return len(self.t)

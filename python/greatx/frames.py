@@ -7,18 +7,18 @@ that says so.
 """
 from __future__ import annotations
 
-import os
 import pathlib
 import struct
-import zlib
-from typing import Dict, Tuple, Union
+from typing import Dict, Optional, Tuple, Union
 
 import numpy as np
 
 from .errors import DatasetError
+from .files import LARGEST, Path, bytes_of_shape, check_plain, inflate, read_bytes, reading
 from .layout import OutputInfo
 
-Path = Union[str, "os.PathLike[str]"]
+#: Of a picture: extents, -1: any; None: not known.
+Shape = Optional[Tuple[int, ...]]
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _EXR_MAGIC = 20000630
@@ -26,35 +26,40 @@ _EXR_LINES = {0: 1, 2: 1, 3: 16}  # lines in a block: none, ZIPS, ZIP
 _EXR_TYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
 _PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
               "float": "<f4", "double": "<f8"}
+_PCD_TYPES = {code + size: "<" + code.lower() + size for code, sizes in (("U", "1248"), ("I", "1248"), ("F", "48"))
+              for size in sizes}
 
 
-def read_bytes(path: Path) -> bytes:
-    try:
-        return pathlib.Path(path).read_bytes()
-    except OSError as error:
-        raise DatasetError(f"{path}: cannot be read: {error.strerror}") from error
+def _check_shape(path: Path, found: Tuple[int, ...], itemsize: int, expected: Shape) -> None:
+    """Before room is made for a picture, whose file may say anything."""
+    fits = expected is None or (len(found) == len(expected) and all(e in (-1, f) for e, f in zip(expected, found)))
+    if not fits:
+        raise DatasetError(f"{path}: expected {list(expected)} (dataset.json), found {list(found)}")
+    if min(found) < 1 or bytes_of_shape(found, itemsize) > LARGEST:
+        raise DatasetError(f"{path}: expected a picture of at most {LARGEST} bytes, found {list(found)}")
 
 
-def read_png(path: Path) -> np.ndarray:
+def read_png(path: Path, expected: Shape = None) -> np.ndarray:
     """uint8 [h, w, 3] of RGB, uint8 [h, w] of 8-bit grey, uint16 [h, w] of 16-bit grey (ISO/IEC 15948)."""
     data = read_bytes(path)
     if data[:8] != _PNG_SIGNATURE:
         raise DatasetError(f"{path}: is no PNG")
-    try:
+    with reading(path):
         chunks, at = [], 8
         while at < len(data):
             length, kind = struct.unpack_from(">I4s", data, at)
             chunks.append((kind, data[at + 8:at + 8 + length]))
             at += length + 12
+            if at > len(data):
+                raise ValueError("the file is cut off")
         width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", dict(chunks)[b"IHDR"])
-        raw = zlib.decompress(b"".join(body for kind, body in chunks if kind == b"IDAT"))
-    except (struct.error, KeyError, zlib.error) as error:
-        raise DatasetError(f"{path}: is damaged: {error}") from error
-    if (bits, colour) not in ((8, 2), (8, 0), (16, 0)) or interlaced:
-        raise DatasetError(f"{path}: expected 8-bit RGB or grey or 16-bit grey, not interlaced; found {bits} bits, "
-                           f"colour type {colour}, interlacing {interlaced}")
-    channels = 3 if colour == 2 else 1
-    step = channels * bits // 8
+        if (bits, colour) not in ((8, 2), (8, 0), (16, 0)) or interlaced:
+            raise DatasetError(f"{path}: expected 8-bit RGB or grey or 16-bit grey, not interlaced; found {bits} bits, "
+                               f"colour type {colour}, interlacing {interlaced}")
+        channels = 3 if colour == 2 else 1
+        step = channels * bits // 8
+        _check_shape(path, (height, width, 3) if channels == 3 else (height, width), bits // 8, expected)
+        raw = inflate(b"".join(body for kind, body in chunks if kind == b"IDAT"), height * (1 + width * step))
     if len(raw) != height * (1 + width * step):
         raise DatasetError(f"{path}: is damaged: {len(raw)} bytes of pixels for {width} x {height}")
     lines = np.frombuffer(raw, np.uint8).reshape(height, 1 + width * step)
@@ -84,33 +89,33 @@ def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
     return (1000.0 * code / (2**24 - 1)).astype(np.float32)
 
 
-def read_exr(path: Path) -> np.ndarray:
-    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2, single part, scan
-    lines, ZIP or uncompressed."""
+def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
+    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2, single
+    part, scan lines, ZIP or uncompressed."""
     data = read_bytes(path)
-    try:
+    with reading(path):
         header, at = _exr_header(data)
         channels, compression, box = header["channels"], header["compression"], header["dataWindow"]
         if compression not in _EXR_LINES or data[5] & 0x1A:
             raise DatasetError(f"{path}: expected scan lines, ZIP or uncompressed; found compression {compression}, "
                                f"flags {data[5]:#x}")
         height, width = box[3] - box[1] + 1, box[2] - box[0] + 1
+        _check_shape(path, (height, width) if expected is None or len(expected) < 3 else (height, width, len(channels)),
+                     sum(np.dtype(kind).itemsize for _, kind in channels), expected)
         line = np.dtype([(name, kind, (width,)) for name, kind in channels])
-        pixels = np.empty(height, line)
+        pixels = np.zeros(height, line)
         per_block = _EXR_LINES[compression]
         blocks = -(-height // per_block)
         for offset in struct.unpack_from(f"<{blocks}Q", data, at):
             y, size = struct.unpack_from("<ii", data, offset)
             first = y - box[1]
+            if not 0 <= first < height or first % per_block or size < 0:
+                raise ValueError(f"a block of {size} bytes at line {y}")
             lines = min(per_block, height - first)
             block = data[offset + 8:offset + 8 + size]
             if compression and size < lines * line.itemsize:
-                block = _exr_unzip(block)
+                block = _exr_unzip(block, lines * line.itemsize)
             pixels[first:first + lines] = np.frombuffer(block, line, lines)
-    except (struct.error, KeyError, zlib.error, ValueError, IndexError) as error:
-        if isinstance(error, DatasetError):
-            raise
-        raise DatasetError(f"{path}: cannot be read as OpenEXR: {error}") from error
     names = [name for name, _ in channels]
     for plane in ("Y", "Z"):
         if plane in names:
@@ -129,6 +134,8 @@ def _exr_header(data: bytes) -> Tuple[dict, int]:
         end = data.index(b"\0", at)
         name, after = data[at:end].decode(), data.index(b"\0", end + 1)
         size = struct.unpack_from("<i", data, after + 1)[0]
+        if not 0 <= size <= len(data) - after - 5:
+            raise ValueError(f"an attribute of {size} bytes")
         at = after + 5 + size
         body = data[after + 5:at]
         if name == "channels":
@@ -150,15 +157,27 @@ def _exr_channels(body: bytes) -> list:
     return channels
 
 
-def _exr_unzip(block: bytes) -> bytes:
+def _exr_unzip(block: bytes, size: int) -> bytes:
     """Undoes ZIP: inflate, differences with 128 added, first the even bytes and then the odd ones."""
-    coded = np.frombuffer(zlib.decompress(block), np.uint8).copy()
+    coded = np.frombuffer(inflate(block, size), np.uint8).copy()
     coded[1:] -= 128
     plain = np.cumsum(coded, dtype=np.uint8)
     half = (len(plain) + 1) // 2
     out = np.empty_like(plain)
     out[0::2], out[1::2] = plain[:half], plain[half:]
     return out.tobytes()
+
+
+def _count(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) <= 15):
+        raise ValueError(f"expected a number of points, found {text[:60]!r}")
+    return int(text)
+
+
+def _rows(data: bytes, kind: np.dtype, count: int, begin: int) -> np.ndarray:
+    if kind.itemsize == 0 or len(data) - begin != count * kind.itemsize:
+        raise ValueError(f"expected {count} points of {kind.itemsize} bytes, found {len(data) - begin} bytes")
+    return np.frombuffer(data, kind, count, begin)
 
 
 def read_ply(path: Path) -> np.ndarray:
@@ -169,12 +188,10 @@ def read_ply(path: Path) -> np.ndarray:
     if end < 0 or lines[:2] != ["ply", "format binary_little_endian 1.0"]:
         raise DatasetError(f"{path}: is no PLY in binary, little endian")
     words = [line.split() for line in lines[2:] if not line.startswith("comment")]
-    try:
-        (count,) = [int(w[2]) for w in words if w[:2] == ["element", "vertex"]]
+    with reading(path):
+        (count,) = [_count(w[2]) for w in words if w[:2] == ["element", "vertex"]]
         kind = np.dtype([(w[2], _PLY_TYPES[w[1]]) for w in words if w[0] == "property"])
-        return np.frombuffer(data, kind, count, end + len(b"end_header\n"))
-    except (ValueError, KeyError, IndexError) as error:
-        raise DatasetError(f"{path}: cannot be read as PLY: {error}") from error
+        return _rows(data, kind, count, end + len(b"end_header\n"))
 
 
 def read_pcd(path: Path) -> np.ndarray:
@@ -185,14 +202,12 @@ def read_pcd(path: Path) -> np.ndarray:
         raise DatasetError(f"{path}: is no PCD in binary")
     lines = [line.split() for line in data[:end].decode("ascii", "replace").splitlines()]
     header = {words[0]: words[1:] for words in lines if words and not words[0].startswith("#")}
-    try:
-        if set(header["COUNT"]) != {"1"}:
-            raise ValueError(f"COUNT {' '.join(header['COUNT'])}")
-        kind = np.dtype([(name, "<" + code.lower() + size) for name, code, size
-                         in zip(header["FIELDS"], header["TYPE"], header["SIZE"])])
-        return np.frombuffer(data, kind, int(header["POINTS"][0]), end + len(b"\nDATA binary\n"))
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise DatasetError(f"{path}: cannot be read as PCD: {error}") from error
+    with reading(path):
+        rows = [header[key] for key in ("FIELDS", "TYPE", "SIZE", "COUNT")]
+        if not rows[0] or {len(row) for row in rows} != {len(rows[0])} or set(rows[3]) != {"1"}:
+            raise ValueError("expected a TYPE, a SIZE and a COUNT of 1 for each of one or more FIELDS")
+        kind = np.dtype([(name, _PCD_TYPES[code + size]) for name, code, size, _ in zip(*rows)])
+        return _rows(data, kind, _count(header["POINTS"][0]), end + len(b"\nDATA binary\n"))
 
 
 def read_kitti(path: Path) -> np.ndarray:
@@ -208,20 +223,19 @@ def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
     if output.format in ("ply", "pcd"):
         points = read_ply(path) if output.format == "ply" else read_pcd(path)
         first = output.arrays[0].name
-        try:
+        with reading(path):
             out = {first: np.stack([points[p] for p in ("x", "y", "z", "intensity")], axis=-1)}
             out.update({a.name: points[a.name].astype(a.dtype) for a in output.arrays[1:]})
-        except ValueError as error:
-            raise DatasetError(f"{path}: {error}") from error
         return out
+    shape = output.arrays[0].shape
     if output.format == "npy_frame":
         value = load_npy(path)
     elif output.format == "exr":
-        value = read_exr(path)
+        value = read_exr(path, shape)
     elif output.format == "kitti":
         value = read_kitti(path)
     else:
-        value = read_png(path)
+        value = read_png(path, (*shape, 3) if output.format == "png_depth24" else shape)
         if output.format == "png_depth24":
             value = depth_from_png24(value)
     array = output.arrays[0]
@@ -231,10 +245,11 @@ def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
 
 
 def load_npy(path: pathlib.Path, mmap_mode: Union[str, None] = None) -> np.ndarray:
-    """numpy.load of a .npy file whose errors name the file."""
-    try:
-        return np.load(path, mmap_mode=mmap_mode, allow_pickle=False)
-    except OSError as error:
-        raise DatasetError(f"{path}: cannot be read: {error.strerror or error}") from error
-    except ValueError as error:
-        raise DatasetError(f"{path}: is no whole .npy file: {error}") from error
+    """numpy.load of a .npy file whose errors name the file. What is not mapped has at most LARGEST bytes."""
+    check_plain(path, 1 << 62 if mmap_mode else LARGEST)
+    with reading(path):
+        with open(path, "rb") as file:
+            if file.read(6) != b"\x93NUMPY":
+                raise DatasetError(f"{path}: is no .npy file")
+        array = np.load(path, mmap_mode=mmap_mode or "r", allow_pickle=False)
+        return array if mmap_mode else np.array(array)

@@ -4,20 +4,24 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import pathlib
 from fractions import Fraction
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
 
 from .errors import DatasetError
+from .files import LARGEST, MOST_ARRAYS, MOST_AXES, MOST_SENSORS, Field, bytes_of_shape, inside, is_inside, read_json
 
 FORMAT = "greatx-dataset"
 FORMAT_VERSION = 1
 #: The file formats of an output, from the one to read first to the one to read last where several hold one array.
 FORMATS = ("npy_stack", "npy_ragged", "npy_frame", "exr", "png", "ply", "pcd", "kitti", "png_depth24", "hdf5_events",
            "text_events")
+#: The types of arrays, by NumPy's names.
+DTYPES = ("|u1", "<u2", "<u4", "<u8", "|i1", "<i4", "<i8", "<f4", "<f8", "<c8")
+#: Files that hold several arrays.
+CLOUDS = ("ply", "pcd")
 #: Of files of a whole sequence for other tools, made from its arrays.
 EXPORT_SUFFIX = {"hdf5_events": ".h5", "text_events": ".txt"}
 SUFFIX = {"npy_frame": ".npy", "exr": ".exr", "png": ".png", "ply": ".ply", "pcd": ".pcd", "kitti": ".bin",
@@ -44,6 +48,26 @@ class OutputInfo:
     arrays: Tuple[ArrayInfo, ...]
 
 
+class MissingField(DatasetError, KeyError):
+    """A field that dataset.json should have."""
+
+    __str__ = DatasetError.__str__
+
+
+class Metadata(Dict[str, Any]):
+    """A sensor's metadata; a field that is not there is a DatasetError (and a KeyError) that says where."""
+
+    def __init__(self, fields: Mapping[str, Any] = {}, where: str = ""):
+        super().__init__(fields)
+        self.where = where
+
+    def __missing__(self, key: str) -> Any:
+        raise MissingField(f"{self.where}.{key}: expected a value, found none")
+
+    def __reduce__(self):
+        return Metadata, (dict(self), self.where)
+
+
 @dataclasses.dataclass(frozen=True)
 class SensorInfo:
     """A sensor as dataset.json describes it."""
@@ -67,51 +91,73 @@ class SensorInfo:
         return min(holders, key=lambda o: FORMATS.index(o.format)), self.arrays[name]
 
 
-def read_json(path: pathlib.Path) -> Any:
-    """The contents of a JSON file; DatasetError if there is none."""
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise DatasetError(f"{path}: cannot be read: {error.strerror}") from error
-    except ValueError as error:
-        raise DatasetError(f"{path}: is no JSON: {error}") from error
-
-
-def read_info(folder: pathlib.Path) -> Dict[str, Any]:
-    """dataset.json of a data set of this version, as it is."""
-    path = folder / "dataset.json"
+def read_info(folder: pathlib.Path) -> Field:
+    """dataset.json of a data set of this version."""
+    path = inside(folder, "dataset.json")
     if not path.is_file():
         raise DatasetError(f"{folder}: is no data set of greatx: it has no dataset.json")
     info = read_json(path)
-    if not isinstance(info, dict) or info.get("format") != FORMAT:
-        found = info.get("format") if isinstance(info, dict) else type(info).__name__
+    if "format" not in info or info.value["format"] != FORMAT:
+        found = info.value.get("format") if isinstance(info.value, dict) else type(info.value).__name__
         raise DatasetError(f"{path}: expected format '{FORMAT}', found {found!r}")
-    version = info.get("format_version")
+    version = info.value.get("format_version")
     if version != FORMAT_VERSION:
         raise DatasetError(f"{path}: format_version is {version!r}; this greatx reads {FORMAT_VERSION}. "
                            "Generate the data set anew, or use the greatx that it was made with")
     return info
 
 
-def parse_sensors(path: pathlib.Path, info: Dict[str, Any]) -> Dict[str, SensorInfo]:
-    """All sensors by name, in the order of their numbers in the index. `path` stands for the file in messages."""
-    try:
-        sensors = [_sensor(path, entry) for entry in info["sensors"]]
-    except (KeyError, TypeError, ValueError) as error:
-        if isinstance(error, DatasetError):
-            raise
-        raise DatasetError(f"{path}: sensors are not described as expected: {error!r}") from error
-    return {sensor.name: sensor for sensor in sensors}
+def parse_sensors(info: Field) -> Dict[str, SensorInfo]:
+    """All sensors by name, in the order of their numbers in the index."""
+    sensors: Dict[str, SensorInfo] = {}
+    for entry in info["sensors"].items(MOST_SENSORS):
+        sensor = _sensor(entry)
+        if sensor.name in sensors:
+            raise entry["name"].fail("a name of its own for each sensor")
+        sensors[sensor.name] = sensor
+    return sensors
 
 
-def _sensor(path: pathlib.Path, entry: Dict[str, Any]) -> SensorInfo:
-    arrays = {a["name"]: ArrayInfo(a["name"], np.dtype(a["dtype"]), tuple(a["shape"]), a["unit"], a["description"])
-              for a in entry["arrays"]}
-    outputs = {}
-    for o in entry["outputs"]:
-        if o["format"] not in FORMATS:
-            raise DatasetError(f"{path}: {entry['name']}/{o['name']} has format '{o['format']}'; this greatx knows "
-                               + ", ".join(FORMATS))
-        outputs[o["name"]] = OutputInfo(o["name"], o["format"], tuple(arrays[name] for name in o["arrays"]))
-    rate = Fraction(entry["rate_hz"]) if entry["rate_hz"] else None
-    return SensorInfo(entry["name"], entry["kind"], rate, arrays, outputs, entry["metadata"])
+def _name(field: Field) -> str:
+    if not is_inside(field.text()):
+        raise field.fail("a name that can be a folder below the data set")
+    return field.text()
+
+
+def _array(entry: Field) -> ArrayInfo:
+    name, dtype = entry["name"].text(), entry["dtype"].text()
+    if dtype not in DTYPES:
+        raise entry["dtype"].fail("one of " + ", ".join(DTYPES))
+    extents = entry["shape"].items(MOST_AXES)
+    shape = tuple(extent.integer(-1 if i == 0 else 0, 1 << 40) for i, extent in enumerate(extents))
+    if bytes_of_shape(shape, np.dtype(dtype).itemsize) > LARGEST:
+        raise entry["shape"].fail(f"a record of at most {LARGEST} bytes")
+    return ArrayInfo(name, np.dtype(dtype), shape, entry["unit"].text(), entry["description"].text())
+
+
+def _sensor(entry: Field) -> SensorInfo:
+    name = _name(entry["name"])
+    arrays = {a.name: a for a in map(_array, entry["arrays"].items(MOST_ARRAYS))}
+    outputs: Dict[str, OutputInfo] = {}
+    for o in entry["outputs"].items(MOST_ARRAYS):
+        kind = o["format"].text()
+        if kind not in FORMATS:
+            raise DatasetError(f"{o.file}: {name}/{o['name'].text()} has format {kind!r}; this greatx knows " + ", ".join(FORMATS))
+        holds = o["arrays"].items(MOST_ARRAYS)
+        for array in holds:
+            if array.text() not in arrays:
+                raise array.fail("one of the sensor's arrays")
+        if not holds or (len(holds) > 1 and kind not in CLOUDS and kind not in EXPORT_SUFFIX):
+            raise o["arrays"].fail("one array" if kind not in CLOUDS else "an array or more")
+        info = OutputInfo(_name(o["name"]), kind, tuple(arrays[array.text()] for array in holds))
+        varies = info.arrays[0].shape[:1] == (-1,)
+        if kind in ("npy_stack", "npy_ragged") and varies != (kind == "npy_ragged"):
+            raise o["format"].fail("npy_ragged for an array whose first axis varies, npy_stack for others")
+        outputs[info.name] = info
+    kept = {array.name for output in outputs.values() for array in output.arrays}
+    for array in arrays:
+        if array not in kept:
+            raise entry["outputs"].fail(f"one that keeps the array {array!r}")
+    rate = entry["rate_hz"].rate() if entry["rate_hz"].value != "" else None
+    return SensorInfo(name, entry["kind"].text(), rate, arrays, outputs,
+                      Metadata(entry["metadata"].object(), f"{entry.file}: {name}: metadata"))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from .errors import DatasetError
+from .files import Field
 
 if TYPE_CHECKING:
     from .dataset import Record, Sensor
@@ -24,15 +25,31 @@ def check_channel(sensor: "Sensor") -> "Sensor":
     return sensor
 
 
+def _antennas(sensor: "Sensor", key: str) -> List[Dict[str, Any]]:
+    ends = Field(sensor.metadata.where, sensor.metadata)[key]
+    if isinstance(ends.value, dict):  # one
+        ends = Field(ends.file, [ends.value], ends.name)
+    for end in ends.items(1 << 20):
+        end["name"].text()
+        mount = end["body_from_antenna"]
+        for part, length in (("position_m", 3), ("orientation_wxyz", 4)):
+            numbers = mount[part].items(length)
+            if len(numbers) != length:
+                raise mount[part].fail(f"{length} numbers")
+            for number in numbers:
+                number.number(-1e12, 1e12)
+    return ends.value
+
+
 def transmitters(sensor: "Sensor") -> List[Dict[str, Any]]:
     """The transmitting antennas of a channel as dataset.json describes them, in the order of the axis tx."""
     meta = check_channel(sensor).metadata
-    return meta["transmitters"] if "transmitters" in meta else [meta["transmitter"]]
+    return _antennas(sensor, "transmitters" if "transmitters" in meta else "transmitter")
 
 
 def receivers(sensor: "Sensor") -> List[Dict[str, Any]]:
     """The receiving antennas, in the order of the axis rx."""
-    return check_channel(sensor).metadata["receivers"]
+    return _antennas(check_channel(sensor), "receivers")
 
 
 def rotation(orientation_wxyz: Any) -> np.ndarray:
@@ -49,6 +66,8 @@ def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray,
     `receivers`) at a record."""
     poses = record.sensor.sequence.at(record.tick)[record.sensor.sequence.poses.name]
     nodes = poses.sensor.metadata["nodes"]
+    if not isinstance(nodes, list) or not all(isinstance(n, str) for n in nodes) or len(nodes) != len(poses["position"]):
+        raise DatasetError(f"{poses.sensor.metadata.where}.nodes: expected the names of {len(poses['position'])} nodes")
     name = next((n for n in sorted(nodes, key=len, reverse=True) if antenna["name"].startswith(n + "/")), None)
     if name is None:
         raise DatasetError(f"{record.sensor.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes "
@@ -68,6 +87,13 @@ def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = Non
     arrays = {o.name[len("paths/"):]: record[o.name] for o in sensor.info.outputs.values() if o.name.startswith("paths/")}
     if not arrays:
         raise DatasetError(f"{sensor.sequence.path / sensor.name}: the data set keeps no paths")
+    if "delay" not in arrays or len({len(a) for a in arrays.values()}) != 1:
+        raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, found "
+                           + ", ".join(f"{name} {len(a)}" for name, a in arrays.items()))
+    for name, ends in (("rx", receivers(sensor)), ("tx", transmitters(sensor))):
+        if len(arrays.get(name, ())) and not 0 <= arrays[name].min() <= arrays[name].max() < len(ends):
+            raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected {name} from 0 to {len(ends) - 1}, found "
+                               f"{arrays[name].min()} to {arrays[name].max()}")
     mine = np.ones(len(arrays["delay"]), bool)
     for name, number in (("rx", rx), ("tx", tx)):
         if number is not None and name in arrays:

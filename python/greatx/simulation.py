@@ -16,6 +16,7 @@ from . import _native
 from .antenna import Array, look_from_to
 from .errors import Error
 from .paths import Paths
+from .process import Owned
 from .radio_map import RadioMap
 from .stream import Run
 
@@ -84,7 +85,8 @@ class Simulation:
     validation  run under the Vulkan validation layer; a message is a RuntimeError
 
     The scene is loaded, and the device opened, when they are first needed. What is wrong with the input is a greatx.Error
-    (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between batches. Positions are metres in
+    (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between batches. A process that is forked
+    cannot use its parent's Simulation, which says so; it makes its own. Positions are metres in
     the world: x east, y north, z up; orientations yaw, pitch, roll in degrees, positive yaw left, positive pitch down.
     """
 
@@ -95,13 +97,14 @@ class Simulation:
         options = ("" if assets is None else os.fspath(assets), device, validation)
         embedded = _native.embedded_scenarios()
         if isinstance(scenario, Mapping):
-            self._native = _call(_native.Session.parse, _text(scenario), "scenario", *options)
+            session = _call(_native.Session.parse, _text(scenario), "scenario", *options)
         elif scenario in embedded:
-            self._native = _call(_native.Session.parse, embedded[scenario], f"{scenario}.yaml", *options)
+            session = _call(_native.Session.parse, embedded[scenario], f"{scenario}.yaml", *options)
         elif os.path.isfile(scenario):
-            self._native = _call(_native.Session.load, os.fspath(scenario), *options)
+            session = _call(_native.Session.load, os.fspath(scenario), *options)
         else:
             raise Error(f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}")
+        self._native = Owned(session)
         self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
         self._change(seed=seed, ticks=ticks, sequences=sequences, tolerance_db=tolerance_db, effects=effects,
                      environment=environment)
@@ -328,7 +331,7 @@ class Simulation:
             for tick in sim.run():
                 tick["csi"].cfr, tick["uav/front"].rgb, tick["poses"].position
         """
-        return Run(_call(self._native.stream, sequence, first_tick), _call, self.tick_rate_hz)
+        return Run(Owned(_call(self._native.stream, sequence, first_tick)), _call, self.tick_rate_hz)
 
     def __repr__(self) -> str:
         facts = self._facts

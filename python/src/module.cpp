@@ -8,6 +8,7 @@
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include "assets/assets.h"
 #include "core/watch.h"
@@ -199,29 +200,34 @@ py::object next(Stream& stream) {
   return py::make_tuple(packet->tick, packet->time_ns, records);
 }
 
-/// Waits for the device, which another thread may be working with, without the interpreter.
+/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the process that
+/// made the object nothing is deleted: the device's threads and whoever held its locks are not there, it would wait for ever.
 struct ReleasedDelete {
-  void operator()(Stream* stream) const {
+  pid_t maker = ::getpid();
+  template <typename T>
+  void operator()(T* object) const {
+    if (::getpid() != maker) return;
     const py::gil_scoped_release released;
-    delete stream;
+    delete object;
   }
 };
+using SessionHolder = std::unique_ptr<Session, ReleasedDelete>;
 
 void bind_session(py::module_& module) {
-  py::class_<Session>(module, "Session")
+  py::class_<Session, SessionHolder>(module, "Session")
       .def_static(
           "load",
           [](const std::string& file, const std::string& assets, const std::string& device, bool validation) {
-            return std::make_unique<Session>(sim::load_scenario(file, assets), assets,
-                                             gpu::DeviceOptions{device, validation});
+            return SessionHolder(new Session(sim::load_scenario(file, assets), assets,
+                                             gpu::DeviceOptions{device, validation}));
           },
           Released())
       .def_static(
           "parse",
           [](const std::string& text, const std::string& name, const std::string& assets,
              const std::string& device, bool validation) {
-            return std::make_unique<Session>(sim::parse_scenario(text, name, ".", assets), assets,
-                                             gpu::DeviceOptions{device, validation});
+            return SessionHolder(new Session(sim::parse_scenario(text, name, ".", assets), assets,
+                                             gpu::DeviceOptions{device, validation}));
           },
           Released())
       .def("add_nodes", &Session::add_nodes, Released())

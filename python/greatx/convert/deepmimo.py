@@ -19,6 +19,7 @@ import numpy as np
 
 from ..dataset import Dataset, Record, Sensor
 from ..errors import DatasetError
+from ..files import interpreting
 from ..links import DIFFRACTION, REFLECTION, SCATTERING, SPEED_OF_LIGHT, TRANSMISSION, antenna_pose, paths_of, receivers, \
     transmitters
 from .common import make_folder, pick_channel, pick_sequence, turns
@@ -62,8 +63,13 @@ def write_deepmimo(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channe
     else:
         snapshots = [[(record, rx) for rx in ends] for record in records]
 
-    root = make_folder(out)
-    room = _Room(sensor, records)
+    with interpreting(sensor.sequence.path / sensor.name):
+        room = _Room(sensor, records)
+        return _write(make_folder(out), sensor, snapshots, records, room, layout)
+
+
+def _write(root: pathlib.Path, sensor: Sensor, snapshots: List[List[Point]], records: List[Record], room: "_Room",
+           layout: str) -> Dict[str, Any]:
     active = np.zeros(len(snapshots[0]), bool)
     for number, points in enumerate(snapshots):
         folder = root if len(snapshots) == 1 else root / f"snapshot_{number:06d}"

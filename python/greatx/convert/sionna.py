@@ -11,8 +11,9 @@ from typing import Any, Dict, Optional, Union
 
 import numpy as np
 
-from ..dataset import Dataset, Record
+from ..dataset import Dataset, Record, Sensor
 from ..errors import DatasetError
+from ..files import Field, interpreting
 from ..links import DIFFRACTION, REFLECTION, SCATTERING, TRANSMISSION, antenna_pose, check_channel, paths_of, receivers, \
     transmitters
 from .common import make_folder, pick_channel, pick_sequence, turns
@@ -52,6 +53,11 @@ class SionnaPaths:
 def sionna_paths(record: Record) -> SionnaPaths:
     """Of one record of a channel. Paths stay in their own order (docs/dataset.md)."""
     sensor = check_channel(record.sensor)
+    with interpreting(sensor.sequence.path / sensor.name):
+        return _paths(record, sensor)
+
+
+def _paths(record: Record, sensor: Sensor) -> SionnaPaths:
     meta = sensor.metadata
     carrier = meta["carrier_hz"]
     rx_count, tx_count = len(receivers(sensor)), len(transmitters(sensor))
@@ -81,7 +87,8 @@ def sionna_paths(record: Record) -> SionnaPaths:
     times = np.arange(cfr.shape[4]) * meta["time_spacing_s"]
     moving = times if meta["doppler_in_time_samples"] else 0 * times
     over_time = np.exp(2j * np.pi * out["doppler"][..., None] * moving)[:, None, :, None]
-    frequencies = (meta["first_subcarrier"] + np.arange(meta["subcarriers"])) * meta["subcarrier_spacing_hz"]
+    subcarriers = Field(sensor.metadata.where, meta)["subcarriers"].integer(1, 1 << 20)
+    frequencies = (meta["first_subcarrier"] + np.arange(subcarriers)) * meta["subcarrier_spacing_hz"]
     return SionnaPaths(
         a=passband.astype(np.complex64), cir=(a[..., None] * over_time).astype(np.complex64), cfr=cfr,
         frequencies=frequencies, times=times, frequency=carrier,

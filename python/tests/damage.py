@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 The greatx authors
+# SPDX-License-Identifier: Apache-2.0
+"""Damages a data set: one random change after another, each a function (folder, random.Random) -> str that says what it did.
+For the tests here, and for whoever wants to try a program on many damaged data sets."""
+import json
+import os
+import pathlib
+import random
+import struct
+import zlib
+
+#: Values that a field may get instead of its own.
+EXTREMES = (0, -1, 1, 2**31, 2**32 - 1, 2**53, 2**63 - 1, 2**64, 1e300, -1e300, 0.5, True, None, "", "x", "/etc/passwd", "../../x",
+            "9223372036854775807", "1/9223372036854775807", "1e999999999", "\x1b[31m", "a" * 5000, [], {}, [[]], [-1], [2**40, 2**40])
+
+
+def files_of(folder: pathlib.Path) -> list:
+    return sorted(p for p in folder.rglob("*") if p.is_file() and not p.is_symlink())
+
+
+def pick(folder: pathlib.Path, rng: random.Random) -> pathlib.Path:
+    """A file; those that describe the others as often as all others."""
+    files = files_of(folder)
+    small = [p for p in files if p.name in ("dataset.json", "manifest.json", "journal.txt", "index.npy", "index.csv")]
+    return rng.choice(small if small and rng.random() < 0.5 else files)
+
+
+def flip_bytes(folder: pathlib.Path, rng: random.Random) -> str:
+    path = pick(folder, rng)
+    data = bytearray(path.read_bytes())
+    # Headers are where sizes stand.
+    places = [rng.randrange(min(len(data), rng.choice((64, 400, 1 << 30)))) for _ in range(rng.choice((1, 1, 3, 20)))] if data else []
+    for at in places:
+        data[at] = rng.choice((data[at] ^ (1 << rng.randrange(8)), 0, 255, 127, 10, 45, 57))
+    path.write_bytes(data)
+    return f"bytes {places} of {path.name}"
+
+
+def write_numbers(folder: pathlib.Path, rng: random.Random) -> str:
+    """Extreme numbers where a binary file may keep numbers."""
+    path = pick(folder, rng)
+    data = bytearray(path.read_bytes())
+    form, value = rng.choice((("<q", 2**63 - 1), ("<q", -1), ("<q", 2**40), ("<i", -1), ("<i", 2**31 - 1), ("<I", 2**32 - 1),
+                              ("<d", float("inf")), ("<d", 1e300), ("<f", float("nan")), ("<f", 3e38), (">I", 2**31 - 1)))
+    size = struct.calcsize(form)
+    if len(data) < size:
+        return "nothing"
+    at = rng.randrange(0, len(data) - size + 1, 4)
+    data[at:at + size] = struct.pack(form, value)
+    path.write_bytes(data)
+    return f"{form} {value} at byte {at} of {path.name}"
+
+
+def truncate(folder: pathlib.Path, rng: random.Random) -> str:
+    path = pick(folder, rng)
+    size = rng.randrange(path.stat().st_size + 1)
+    os.truncate(path, size)
+    return f"{path.name} cut to {size} bytes"
+
+
+def delete(folder: pathlib.Path, rng: random.Random) -> str:
+    path = pick(folder, rng)
+    path.unlink()
+    return f"{path.name} deleted"
+
+
+def swap(folder: pathlib.Path, rng: random.Random) -> str:
+    """Something else in the place of a file, or another file of the data set."""
+    path = pick(folder, rng)
+    kind = rng.choice(("folder", "fifo", "link", "link to a device", "link to itself", "sparse", "empty", "other"))
+    other = rng.choice(files_of(folder)).read_bytes()
+    path.unlink()
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "fifo":
+        os.mkfifo(path)
+    elif kind.startswith("link"):
+        path.symlink_to({"link": "/etc/hostname", "link to a device": "/dev/zero", "link to itself": path.name}[kind])
+    else:
+        path.write_bytes(other if kind == "other" else b"")
+        if kind == "sparse":
+            os.truncate(path, 100 << 30)
+    return f"{path.name}: {kind}"
+
+
+def _places(tree, place=()):
+    yield place
+    items = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+    for key, value in items:
+        yield from _places(value, (*place, key))
+
+
+def change_json(folder: pathlib.Path, rng: random.Random) -> str:
+    """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to fit."""
+    names = [n for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt") if (folder / n).is_file()]
+    path = folder / rng.choice(names)
+    text = path.read_text("utf-8", "replace")
+    lines = text.splitlines()
+    row = rng.randrange(len(lines)) if path.name == "journal.txt" and lines else None
+    try:
+        tree = json.loads(text if row is None else lines[row].rsplit("\t", 1)[0])
+    except (ValueError, IndexError):
+        return "nothing"
+    *way, last = [None, *rng.choice(list(_places(tree)) or [()])]
+    holder, value = {None: tree}, rng.choice(EXTREMES)
+    whole = holder
+    for key in way:
+        holder = holder[key]
+    if rng.random() < 0.2 and last is not None:
+        del holder[last]
+        value = "nothing"
+    else:
+        holder[last] = value
+    done = json.dumps(whole[None])
+    if rng.random() < 0.05:
+        done = rng.choice(("[", '{"a":')) * 100_000
+    if row is None:
+        path.write_text(done)
+    else:
+        lines[row] = f"{done}\t{zlib.crc32(done.encode()):08x}"
+        path.write_text("\n".join(lines) + "\n")
+    return f"{path.name}: {[*way[1:], last]} = {str(value)[:40]!r}"
+
+
+MUTATORS = (flip_bytes, flip_bytes, write_numbers, truncate, delete, swap, change_json, change_json, change_json)
+
+
+def sign(folder: pathlib.Path) -> None:
+    """Makes sizes and hashes of the manifest fit, so that what lies behind them is reached."""
+    import hashlib
+    path = folder / "manifest.json"
+    try:
+        manifest = json.loads(path.read_text())
+        for file in manifest["files"]:
+            target = folder / file["path"]
+            if folder in target.parents and target.is_file() and not target.is_symlink() and target.stat().st_size < 1 << 24:
+                data = target.read_bytes()
+                file["size"], file["sha256"] = len(data), hashlib.sha256(data).hexdigest()
+        path.write_text(json.dumps(manifest))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        pass
+
+
+def damage(folder: pathlib.Path, seed: int) -> str:
+    """One change, now and then three; half of the time the manifest is made to fit."""
+    rng = random.Random(seed)
+    done = []
+    for _ in range(rng.choice((1, 1, 1, 3))):
+        if files_of(folder):
+            done.append(rng.choice(MUTATORS)(folder, rng))
+    if rng.random() < 0.5:
+        sign(folder)
+        done.append("signed")
+    return "; ".join(done)
