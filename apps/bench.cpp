@@ -15,6 +15,7 @@
 #include "apps/bench/recall.h"
 #include "apps/bench/rig_bench.h"
 #include "apps/commands.h"
+#include "apps/json_text.h"
 #include "apps/progress.h"
 #include "apps/watch.h"
 #include "apps/session.h"
@@ -124,7 +125,7 @@ void run(const Options& options) {
   result["pass_ms"] = rows(statistics.passes);
   result["host_ms"] = rows(statistics.host);
   if (options.json)
-    std::cout << result.dump(2) << '\n';
+    std::cout << json_text(result) << '\n';
   else
     print(result);
 }
@@ -137,7 +138,7 @@ void run_rows(const Options& options, BenchOptions bench_options,
   bench_options.warm_up = options.warm_up;
   const TerminalWatch watch(options.json);  // that shows searches; without a handler, Ctrl-C ends at once
   const nlohmann::json result = bench(options.scenario, options.run, bench_options);
-  std::cout << (options.json ? result.dump(2) + "\n" : text(result));
+  std::cout << (options.json ? json_text(result) + "\n" : text(result));
 }
 
 }  // namespace

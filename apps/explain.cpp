@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/json_text.h"
 #include "apps/session.h"
 #include "sim/channel/notes.h"
 
@@ -38,7 +39,7 @@ void run(const Options& options) {
     for (uint32_t channel = 0; channel < scenario.channels.size(); ++channel)
       for (const auto& [name, text] : sim::channel_notes(scenario, world, plan, channel))
         json["channels"][scenario.channels[channel].name][name] = text;
-    std::cout << json.dump(2) << '\n';
+    std::cout << json_text(json) << '\n';
     return;
   }
   std::cout << fmt::format("{}: {} triangles, {} facets, {} instances, {} bodies\n", scenario.name,

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/consistency_files.h"
+#include "apps/json_text.h"
 #include "apps/progress.h"
 #include "apps/session.h"
 #include "apps/summary.h"
@@ -66,7 +67,7 @@ void run(const Options& options) {
                            {options.threads, options.resume});
   if (writer.resume_position().finished) {
     if (options.json)
-      std::cout << nlohmann::json{{"output", options.output}, {"finished", true}, {"ticks", 0}}.dump(2)
+      std::cout << json_text(nlohmann::json{{"output", options.output}, {"finished", true}, {"ticks", 0}})
                 << '\n';
     else if (!options.quiet)
       std::cout << options.output << ": complete already, nothing to do\n";
@@ -96,7 +97,7 @@ void run(const Options& options) {
   summary["files"] = writer.stats().files;
   summary["bytes"] = writer.stats().bytes;
   if (options.json)
-    std::cout << summary.dump(2) << '\n';
+    std::cout << json_text(summary) << '\n';
   else if (!options.quiet)
     std::cout << summary_text(summary)
               << fmt::format("{} {}\n", complete ? "wrote" : "interrupted:", options.output);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/json_text.h"
 #include "gpu/device.h"
 
 namespace greatx::apps {
@@ -47,7 +48,7 @@ void add_info(CLI::App& app) {
     if (*as_json) {
       nlohmann::json json{{"greatx", GREATX_VERSION}, {"devices", nlohmann::json::array()}};
       for (const gpu::DeviceInfo& info : devices) json["devices"].push_back(json_of(info));
-      std::cout << json.dump(2) << '\n';
+      std::cout << json_text(json) << '\n';
       return;
     }
     for (const gpu::DeviceInfo& info : devices) print(info);

@@ -3,19 +3,23 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "apps/commands.h"
+#include "apps/terminal.h"
 #include "core/error.h"
+#include "core/phase.h"
 
 namespace {
 
 /// Everything but results goes to stderr, so that --json prints one object and nothing else on stdout.
 void set_up_logging() {
+  using namespace greatx;
   spdlog::set_default_logger(spdlog::stderr_color_mt("greatx"));
-  spdlog::set_pattern("%^%l%$: %v");
+  spdlog::set_formatter(apps::safe_log_format());
   spdlog::set_level(std::getenv("GREATX_DEBUG") != nullptr ? spdlog::level::debug : spdlog::level::info);
 }
 
@@ -24,6 +28,8 @@ void set_up_logging() {
 int main(int argc, char** argv) {
   using namespace greatx;
   set_up_logging();
+  watch_memory();
+  const apps::SafeStream safe_out(std::cout), safe_err(std::cerr);
   CLI::App app{
       "greatx simulates sensing and communication in one scene on one clock: RGB, depth, ids, LiDAR and "
       "channel state "
@@ -55,6 +61,9 @@ int main(int argc, char** argv) {
   } catch (const Interrupted& interrupted) {
     std::cerr << "greatx: interrupted: " << interrupted.what() << '\n';
     return apps::exit_interrupted;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "greatx: error: " << out_of_memory() << '\n';
+    return apps::exit_internal;
   } catch (const std::exception& error) {
     std::cerr << "greatx: internal error: " << error.what() << '\n';
     return apps::exit_internal;

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
+#include "apps/json_text.h"
 #include "apps/map/background.h"
 #include "apps/map/journal.h"
 #include "apps/map/output.h"
@@ -250,7 +251,7 @@ void run(const Options& given) {
   device.wait_idle();
   check_validation(device);
   io::write_file_atomically(std::filesystem::path(options.output) / map_description,
-                            description.dump(2) + "\n");
+                            json_text(description) + "\n");
   journal.finish();
 
   std::map<std::string, uint64_t> counters;
@@ -259,7 +260,7 @@ void run(const Options& given) {
     Json result{{"output", options.output}, {"totals", totals.json()}, {"transmitters", request.ends.size()},
                 {"cells_solved", solved},   {"solve_s", solve_s},      {"seconds", seconds_since(begin)},
                 {"counters", counters}};
-    std::cout << result.dump(2) << '\n';
+    std::cout << json_text(result) << '\n';
   } else if (!options.quiet) {
     std::cout << totals.text(request.transmitters);
     std::vector<std::string> counts;

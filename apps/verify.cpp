@@ -10,6 +10,7 @@
 
 #include "apps/commands.h"
 #include "apps/consistency_files.h"
+#include "apps/json_text.h"
 
 namespace greatx::apps {
 
@@ -44,7 +45,7 @@ void add_verify(CLI::App& app) {
                                     {"what", problem.what},
                                     {"expected", problem.expected},
                                     {"found", problem.found}});
-      std::cout << json.dump(2) << '\n';
+      std::cout << json_text(json) << '\n';
     } else {
       for (const io::Problem& problem : problems) std::cout << problem.str() << '\n';
       for (const ConsistencyReport::Figure& figure : world.figures)

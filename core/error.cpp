@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
 
+#include "core/text.h"
+
 namespace greatx {
 
 std::string SourceLocation::str() const {
@@ -9,8 +11,10 @@ std::string SourceLocation::str() const {
   return line > 0 ? fmt::format("{}:{}", file, line) : file;
 }
 
+UserError::UserError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
+
 UserError::UserError(const SourceLocation& where, const std::string& message)
-    : std::runtime_error(fmt::format("{}: {}", where.str(), message)) {}
+    : UserError(fmt::format("{}: {}", where.str(), message)) {}
 
 namespace detail {
 void check_failed(const char* file, int line, const char* condition, const std::string& message) {

@@ -21,10 +21,11 @@ struct SourceLocation {
   std::string str() const;
 };
 
-/// Bad input: the message names file:line and field, what was expected and what was found. Exit code 1.
+/// Bad input: the message names file:line and field, what was expected and what was found. Exit code 1. It may quote what
+/// it complains of: a terminal obeys none of it (printable_lines() of core/text.h).
 class UserError : public std::runtime_error {
  public:
-  explicit UserError(const std::string& message) : std::runtime_error(message) {}
+  explicit UserError(const std::string& message);
   UserError(const SourceLocation& where, const std::string& message);
 };
 

@@ -129,7 +129,11 @@ class Claims {
 /// Whether all files of a sequence can lie beside each other; empty: they can.
 std::string fault_of_paths(const std::vector<SensorSpec>& sensors) {
   Claims claims;
-  std::vector<std::string> paths{index_path(0, "npy"), index_path(0, "csv")};
+  std::vector<std::string> paths;
+  for (const char* extension : {"npy", "csv"}) {
+    paths.push_back(index_path(0, extension));
+    paths.push_back(part_name(paths.back()).string());
+  }
   for (const SensorSpec& sensor : sensors) {
     if (!fault_of_path(sensor.name).empty())
       return fmt::format("sensor \"{}\": expected a name that can be a folder below the data set",

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <span>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/input_file.h"
 
 namespace greatx::scene {
 namespace {
@@ -27,6 +28,12 @@ bool has_scheme(const std::string& uri) {
              uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](unsigned char character) {
                return std::isalnum(character) || character == '+' || character == '-' || character == '.';
              });
+}
+
+std::vector<unsigned char> bytes_of(const InputFile& input) {
+  std::vector<unsigned char> bytes(input.size());
+  input.read(std::as_writable_bytes(std::span(bytes)));
+  return bytes;
 }
 
 /// `inside` is `folder` or below it; both canonical.
@@ -71,22 +78,9 @@ std::string decode_uri(const std::string& uri, const std::string& what) {
   return decoded;
 }
 
-std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw_user_error("{}: file '{}' does not exist", what, file.string());
-  if (!std::filesystem::is_regular_file(status)) {
-    throw_user_error("{}: '{}' is not a regular file", what, file.string());
-  }
-  const auto size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) throw_user_error("{}: file '{}' cannot be read", what, file.string());
-  std::vector<unsigned char> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<uint64_t>(stream.gcount()) != size) {
-    throw_user_error("{}: file '{}': read {} of {} bytes", what, file.string(), stream.gcount(), size);
-  }
-  return bytes;
+std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what,
+                                             const Budget& budget) {
+  return bytes_of(InputFile(file, what, budget));
 }
 
 AssetFolder::AssetFolder(const std::filesystem::path& asset) : in_memory_(asset.empty()) {
@@ -99,7 +93,7 @@ AssetFolder::AssetFolder(const std::filesystem::path& asset) : in_memory_(asset.
                      error.message());
 }
 
-std::vector<unsigned char> AssetFolder::read(const std::string& uri, const std::string& what) const {
+std::vector<unsigned char> AssetFolder::read(const std::string& uri, const std::string& what) {
   const std::string path = decode_uri(uri, what);
   check_relative(path, uri, what);
   if (in_memory_) throw_user_error("{}: URI '{}': an embedded asset may not name external files", what, uri);
@@ -112,7 +106,9 @@ std::vector<unsigned char> AssetFolder::read(const std::string& uri, const std::
   if (!is_below(file, folder_)) {
     throw_user_error("{}: URI '{}' leaves the asset's folder through a symbolic link", what, uri);
   }
-  return read_regular_file(file, what);
+  const InputFile input(file, what, budget::model_externals);
+  read_.plan(fmt::format("{}: with file '{}'", what, file.string()), input.size());
+  return bytes_of(input);
 }
 
 }  // namespace greatx::scene

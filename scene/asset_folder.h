@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/budget.h"
+
 namespace greatx::scene {
 
 /// The folder of one glTF file: what its URIs may name, and nothing else.
@@ -18,18 +20,20 @@ class AssetFolder {
   /// The bytes of the file that `uri` (RFC 3986, percent-encoded, relative) names. Throws UserError, starting
   /// with `what` ("x.gltf: buffer 0"), if the URI is absolute, has a scheme, a ".." or a backslash (also
   /// percent-encoded), if the file lies outside the folder through a symbolic link, is no regular file, or
-  /// cannot be read.
-  std::vector<unsigned char> read(const std::string& uri, const std::string& what) const;
+  /// cannot be read; or if this and all read before are more than budget::model_externals.
+  std::vector<unsigned char> read(const std::string& uri, const std::string& what);
 
  private:
   std::filesystem::path folder_;  ///< canonical
   bool in_memory_ = false;
+  Spending read_{budget::model_externals};
 };
 
 /// Percent-decodes; throws UserError starting with `what` on a broken escape or a NUL.
 std::string decode_uri(const std::string& uri, const std::string& what);
 
-/// The whole file. Throws UserError starting with `what` if it is no regular file or cannot be read.
-std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what);
+/// The whole file. Throws UserError starting with `what` if it is no regular file, cannot be read, or is too large.
+std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what,
+                                             const Budget& budget);
 
 }  // namespace greatx::scene

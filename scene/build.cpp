@@ -7,8 +7,11 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 
+#include "core/budget.h"
 #include "core/error.h"
+#include "core/phase.h"
 #include "scene/build_geometry.h"
 #include "scene/build_materials.h"
 #include "scene/facets.h"
@@ -107,6 +110,25 @@ dvec3 default_origin(const std::vector<Placement>& placements) {
   }
   if (bounds.empty()) return dvec3(0.0);
   return glm::floor(bounds.center() + 0.5 + 1e-6);
+}
+
+/// Triangles that the scene will have, said before it is made: a small file may place one mesh many times.
+uint64_t planned_triangles(const std::vector<Placement>& placements) {
+  uint64_t planned = 0;
+  for (const Placement& placement : placements) {
+    const Model& model = *placement.model;
+    std::vector<uint64_t> of_mesh;
+    for (const ModelMesh& mesh : model.meshes) {
+      uint64_t triangles = 0;
+      for (const ModelPrimitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
+      of_mesh.push_back(triangles);
+    }
+    for (const ModelInstance& instance : model.instances) planned += of_mesh[instance.mesh];
+    require_within(fmt::format("object '{}' ({}): {} places of {} meshes", placement.name,
+                               model.file.string(), model.instances.size(), model.meshes.size()),
+                   planned, budget::scene_triangles);
+  }
+  return planned;
 }
 
 class Builder {
@@ -220,6 +242,8 @@ class Builder {
   void add_instance(const Placement& placement, const Frame& frame, const ModelInstance& instance) {
     const Model& model = *placement.model;
     const ModelMesh& mesh = model.meshes[instance.mesh];
+    // Kept for the whole scene: a mesh may be placed a thousand times.
+    const std::vector<uint32_t>& materials = materials_.indices_of(model);
     Instance result;
     result.name = unique_name(placement, instance);
     result.semantic_class = placement.semantic_class.value_or(instance.semantic_class);
@@ -229,8 +253,12 @@ class Builder {
     const dmat4 body_from_mesh = frame.place(instance.model_from_mesh);
     // By material: facets may cross primitives, but not instances.
     std::map<uint32_t, FacetWork> work;
+    std::map<uint32_t, size_t> corners;
+    for (const ModelPrimitive& primitive : mesh.primitives)
+      corners[materials[primitive.material]] += primitive.indices.size();
+    for (const auto& [material, count] : corners) work[material].reserve(count);
     for (size_t index = 0; index < mesh.primitives.size(); ++index) {
-      const uint32_t material = materials_.indices_of(model)[mesh.primitives[index].material];
+      const uint32_t material = materials[mesh.primitives[index].material];
       add_primitive(mesh, index, body_from_mesh, material, what, result.bounds, work[material]);
     }
     scene_.bodies.back().bounds.add(result.bounds);
@@ -242,6 +270,11 @@ class Builder {
   struct FacetWork {
     FacetInput input;
     std::vector<uint32_t> triangles;  ///< their numbers in the scene
+    void reserve(size_t corners) {
+      input.corners.reserve(corners);
+      input.vertices.reserve(corners);
+      triangles.reserve(corners / 3);
+    }
   };
 
   void add_primitive(const ModelMesh& mesh, size_t index, const dmat4& body_from_mesh, uint32_t material,
@@ -303,9 +336,9 @@ class Builder {
   }
 
   void add_facets(uint32_t material, const FacetWork& work) {
-    const std::vector<FacetGroup> groups = merge_coplanar(work.input, options_);
+    const FacetGroups merged = merge_coplanar(work.input, options_);
     scene_.facet_of_triangle.resize(scene_.indices.size() / 3);
-    for (const FacetGroup& group : groups) {
+    for (const FacetGroup& group : merged.groups) {
       Facet facet;
       facet.normal = group.normal;
       facet.offset = group.offset;
@@ -313,8 +346,8 @@ class Builder {
       facet.material = material;
       facet.instance = static_cast<uint32_t>(scene_.instances.size());
       facet.first_triangle = static_cast<uint32_t>(scene_.facet_triangles.size());
-      facet.triangle_count = static_cast<uint32_t>(group.triangles.size());
-      for (const uint32_t triangle : group.triangles) {
+      facet.triangle_count = group.count;
+      for (const uint32_t triangle : std::span(merged.triangles).subspan(group.first, group.count)) {
         const dvec3* corners = &work.input.corners[triangle * 3];
         scene_.facet_triangles.push_back({{corners[0], corners[1], corners[2]}});
         scene_.facet_of_triangle[work.triangles[triangle]] = static_cast<uint32_t>(scene_.facets.size());
@@ -336,10 +369,15 @@ class Builder {
 }  // namespace
 
 Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options) {
+  const Phase phase("building the scene");
   for (const Placement& placement : placements) check_placement(placement);
+  const uint64_t triangles = planned_triangles(placements);
   Scene scene;
   scene.name = options.name;
   scene.origin = options.origin ? *options.origin : default_origin(placements);
+  scene.indices.reserve(3 * triangles);
+  scene.facet_triangles.reserve(triangles);
+  scene.facet_of_triangle.reserve(triangles);
   Builder builder(scene, options);
   builder.add_body("static");
   for (const Placement& placement : placements) {

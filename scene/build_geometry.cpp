@@ -67,6 +67,11 @@ dvec3 triangle_normal(const VertexData& vertices, size_t first, const std::strin
 void make_flat(VertexData& vertices, const std::string& what) {
   VertexData flat;
   const size_t count = vertices.indices.size();
+  flat.positions.reserve(count);
+  flat.normals.reserve(count);
+  flat.uvs.reserve(count);
+  flat.source.reserve(count);
+  flat.indices.reserve(count);
   for (size_t first = 0; first < count; first += 3) {
     const vec3 normal(triangle_normal(vertices, first, what));
     for (size_t corner = first; corner < first + 3; ++corner) {
@@ -131,6 +136,9 @@ VertexData place_primitive(const ModelPrimitive& source, const dmat4& body_from_
 
 std::vector<std::vector<uint32_t>> weld(const ModelMesh& mesh) {
   std::unordered_map<PlaceKey, uint32_t, PlaceKeyHash> numbers;
+  size_t vertices = 0;
+  for (const ModelPrimitive& primitive : mesh.primitives) vertices += primitive.positions.size();
+  numbers.reserve(vertices);
   std::vector<std::vector<uint32_t>> welded;
   for (const ModelPrimitive& primitive : mesh.primitives) {
     std::vector<uint32_t>& of_primitive = welded.emplace_back();

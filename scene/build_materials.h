@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
+#include "core/budget.h"
 #include "scene/model.h"
 
 namespace greatx::scene {
@@ -16,12 +18,15 @@ class MaterialMerger {
  public:
   explicit MaterialMerger(Scene& scene) : scene_(scene) {}
 
-  /// For each of the model's materials, its index in the scene. The reference holds until the next call.
+  /// For each of the model's materials, its index in the scene. The reference holds until the next call. Throws UserError
+  /// if the scene's textures come to more than budget::scene_textures.
   const std::vector<uint32_t>& indices_of(const Model& model);
 
  private:
   Scene& scene_;
   std::map<const Model*, std::vector<uint32_t>> done_;
+  std::unordered_multimap<size_t, uint32_t> textures_, materials_;  ///< those of the scene
+  Spending memory_{budget::scene_textures};
 };
 
 }  // namespace greatx::scene

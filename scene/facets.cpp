@@ -4,25 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "core/error.h"
 #include "core/units.h"
+#include "scene/edge_table.h"
 
 namespace greatx::scene {
 namespace {
+
+/// Normals that a thin triangle's rounding may turn further than this are compared as if it were this.
+constexpr double most_angle_rad = 0.5;
 
 /// A plane from weighted triangles, with sums taken about a near point so that no digits are lost far from the origin.
 class PlaneFit {
  public:
   explicit PlaneFit(const dvec3& about) : about_(about) {}
 
-  void add(const dvec3& doubled_area_normal, const dvec3& centroid) {
-    const double weight = glm::length(doubled_area_normal);
+  /// `weight`: the length of the first.
+  void add(const dvec3& doubled_area_normal, double weight, const dvec3& centroid) {
     normal_sum_ += doubled_area_normal;
     centroid_sum_ += weight * (centroid - about_);
     weight_sum_ += weight;
@@ -30,6 +31,7 @@ class PlaneFit {
     point_ = about_ + centroid_sum_ / weight_sum_;
   }
   const dvec3& normal() const { return normal_; }
+  const dvec3& normal_sum() const { return normal_sum_; }
   double offset() const { return glm::dot(normal_, point_); }
   double distance(const dvec3& corner) const { return std::abs(glm::dot(normal_, corner - point_)); }
 
@@ -38,310 +40,247 @@ class PlaneFit {
   double weight_sum_ = 0.0;
 };
 
-/// For every triangle and side, the triangles that share that edge, as entries that follow one another.
-class EdgeTable {
+/// Many triangles around one edge, by the direction of their normals about it.
+class Fan {
  public:
-  struct Range {
-    size_t begin = 0, end = 0;
-  };
-  explicit EdgeTable(const std::vector<uint32_t>& vertices) {
-    const size_t count = vertices.size() / 3;
-    entries_.reserve(count * 3);
-    for (uint32_t triangle = 0; triangle < count; ++triangle) {
-      for (uint32_t side = 0; side < 3; ++side) {
-        const uint32_t from = vertices[triangle * 3 + side], to = vertices[triangle * 3 + (side + 1) % 3];
-        entries_.push_back({std::min(from, to), std::max(from, to), triangle, side});
-      }
+  static constexpr uint32_t least = 16;  ///< triangles: fewer are compared one by one
+  /// What normals may turn while one answer is still good.
+  static constexpr double margin_rad = 0.01;
+
+  explicit Fan(const dvec3& edge) {
+    const dvec3 along = glm::normalize(edge);
+    x_ = glm::normalize(glm::cross(along, std::abs(along.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+    y_ = glm::cross(along, x_);
+  }
+  void add(uint32_t triangle, const dvec3& normal, double allowed_rad) {
+    if (!(allowed_rad < most_angle_rad)) {
+      anyway_.push_back(triangle);  // too thin for its normal to be trusted
+      return;
     }
-    std::sort(entries_.begin(), entries_.end());
-    ranges_.resize(count * 3);
-    for (size_t begin = 0; begin < entries_.size();) {
-      size_t end = begin + 1;
-      while (end < entries_.size() && entries_[end].low == entries_[begin].low &&
-             entries_[end].high == entries_[begin].high) {
-        ++end;
-      }
-      for (size_t index = begin; index < end; ++index) {
-        ranges_[entries_[index].triangle * 3 + entries_[index].side] = {begin, end};
-      }
-      begin = end;
-    }
+    by_angle_.emplace_back(angle_of(normal), triangle);
+    reach_ = std::max(reach_, allowed_rad);
   }
+  void finish() { std::sort(by_angle_.begin(), by_angle_.end()); }
 
-  const Range& range(uint32_t triangle, uint32_t side) const { return ranges_[triangle * 3 + side]; }
-  uint32_t triangle(size_t entry) const { return entries_[entry].triangle; }
-  uint32_t side(size_t entry) const { return entries_[entry].side; }
-  size_t size() const { return entries_.size(); }
-
- private:
-  struct Entry {
-    uint32_t low, high, triangle, side;
-    auto operator<=>(const Entry&) const = default;
-  };
-  std::vector<Entry> entries_;  ///< sorted: equal edges stand together
-  std::vector<Range> ranges_;   ///< [triangle * 3 + side] into entries_
-};
-
-/// The triangles of one edge that very many share (a fan about an axis), by the direction of their normals about the edge:
-/// a facet that grows asks for those alone that may join it, where asking all of them each time is quadratic.
-///
-/// A neighbour joins if its normal n is within A <= 0.5 rad of that of the plane it would help to make, normal S + n. All
-/// that wait are no larger than the facet's seed, so |S| >= |n|, and n is within 2 A of S. Seen along the edge, to which n is
-/// almost perpendicular (up to `most_tilt`), S and n then differ by asin(sin(2 A) / cos(tilt)) at most.
-class CrowdedEdge {
- public:
-  CrowdedEdge(size_t first_entry, const dvec3& along) : first_entry_(first_entry) {
-    const dvec3 edge = glm::normalize(along),
-                seed = std::abs(edge.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
-    x_ = glm::normalize(glm::cross(edge, seed));
-    y_ = glm::cross(edge, x_);
-  }
-
-  /// The next entry; `allowed`: A of its triangle.
-  void add(const dvec3& normal, double allowed) {
-    const size_t entry = first_entry_ + places_.size();
-    const Direction direction = direction_of(normal);
-    // An edge without length has no direction about it: all are asked always.
-    places_.push_back({std::isfinite(direction.angle) ? direction.angle : 0.0, unordered});
-    if (direction.projected >= std::cos(most_tilt))
-      places_.back().group = std::clamp(std::ilogb(std::min(allowed, 0.5)), least_group, -1);
-    put(entry);
-  }
-  void put(size_t entry) {
-    const Place& place = places_[entry - first_entry_];
-    waiting_[place.group].insert({place.angle, entry});
-  }
-  void take(size_t entry) {
-    const Place& place = places_[entry - first_entry_];
-    waiting_[place.group].erase({place.angle, entry});
-  }
-
-  /// Calls `test(entry)` for all entries that wait and may join, and perhaps others, in their order. It may take some, and
-  /// move the plane: `normal()` is of what it is then.
-  template <typename Normal, typename Test>
-  void for_each(const Normal& normal, const Test& test) const {
-    size_t from = first_entry_;
-    for (bool again = true; again;) {
-      again = false;
-      const Direction asked = direction_of(normal());
-      for (const size_t entry : near(asked, from)) {
-        test(entry);
-        from = entry + 1;
-        again = moved(asked, direction_of(normal()));
-        if (again) break;
-      }
-    }
-  }
-
- private:
-  static constexpr double most_tilt = 0.1;  ///< rad; what is tilted more is asked always
-  static constexpr double slack = 0.01;     ///< rad that the plane may turn before it is asked anew
-  static constexpr int least_group = -20, unordered = 1;
-
-  struct Direction {
-    double angle = 0.0, projected = 0.0;  ///< about the edge; length perpendicular to it
-    /// Else all that are tilted little are further off than 2 A.
-    bool faces() const { return projected >= 0.36; }
-  };
-  struct Place {
-    double angle;
-    int group;  ///< exponent of A
-  };
-
-  Direction direction_of(const dvec3& normal) const {
-    const double x = glm::dot(normal, x_), y = glm::dot(normal, y_);
-    return {std::atan2(y, x), std::sqrt(x * x + y * y) / glm::length(normal)};
-  }
-  static bool moved(const Direction& from, const Direction& to) {
-    if (!from.faces() && !to.faces()) return false;
-    return from.faces() != to.faces() || std::abs(std::remainder(to.angle - from.angle, 2.0 * pi)) > slack;
-  }
-
-  std::vector<size_t> near(const Direction& asked, size_t from) const {
-    std::vector<size_t> found;
-    for (const auto& [group, entries] : waiting_) {
-      const auto between = [&](double low, double high) {
-        for (auto it = entries.lower_bound({low, 0}); it != entries.end() && it->first <= high; ++it)
-          if (it->second >= from) found.push_back(it->second);
-      };
-      if (group == unordered) {
-        between(-2.0 * pi, 2.0 * pi);
-      } else if (asked.faces()) {
-        const double widest = std::min(std::ldexp(2.0, group + 1), 1.0),  // A < 2^(group + 1)
-            reach = std::asin(std::min(1.0, std::sin(widest) / std::cos(most_tilt))) + slack + 1e-6;
-        for (const double turn : {-2.0 * pi, 0.0, 2.0 * pi})
-          between(asked.angle + turn - reach, asked.angle + turn + reach);
-      }
-    }
+  /// At least those that may join a facet with this normal, from `least_triangle` on, ascending. A triangle is no larger
+  /// than the facet that it joins (the largest are the seeds), so that it turns the sum of the normals by no more
+  /// than it then lies off it: the facet's normal before is within twice the allowed angle.
+  void near(const dvec3& normal, uint32_t least_triangle, std::vector<uint32_t>& found) const {
+    found.clear();
+    const double window = 2.0 * reach_ + 2.0 * margin_rad, at = angle_of(normal);
+    const auto take = [&](double low, double high) {
+      for (auto i = std::lower_bound(by_angle_.begin(), by_angle_.end(), std::pair(low, 0u));
+           i != by_angle_.end() && i->first <= high; ++i)
+        if (i->second >= least_triangle) found.push_back(i->second);
+    };
+    take(at - window, at + window);
+    if (at - window < -pi) take(at - window + 2.0 * pi, pi);
+    if (at + window > pi) take(-pi, at + window - 2.0 * pi);
+    for (const uint32_t triangle : anyway_)
+      if (triangle >= least_triangle) found.push_back(triangle);
     std::sort(found.begin(), found.end());
-    return found;
   }
 
-  size_t first_entry_;
-  dvec3 x_{0.0}, y_{0.0};  ///< unit, perpendicular to the edge and each other
-  std::vector<Place> places_;
-  std::map<int, std::set<std::pair<double, size_t>>> waiting_;  ///< by group: angle, entry
+ private:
+  double angle_of(const dvec3& normal) const {
+    return std::atan2(glm::dot(normal, y_), glm::dot(normal, x_));
+  }
+  dvec3 x_, y_;
+  std::vector<std::pair<double, uint32_t>> by_angle_;
+  std::vector<uint32_t> anyway_;
+  double reach_ = 0.0;
 };
 
 class Merger {
  public:
-  Merger(const FacetInput& input, const BuildOptions& options, size_t crowd)
-      : input_(input),
-        options_(options),
-        crowd_(crowd),
-        edges_(input.vertices),
-        taken_(input.corners.size() / 3, false) {
+  Merger(const FacetInput& input, const BuildOptions& options)
+      : input_(input), options_(options), edges_(input.vertices), taken_(input.corners.size() / 3) {
     const size_t count = taken_.size();
-    doubled_area_normals_.resize(count);
-    allowed_angles_.resize(count);
+    triangles_.reserve(count);
+    grown_.reserve(count);
     for (size_t triangle = 0; triangle < count; ++triangle) {
       const dvec3* corners = &input.corners[triangle * 3];
-      const dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      Triangle entry;
+      entry.normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      entry.weight = glm::length(entry.normal);
       double longest = 0.0;
-      for (int side = 0; side < 3; ++side) {
+      for (int side = 0; side < 3; ++side)
         longest = std::max(longest, glm::distance(corners[side], corners[(side + 1) % 3]));
-      }
-      const double height = glm::length(cross) / longest;  // the least one
-      doubled_area_normals_[triangle] = cross;
-      allowed_angles_[triangle] = options.coplanar_angle_rad + 2.0 * input.noise_m / height;
+      const double height = entry.weight / longest;  // the least one
+      entry.allowed_rad = options.coplanar_angle_rad + 2.0 * input.noise_m / height;
+      const double tangent = std::tan(std::min(entry.allowed_rad, most_angle_rad));
+      entry.surely_off = tangent * tangent * (1.0 + 1e-6) + 1e-24;
+      triangles_.push_back(entry);
     }
-    find_crowds();
   }
 
-  std::vector<FacetGroup> run() {
+  FacetGroups run() {
     // Large triangles know their plane best: they seed the facets.
-    std::vector<uint32_t> order(taken_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t left, uint32_t right) {
-      return glm::length(doubled_area_normals_[left]) > glm::length(doubled_area_normals_[right]);
-    });
-    std::vector<FacetGroup> groups;
-    for (const uint32_t seed : order) {
-      if (!taken_[seed]) groups.push_back(grow_checked(seed));
-    }
-    std::sort(groups.begin(), groups.end(), [](const FacetGroup& left, const FacetGroup& right) {
-      return left.triangles.front() < right.triangles.front();
-    });
-    return groups;
+    std::vector<std::pair<double, uint32_t>> order;
+    order.reserve(triangles_.size());
+    for (uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
+      order.emplace_back(triangles_[triangle].weight, triangle);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& left, const auto& right) { return left.first > right.first; });
+    for (const auto& [weight, seed] : order)
+      if (!taken_[seed]) grow_checked(seed);
+    return in_order();
   }
 
  private:
-  void find_crowds() {
-    for (size_t begin = 0; begin < edges_.size();) {
-      const auto [first, end] = edges_.range(edges_.triangle(begin), edges_.side(begin));
-      if (end - first > crowd_) {
-        const dvec3* corners = &input_.corners[edges_.triangle(first) * 3];
-        const uint32_t side = edges_.side(first);
-        CrowdedEdge& crowd =
-            crowds_.try_emplace(first, first, corners[(side + 1) % 3] - corners[side]).first->second;
-        for (size_t entry = first; entry < end; ++entry) {
-          const uint32_t triangle = edges_.triangle(entry);
-          crowd.add(doubled_area_normals_[triangle], allowed_angles_[triangle]);
-          crowded_[triangle].push_back({&crowd, entry});
-        }
-      }
-      begin = end;
-    }
-  }
-
-  void set_taken(uint32_t triangle, bool taken) {
-    taken_[triangle] = taken;
-    if (crowded_.empty()) return;
-    if (const auto found = crowded_.find(triangle); found != crowded_.end())
-      for (const auto& [crowd, entry] : found->second) taken ? crowd->take(entry) : crowd->put(entry);
-  }
-
-  /// `test(neighbour)` for those across each side that may join the facet, in order; `normal()`: of its plane then.
-  template <typename Normal, typename Test>
-  void for_each_neighbour(uint32_t triangle, const Normal& normal, const Test& test) const {
-    for (uint32_t side = 0; side < 3; ++side) {
-      const auto [begin, end] = edges_.range(triangle, side);
-      if (end - begin > crowd_) {
-        crowds_.at(begin).for_each(normal, [&](size_t entry) { test(edges_.triangle(entry)); });
-        continue;
-      }
-      for (size_t entry = begin; entry < end; ++entry)
-        if (edges_.triangle(entry) != triangle) test(edges_.triangle(entry));
-    }
-  }
+  struct Triangle {
+    dvec3 normal{0.0};    ///< as long as twice the area
+    double weight = 0.0;  ///< that length
+    double allowed_rad = 0.0;
+    double surely_off =
+        0.0;  ///< the square of the tangent of an angle that is beyond it, however it is rounded
+  };
 
   dvec3 centroid(uint32_t triangle) const {
-    const dvec3* corners = &input_.corners[triangle * 3];
+    const dvec3* corners = &input_.corners[size_t{triangle} * 3];
     return (corners[0] + corners[1] + corners[2]) / 3.0;
   }
 
   bool lies_in(const PlaneFit& plane, uint32_t triangle) const {
-    const dvec3* corners = &input_.corners[triangle * 3];
+    const dvec3* corners = &input_.corners[size_t{triangle} * 3];
     return std::all_of(corners, corners + 3, [&](const dvec3& corner) {
       return plane.distance(corner) <= options_.coplanar_distance_m;
     });
   }
 
   bool faces_along(const PlaneFit& plane, uint32_t triangle) const {
-    const dvec3& normal = doubled_area_normals_[triangle];
+    const dvec3& normal = triangles_[triangle].normal;
     // atan2 keeps small angles exact, where acos of a rounded cosine does not.
     const double angle =
         std::atan2(glm::length(glm::cross(plane.normal(), normal)), glm::dot(plane.normal(), normal));
-    return angle <= std::min(allowed_angles_[triangle], 0.5);
+    return angle <= std::min(triangles_[triangle].allowed_rad, most_angle_rad);
   }
 
-  /// `fixed`: the plane stays the seed's; else it follows the triangles that join.
-  FacetGroup grow(uint32_t seed, bool fixed, PlaneFit& plane) {
-    plane = PlaneFit(input_.corners[seed * 3]);
-    plane.add(doubled_area_normals_[seed], centroid(seed));
-    FacetGroup group;
-    group.triangles.push_back(seed);
-    set_taken(seed, true);
-    const auto normal = [&plane] { return plane.normal(); };
-    for (size_t next = 0; next < group.triangles.size(); ++next) {
-      for_each_neighbour(group.triangles[next], normal, [&](uint32_t neighbour) {
-        if (taken_[neighbour]) return;
-        // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own badly.
-        PlaneFit trial = plane;
-        if (!fixed) trial.add(doubled_area_normals_[neighbour], centroid(neighbour));
-        if (!faces_along(trial, neighbour) || !lies_in(trial, neighbour)) return;
-        plane = trial;
-        set_taken(neighbour, true);
-        group.triangles.push_back(neighbour);
-      });
+  /// Most neighbours face elsewhere by far, which takes no root and no angle to see.
+  bool surely_faces_elsewhere(const dvec3& plane_normal, const Triangle& triangle) const {
+    const double along = glm::dot(plane_normal, triangle.normal);
+    const dvec3 across = glm::cross(plane_normal, triangle.normal);
+    return along < 0.0 || glm::dot(across, across) > triangle.surely_off * (along * along);
+  }
+
+  /// Adds `neighbour` to the facet that grows, if it belongs to it. `fixed`: the plane stays the seed's.
+  void join(uint32_t neighbour, bool fixed, PlaneFit& plane) {
+    if (taken_[neighbour]) return;
+    const Triangle& triangle = triangles_[neighbour];
+    if (surely_faces_elsewhere(fixed ? plane.normal() : plane.normal_sum() + triangle.normal, triangle))
+      return;
+    // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own badly.
+    PlaneFit trial = plane;
+    if (!fixed) trial.add(triangle.normal, triangle.weight, centroid(neighbour));
+    if (!faces_along(trial, neighbour) || !lies_in(trial, neighbour)) return;
+    plane = trial;
+    taken_[neighbour] = true;
+    grown_.push_back(neighbour);
+  }
+
+  const Fan& fan_of(const EdgeTable::Edge& edge, uint32_t triangle, uint32_t side) {
+    const dvec3* corners = &input_.corners[size_t{triangle} * 3];
+    const auto [entry, is_new] = fans_.try_emplace(edge.first, corners[(side + 1) % 3] - corners[side]);
+    if (is_new) {
+      for (const uint32_t other : edges_.triangles(edge))
+        entry->second.add(other, triangles_[other].normal, triangles_[other].allowed_rad);
+      entry->second.finish();
     }
-    return group;
+    return entry->second;
+  }
+
+  /// What the loop over all of them would find, in its order: asked again when the plane has turned.
+  void join_fan(const Fan& fan, bool fixed, PlaneFit& plane) {
+    for (uint32_t next = 0;;) {
+      const dvec3 asked = plane.normal();
+      fan.near(asked, next, near_);
+      bool turned = false;
+      for (const uint32_t neighbour : near_) {
+        join(neighbour, fixed, plane);
+        turned = glm::distance(plane.normal(), asked) > Fan::margin_rad;
+        if (!turned) continue;
+        next = neighbour + 1;
+        break;
+      }
+      if (!turned) return;
+    }
+  }
+
+  /// Into grown_ from here on. `fixed`: the plane stays the seed's; else it follows the triangles that join.
+  PlaneFit grow(uint32_t seed, bool fixed) {
+    size_t next = grown_.size();
+    PlaneFit plane(input_.corners[size_t{seed} * 3]);
+    plane.add(triangles_[seed].normal, triangles_[seed].weight, centroid(seed));
+    grown_.push_back(seed);
+    taken_[seed] = true;
+    for (; next < grown_.size(); ++next) {
+      const uint32_t triangle = grown_[next];
+      for (uint32_t side = 0; side < 3; ++side) {
+        const EdgeTable::Edge edge = edges_.edge(triangle, side);
+        if (edge.count >= Fan::least)
+          join_fan(fan_of(edge, triangle, side), fixed, plane);
+        else
+          for (const uint32_t neighbour : edges_.triangles(edge)) join(neighbour, fixed, plane);
+      }
+    }
+    return plane;
   }
 
   /// The plane that follows its triangles may leave early ones behind; then the seed's plane decides alone.
-  FacetGroup grow_checked(uint32_t seed) {
-    PlaneFit plane{dvec3(0.0)};
-    FacetGroup group = grow(seed, false, plane);
-    const bool holds = std::all_of(group.triangles.begin(), group.triangles.end(),
-                                   [&](uint32_t triangle) { return lies_in(plane, triangle); });
-    if (!holds) {
-      for (const uint32_t triangle : group.triangles) set_taken(triangle, false);
-      group = grow(seed, true, plane);
+  void grow_checked(uint32_t seed) {
+    const size_t first = grown_.size();
+    PlaneFit plane = grow(seed, false);
+    const auto begin = grown_.begin() + static_cast<std::ptrdiff_t>(first);
+    if (!std::all_of(begin, grown_.end(), [&](uint32_t triangle) { return lies_in(plane, triangle); })) {
+      std::for_each(begin, grown_.end(), [&](uint32_t triangle) { taken_[triangle] = false; });
+      grown_.resize(first);
+      plane = grow(seed, true);
     }
-    group.normal = plane.normal();
-    group.offset = plane.offset();
-    std::sort(group.triangles.begin(), group.triangles.end());
-    return group;
+    groups_.push_back({plane.normal(), plane.offset(), static_cast<uint32_t>(first),
+                       static_cast<uint32_t>(grown_.size() - first)});
+  }
+
+  /// Groups in order of their first triangle, and triangles in order.
+  FacetGroups in_order() const {
+    constexpr uint32_t none = 0xFFFFFFFFu;
+    std::vector<uint32_t> group_of(grown_.size()), place_of(groups_.size(), none);
+    for (uint32_t group = 0; group < groups_.size(); ++group)
+      for (uint32_t i = 0; i < groups_[group].count; ++i) group_of[grown_[groups_[group].first + i]] = group;
+    FacetGroups result;
+    result.groups.reserve(groups_.size());
+    uint32_t first = 0;
+    for (const uint32_t group : group_of) {
+      if (place_of[group] != none) continue;
+      place_of[group] = static_cast<uint32_t>(result.groups.size());
+      result.groups.push_back(groups_[group]);
+      result.groups.back().first = first;
+      first += std::exchange(result.groups.back().count, 0);
+    }
+    result.triangles.resize(grown_.size());
+    for (uint32_t triangle = 0; triangle < group_of.size(); ++triangle) {
+      FacetGroup& group = result.groups[place_of[group_of[triangle]]];
+      result.triangles[group.first + group.count++] = triangle;
+    }
+    return result;
   }
 
   const FacetInput& input_;
   const BuildOptions& options_;
-  size_t crowd_;
   EdgeTable edges_;
-  std::map<size_t, CrowdedEdge> crowds_;  ///< by their first entry
-  /// Of a triangle: its entries on crowded edges.
-  std::unordered_map<uint32_t, std::vector<std::pair<CrowdedEdge*, size_t>>> crowded_;
-  std::vector<bool> taken_;
-  std::vector<dvec3> doubled_area_normals_;
-  std::vector<double> allowed_angles_;
+  std::vector<Triangle> triangles_;
+  std::vector<uint8_t> taken_;
+  std::unordered_map<uint32_t, Fan> fans_;  ///< by EdgeTable::Edge::first
+  std::vector<uint32_t> near_;
+  std::vector<uint32_t> grown_;     ///< triangles of one group after the other, as they joined
+  std::vector<FacetGroup> groups_;  ///< as they grew; their ranges into grown_
 };
 
 }  // namespace
 
-std::vector<FacetGroup> merge_coplanar(const FacetInput& input, const BuildOptions& options, size_t crowd) {
+FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options) {
   GREATX_CHECK(input.corners.size() == input.vertices.size() && input.corners.size() % 3 == 0,
                "{} corners, {} vertices", input.corners.size(), input.vertices.size());
-  return Merger(input, options, crowd).run();
+  return Merger(input, options).run();
 }
 
 }  // namespace greatx::scene

@@ -16,20 +16,24 @@ struct FacetInput {
   double noise_m = 0.0;            ///< how far the file's fp32 may have moved a corner
 };
 
-/// A facet of a FacetInput: its plane n . x = offset and its triangles in ascending order.
+/// A facet of a FacetInput: its plane n . x = offset and its triangles.
 struct FacetGroup {
   dvec3 normal{0.0};
   double offset = 0.0;
-  std::vector<uint32_t> triangles;
+  uint32_t first = 0, count = 0;  ///< into FacetGroups::triangles
+};
+
+struct FacetGroups {
+  std::vector<FacetGroup> groups;
+  std::vector<uint32_t> triangles;  ///< of one group after the other, ascending in each
 };
 
 /// Merges edge-connected triangles that face the same way and whose corners all lie within
 /// `options.coplanar_distance_m` of the facet's plane: its area-weighted normal through its area-weighted centroid.
 /// Normals may differ by `options.coplanar_angle_rad`, plus what `noise_m` can do to a thin triangle's.
 /// Every triangle ends in exactly one facet; facets come in order of their first triangle. No binning: planes are
-/// compared with the facet that grows, so that nothing can fall across the edge of a bin. Edges that more than `crowd`
-/// triangles share are sorted by direction, so that time does not grow with their square; nothing else depends on it.
-std::vector<FacetGroup> merge_coplanar(const FacetInput& input, const BuildOptions& options,
-                                       size_t crowd = 64);
+/// compared with the facet that grows, so that nothing can fall across the edge of a bin. Of many triangles around one
+/// edge those are compared alone whose normals are near enough, so that a fan of n takes n log n.
+FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options);
 
 }  // namespace greatx::scene

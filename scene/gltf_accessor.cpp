@@ -11,9 +11,6 @@
 namespace greatx::scene {
 namespace {
 
-/// An accessor without a buffer view is all zeros, however long it says it is: keep that bounded.
-constexpr uint64_t max_zero_elements = 1u << 24;
-
 /// A checked run of elements inside a buffer.
 struct Elements {
   const unsigned char* data = nullptr;
@@ -176,22 +173,24 @@ void for_each_element(const GltfFile& file, const tinygltf::Accessor& accessor, 
   }
 }
 
-/// Checks the range of the dense part before anything is allocated for `count` elements.
+/// Checks the range of the dense part and the memory before anything is allocated for `count` elements.
+/// `bytes_each`: in memory. An accessor without a buffer view is all zeros, however long it says it is.
 void check_count(const GltfFile& file, const tinygltf::Accessor& accessor, uint64_t element_size,
-                 const std::string& what) {
+                 uint64_t bytes_each, const std::string& what, GeometryMemory& memory) {
+  const uint64_t planned = saturating_product({accessor.count, bytes_each});
   if (accessor.bufferView >= 0) {
     checked_elements(file, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, true,
                      what);
-  } else if (accessor.count > max_zero_elements) {
-    throw_user_error("{}: {} elements without a buffer view, expected {} at most", what, accessor.count,
-                     max_zero_elements);
+  } else {
+    memory.zeros.plan(fmt::format("{}: {} elements", what, accessor.count), planned);
   }
+  memory.all.plan(fmt::format("{}: {} elements", what, accessor.count), planned);
 }
 
 }  // namespace
 
 std::vector<float> read_floats(const GltfFile& file, int accessor_index, int components,
-                               const std::string& what) {
+                               const std::string& what, GeometryMemory& memory) {
   const tinygltf::Accessor& accessor = checked_accessor(file, accessor_index, what);
   const std::string label = fmt::format("{}, accessor {}", what, accessor_index);
   if (accessor.type != components) {  // TINYGLTF_TYPE_VEC2 … VEC4 are 2 … 4
@@ -199,7 +198,7 @@ std::vector<float> read_floats(const GltfFile& file, int accessor_index, int com
   }
   const uint64_t size = component_size(accessor.componentType, label);
   const auto width = static_cast<uint64_t>(components);
-  check_count(file, accessor, size * width, label);
+  check_count(file, accessor, size * width, width * sizeof(float), label, memory);
   std::vector<float> values(accessor.count * width, 0.0f);
   for_each_element(file, accessor, size * width, label, [&](uint64_t element, const unsigned char* bytes) {
     for (uint64_t index = 0; index < width; ++index) {
@@ -210,12 +209,13 @@ std::vector<float> read_floats(const GltfFile& file, int accessor_index, int com
   return values;
 }
 
-std::vector<uint32_t> read_indices(const GltfFile& file, int accessor_index, const std::string& what) {
+std::vector<uint32_t> read_indices(const GltfFile& file, int accessor_index, const std::string& what,
+                                   GeometryMemory& memory) {
   const tinygltf::Accessor& accessor = checked_accessor(file, accessor_index, what);
   const std::string label = fmt::format("{}, accessor {}", what, accessor_index);
   if (accessor.type != TINYGLTF_TYPE_SCALAR) throw_user_error("{}: expected SCALAR indices", label);
   const uint64_t size = component_size(accessor.componentType, label);
-  check_count(file, accessor, size, label);
+  check_count(file, accessor, size, sizeof(uint32_t), label, memory);
   std::vector<uint32_t> values(accessor.count, 0);
   for_each_element(file, accessor, size, label, [&](uint64_t element, const unsigned char* bytes) {
     values[element] = to_index(bytes, accessor.componentType, label);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
+#include <new>
 #include <string_view>
 
 #include <climits>
@@ -93,6 +95,7 @@ void check_depth(const std::string& name, std::string_view text) {
 }
 
 json parse_json(const std::string& name, std::string_view text) {
+  require_within(name, text.size(), budget::model_json);
   check_depth(name, text);
   json document;
   try {
@@ -135,7 +138,7 @@ bool is_known_data_uri(const std::string& uri) {
 
 /// Reads what every URI of `list` names and puts a token in its place, so that tinygltf never sees a path.
 bool take_externals(const std::string& name, json& document, const char* list, const char* singular,
-                    const AssetFolder& folder, std::vector<Bytes>& externals) {
+                    AssetFolder& folder, std::vector<Bytes>& externals) {
   if (!document.contains(list)) return false;
   bool changed = false;
   for (size_t index = 0; index < document[list].size(); ++index) {
@@ -221,7 +224,9 @@ const Bytes* external_of(const std::string& path, void* user) {
   const size_t token = path.find(external_token);
   if (token == std::string::npos) return nullptr;
   const auto& externals = *static_cast<const std::vector<Bytes>*>(user);
-  const size_t index = std::strtoull(path.c_str() + token + external_token.size(), nullptr, 10);
+  const char* const digits = path.data() + token + external_token.size();
+  size_t index = externals.size();
+  std::from_chars(digits, path.data() + path.size(), index);
   return index < externals.size() ? &externals[index] : nullptr;
 }
 bool external_exists(const std::string& path, void* user) { return external_of(path, user) != nullptr; }
@@ -270,8 +275,7 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes,
-                    const AssetFolder& folder) {
+GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder) {
   if (bytes.empty()) throw_user_error("{}: the file is empty", name);
   if (bytes.size() > UINT32_MAX)
     throw_user_error("{}: {} bytes, expected less than 4 GiB", name, bytes.size());
@@ -297,6 +301,8 @@ GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> byte
   bool parsed = false;
   try {
     parsed = run_tinygltf(file, text, is_glb ? glb : std::span<const unsigned char>(), externals, error);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& exception) {  // type errors deep inside the JSON
     error = exception.what();
   }

@@ -27,6 +27,6 @@ struct GltfFile {
 /// Parses .gltf or .glb from `bytes`. External files come from `folder` alone; tinygltf itself opens no file.
 /// Throws UserError starting with `name`: not glTF 2.0, truncated, URI out of bounds, unsupported required
 /// extension.
-GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, const AssetFolder& folder);
+GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder);
 
 }  // namespace greatx::scene

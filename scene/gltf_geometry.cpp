@@ -6,14 +6,16 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scene/gltf_accessor.h"
 
 namespace greatx::scene {
 namespace {
 
 template <typename Vec>
-std::vector<Vec> read_vectors(const GltfFile& file, int accessor, const std::string& what) {
-  const std::vector<float> floats = read_floats(file, accessor, Vec::length(), what);
+std::vector<Vec> read_vectors(const GltfFile& file, int accessor, const std::string& what,
+                              GeometryMemory& memory) {
+  const std::vector<float> floats = read_floats(file, accessor, Vec::length(), what, memory);
   std::vector<Vec> vectors(floats.size() / static_cast<size_t>(Vec::length()));
   for (size_t index = 0; index < vectors.size(); ++index) {
     for (int axis = 0; axis < Vec::length(); ++axis) {
@@ -26,8 +28,10 @@ std::vector<Vec> read_vectors(const GltfFile& file, int accessor, const std::str
 }
 
 /// glTF 2.0, section 3.7.2.1: strips and fans as triangles with the same winding.
-std::vector<uint32_t> unroll(std::vector<uint32_t> corners, int mode) {
+std::vector<uint32_t> unroll(std::vector<uint32_t> corners, int mode, const std::string& what,
+                             GeometryMemory& memory) {
   if (mode == TINYGLTF_MODE_TRIANGLES || corners.size() < 3) return corners;
+  memory.all.plan(what + ", its strip or fan", 2 * sizeof(uint32_t) * corners.size());
   std::vector<uint32_t> triangles;
   triangles.reserve((corners.size() - 2) * 3);
   for (size_t index = 0; index + 2 < corners.size(); ++index) {
@@ -92,10 +96,11 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
 
 template <typename Vec>
 std::vector<Vec> read_optional(const GltfFile& file, const tinygltf::Primitive& source,
-                               const std::string& name, size_t vertex_count, const std::string& what) {
+                               const std::string& name, size_t vertex_count, const std::string& what,
+                               GeometryMemory& memory) {
   const int accessor = attribute(source, name);
   if (accessor < 0) return {};
-  auto values = read_vectors<Vec>(file, accessor, what + ", " + name);
+  auto values = read_vectors<Vec>(file, accessor, what + ", " + name, memory);
   if (values.size() != vertex_count) {
     throw_user_error("{}: {} has {} elements, POSITION has {}", what, name, values.size(), vertex_count);
   }
@@ -103,13 +108,14 @@ std::vector<Vec> read_optional(const GltfFile& file, const tinygltf::Primitive& 
 }
 
 std::vector<uint32_t> read_corners(const GltfFile& file, const tinygltf::Primitive& source,
-                                   size_t vertex_count, const std::string& what) {
+                                   size_t vertex_count, const std::string& what, GeometryMemory& memory) {
   if (source.indices < 0) {
+    memory.all.plan(what + ", its indices", sizeof(uint32_t) * vertex_count);
     std::vector<uint32_t> corners(vertex_count);
     for (size_t index = 0; index < vertex_count; ++index) corners[index] = static_cast<uint32_t>(index);
     return corners;
   }
-  std::vector<uint32_t> corners = read_indices(file, source.indices, what + ", indices");
+  std::vector<uint32_t> corners = read_indices(file, source.indices, what + ", indices", memory);
   for (size_t index = 0; index < corners.size(); ++index) {
     if (corners[index] >= vertex_count) {
       throw_user_error("{}: index {} at position {} is out of range (the primitive has {} vertices)", what,
@@ -134,24 +140,25 @@ void normalize_normals(ModelPrimitive& primitive, const std::string& what, std::
 }
 
 ModelPrimitive read_primitive(const GltfFile& file, const tinygltf::Primitive& source,
-                              const std::string& what, size_t& dropped, std::vector<std::string>& notes) {
+                              const std::string& what, size_t& dropped, std::vector<std::string>& notes,
+                              GeometryMemory& memory) {
   const int position = attribute(source, "POSITION");
   if (position < 0) throw_user_error("{}: it has no POSITION attribute", what);
   ModelPrimitive primitive;
-  primitive.positions = read_vectors<vec3>(file, position, what + ", POSITION");
+  primitive.positions = read_vectors<vec3>(file, position, what + ", POSITION", memory);
   const size_t count = primitive.positions.size();
   if (count == 0) throw_user_error("{}: it has no vertices", what);
-  primitive.normals = read_optional<vec3>(file, source, "NORMAL", count, what);
+  primitive.normals = read_optional<vec3>(file, source, "NORMAL", count, what, memory);
   normalize_normals(primitive, what, notes);
   // Without normals, given tangents are to be ignored (glTF 2.0, section 3.7.2.1).
   if (!primitive.normals.empty())
-    primitive.tangents = read_optional<vec4>(file, source, "TANGENT", count, what);
+    primitive.tangents = read_optional<vec4>(file, source, "TANGENT", count, what, memory);
   const std::string uv_name = fmt::format("TEXCOORD_{}", uv_set_of(file, source.material, what, notes));
-  primitive.uvs = read_optional<vec2>(file, source, uv_name, count, what);
+  primitive.uvs = read_optional<vec2>(file, source, uv_name, count, what, memory);
   if (attribute(source, "COLOR_0") >= 0) notes.push_back(what + ": vertex colours are ignored");
   if (!source.targets.empty()) notes.push_back(what + ": morph targets are ignored");
 
-  primitive.indices = unroll(read_corners(file, source, count, what), source.mode);
+  primitive.indices = unroll(read_corners(file, source, count, what, memory), source.mode, what, memory);
   if (primitive.indices.empty() || primitive.indices.size() % 3 != 0) {
     throw_user_error("{}: {} corners make no whole number of triangles", what, primitive.indices.size());
   }
@@ -173,11 +180,12 @@ std::string mesh_name(const GltfFile& file, size_t mesh) {
   return name.empty() ? fmt::format("mesh {}", mesh) : name;
 }
 
-ModelMesh read_mesh(const GltfFile& file, size_t mesh_index, std::vector<std::string>& notes) {
+ModelMesh read_mesh(const GltfFile& file, size_t mesh_index, std::vector<std::string>& notes,
+                    GeometryMemory& memory) {
   const tinygltf::Mesh& source = file.model.meshes[mesh_index];
   ModelMesh mesh;
   mesh.name = mesh_name(file, mesh_index);
-  const std::string where = fmt::format("{}: mesh '{}'", file.name, mesh.name);
+  const std::string where = fmt::format("{}: mesh '{}'", file.name, printable(mesh.name));
   if (source.primitives.empty()) throw_user_error("{} is empty: it has no primitives", where);
 
   size_t dropped = 0, skipped = 0;
@@ -191,7 +199,7 @@ ModelMesh read_mesh(const GltfFile& file, size_t mesh_index, std::vector<std::st
       continue;
     }
     const std::string what = fmt::format("{}, primitive {}", where, index);
-    ModelPrimitive primitive = read_primitive(file, source.primitives[index], what, dropped, notes);
+    ModelPrimitive primitive = read_primitive(file, source.primitives[index], what, dropped, notes, memory);
     if (!primitive.indices.empty()) mesh.primitives.push_back(std::move(primitive));
   }
   if (skipped > 0)

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scene/gltf_geometry.h"
 #include "scene/gltf_textures.h"
 #include "scene/radio_fields.h"
@@ -154,9 +155,9 @@ std::string yaml_quoted(const std::string& name) {
   std::string lines, hints;
   for (const MissingRadio& entry : missing) {
     lines += fmt::format("\n  {}: {{ itu: concrete, thickness_m: 0.3 }}  # used by mesh '{}'",
-                         yaml_quoted(entry.material), entry.mesh);
+                         yaml_quoted(printable(entry.material)), printable(entry.mesh));
     if (const auto itu = itu_part_of_name(entry.material)) {
-      hints += fmt::format("\n'{}' is no material of ITU-R P.2040-4, Table 3.", *itu);
+      hints += fmt::format("\n'{}' is no material of ITU-R P.2040-4, Table 3.", printable(*itu));
     }
   }
   throw_user_error(
@@ -194,7 +195,7 @@ void read_materials(const GltfFile& file, const LoadOptions& options, Model& mod
     Material material;
     material.name = is_default ? default_name : source.name;
     if (material.name.empty()) material.name = fmt::format("material_{}", index);
-    const std::string what = fmt::format("{}: material '{}'", file.name, material.name);
+    const std::string what = fmt::format("{}: material '{}'", file.name, printable(material.name));
     material.pbr = read_pbr(source, document, what, textures, model);
     read_radio(material, document, what, sidecar);
     if (!material.radio && !options.optical_only) missing.push_back({material.name, mesh});

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "scene/semantic.h"
 
@@ -103,7 +104,7 @@ class NodeReader {
                        visited_.size());
     }
     const auto index = static_cast<size_t>(visit.node);
-    const std::string what = fmt::format("{}: node '{}'", file_.name, node_name(index));
+    const std::string what = fmt::format("{}: node '{}'", file_.name, printable(node_name(index)));
     if (visited_[index])
       throw_user_error("{} is reached twice: the nodes form a cycle or share a child", what);
     visited_[index] = true;
@@ -198,7 +199,7 @@ class NodeReader {
     if (!std::isfinite(determinant) || determinant == 0.0) {
       throw_user_error("{}: its transform is singular (determinant {}): a scale is 0", what, determinant);
     }
-    if (!semantic_class) unlabeled_.push_back(node_name(index));
+    if (!semantic_class) unlabeled_.push_back(printable(node_name(index)));
     model_.instances.push_back({node_name(index), static_cast<uint32_t>(mesh), model_from_node,
                                 semantic_class.value_or(SemanticClass::unlabeled),
                                 static_cast<uint32_t>(model_.nodes.size() - 1)});

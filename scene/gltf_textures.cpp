@@ -2,46 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/gltf_textures.h"
 
-#include <memory>
-
-#include <climits>
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 16384
-#include <stb/stb_image.h>
-
 #include "core/error.h"
+#include "scene/picture.h"
 
 namespace greatx::scene {
-namespace {
-
-Texture decode(const tinygltf::Image& image, const std::string& what) {
-  const auto& bytes = image.image;
-  if (bytes.empty() || bytes.size() > INT_MAX)
-    throw_user_error("{}: the image has {} bytes", what, bytes.size());
-  const int size = static_cast<int>(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  using Pixels = std::unique_ptr<stbi_uc, void (*)(void*)>;
-  const Pixels pixels(stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4),
-                      stbi_image_free);
-  if (!pixels) {
-    throw_user_error("{}: the image is no readable PNG or JPEG of 16384 pixels a side at most ({})", what,
-                     stbi_failure_reason());
-  }
-  Texture texture;
-  texture.name = image.name;
-  texture.width = static_cast<uint32_t>(width);
-  texture.height = static_cast<uint32_t>(height);
-  texture.rgba.assign(pixels.get(),
-                      pixels.get() + static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
-  return texture;
-}
-
-}  // namespace
 
 bool TextureReader::repeats(int wrap, const std::string& what) {
   switch (wrap) {
@@ -83,7 +47,13 @@ int32_t TextureReader::read(int index, bool srgb, const std::string& what) {
   const Key key{source.source, srgb, repeat_u, repeat_v};
   if (const auto found = done_.find(key); found != done_.end()) return found->second;
 
-  Texture texture = decode(images[static_cast<size_t>(source.source)], what);
+  const tinygltf::Image& image = images[static_cast<size_t>(source.source)];
+  Picture picture = decode_picture(image.image, what, memory_);
+  Texture texture;
+  texture.name = image.name;
+  texture.width = picture.width;
+  texture.height = picture.height;
+  texture.rgba = std::move(picture.rgba);
   if (texture.name.empty()) texture.name = fmt::format("image {}", source.source);
   texture.srgb = srgb;
   texture.repeat_u = repeat_u;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/budget.h"
 #include "scene/gltf_file.h"
 #include "scene/model.h"
 
@@ -31,6 +32,7 @@ class TextureReader {
   const GltfFile& file_;
   Model& model_;
   std::map<Key, int32_t> done_;
+  Spending memory_{budget::model_textures};
 };
 
 }  // namespace greatx::scene

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/phase.h"
+#include "core/text.h"
 #include "scene/asset_folder.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_geometry.h"
@@ -21,9 +24,10 @@ namespace {
 void read_placed_meshes(const GltfFile& file, Model& model) {
   constexpr uint32_t skipped = 0xFFFFFFFFu;
   std::map<uint32_t, uint32_t> new_index;
+  GeometryMemory memory;
   for (const ModelInstance& instance : model.instances) {
     if (new_index.count(instance.mesh) > 0) continue;
-    ModelMesh mesh = read_mesh(file, instance.mesh, model.notes);
+    ModelMesh mesh = read_mesh(file, instance.mesh, model.notes, memory);
     if (mesh.primitives.empty()) {
       new_index[instance.mesh] = skipped;
       continue;
@@ -81,23 +85,26 @@ Model model_of(const GltfFile& file, const LoadOptions& options) {
 std::string node_names(const Model& model) {
   constexpr size_t most = 20;
   std::vector<std::string> names;
+  std::set<std::string_view> seen;
   for (const ModelNode& node : model.nodes)
-    if (std::ranges::find(names, node.name) == names.end()) names.push_back(node.name);
-  const size_t left_out = names.size() > most ? names.size() - most : 0;
-  names.resize(names.size() - left_out);
+    if (seen.insert(node.name).second && names.size() < most) names.push_back(printable(node.name));
+  const size_t left_out = seen.size() - names.size();
   return fmt::format("{}{}", fmt::join(names, ", "),
                      left_out > 0 ? fmt::format(" and {} more", left_out) : "");
 }
 
 Model load_model(const std::filesystem::path& file, const LoadOptions& options) {
+  const Phase phase("loading a model");
   const std::string name = file.string();
-  const std::vector<unsigned char> bytes = read_regular_file(file, "model");
-  return model_of(parse_gltf(name, bytes, AssetFolder(file)), options);
+  const std::vector<unsigned char> bytes = read_regular_file(file, "model", budget::model_file);
+  AssetFolder folder(file);
+  return model_of(parse_gltf(name, bytes, folder), options);
 }
 
 Model load_model(const std::string& name, std::span<const std::byte> glb, const LoadOptions& options) {
   const std::span<const unsigned char> bytes(reinterpret_cast<const unsigned char*>(glb.data()), glb.size());
-  return model_of(parse_gltf(name, bytes, AssetFolder({})), options);
+  AssetFolder folder({});
+  return model_of(parse_gltf(name, bytes, folder), options);
 }
 
 }  // namespace greatx::scene

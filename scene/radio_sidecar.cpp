@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/radio_sidecar.h"
 
-#include <cmath>
-#include <cstdlib>
 #include <fnmatch.h>
+#include <set>
 
-#include <yaml-cpp/yaml.h>
-
-#include "scene/asset_folder.h"
+#include "core/input_file.h"
+#include "core/text.h"
+#include "core/yaml.h"
 
 namespace greatx::scene {
 namespace {
@@ -31,11 +30,9 @@ void set_scalar(Field& field, const YAML::Node& node) {
     field.boolean = field.text == "true";
     return;
   }
-  char* end = nullptr;
-  const double number = std::strtod(field.text.c_str(), &end);
-  if (*end == '\0' && std::isfinite(number)) {
+  if (const std::optional<double> number = parse_number(field.text)) {
     field.kind = Kind::number;
-    field.number = number;
+    field.number = *number;
   }
 }
 
@@ -69,9 +66,10 @@ Field field_from_yaml(const YAML::Node& node, const std::string& file, const std
 
 YAML::Node parse_yaml(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const auto bytes = read_regular_file(file, "radio materials");
+  const std::string text = InputFile(file, "radio materials", budget::yaml_file).text();
   try {
-    return YAML::Load(std::string(bytes.begin(), bytes.end()));
+    const std::vector<YAML::Node> documents = load_yaml(text, name);
+    return documents.empty() ? YAML::Node() : documents[0];
   } catch (const YAML::Exception& error) {
     throw_user_error_at({name, error.mark.line >= 0 ? error.mark.line + 1 : 0}, "not valid YAML: {}",
                         error.msg);
@@ -96,12 +94,9 @@ RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
     sidecar.entries_ = value.members;
   }
   if (!found) throw_user_error_at({name, 1}, "expected a map with the key 'materials'");
-  for (size_t index = 0; index < sidecar.entries_.size(); ++index) {
-    const auto& [key, fields] = sidecar.entries_[index];
-    for (size_t other = 0; other < index; ++other) {
-      if (sidecar.entries_[other].first == key)
-        throw_user_error_at(fields.where, "materials.{}: given twice", key);
-    }
+  std::set<std::string_view> keys;
+  for (const auto& [key, fields] : sidecar.entries_) {
+    if (!keys.insert(key).second) throw_user_error_at(fields.where, "materials.{}: given twice", key);
     // Entries that this scene does not use are checked too: as if laid over some medium.
     RadioSources any_medium;
     any_medium.radio.emplace().layers.push_back({*itu_medium("vacuum"), 0.0});

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "shaders/shared/tree.h"
 
 namespace greatx::scene {
@@ -254,6 +255,7 @@ std::vector<Sphere> moving_spheres(const Scene& scene) {
 }  // namespace
 
 StaticTree make_static_tree(const Scene& scene) {
+  const Phase phase("building the tree of triangles");
   std::vector<Leaf> leaves;
   for_triangles(scene, scene.bodies[0],
                 [&](const std::array<vec3, 3>& corners, uint32_t triangle, uint32_t primitive) {

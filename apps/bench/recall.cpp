@@ -14,6 +14,7 @@
 #include "apps/bench/measure.h"
 #include "apps/bench/recall_scene.h"
 #include "apps/commands.h"
+#include "apps/json_text.h"
 #include "apps/progress.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
@@ -233,7 +234,7 @@ void run_recall(const RecallOptions& options) {
     measure_rays(device, c, options, result);
     check_validation(device);
   }
-  if (options.json) std::cout << results.dump(2) << '\n';
+  if (options.json) std::cout << json_text(results) << '\n';
   if (!perfect) throw Failed{};
 }
 

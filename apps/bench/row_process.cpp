@@ -20,6 +20,7 @@
 
 #include "apps/bench/said_once.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace greatx::apps {
 
@@ -108,7 +109,7 @@ double process_age_s() {
   timespec now{};
   clock_gettime(CLOCK_BOOTTIME, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) -
-         std::stod(field) / static_cast<double>(sysconf(_SC_CLK_TCK));
+         parse_number(field).value_or(0.0) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 }  // namespace greatx::apps

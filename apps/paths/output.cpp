@@ -38,7 +38,8 @@ class JsonOutput : public PathsOutput {
 
  private:
   void members(const Json& json) {
-    for (const auto& [key, value] : json.items()) out_ << Json(key).dump() << ": " << value.dump() << ",\n";
+    for (const auto& [key, value] : json.items())
+      out_ << Json(key).dump() << ": " << value.dump(-1, ' ', false, Json::error_handler_t::replace) << ",\n";
   }
   std::ostream& out_;
   PathScene scene_;

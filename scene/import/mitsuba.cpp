@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/budget.h"
+#include "core/phase.h"
+#include "core/text.h"
 #include "scene/asset_folder.h"
 #include "scene/import/mitsuba_materials.h"
 #include "scene/import/mitsuba_xml.h"
@@ -15,6 +18,8 @@ namespace greatx::scene {
 namespace {
 
 std::string id_of(const pugi::xml_node& node) { return node.attribute("id").value(); }
+/// As messages say it.
+std::string shown_id(const pugi::xml_node& node) { return printable(node.attribute("id").value()); }
 
 /// The folder's reader knows URIs: a per cent sign in a file name is no escape.
 std::string uri_of(const std::string& filename) {
@@ -43,7 +48,7 @@ class MitsubaImporter {
  private:
   void add_top_level_bsdf(const pugi::xml_node& bsdf) {
     const std::string id = xml_.text(bsdf, "id");
-    if (!bsdfs_.emplace(id, bsdf).second) xml_.fail(bsdf, "a second <bsdf> with the id '{}'", id);
+    if (!bsdfs_.emplace(id, bsdf).second) xml_.fail(bsdf, "a second <bsdf> with the id '{}'", printable(id));
   }
 
   void add_shape(const pugi::xml_node& shape) {
@@ -54,7 +59,8 @@ class MitsubaImporter {
       return;
     }
     if (type != "ply")
-      xml_.fail(shape, "shape '{}': expected the type ply, found '{}': export it as PLY", id_of(shape), type);
+      xml_.fail(shape, "shape '{}': expected the type ply, found '{}': export it as PLY", shown_id(shape),
+                type);
     ImportedObject object;
     object.name = without_prefix(id_of(shape), "mesh-");
     if (object.name.empty()) object.name = fmt::format("shape_{}", scene_.objects.size() + 1);
@@ -62,7 +68,7 @@ class MitsubaImporter {
     read_mesh(shape, object);
     scene_.objects.push_back(std::move(object));
     if (shape.child("emitter"))
-      scene_.notes.push_back(fmt::format("shape '{}': its emitter is left out", id_of(shape)));
+      scene_.notes.push_back(fmt::format("shape '{}': its emitter is left out", shown_id(shape)));
   }
 
   /// The shape's own <bsdf>, or the one that its <ref> names.
@@ -70,11 +76,12 @@ class MitsubaImporter {
     pugi::xml_node bsdf = shape.child("bsdf");
     if (!bsdf) {
       const pugi::xml_node reference = shape.child("ref");
-      if (!reference) xml_.fail(shape, "shape '{}': expected a <bsdf> or a <ref> to one", id_of(shape));
+      if (!reference) xml_.fail(shape, "shape '{}': expected a <bsdf> or a <ref> to one", shown_id(shape));
       const std::string id = xml_.text(reference, "id");
       const auto found = bsdfs_.find(id);
       if (found == bsdfs_.end())
-        xml_.fail(reference, "shape '{}': there is no <bsdf> with the id '{}'", id_of(shape), id);
+        xml_.fail(reference, "shape '{}': there is no <bsdf> with the id '{}'", shown_id(shape),
+                  printable(id));
       bsdf = found->second;
     }
     const auto [entry, added] = materials_.emplace(bsdf.offset_debug(), 0);
@@ -88,7 +95,7 @@ class MitsubaImporter {
     for (size_t i = 0; i < scene_.materials.size(); ++i) {
       if (scene_.materials[i].name != material.name) continue;
       if (scene_.materials[i].radio_json != material.radio_json)
-        xml_.fail(bsdf, "a second material '{}' with other radio properties", material.name);
+        xml_.fail(bsdf, "a second material '{}' with other radio properties", printable(material.name));
       return static_cast<int>(i);
     }
     scene_.materials.push_back(std::move(material));
@@ -97,11 +104,14 @@ class MitsubaImporter {
 
   void read_mesh(const pugi::xml_node& shape, ImportedObject& object) {
     const pugi::xml_node node = MitsubaXml::property(shape, "string", "filename");
-    if (!node) xml_.fail(shape, "shape '{}': expected <string name=\"filename\">", id_of(shape));
+    if (!node) xml_.fail(shape, "shape '{}': expected <string name=\"filename\">", shown_id(shape));
     const std::string filename = xml_.text(node, "value");
-    const std::vector<unsigned char> bytes =
-        folder_.read(uri_of(filename), fmt::format("{}: shape '{}'", xml_.where(node).str(), id_of(shape)));
+    const std::vector<unsigned char> bytes = folder_.read(
+        uri_of(filename), fmt::format("{}: shape '{}'", xml_.where(node).str(), shown_id(shape)));
     PlyMesh mesh = read_ply_mesh(bytes, (xml_.file().parent_path() / filename).string());
+    memory_.plan(fmt::format("{}: with shape '{}'", xml_.where(node).str(), shown_id(shape)),
+                 mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
+                     mesh.indices.size() * sizeof(uint32_t));
     object.positions = std::move(mesh.positions);
     object.indices = std::move(mesh.indices);
     if (!xml_.flag(shape, "face_normals")) object.normals = std::move(mesh.normals);
@@ -122,7 +132,7 @@ class MitsubaImporter {
     for (vec3& position : object.positions) {
       position = vec3(world_from_shape * dvec4(dvec3(position), 1.0));
       if (!std::isfinite(position.x + position.y + position.z))
-        xml_.fail(node, "shape '{}': it leaves what a float can hold", object.name);
+        xml_.fail(node, "shape '{}': it leaves what a float can hold", printable(object.name));
     }
     const dmat3 linear(world_from_shape);
     const dmat3 normals = glm::transpose(glm::inverse(linear));
@@ -134,7 +144,8 @@ class MitsubaImporter {
     for (vec3& normal : object.normals) {
       const double length = glm::length(dvec3(normal));
       if (!(length > 0.0) || !std::isfinite(length)) {
-        scene_.notes.push_back(fmt::format("shape '{}': a normal is zero: its faces are flat", id_of(shape)));
+        scene_.notes.push_back(
+            fmt::format("shape '{}': a normal is zero: its faces are flat", shown_id(shape)));
         object.normals.clear();
         return;
       }
@@ -148,11 +159,13 @@ class MitsubaImporter {
   std::map<std::string, pugi::xml_node> bsdfs_;  ///< top level, by id
   std::map<std::ptrdiff_t, int> materials_;      ///< of the <bsdf> at this offset
   ImportedScene scene_;
+  Spending memory_{budget::import_geometry};
 };
 
 }  // namespace
 
 ImportedScene import_mitsuba(const std::filesystem::path& xml, const MitsubaOptions& options) {
+  const Phase phase("importing a scene");
   if (!(options.default_thickness_m > 0.0) || !std::isfinite(options.default_thickness_m))
     throw_user_error("thickness: expected metres above 0, found {}", options.default_thickness_m);
   return MitsubaImporter(xml, options).import();

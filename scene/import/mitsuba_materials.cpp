@@ -90,7 +90,8 @@ ImportedMaterial read_mitsuba_material(const MitsubaXml& xml, const pugi::xml_no
   Json radio;
   if (by_name || plugin == "itu-radio-material") {
     const std::optional<std::string> type = xml.string(bsdf, "type");
-    if (!type && !by_name) xml.fail(bsdf, "material '{}': expected <string name=\"type\">", material.name);
+    if (!type && !by_name)
+      xml.fail(bsdf, "material '{}': expected <string name=\"type\">", printable(material.name));
     const std::string medium = type.value_or(material.name.substr(by_name ? 4 : 0));
     const std::string itu = itu_name(medium);
     if (itu.empty())

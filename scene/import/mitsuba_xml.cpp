@@ -10,19 +10,49 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/asset_folder.h"
+#include "core/input_file.h"
+#include "core/text.h"
 
 namespace greatx::scene {
 
+namespace {
+
+/// Whoever walks down the elements may do so by recursion, and names may go into glTF and JSON.
+class Checker : public pugi::xml_tree_walker {
+ public:
+  explicit Checker(const MitsubaXml& xml) : xml_(xml) {}
+  bool for_each(pugi::xml_node& node) override {
+    if (depth() > most_depth) xml_.fail(node, "expected elements nested {} deep at most", most_depth);
+    check(node, node.name());
+    for (const pugi::xml_attribute& attribute : node.attributes()) {
+      check(node, attribute.name());
+      check(node, attribute.value());
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int most_depth = 64;
+  void check(const pugi::xml_node& node, const char* text) const {
+    if (const auto bad = find_bad_utf8(text))
+      xml_.fail(node, "expected UTF-8, found the byte 0x{:02x} in '{}'",
+                static_cast<unsigned char>(text[*bad]), printable(text));
+  }
+  const MitsubaXml& xml_;
+};
+
+}  // namespace
+
 MitsubaXml::MitsubaXml(const std::filesystem::path& file) : file_(file) {
-  const std::vector<unsigned char> bytes = read_regular_file(file, file.string());
-  source_.assign(bytes.begin(), bytes.end());
+  source_ = InputFile(file, file.string(), budget::import_xml).text();
   for (size_t at = 0; at < source_.size(); ++at)
     if (source_[at] == '\n') line_ends_.push_back(static_cast<std::ptrdiff_t>(at));
   const pugi::xml_parse_result result = document_.load_buffer(source_.data(), source_.size());
   if (!result) throw_user_error_at(location(result.offset), "XML: {}", result.description());
   if (!scene())
     throw_user_error("{}: expected the root element <scene>: not a Mitsuba scene", file_.string());
+  Checker checker(*this);
+  document_.traverse(checker);
 }
 
 SourceLocation MitsubaXml::where(const pugi::xml_node& node) const { return location(node.offset_debug()); }

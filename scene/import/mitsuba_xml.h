@@ -16,7 +16,7 @@ namespace greatx::scene {
 /// A Mitsuba document and where its elements stand. Messages begin with file:line.
 class MitsubaXml {
  public:
-  /// Throws UserError: not readable, not well-formed, no root element <scene>.
+  /// Throws UserError: not readable, not well-formed, nested deeper than 64, not UTF-8, no root element <scene>.
   explicit MitsubaXml(const std::filesystem::path& file);
 
   pugi::xml_node scene() const { return document_.child("scene"); }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/budget.h"
 #include "core/error.h"
 
 namespace greatx::scene {
@@ -171,6 +172,7 @@ class BodyReader {
       : file_(file), name_(name), format_(header.format), at_(header.bytes), line_(header.lines + 1) {}
 
   size_t left() const { return file_.size() - at_; }
+  const std::string& name() const { return name_; }
 
   [[noreturn]] void fail(const std::string& message) const {
     if (format_ == Format::ascii) throw UserError({name_, line_}, message);
@@ -255,6 +257,10 @@ class MeshReader {
     if (element.count > body_.left() / least)
       body_.fail(fmt::format("{} elements '{}' do not fit into the {} bytes that are left", element.count,
                              element.name, body_.left()));
+    // Position and normal; two triangles.
+    if (element.name == "vertex" || element.name == "face")
+      memory_.plan(fmt::format("{}: with {} elements '{}'", body_.name(), element.count, element.name),
+                   saturating_product({element.count, 6 * sizeof(float)}));
     for (uint64_t i = 0; i < element.count; ++i)
       if (element.name == "vertex")
         read_vertex(element, i);
@@ -327,6 +333,7 @@ class MeshReader {
 
   BodyReader& body_;
   PlyMesh& mesh_;
+  Spending memory_{budget::import_geometry};
 };
 
 }  // namespace

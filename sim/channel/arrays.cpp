@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/budget.h"
 #include "core/parallel.h"
 #include "rf/channel/coherence.h"
 #include "rf/channel/received.h"
@@ -16,9 +17,6 @@
 namespace greatx::sim {
 
 namespace {
-
-/// 16 GiB of complex64.
-constexpr double most_values_of_a_record = 2147483648.0;
 
 /// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
 nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
@@ -74,7 +72,18 @@ void ChannelSensor::describe() {
   spec_.name = config_.name;
   spec_.kind = "csi";
   spec_.rate = config_.rate_hz.str();
+  uint64_t planned = 0;
   for (const PortBlock& block : blocks_) {
+    planned = saturating_sum(
+        planned,
+        saturating_product({static_cast<uint64_t>(receivers), static_cast<uint64_t>(columns_.rx_ports),
+                            static_cast<uint64_t>(transmitters), static_cast<uint64_t>(columns_.tx_ports),
+                            static_cast<uint64_t>(block.time), static_cast<uint64_t>(block.last),
+                            sizeof(std::complex<float>)}));
+    require_within(fmt::format("{}: channel '{}': {}: {} x {} ports, {} x {} ports, {} x {} values each",
+                               config_.where.str(), config_.name, block.name, receivers, columns_.rx_ports,
+                               transmitters, columns_.tx_ports, block.time, block.last),
+                   planned, budget::channel_record);
     spec_.arrays.push_back(
         {block.name,
          DType::complex64,

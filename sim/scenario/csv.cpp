@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <sstream>
+
+#include "core/input_file.h"
 
 namespace greatx::sim {
 namespace {
@@ -62,13 +62,9 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string read_csv_file(const std::filesystem::path& file, const std::string& what) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    throw_user_error("{}: expected a readable file of {}, found one that cannot be read", file.string(),
-                     what);
-  return text.str();
+  return InputFile(file, fmt::format("{}: expected a readable file of {}", file.string(), what),
+                   budget::csv_file)
+      .text();
 }
 
 }  // namespace greatx::sim

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <fmt/ranges.h>
 
@@ -161,21 +162,34 @@ std::vector<const Sample*> Parser::gridded(const std::vector<double>& zeniths,
     const auto at = std::lower_bound(values.begin(), values.end(), value - 2.0 * angle_tolerance_deg);
     return static_cast<size_t>(at - values.begin());
   };
-  std::vector<const Sample*> grid(zeniths.size() * azimuths.size(), nullptr);
-  for (const Sample& sample : samples_) {
-    const Sample*& cell =
-        grid[index(zeniths, sample.theta_deg) * azimuths.size() + index(azimuths, sample.phi_deg)];
-    if (cell != nullptr)
-      fail(sample.line,
-           "theta_deg {}, phi_deg {}: expected every direction once, found a second line like {}",
-           sample.theta_deg, sample.phi_deg, cell->line);
-    cell = &sample;
-  }
-  for (size_t i = 0; i < grid.size(); ++i)
-    if (grid[i] == nullptr)
-      fail(i == 0 ? header_line_ : grid[i - 1]->line,
+  // Sorted by their places, not put into them: a list of lines each with its own angles has as many places as lines
+  // squared.
+  std::vector<std::pair<uint64_t, const Sample*>> places;
+  places.reserve(samples_.size());
+  for (const Sample& sample : samples_)
+    places.emplace_back(
+        uint64_t{index(zeniths, sample.theta_deg)} * azimuths.size() + index(azimuths, sample.phi_deg),
+        &sample);
+  std::sort(places.begin(), places.end());  // lines with one place in the order of the file
+  const Sample *second = nullptr, *first = nullptr;
+  for (size_t i = 1; i < places.size(); ++i)
+    if (places[i].first == places[i - 1].first && (second == nullptr || places[i].second < second)) {
+      second = places[i].second;
+      first = places[i - 1].second;
+    }
+  if (second != nullptr)
+    fail(second->line, "theta_deg {}, phi_deg {}: expected every direction once, found a second line like {}",
+         second->theta_deg, second->phi_deg, first->line);
+  const uint64_t expected = uint64_t{zeniths.size()} * azimuths.size();
+  std::vector<const Sample*> grid;
+  grid.reserve(places.size());
+  for (uint64_t i = 0; i < expected; ++i) {
+    if (i == places.size() || places[i].first != i)
+      fail(i == 0 ? header_line_ : grid.back()->line,
            "theta_deg {:.6g}, phi_deg {:.6g}: expected a line, found none", zeniths[i / azimuths.size()],
            azimuths[i % azimuths.size()]);
+    grid.push_back(places[i].second);
+  }
   return grid;
 }
 

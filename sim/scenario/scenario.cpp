@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scenario/scenario.h"
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <array>
 
+#include "core/input_file.h"
+#include "core/phase.h"
 #include "core/units.h"
 #include "sim/scenario/scenario_parse.h"
 
@@ -103,17 +105,16 @@ SensorPlace sensor_place(const Scenario& scenario, const std::string& name) {
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets) {
+  const Phase phase("reading the scenario");
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw_user_error("{}: expected a scenario file, found no such file", name);
   if (!std::filesystem::is_regular_file(file, error))
     throw_user_error("{}: expected a scenario file, found something else than a regular file", name);
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw_user_error("{}: expected a readable scenario file, found one that cannot be read", name);
-  Scenario scenario = parse_scenario(text.str(), name, std::filesystem::absolute(file).parent_path(), assets);
+  const std::string text =
+      InputFile(file, fmt::format("{}: expected a readable scenario", name), budget::yaml_file).text();
+  Scenario scenario = parse_scenario(text, name, std::filesystem::absolute(file).parent_path(), assets);
   scenario.file = std::filesystem::absolute(file).lexically_normal();
   return scenario;
 }

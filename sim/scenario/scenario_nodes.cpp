@@ -43,13 +43,22 @@ PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
   return part;
 }
 
+/// A name that becomes a folder in each sequence of a data set, beside the files that are there already
+/// (docs/dataset.md).
+std::string folder_name(const Field& field) {
+  for (const char* taken : {"poses", "index.csv", "index.npy", "index.csv.part", "index.npy.part"})
+    if (field.name() == taken)
+      field.fail("a name that no file or folder of a sequence has", fmt::format("'{}'", taken));
+  return field.name();
+}
+
 NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rate_hz,
                       std::vector<NodeReference>& references, PatternFiles& patterns) {
   const FieldMap map(field, {"name", "trajectory", "model", "class", "sensors"});
   NodeConfig node;
   node.where = field.where();
   const Field name = map.require("name", "a name");
-  node.name = name.name();
+  node.name = folder_name(name);
   if (node.name == "static") name.fail("a name other than 'static', which is the world that never moves");
   node.trajectory = parse_trajectory(map.require("trajectory", "a trajectory"), index, references);
   if (const auto f = map.find("model")) {
@@ -227,7 +236,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
                              "resistance_ohm"});
   ChannelConfig channel;
   channel.where = field.where();
-  channel.name = map.require("name", "a name").name();
+  channel.name = folder_name(map.require("name", "a name"));
   channel.transmitters =
       parse_antenna_names(map.require("tx", "an antenna as node/sensor, or a list"), nodes);
   channel.receivers = parse_antenna_names(map.require("rx", "a list of antennas"), nodes);
@@ -277,11 +286,11 @@ std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rat
   std::vector<NodeConfig> nodes;
   std::vector<NodeReference> references;
   PatternFiles patterns;
+  std::set<std::string> names;
   for (const Field& item : field.list("nodes")) {
     nodes.push_back(parse_node(item, nodes.size(), tick_rate_hz, references, patterns));
-    const std::string name = nodes.back().name;
-    for (size_t i = 0; i + 1 < nodes.size(); ++i)
-      if (nodes[i].name == name) item.fail("every node's name once", fmt::format("a second '{}'", name));
+    if (!names.insert(nodes.back().name).second)
+      item.fail("every node's name once", fmt::format("a second '{}'", nodes.back().name));
   }
   check_references(references, nodes);
   resolve_illuminators(nodes);

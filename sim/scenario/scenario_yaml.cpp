@@ -11,26 +11,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text.h"
 #include "core/units.h"
+#include "core/yaml.h"
 
 namespace greatx::sim {
 namespace {
 
 std::string quoted(const std::string& text) {
   constexpr size_t longest = 60;
-  std::string shown;
-  for (const char c : text.substr(0, longest)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  return fmt::format("'{}'{}", shown, text.size() > longest ? " ..." : "");
-}
-
-/// YAML 1.2 core schema (section 10.3.2): [-+]? ( \. [0-9]+ | [0-9]+ ( \. [0-9]* )? ) ( [eE] [-+]? [0-9]+ )?
-std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  if (text.find_first_not_of("0123456789.eE+-") != std::string_view::npos) return std::nullopt;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  std::string shown = text.substr(0, longest);
+  if (const auto cut = find_bad_utf8(shown)) shown.resize(*cut);  // in the middle of a character
+  return fmt::format("'{}'{}", printable(shown), text.size() > longest ? " ..." : "");
 }
 
 /// A null value has the place of whatever follows it: prefer `fallback` then.
@@ -68,7 +60,7 @@ Field::Field(std::shared_ptr<const Source> source, YAML::Node node, std::string 
 Field Field::parse(const std::string& text, const std::string& file_name, const std::filesystem::path& folder,
                    const std::filesystem::path& assets) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    const std::vector<YAML::Node> documents = load_yaml(text, file_name);
     if (documents.size() > 1)
       throw_user_error_at({file_name, line_of(documents[1], 0)}, "expected one YAML document, found {}",
                           documents.size());

@@ -293,6 +293,39 @@ TEST_F(Cli, FaultyScenarios) {
   fails("\nchannels:", "\neffects: {reflexion: on}\nchannels:", "reflexion");
 }
 
+TEST_F(Cli, ATerminalObeysNoNameAndJsonHoldsNoOtherBytes) {
+  // Names of nodes, meshes and materials with escapes, in an error, in notes and in a table.
+  const std::string gltf =
+      R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "n\u001b[2J"}],
+    "materials": [{"name": "@\u001b]0;x\u0007\u009b31m"}],
+    "meshes": [{"name": "m\u001b[31m", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const auto named = [&](const std::string& material) {
+    std::string text = gltf;
+    return text.replace(text.find('@'), 1, material);
+  };
+  write("good.gltf", named("itu_concrete"));
+  write("bad.gltf", named("unobtainium"));
+  const Outcome good = greatx("scene info " + path("good.gltf") + " --optical-only"),
+                bad = greatx("scene info " + path("bad.gltf"));
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_EQ(bad.code, 1);
+  for (const Outcome& outcome : {good, bad})
+    for (const char forbidden : {'\x1b', '\x07', '\x9b'}) {
+      EXPECT_EQ(outcome.out.find(forbidden), std::string::npos);
+      EXPECT_EQ(outcome.err.find(forbidden), std::string::npos);
+    }
+  EXPECT_THAT(good.out, HasSubstr("itu_concrete\\u001b]0;x\\u0007\\u009b31m"));
+  EXPECT_THAT(bad.err, HasSubstr("m\\u001b[31m"));
+  // A folder's name that is not UTF-8.
+  const Outcome set =
+      greatx(fmt::format("generate {} --json -o {}", changed("seed: 3", "seed: 4"), path("s\xff")));
+  ASSERT_EQ(set.code, 0) << set.err;
+  EXPECT_EQ(nlohmann::json::parse(set.out)["output"], path("s\uFFFD"));
+}
+
 TEST_F(Cli, FaultySceneFiles) {
   const auto with = [&](const std::string& file) {
     return greatx(fmt::format("explain {}", changed("scene: {generate: {kind: city, seed: 3, size_m: 100}}",

@@ -263,6 +263,50 @@ TEST(ImportMitsuba, NormalsAreTheFilesUnlessFacesAreFlat) {
   EXPECT_EQ(object("<transform name=\"to_world\"><scale z=\"4\"/></transform>").normals[0], vec3(0, 0, 1));
 }
 
+TEST(ImportMitsuba, NestingIsBounded) {
+  const Folder folder;
+  const auto nested = [&](int depth) {
+    std::string text;
+    for (int i = 0; i < depth; ++i) text += "<shape type=\"merge\">\n";
+    text += wall("mat-itu_concrete");
+    for (int i = 0; i < depth; ++i) text += "</shape>\n";
+    return concrete + text;
+  };
+  EXPECT_EQ(folder.import(nested(40)).objects.size(), 1u);
+  EXPECT_THAT(message_of([&] { folder.import(nested(20000)); }),
+              testing::AllOf(HasSubstr("scene.xml:"), HasSubstr("expected elements nested 64 deep at most")));
+}
+
+TEST(ImportMitsuba, IdsAreUtf8AndATerminalObeysNone) {
+  const Folder folder;
+  EXPECT_THAT(message_of([&] { folder.import(concrete + "<shape type=\"ply\" id=\"mesh-\xff\"/>"); }),
+              HasSubstr("scene.xml:3: expected UTF-8, found the byte 0xff in 'mesh-\\xff'"));
+  EXPECT_THAT(message_of([&] { folder.import(concrete + "<shape type=\"obj\" id=\"a&#10;&#27;[2J\"/>"); }),
+              HasSubstr("shape 'a\\u000a\\u001b[2J': expected the type ply"));
+  // As Latin 1 the byte is a letter.
+  const auto file = folder.scene(concrete + wall("mat-itu_concrete"));
+  folder.write("scene.xml", "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<scene version=\"2.1.0\">" +
+                                concrete +
+                                "<shape type=\"ply\" id=\"mesh-\xe4\"><string name=\"filename\" "
+                                "value=\"meshes/wall.ply\"/><ref id=\"mat-itu_concrete\"/></shape></scene>");
+  EXPECT_EQ(import_mitsuba(file, {}).objects.at(0).name, "\xc3\xa4");
+}
+
+TEST(ImportMitsuba, OneMeshNamedByManyShapesIsBounded) {
+  const Folder folder;
+  folder.scene(concrete);
+  std::filesystem::path ply = folder.write("meshes/big.ply", ascii_triangle);
+  std::filesystem::resize_file(ply, 300u << 20);
+  const std::string shape =
+      "<shape type=\"ply\" id=\"a\"><string name=\"filename\" value=\"meshes/big.ply\"/>"
+      "<ref id=\"mat-itu_concrete\"/></shape>\n";
+  std::string shapes = concrete;
+  for (int i = 0; i < 8; ++i) shapes += shape;
+  EXPECT_THAT(
+      message_of([&] { import_mitsuba(folder.write("s.xml", "<scene>\n" + shapes + "</scene>"), {}); }),
+      testing::AllOf(HasSubstr("s.xml:8: shape 'a': with file"), HasSubstr("at most 2 GiB")));
+}
+
 TEST(ImportMitsuba, WhatIsWrongIsSaidWithItsLine) {
   const Folder folder;
   const auto error = [&](const std::string& elements) {

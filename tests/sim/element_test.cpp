@@ -90,6 +90,20 @@ TEST(EveryElement, IsFriisBetweenEveryTwoElements) {
     }
 }
 
+TEST(EveryElement, PairsOfElementsArePlannedBeforeTheyAreMade) {
+  const std::string far = "effects: {line_of_sight: on, reflection: off}\n";
+  try {
+    run(scenario({1.0, 2.0}, far, "rows: 800, columns: 700"), nothing());
+    FAIL() << "no error";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::AllOf(::testing::HasSubstr("channel 'csi': bs/panel and ue1/antenna"),
+                                 ::testing::HasSubstr("every_element: off"),
+                                 ::testing::HasSubstr("at most 1048576 pairs of elements"),
+                                 ::testing::HasSubstr("found 1120000")));
+  }
+}
+
 TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
   const std::vector<double> distances{5.0, 10.0, 20.0, 50.0, 100.0};
   const RadioRun exact = run(scenario(distances, forced, "rows: 1, columns: 32"), nothing());

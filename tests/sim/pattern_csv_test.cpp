@@ -187,6 +187,14 @@ TEST(PatternCsv, HeadersAndEmptyFiles) {
             "p.csv:1: expected a gain somewhere, found none");
 }
 
+TEST(PatternCsv, LinesThatEachHaveTheirOwnAnglesMakeNoSquareOfThem) {
+  // A line for each of 30,001 zeniths, each at an azimuth of its own: 900 million places for 30,001 lines.
+  std::string text = std::string(gain_header) + "\n";
+  for (int i = 0; i <= 30000; ++i)
+    text += fmt::format("{:.6f},{:.6f},0\n", i * (180.0 / 30000.0), i * (360.0 / 30001.0));
+  EXPECT_EQ(message_of(text), "p.csv:2: theta_deg 0, phi_deg 0.0119996: expected a line, found none");
+}
+
 TEST(PatternCsv, AFileThatIsNotThereIsNamed) {
   try {
     load_pattern_csv("absent.csv");

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/phase.h"
+
+#include <atomic>
+#include <new>
+
+namespace greatx {
+namespace {
+
+thread_local const char* current = nullptr;
+/// A thread that parallel_for() starts has no phase of its own: the outermost thread's is the best there is.
+std::atomic<const char*> latest{nullptr}, failed{nullptr};
+
+void on_failure() {
+  failed = current != nullptr ? current : latest.load();
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+Phase::Phase(const char* what) : before_(current) { latest = current = what; }
+Phase::~Phase() { latest = current = before_; }
+
+void watch_memory() { std::set_new_handler(on_failure); }
+
+std::string out_of_memory() {
+  const char* what = failed;
+  return what == nullptr ? "out of memory" : std::string("out of memory while ") + what;
+}
+
+}  // namespace greatx

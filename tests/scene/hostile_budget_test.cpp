@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that grows with
+// the file. No test here measures time: what was quadratic would run into the time limit of the test run.
+#include <cmath>
+
+#include "core/budget.h"
+#include "scene/build.h"
+#include "tests/scene/gltf_writer.h"
+
+namespace greatx::scene {
+namespace {
+
+using test::expect_user_error;
+using test::GltfWriter;
+using test::json;
+using test::TemporaryFolder;
+
+TEST(HostileBudget, ElementsThatNoByteStandsBehind) {
+  // Each accessor is within what one may have; a few dozen of them were gigabytes.
+  GltfWriter writer;
+  json primitives = json::array();
+  for (int i = 0; i < 24; ++i) {
+    const int zeros =
+        writer.append("accessors", {{"componentType", 5126}, {"count", 1 << 24}, {"type", "VEC3"}});
+    primitives.push_back(
+        {{"attributes", {{"POSITION", zeros}}}, {"material", i == 0 ? writer.itu_material() : 0}});
+  }
+  writer.root({{"name", "n"}, {"mesh", writer.mesh("zeros", primitives)}});
+  expect_user_error([&] { writer.load(); },
+                    {"test.glb: mesh 'zeros', primitive 1, POSITION, accessor 1: 16777216 elements",
+                     "at most 256 MiB", "without a buffer view", "docs/limits.md", "384 MiB"});
+}
+
+TEST(HostileBudget, OneAccessorForThousandsOfPrimitives) {
+  GltfWriter writer;
+  const std::vector<vec3> positions(90000, vec3(1.0f));
+  const int shared = writer.vec3s(positions);
+  json primitives = json::array();
+  const json primitive = {{"attributes", {{"POSITION", shared}}}, {"material", writer.itu_material()}};
+  // Of no area: nothing is kept, but the loader must stop before the sum of what it read is too much.
+  for (int i = 0; i < 1600; ++i) primitives.push_back(primitive);
+  writer.root({{"name", "n"}, {"mesh", writer.mesh("again", primitives)}});
+  expect_user_error([&] { writer.load(); },
+                    {"mesh 'again', primitive", "at most 2 GiB", "the geometry of a model"});
+}
+
+TEST(HostileBudget, OneMeshPlacedTenThousandTimes) {
+  GltfWriter writer;
+  std::vector<vec3> positions;
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i < 3000; ++i) {
+    const float x = static_cast<float>(i);
+    for (const vec3& corner : {vec3(x, 0, 0), vec3(x, 1, 0), vec3(x, 0, 1)}) {
+      indices.push_back(static_cast<uint32_t>(positions.size()));
+      positions.push_back(corner);
+    }
+  }
+  writer.add_triangles("wall", positions, indices, writer.itu_material());
+  for (int i = 0; i < 10000; ++i) writer.root({{"name", "copy"}, {"mesh", 0}});
+  const Model model = writer.load();
+  expect_user_error(
+      [&] {
+        build_scene({{"town", &model, {}, dvec3(1.0), false, {}, {}}}, {"s", {}});
+      },
+      {"object 'town' (test.glb)", "10001 places", "at most 24000000 triangles", "30003000"});
+}
+
+TEST(HostileBudget, ASidecarOfAliases) {
+  std::string text = "materials: {}\nx0: &x0 {a: 1, b: 1, c: 1, d: 1, e: 1, f: 1, g: 1, h: 1}\n";
+  for (int i = 1; i < 9; ++i) {
+    text += fmt::format("x{0}: &x{0} {{", i);
+    for (const char key : std::string("abcdefgh")) text += fmt::format("{}: *x{}, ", key, i - 1);
+    text += "}\n";
+  }
+  const TemporaryFolder folder;
+  GltfWriter writer;
+  writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.itu_material());
+  LoadOptions options;
+  options.radio_materials = folder.write("radio.yaml", text);
+  expect_user_error([&] { writer.load(options); }, {"radio.yaml:", "at most 1000000 values", "aliases"});
+}
+
+TEST(HostileBudget, SparseFilesAreRefusedByTheirSize) {
+  const TemporaryFolder folder;
+  const auto sparse = [&](const std::string& name) {
+    const std::filesystem::path file = folder.write(name, "x");
+    std::filesystem::resize_file(file, 100 * budget::gib);
+    return file;
+  };
+  try {
+    sparse("try.bin");
+  } catch (const std::filesystem::filesystem_error& error) {
+    GTEST_SKIP() << "no sparse files here: " << error.what();
+  }
+  expect_user_error([&] { load_model(sparse("big.glb"), {}); }, {"big.glb", "at most 2 GiB", "100 GiB"});
+  GltfWriter writer;
+  writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.itu_material());
+  sparse("wall.bin");
+  writer.document["buffers"] = json::array({{{"byteLength", writer.binary.size()}, {"uri", "wall.bin"}}});
+  expect_user_error([&] { load_model(folder.write("wall.gltf", writer.document.dump()), {}); },
+                    {"buffer 0", "wall.bin", "at most 2 GiB", "100 GiB"});
+  LoadOptions options;
+  options.radio_materials = sparse("radio.yaml");
+  GltfWriter plain;
+  plain.add_triangles("wall", test::unit_quad(), test::quad_indices(), plain.itu_material());
+  expect_user_error([&] { plain.load(options); }, {"radio.yaml", "at most 16 MiB", "100 GiB"});
+}
+
+TEST(HostileBudget, OneFileNamedByManyBuffers) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("part.bin", "x");
+  std::filesystem::resize_file(file, 96 * budget::mib);
+  GltfWriter writer;
+  writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.itu_material());
+  writer.document["buffers"] = json::array();
+  for (int i = 0; i < 1000; ++i)
+    writer.document["buffers"].push_back({{"byteLength", 16}, {"uri", "part.bin"}});
+  expect_user_error([&] { load_model(folder.write("wall.gltf", writer.document.dump()), {}); },
+                    {"buffer 21", "part.bin", "at most 2 GiB", "the files that a model names"});
+}
+
+Scene built(const GltfWriter& writer) {
+  const Model model = writer.load();
+  return build_scene({{"", &model, {}, dvec3(1.0), false, {}, {}}}, {"s", {}});
+}
+
+/// Triangles around one edge, `layers` of them in each of `directions`: one facet each.
+GltfWriter fan(uint32_t directions, uint32_t layers) {
+  std::vector<vec3> positions = {vec3(0, 0, 0), vec3(0, 0, 1)};
+  std::vector<uint32_t> indices;
+  for (uint32_t layer = 0; layer < layers; ++layer)
+    for (uint32_t i = 0; i < directions; ++i) {
+      const double angle = 6.283185307179586 * i / directions;
+      const double length = 1.0 + 0.25 * layer;  // exact multiples: in one plane to a rounding
+      indices.insert(indices.end(), {0u, 1u, static_cast<uint32_t>(positions.size())});
+      positions.emplace_back(std::cos(angle) * length, std::sin(angle) * length, 0.5);
+    }
+  GltfWriter writer;
+  writer.add_triangles("fan", positions, indices, writer.itu_material());
+  return writer;
+}
+
+TEST(HostileBudget, TrianglesAroundOneEdgeMergeByDirection) {
+  for (const uint32_t directions : {3u, 5u, 16u, 40u, 359u}) {
+    const Scene scene = built(fan(directions, 3));
+    EXPECT_EQ(scene.facets.size(), directions);
+    for (uint32_t triangle = 0; triangle < 3 * directions; ++triangle)
+      EXPECT_EQ(scene.facet_of_triangle[triangle], triangle % directions);
+  }
+}
+
+TEST(HostileBudget, FiftyThousandTrianglesAroundOneEdge) {
+  // Neighbours are 0.13 mrad apart, which is more than may merge.
+  EXPECT_EQ(built(fan(50000, 1)).facets.size(), 50000u);
+}
+
+TEST(HostileBudget, ManyNodesMaterialsAndPrimitives) {
+  constexpr int count = 20000;
+  GltfWriter writer;
+  const json attributes = {{"POSITION", writer.vec3s({vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0)})}};
+  json primitives = json::array();
+  for (int i = 0; i < count; ++i)
+    primitives.push_back(
+        {{"attributes", attributes}, {"material", writer.itu_material(fmt::format("itu_wood.{}", i))}});
+  const int many = writer.mesh("many", primitives);
+  writer.root({{"name", "all"}, {"mesh", many}});
+  const int one = writer.mesh("one", json::array({primitives[0]}));
+  for (int i = 0; i < count; ++i) writer.root({{"name", fmt::format("n{}", i)}, {"mesh", one}});
+  const Model model = writer.load();
+  EXPECT_EQ(node_names(model),
+            "all, n0, n1, n2, n3, n4, n5, n6, n7, n8, n9, n10, n11, n12, n13, n14, n15, n16, n17, n18 and "
+            "19981 more");
+  const Scene scene = build_scene({{"", &model, {}, dvec3(1.0), false, {}, {}}}, {"s", {}});
+  EXPECT_EQ(scene.instances.size(), size_t{count} + 1);
+  EXPECT_EQ(scene.materials.size(), size_t{count});
+}
+
+TEST(HostileName, ATerminalObeysNoNameOfAFile) {
+  GltfWriter writer;
+  writer.add_triangles("wall\x1b[31m\nred", test::unit_quad(), {0, 1, 4}, writer.itu_material());
+  expect_user_error([&] { writer.load(); }, {"mesh 'wall\\u001b[31m\\u000ared', primitive 0"});
+  GltfWriter named;
+  named.add_triangles("a\x1b]0;x\x07", test::unit_quad(), test::quad_indices(), named.itu_material());
+  EXPECT_EQ(node_names(named.load()), "a\\u001b]0;x\\u0007");
+}
+
+}  // namespace
+}  // namespace greatx::scene
