@@ -14,6 +14,7 @@
 #include "apps/bench/radio_bench.h"
 #include "apps/bench/recall.h"
 #include "apps/bench/rig_bench.h"
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/json_text.h"
 #include "apps/progress.h"
@@ -89,11 +90,13 @@ void run(const Options& options) {
   std::vector<double> ticks;
   double first_packet_ms = 0.0;
   size_t passes_to_drop = 0;
+  bool stopped = false;
   for (int64_t i = 0;; ++i) {
     const Clock::time_point tick_begin = Clock::now();
     const bool more = simulator.step(sink);
     if (i == 1) first_packet_ms = milliseconds_since(begin);
-    if (!more || interrupted()) break;
+    stopped = more && interrupted();
+    if (!more || stopped) break;
     if (i >= options.warm_up) ticks.push_back(milliseconds_since(tick_begin));
     passes_to_drop = static_cast<size_t>(options.warm_up);
     progress.update(std::min(simulator.next_tick(), scenario.ticks));
@@ -124,10 +127,14 @@ void run(const Options& options) {
   };
   result["pass_ms"] = rows(statistics.passes);
   result["host_ms"] = rows(statistics.host);
+  result["finished"] = !stopped;
   if (options.json)
     std::cout << json_text(result) << '\n';
   else
     print(result);
+  if (stopped)
+    throw Interrupted(
+        fmt::format("bench: the figures are those of {} of {} ticks", statistics.ticks, scenario.ticks));
 }
 
 /// One of the benchmarks that print a table of their own.
@@ -151,7 +158,7 @@ void add_bench(CLI::App& app) {
   options->run.add_to(*command);
   command->add_option("--warm-up", options->warm_up, "ticks that are run and not counted")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(integer_of(0, sim::most_ticks));
   command->add_flag("--discard", options->discard, "simulate only: encode and write nothing");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_flag(
@@ -161,70 +168,70 @@ void add_bench(CLI::App& app) {
   RecallOptions& recall = options->recall_options;
   command->add_option("--count", recall.receivers, "of --recall: receivers drawn from the seed")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command->add_option("--receivers", recall.receiver_file, "of --recall: CSV of positions x, y, z instead")
       ->check(CLI::ExistingFile);
   command->add_option("--depth", recall.max_depth, "of --recall: reflections and walls passed on a path")
       ->capture_default_str()
-      ->check(CLI::Range(0, 6));
+      ->check(integer_of(0, 6));
   command->add_option("--walls", recall.max_transmissions, "of --recall: of them walls passed")
       ->capture_default_str()
-      ->check(CLI::Range(0, 6));
+      ->check(integer_of(0, 6));
   command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
       ->capture_default_str()
-      ->check(CLI::Range(0, 24));
+      ->check(integer_of(0, 24));
   command->add_flag(
       "--camera", options->camera,
       "time the first camera alone instead, row by row: antialiasing, each effect, night, lamps");
   command->add_option("--pictures", options->camera_options.pictures, "of --camera: measured of each row")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command->add_flag(
       "--lidar", options->lidar,
       "time the first LiDAR alone instead, row by row: single rays, each effect, rings, returns");
   command->add_option("--sweeps", options->lidar_options.sweeps, "of --lidar: measured of each row")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command->add_option("--channels", options->lidar_options.channels, "of --lidar: of all rows but the last")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1024));
+      ->check(integer_of(1, 1024));
   command
       ->add_option("--azimuth-steps", options->lidar_options.azimuth_steps,
                    "of --lidar: of all rows but the last")
       ->capture_default_str()
-      ->check(CLI::Range(1, 4096));
+      ->check(integer_of(1, 4096));
   command->add_flag(
       "--radar", options->radar,
       "time the first radar alone instead, row by row: whole frames, echoes by numbers of tubes "
       "with their error");
   command->add_option("--frames", options->radar_options.frames, "of --radar: measured of each row")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command->add_flag(
       "--radio", options->radio,
       "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
       "with diffraction and scattering, many receivers in one call");
   command->add_option("--many", options->radio_options.receivers, "of --radio: receivers in one call")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command
       ->add_option("--map-cells", options->radio_options.map_cells,
                    "of --radio: also a radio map of so many cells of 1 m along each side, e.g. 300 [none]")
-      ->check(CLI::Range(1, 2000));
+      ->check(integer_of(1, 2000));
   command
       ->add_option("--row-seconds", options->radio_options.seconds,
                    "of --radio: a row of ticks ends after so long")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(number_of(1e-3, 1e6));
   command->add_flag("--rig", options->rig,
                     "time the whole tick, written, and the tick without each sensor in turns instead: what "
                     "each one costs");
   command->add_option("--rounds", options->rig_options.rounds, "of --rig: measured of each row")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, 1'000'000));
   const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig"};
   for (const char* a : modes)
     for (const char* b : modes)

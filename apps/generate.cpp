@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/consistency_files.h"
 #include "apps/json_text.h"
@@ -94,16 +95,22 @@ void run(const Options& options) {
   summary["first_packet_seconds"] = first_packet_s;
   summary["output"] = options.output;
   summary["finished"] = complete;
-  summary["files"] = writer.stats().files;
-  summary["bytes"] = writer.stats().bytes;
+  // An unfinished data set has no manifest yet that would say: what lies in its folder.
+  const io::FolderSize size =
+      complete ? io::FolderSize{writer.stats().files, writer.stats().bytes} : io::folder_size(options.output);
+  summary["files"] = size.files;
+  summary["bytes"] = size.bytes;
   if (options.json)
     std::cout << json_text(summary) << '\n';
   else if (!options.quiet)
     std::cout << summary_text(summary)
               << fmt::format("{} {}\n", complete ? "wrote" : "interrupted:", options.output);
-  if (!complete)
-    throw Interrupted(
-        fmt::format("{}: the whole packets so far are kept, --resume goes on", options.output));
+  if (!complete) {
+    const io::DatasetWriter::Position next = writer.resume_position();
+    throw Interrupted(fmt::format(
+        "{}: complete up to tick {} of {} in sequence {} of {}; the same command with --resume goes on",
+        options.output, next.next_tick, scenario.ticks, next.sequence + 1, scenario.sequences));
+  }
 }
 
 }  // namespace
@@ -119,7 +126,8 @@ void add_generate(CLI::App& app) {
   command
       ->add_option("--threads", options->threads,
                    "threads that encode and write; 0: one per processor. Changes no byte")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(integer_of(0, 1024));
   command->add_flag("--json", options->json, "print one JSON object with the run's summary");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   command->callback([options] { run(*options); });

@@ -6,10 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "io/animation.h"
 #include "io/contact_sheet.h"
 #include "io/summary.h"
+#include "sim/scenario/scenario.h"
 
 namespace greatx::apps {
 
@@ -27,12 +29,15 @@ void add_inspect(CLI::App& app) {
   command
       ->add_option("DIR", options->folders, "folder of the data set; of several, all are drawn side by side")
       ->required();
-  command->add_option("--sequence", options->sequence, "the sequence to draw")->capture_default_str();
+  command->add_option("--sequence", options->sequence, "the sequence to draw")
+      ->capture_default_str()
+      ->check(integer_of(0, sim::most_sequences));
   command->add_option("--picture", options->picture, "where the contact sheet goes [DIR/contact_sheet.png]");
   CLI::Option* const animated =
       command->add_option("--animation", options->animation, "also write an animated picture, FILE.webp");
   command->add_option("--frames", options->frames, "of the animation, at most")
       ->capture_default_str()
+      ->check(integer_of(1, 10'000))
       ->needs(animated);
   command->add_flag("--json", options->json, "print one JSON object a data set");
   command->callback([options] {

@@ -8,10 +8,12 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/terminal.h"
 #include "core/error.h"
 #include "core/phase.h"
+#include "io/file.h"
 
 namespace {
 
@@ -27,6 +29,7 @@ void set_up_logging() {
 
 int main(int argc, char** argv) {
   using namespace greatx;
+  io::ignore_file_size_signal();  // a limit of the shell's is then an error of the write that meets it
   set_up_logging();
   watch_memory();
   const apps::SafeStream safe_out(std::cout), safe_err(std::cerr);
@@ -48,11 +51,17 @@ int main(int argc, char** argv) {
   apps::add_paths(app);
   apps::add_map(app);
   apps::add_bench(app);
+  apps::read_numbers_strictly(app);
   try {
     app.parse(argc, argv);
+    apps::check_printed();
     return apps::exit_success;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? apps::exit_success : apps::exit_user;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    const std::string unknown = apps::unknown_command(app, {argv + 1, argv + argc});
+    std::cerr << "greatx: error: " << (unknown.empty() ? error.what() : unknown)
+              << "\n--help tells what there is.\n";
+    return apps::exit_user;
   } catch (const apps::Failed& failed) {
     return failed.code;
   } catch (const UserError& error) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/json_text.h"
 #include "apps/map/background.h"
@@ -179,7 +180,7 @@ void solve(const Options& options, const Request& request, const sim::Scenario& 
     // In the midst of some cells: those before are kept.
   }
   if (done() < total)
-    throw Interrupted(fmt::format("{}: after {} of {} cells, which are kept; --resume goes on",
+    throw Interrupted(fmt::format("{}: {} of {} cells are kept; the same command with --resume goes on",
                                   options.output, done(), total));
 }
 
@@ -202,7 +203,6 @@ MapStage stage_of(const Options& options, const Request& request, const sim::Sce
 void run(const Options& given) {
   Options options = given;
   options.files.pictures = !options.no_pictures;
-  io::ignore_file_size_signal();
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds_since = [](auto start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -276,10 +276,12 @@ void run(const Options& given) {
 
 void add_place(CLI::App& command, Options& options) {
   CLI::Option* plane =
-      command.add_option("--plane", options.plane, "one height of the world for all cells, m");
+      command.add_option("--plane", options.plane, "one height of the world for all cells, m")
+          ->check(number_of(-sim::most_position_m, sim::most_position_m));
   command
       .add_option("--height", options.height,
                   fmt::format("above what lies beneath each cell, m [{}]", default_height_m))
+      ->check(number_of(0.0, sim::most_position_m))
       ->excludes(plane);
   command
       .add_option("--over", options.over,
@@ -288,8 +290,12 @@ void add_place(CLI::App& command, Options& options) {
           {"ground", sim::MapOver::ground}, {"roofs", sim::MapOver::roofs}}))
       ->default_str("ground")
       ->excludes(plane);
-  command.add_option("--min", options.min, "south-western corner, x y, m [the scene's]")->expected(2);
-  command.add_option("--max", options.max, "north-eastern corner, x y, m [the scene's]")->expected(2);
+  command.add_option("--min", options.min, "south-western corner, x y, m [the scene's]")
+      ->expected(2)
+      ->check(number_of(-sim::most_position_m, sim::most_position_m));
+  command.add_option("--max", options.max, "north-eastern corner, x y, m [the scene's]")
+      ->expected(2)
+      ->check(number_of(-sim::most_position_m, sim::most_position_m));
   command.add_option("--cell", options.cell,
                      "side of a cell, m [1, 2, 5, 10, ...: at most 150 along the longer side]");
   command.add_flag("--inside", options.inside, "values for cells inside solids, too");
@@ -299,10 +305,10 @@ void add_place(CLI::App& command, Options& options) {
 void add_radio(CLI::App& command, Options& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(integer_of(0, sim::most_ticks));
   command.add_option("--sequence", options.instant.sequence, "in which sequence")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(integer_of(0, sim::most_sequences));
   command.add_option("--channel", options.channel, "name of the channel [the first]");
   command.add_option("--rx", options.receiver,
                      "antenna node/sensor of the scenario to put into every cell, turned as at the tick "
@@ -336,7 +342,7 @@ void add_map(CLI::App& app) {
   command->add_flag("--no-pictures", options->no_pictures, "arrays alone");
   command->add_option("--side", options->side, "of the map in a picture at most, pixels")
       ->capture_default_str()
-      ->check(CLI::Range(100, 8192));
+      ->check(integer_of(100, 8192));
   command->add_flag("--resume", options->resume, "go on with a map that was stopped");
   command->add_flag("--json", options->json, "print figures as one JSON object");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/paths/cfr.h"
 #include "apps/paths/draw.h"
@@ -214,7 +215,9 @@ std::vector<PathLink> solve(const Options& options, const Request& request, cons
     snapshot.solve(std::span(request.points).subspan(*request.only, 1), *request.only, take);
   else
     snapshot.solve(request.points, 0, take);
-  if (interrupted()) throw Interrupted(fmt::format("after {} receivers", totals.receivers));
+  if (interrupted())
+    throw Interrupted(fmt::format("paths: ended after {} receivers; what was printed is whole, files are not",
+                                  totals.receivers));
   return kept;
 }
 
@@ -274,10 +277,10 @@ void run(const Options& options) {
 void add_selection(CLI::App& command, Options& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(integer_of(0, sim::most_ticks));
   command.add_option("--sequence", options.instant.sequence, "in which sequence")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(integer_of(0, sim::most_sequences));
   command.add_option("--channel", options.channel, "name of the channel [the first]");
   command.add_option("--transmitter", options.transmitter,
                      "which of the channel's: its number, from 0, or its name node/sensor [0]");
@@ -297,11 +300,11 @@ void add_pictures(CLI::App& command, Options& options) {
       ->capture_default_str();
   command.add_option("--width", options.width, "of the picture, pixels")
       ->capture_default_str()
-      ->check(CLI::Range(320, 16384));
+      ->check(integer_of(320, 16384));
   command
       .add_option("--height", options.height, "of the picture, pixels; a scenario's camera has its own shape")
       ->capture_default_str()
-      ->check(CLI::Range(1, 16384));
+      ->check(integer_of(1, 16384));
   command.add_option("--color", options.colors, "of lines: by gain, or by kind of path")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, PathColors>{{"gain", PathColors::gain}, {"kind", PathColors::kind}}))
@@ -309,7 +312,7 @@ void add_pictures(CLI::App& command, Options& options) {
   command
       .add_option("--within", options.within_db,
                   "draw and export no path that is more than this weaker than the strongest, dB [all]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_of(0.0));
   command.add_option("--glb", options.glb, "write the paths as a glTF binary");
   command.add_flag("--with-scene", options.with_scene, "the scene's triangles too, in plain colours (--glb)");
 }

@@ -4,11 +4,14 @@
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
+#include "apps/command_line.h"
 #include "assets/assets.h"
 #include "core/hash.h"
 #include "scene/scene.h"
 #include "sim/instance_boxes.h"
+#include "sim/scenario/override.h"
 
 namespace greatx::apps {
 
@@ -21,9 +24,10 @@ void ScenarioOptions::add_to(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--assets", assets, "folder to look in for files that are not beside the scenario");
   command.add_option("--seed", seed, "instead of the scenario's seed");
-  command.add_option("--ticks", ticks, "instead of the scenario's length")->check(CLI::PositiveNumber);
+  command.add_option("--ticks", ticks, "instead of the scenario's length")
+      ->check(integer_of(1, sim::most_ticks));
   command.add_option("--sequences", sequences, "instead of the scenario's number of sequences")
-      ->check(CLI::PositiveNumber);
+      ->check(integer_of(1, sim::most_sequences));
 }
 
 void RunOptions::add_to(CLI::App& command) {
@@ -51,9 +55,10 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
     }
     scenario = sim::load_scenario(file, options.assets);
   }
-  if (options.seed) scenario.seed = *options.seed;
-  if (options.ticks) scenario.ticks = *options.ticks;
-  if (options.sequences) scenario.sequences = *options.sequences;
+  sim::override_scenario(scenario, {options.seed, options.ticks, options.sequences});
+  if (options.ticks && scenario.trajectory_ticks && scenario.ticks > *scenario.trajectory_ticks)
+    spdlog::warn("{}: its curves end at tick {} of {}; from there on they go straight", scenario.name,
+                 *scenario.trajectory_ticks - 1, scenario.ticks);
   return scenario;
 }
 

@@ -12,6 +12,15 @@ target_compile_definitions(greatx_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_
                                                     GLM_ENABLE_EXPERIMENTAL GREATX_VERSION="${PROJECT_VERSION}")
 # The same sums on every compiler: no fused multiply-add that the source does not ask for.
 target_compile_options(greatx_options INTERFACE -ffp-contract=off)
+# What meets files of strangers fails early and is hard to turn to other ends: canaries on stacks, bounds of buffers and of
+# containers checked where the compiler and the library know them, all addresses resolved at start and then read-only, no
+# fixed address. tests/apps/check_binaries.py looks for each. Sanitizers have checks of their own, and want none beside.
+if(NOT GREATX_SANITIZE)
+  target_compile_options(greatx_options INTERFACE -fstack-protector-strong -D_GLIBCXX_ASSERTIONS
+                                                  # Needs an optimizer.
+                                                  "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
+  target_link_options(greatx_options INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
+endif()
 if(GREATX_SANITIZE)
   target_compile_options(greatx_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                   -fno-omit-frame-pointer)

@@ -14,7 +14,8 @@ std::string SourceLocation::str() const {
 UserError::UserError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
 
 UserError::UserError(const SourceLocation& where, const std::string& message)
-    : UserError(fmt::format("{}: {}", where.str(), message)) {}
+    : std::runtime_error(printable_lines(fmt::format("{}: {}", where.str(), message))),
+      located_(where.line > 0) {}
 
 namespace detail {
 void check_failed(const char* file, int line, const char* condition, const std::string& message) {

@@ -27,6 +27,11 @@ class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& message);
   UserError(const SourceLocation& where, const std::string& message);
+  /// Whether the message begins with a file's line.
+  bool located() const { return located_; }
+
+ private:
+  bool located_ = false;
 };
 
 /// The user stopped it (Ctrl-C, SIGTERM): the message says what was done and how to go on. Exit code 130.

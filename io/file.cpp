@@ -199,6 +199,22 @@ void append(Bytes& out, std::span<const std::byte> bytes) {
   std::memcpy(out.data() + size, bytes.data(), bytes.size());
 }
 
+FolderSize folder_size(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  FolderSize size;
+  std::error_code error;
+  for (auto entry = fs::recursive_directory_iterator(folder, error);
+       !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code gone;
+    if (entry->is_symlink(gone) || !entry->is_regular_file(gone)) continue;
+    const uintmax_t bytes = entry->file_size(gone);
+    if (gone) continue;
+    ++size.files;
+    size.bytes += bytes;
+  }
+  return size;
+}
+
 void ignore_file_size_signal() {
   struct sigaction action {};
   if (::sigaction(SIGXFSZ, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 &&

@@ -80,6 +80,13 @@ void create_folder_of(const std::filesystem::path& file);
 Bytes read_file(const std::filesystem::path& path, uint64_t most = largest_read);
 std::string read_text_file(const std::filesystem::path& path, uint64_t most = largest_read);
 
+/// Regular files in a folder and all below it, links not followed. What cannot be read counts as nothing.
+struct FolderSize {
+  int64_t files = 0;
+  uint64_t bytes = 0;
+};
+FolderSize folder_size(const std::filesystem::path& folder);
+
 /// Makes a write beyond the file-size limit (ulimit -f) an ordinary error instead of the end of the process. Only the
 /// default action is replaced; a handler that the program has set stays.
 void ignore_file_size_signal();

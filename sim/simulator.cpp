@@ -25,6 +25,17 @@ namespace {
 constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
 constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever another one is
 
+/// What `make` gives; its errors say where the scenario has what they are about.
+template <typename Make>
+std::unique_ptr<Sensor> placed(const SourceLocation& where, const std::string& what, const Make& make) {
+  try {
+    return make();
+  } catch (const UserError& error) {
+    if (error.located()) throw;
+    throw_user_error_at(where, "{}: {}", what, error.what());
+  }
+}
+
 }  // namespace
 
 /// Passes that several sensors share; only those of the plan exist.
@@ -95,25 +106,34 @@ void Simulator::add_sensors() {
   for (uint32_t node = 0; node < scenario_.nodes.size(); ++node) {
     const std::vector<SensorConfig>& configs = scenario_.nodes[node].sensors;
     for (uint32_t i = 0; i < configs.size(); ++i) {
-      if (std::holds_alternative<CameraConfig>(configs[i].config))
-        add(std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, i),
-            configs[i].rate_hz);
-      else if (std::holds_alternative<EventCameraConfig>(configs[i].config))
-        add(std::make_unique<EventSensor>(*passes_->stage, shared_camera(node, i), scenario_, node, i),
-            configs[i].rate_hz);
-      else if (std::holds_alternative<LidarConfig>(configs[i].config))
-        add(std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
-      else if (std::holds_alternative<RadarConfig>(configs[i].config))
-        add(std::make_unique<RadarSensor>(gpu_scene_, plan_, scenario_, world_, node, i), configs[i].rate_hz);
+      if (std::holds_alternative<AntennaConfig>(configs[i].config)) continue;
+      const std::string what = fmt::format("nodes[{}].sensors[{}]", node, i);
+      add(placed(configs[i].where, what, [&] { return make_sensor(node, i); }), configs[i].rate_hz);
     }
   }
-  for (uint32_t i = 0; i < scenario_.channels.size(); ++i)
-    add(std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, plan_, scenario_, world_, i),
+  for (uint32_t i = 0; i < scenario_.channels.size(); ++i) {
+    const auto make = [&] {
+      return std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, plan_, scenario_, world_, i);
+    };
+    add(placed(scenario_.channels[i].where, fmt::format("channels[{}]", i), make),
         scenario_.channels[i].rate_hz);
+  }
   for (const auto& sensor : sensors_) {
     specs_.push_back(sensor->spec());
     looks_ahead_ |= sensor->looks_ahead();
   }
+}
+
+std::unique_ptr<Sensor> Simulator::make_sensor(uint32_t node, uint32_t sensor) {
+  const auto& config = scenario_.nodes[node].sensors[sensor].config;
+  if (std::holds_alternative<CameraConfig>(config))
+    return std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, sensor);
+  if (std::holds_alternative<EventCameraConfig>(config))
+    return std::make_unique<EventSensor>(*passes_->stage, shared_camera(node, sensor), scenario_, node,
+                                         sensor);
+  if (std::holds_alternative<LidarConfig>(config))
+    return std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, sensor);
+  return std::make_unique<RadarSensor>(gpu_scene_, plan_, scenario_, world_, node, sensor);
 }
 
 /// The camera whose pixels an event camera has; null: none. It has been added before.

@@ -75,6 +75,7 @@ class Simulator {
   struct InFlight;
   Moment moment_at(int64_t tick) const;
   void add_sensors();
+  std::unique_ptr<Sensor> make_sensor(uint32_t node, uint32_t sensor);  ///< of any kind but antennas
   void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
   const CameraSensor* shared_camera(uint32_t node, uint32_t sensor) const;
   void replay(int64_t end);

@@ -14,6 +14,7 @@
 #include "sim/channel/antennas.h"
 #include "sim/channel/notes.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/override.h"
 
 namespace greatx::python {
 
@@ -130,7 +131,7 @@ void Session::change(const std::string& text, const std::string& where,
   constexpr std::string_view environment = "environment.";
   for (const std::string& key : keys) {
     if (key == "seed") scenario_.seed = with.seed;
-    if (key == "ticks") scenario_.ticks = with.ticks;
+    if (key == "ticks") sim::override_ticks(scenario_, with.ticks);
     if (key == "sequences") scenario_.sequences = with.sequences;
     if (key == "tolerance_db") scenario_.tolerance_db = with.tolerance_db;
     if (key == "effects")

@@ -16,7 +16,7 @@ namespace {
 scene::Bounds reach_of(const Scenario& scenario, const std::string& name) {
   const auto [node, sensor] = sensor_place(scenario, name);
   scene::Bounds bounds;
-  add_trajectory(scenario.nodes[node].trajectory, bounds);
+  add_trajectory(scenario, scenario.nodes[node].trajectory, bounds);
   const dvec3 mount(glm::length(scenario.nodes[node].sensors[sensor].mount.position_m));
   return {bounds.min - mount, bounds.max + mount};
 }

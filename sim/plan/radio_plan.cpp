@@ -103,7 +103,7 @@ void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene:
             std::max(reach_m, glm::length(array.element_position(element * array.polarization_count())));
       reach_m += glm::length(scenario.nodes[node].sensors[sensor].mount.position_m);
       scene::Bounds course;
-      add_trajectory(scenario.nodes[node].trajectory, course);
+      add_trajectory(scenario, scenario.nodes[node].trajectory, course);
       bounds.add(widened(course, reach_m));
     }
 }
@@ -125,7 +125,7 @@ double largest_body_m(const scene::Scene& scene) {
 double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
                       bool moving_reflectors, const scene::Bounds& points) {
   scene::Bounds courses;
-  for (const NodeConfig& node : scenario.nodes) add_trajectory(node.trajectory, courses);
+  for (const NodeConfig& node : scenario.nodes) add_trajectory(scenario, node.trajectory, courses);
   scene::Bounds bounds = moving_reflectors ? widened(courses, largest_body_m(scene)) : courses;
   if (!scene.bounds.empty()) {
     bounds.add(scene.bounds.min + scene.origin);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/plan/trajectory_bounds.h"
 
+#include <algorithm>
+
 #include "sim/scenario/trajectory.h"
 
 namespace greatx::sim {
@@ -20,23 +22,48 @@ void add_way(const WayPointTrajectory& way, scene::Bounds& bounds) {
   }
 }
 
+/// How far beyond its end the run sees a curve, in units of how long the curve lasts.
+double overrun(const Scenario& scenario) {
+  const double last = static_cast<double>(scenario.ticks - 1);
+  const double end = static_cast<double>(scenario.curve_ticks() - 1);
+  return end > 0.0 ? std::max(0.0, last / end - 1.0) : 0.0;  // a curve of one tick rests
+}
+
+/// The box of its control points, whatever is drawn, and the way with B'(1) = 3 (P3 - P2) beyond the end.
+void add_curve(const BezierTrajectory& curve, double beyond, scene::Bounds& bounds) {
+  scene::Bounds box;
+  dvec3 last_edge;  // the most that P3 - P2 can be, along each axis
+  if (curve.control_points) {
+    for (const dvec3& point : *curve.control_points) box.add(point);
+    last_edge = glm::abs((*curve.control_points)[3] - (*curve.control_points)[2]);
+  } else {
+    for (const double side : {-1.0, 1.0})
+      box.add((side < 0 ? curve.min_m : curve.max_m) + side * glm::abs(curve.offset_m));
+    last_edge = (curve.max_m - curve.min_m) / 3.0 + glm::abs(curve.offset_m);
+  }
+  bounds.add(box.min - 3.0 * beyond * last_edge);
+  bounds.add(box.max + 3.0 * beyond * last_edge);
+}
+
+/// Half the width and half the height to either side, whichever way the line goes; beyond its end at its one speed.
+void add_corridor(const CorridorTrajectory& corridor, double beyond, scene::Bounds& bounds) {
+  const double across = corridor.width_m + corridor.height_m;
+  double longest = corridor.legs * across;  // every leg from one side to the other
+  for (size_t i = 0; i + 1 < corridor.center_line_m.size(); ++i)
+    longest += glm::distance(corridor.center_line_m[i], corridor.center_line_m[i + 1]);
+  const dvec3 room(0.5 * across + beyond * longest);
+  for (const dvec3& point : corridor.center_line_m) bounds.add(point - room), bounds.add(point + room);
+}
+
 }  // namespace
 
-void add_trajectory(const Trajectory& trajectory, scene::Bounds& bounds) {
+void add_trajectory(const Scenario& scenario, const Trajectory& trajectory, scene::Bounds& bounds) {
   if (const auto* still = std::get_if<StaticTrajectory>(&trajectory)) bounds.add(still->position_m);
   if (const auto* way = std::get_if<WayPointTrajectory>(&trajectory)) add_way(*way, bounds);
-  if (const auto* bezier = std::get_if<BezierTrajectory>(&trajectory)) {
-    if (bezier->control_points)
-      for (const dvec3& point : *bezier->control_points) bounds.add(point);
-    else
-      for (const double side : {-1.0, 1.0})
-        bounds.add((side < 0 ? bezier->min_m : bezier->max_m) + side * glm::abs(bezier->offset_m));
-  }
-  if (const auto* corridor = std::get_if<CorridorTrajectory>(&trajectory)) {
-    // Half the width and half the height to either side, whichever way the line goes.
-    const dvec3 room(0.5 * (corridor->width_m + corridor->height_m));
-    for (const dvec3& point : corridor->center_line_m) bounds.add(point - room), bounds.add(point + room);
-  }
+  if (const auto* bezier = std::get_if<BezierTrajectory>(&trajectory))
+    add_curve(*bezier, overrun(scenario), bounds);
+  if (const auto* corridor = std::get_if<CorridorTrajectory>(&trajectory))
+    add_corridor(*corridor, overrun(scenario), bounds);
 }
 
 }  // namespace greatx::sim

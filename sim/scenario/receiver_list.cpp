@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/scenario/csv.h"
+#include "sim/scenario/limits.h"
 
 namespace greatx::sim {
 namespace {
@@ -37,6 +38,9 @@ dvec3 parse_position(const CsvLine& line) {
       line.fail(i,
                 fmt::format("{}: expected a finite number, found {}", names[i],
                             line.cells[i].text.empty() ? "a gap" : fmt::format("'{}'", line.cells[i].text)));
+    if (std::abs(*value) > most_position_m)
+      line.fail(i, fmt::format("{}: expected a number from {:g} to {:g}, found '{}'", names[i],
+                               -most_position_m, most_position_m, line.cells[i].text));
     position[static_cast<int>(i)] = *value;
   }
   return position;

@@ -13,8 +13,6 @@
 namespace greatx::sim {
 namespace {
 
-constexpr int64_t most_ticks = 1'000'000'000'000;
-
 /// Ticks whose time lies in [0, duration).
 int64_t ticks_of_duration(const Field& field, const Rational& tick_rate_hz) {
   const Rational duration = field.rational("a duration greater than 0 in seconds");
@@ -35,6 +33,8 @@ void parse_time(const FieldMap& map, Scenario& scenario) {
   else
     scenario.ticks = ticks_of_duration(map.require("duration_s", "a duration in seconds (or 'ticks')"),
                                        scenario.tick_rate_hz);
+  if (const auto f = map.find("trajectory_ticks"))
+    scenario.trajectory_ticks = static_cast<int64_t>(f->integer(1, most_ticks));
 }
 
 std::map<std::string, Switch> parse_effects(const Field& field) {
@@ -67,15 +67,16 @@ void check_names(const Field& root, const Scenario& scenario) {
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                         const std::filesystem::path& assets) {
   const Field root = Field::parse(text, name, folder, assets);
-  const FieldMap map(root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "tick_rate_hz",
-                            "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});
+  const FieldMap map(
+      root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks", "tick_rate_hz",
+             "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});
   map.require("greatx", "1 (the format's version)").choice({"1"});
 
   Scenario scenario;
   scenario.text = text;
   scenario.name = map.require("name", "a name").name();
   if (const auto f = map.find("seed")) scenario.seed = f->integer(0);
-  if (const auto f = map.find("sequences")) scenario.sequences = f->integer32(1, 1'000'000);
+  if (const auto f = map.find("sequences")) scenario.sequences = f->integer32(1, most_sequences);
   parse_time(map, scenario);
   if (const auto f = map.find("scene")) scenario.scene = parse_scene(*f);
   if (const auto f = map.find("environment")) scenario.environment = parse_environment(*f);

@@ -21,6 +21,7 @@
 #include "renderer/lidar/returns.h"
 #include "renderer/lidar/scan_pattern.h"
 #include "sim/scenario/antenna.h"
+#include "sim/scenario/limits.h"
 #include "sim/scenario/optics.h"
 #include "sim/scenario/radar.h"
 #include "sim/scenario/rational.h"
@@ -214,6 +215,9 @@ struct Scenario {
   uint32_t sequences = 1;  ///< runs of the same scenario, each with its own draws
   Rational tick_rate_hz{1000, 1};
   int64_t ticks = 0;  ///< per sequence
+  /// That Bezier curves and corridors last; none given: `ticks`. A run may be shorter or longer than they are.
+  std::optional<int64_t> trajectory_ticks;
+  int64_t curve_ticks() const { return trajectory_ticks.value_or(ticks); }
   SceneConfig scene;
   Environment environment;
   std::vector<NodeConfig> nodes;

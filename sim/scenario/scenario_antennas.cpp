@@ -14,6 +14,7 @@ namespace {
 
 constexpr uint32_t most_rows = 1024;
 constexpr size_t most_elements = 4096;
+constexpr double least_spacing_wl = 1e-6, most_spacing_wl = 1e6;
 
 /// Antennas with the same file share one table.
 std::shared_ptr<const rf::PatternTable> load_pattern(const Field& field, PatternFiles& loaded) {
@@ -53,7 +54,7 @@ void parse_elements(const Field& field, AntennaConfig& antenna) {
   const std::vector<Field> items = field.list("positions", 1);
   if (items.size() > most_elements)
     field.fail(fmt::format("at most {} elements", most_elements), fmt::format("{}", items.size()));
-  for (const Field& item : items) antenna.elements_wl.push_back(item.vector3());
+  for (const Field& item : items) antenna.elements_wl.push_back(item.vector3(most_spacing_wl));
   std::vector<size_t> order(items.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto key = [&](size_t i) {
@@ -75,8 +76,10 @@ void parse_layout(const FieldMap& map, AntennaConfig& antenna) {
   if (const auto f = map.find("plane")) antenna.plane = planes[f->choice({"yz", "xz", "xy"})];
   if (const auto f = map.find("rows")) antenna.rows = f->integer32(1, most_rows);
   if (const auto f = map.find("columns")) antenna.columns = f->integer32(1, most_rows);
-  if (const auto f = map.find("row_spacing_wl")) antenna.row_spacing_wl = f->positive();
-  if (const auto f = map.find("column_spacing_wl")) antenna.column_spacing_wl = f->positive();
+  if (const auto f = map.find("row_spacing_wl"))
+    antenna.row_spacing_wl = f->positive(least_spacing_wl, most_spacing_wl);
+  if (const auto f = map.find("column_spacing_wl"))
+    antenna.column_spacing_wl = f->positive(least_spacing_wl, most_spacing_wl);
 }
 
 }  // namespace

@@ -22,20 +22,20 @@ void parse_intrinsics(const FieldMap& map, PinholeConfig& camera) {
     if (!(fov_deg > 0.0 && fov_deg < 180.0)) f->fail("an angle greater than 0 and less than 180");
     camera.fx = camera.fy = 0.5 * camera.width / std::tan(0.5 * radians(fov_deg));
   } else {
-    camera.fx = camera.fy = map.require("fx", "a focal length in pixels (or 'fov_deg')").positive();
-    if (const auto fy = map.find("fy")) camera.fy = fy->positive();
+    camera.fx = camera.fy = map.require("fx", "a focal length in pixels (or 'fov_deg')").positive(1e-3, 1e9);
+    if (const auto fy = map.find("fy")) camera.fy = fy->positive(1e-3, 1e9);
   }
   camera.cx = 0.5 * camera.width;
   camera.cy = 0.5 * camera.height;
-  if (const auto f = map.find("cx")) camera.cx = f->number();
-  if (const auto f = map.find("cy")) camera.cy = f->number();
+  if (const auto f = map.find("cx")) camera.cx = f->number(1e6);
+  if (const auto f = map.find("cy")) camera.cy = f->number(1e6);
 }
 
 Distortion parse_distortion(const Field& field) {
   const FieldMap map(field, {"k1", "k2", "p1", "p2", "k3"});
   Distortion distortion;
   const auto read = [&](const char* key, double& value) {
-    if (const auto f = map.find(key)) value = f->number();
+    if (const auto f = map.find(key)) value = f->number(1e6);
   };
   read("k1", distortion.k1);
   read("k2", distortion.k2);
@@ -57,7 +57,7 @@ Exposure parse_exposure(const Field& field) {
   for (const char* fixed : {"ev100", "f_number", "iso"}) map.exclude("auto", fixed);
   map.exclude("ev100", "f_number");
   map.exclude("ev100", "iso");
-  if (const auto f = map.find("shutter_s")) exposure.shutter_s = f->positive();
+  if (const auto f = map.find("shutter_s")) exposure.shutter_s = f->positive(1e-9, 1e6);
   if (const auto f = map.find("auto")) {
     if (!f->boolean()) f->fail("true, or no 'auto'", "false");
     exposure.automatic = true;
@@ -90,7 +90,7 @@ Vignetting parse_vignetting(const Field& field) {
     vignetting.natural = true;
     return vignetting;
   }
-  const dvec3 radial = field.vector3();
+  const dvec3 radial = field.vector3(1e6);
   vignetting.radial = {radial.x, radial.y, radial.z};
   return vignetting;
 }
@@ -135,7 +135,7 @@ void parse_pinhole(const FieldMap& map, PinholeConfig& camera) {
   if (const auto f = map.find("width")) camera.width = f->integer32(1, largest_image_edge);
   if (const auto f = map.find("height")) camera.height = f->integer32(1, largest_image_edge);
   parse_intrinsics(map, camera);
-  if (const auto f = map.find("near_m")) camera.near_m = f->positive();
+  if (const auto f = map.find("near_m")) camera.near_m = f->positive(1e-6, 1e6);
   if (const auto f = map.find("antialiasing")) {
     const size_t kind = f->choice({"none", "edges", "msaa4"});
     camera.smooth_edges = kind == 1;

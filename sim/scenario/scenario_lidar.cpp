@@ -149,8 +149,8 @@ render::Scan parse_scan(const FieldMap& map, const Rational& rate_hz) {
 
 void parse_ranges(const FieldMap& map, LidarConfig& lidar) {
   const auto min_range = map.find("min_range_m"), max_range = map.find("max_range_m");
-  if (min_range) lidar.min_range_m = min_range->non_negative();
-  if (max_range) lidar.max_range_m = max_range->positive();
+  if (min_range) lidar.min_range_m = min_range->non_negative(most_position_m);
+  if (max_range) lidar.max_range_m = max_range->positive(1e-3, most_position_m);
   if (lidar.max_range_m > lidar.min_range_m) return;
   if (max_range) max_range->fail(fmt::format("a number greater than min_range_m, {}", lidar.min_range_m));
   min_range->fail(fmt::format("a number less than max_range_m, {}", lidar.max_range_m));
@@ -180,12 +180,13 @@ void parse_returns(const Field& field, LidarConfig& lidar) {
     if (lidar.returns.mode != render::ReturnMode::all) f->fail("no limit but with mode 'all'");
     lidar.returns.most = f->integer32(1, 255);
   }
-  if (const auto f = map.find("resolution_m")) lidar.returns.resolution_m = f->positive();
+  if (const auto f = map.find("resolution_m"))
+    lidar.returns.resolution_m = f->positive(1e-6, most_position_m);
 }
 
 void parse_receiver(const Field& field, render::Receiver& receiver) {
   const FieldMap map(field, {"aperture_m", "efficiency"});
-  if (const auto f = map.find("aperture_m")) receiver.aperture_diameter_m = f->positive();
+  if (const auto f = map.find("aperture_m")) receiver.aperture_diameter_m = f->positive(1e-6, 1e3);
   if (const auto f = map.find("efficiency")) {
     receiver.system_efficiency = f->between(0.0, 1.0);
     if (receiver.system_efficiency == 0.0) f->fail("a part greater than 0");
@@ -204,7 +205,8 @@ void parse_detection(const Field& field, render::Receiver& receiver) {
     receiver.detection = detection;
     return;
   }
-  const double range_m = map.require("range_m", "a range in metres (or 'noise_equivalent_power')").positive();
+  const double range_m = map.require("range_m", "a range in metres (or 'noise_equivalent_power')")
+                             .positive(1e-3, most_position_m);
   double reflectance = 0.1, probability = 0.9;
   if (const auto f = map.find("reflectance")) {
     reflectance = f->between(0.0, 1.0);
@@ -223,9 +225,9 @@ void parse_detection(const Field& field, render::Receiver& receiver) {
 
 void parse_noise(const Field& field, render::Receiver& receiver) {
   const FieldMap map(field, {"range_m", "rise_m"});
-  if (const auto f = map.find("range_m")) receiver.range_std_m = f->non_negative();
+  if (const auto f = map.find("range_m")) receiver.range_std_m = f->non_negative(most_position_m);
   if (const auto f = map.find("rise_m")) {
-    receiver.rise_m = f->non_negative();
+    receiver.rise_m = f->non_negative(most_position_m);
     if (receiver.rise_m > 0.0 && !receiver.detection)
       f->fail("'detection', which says how strong the noise is", "none there");
   }

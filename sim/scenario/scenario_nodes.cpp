@@ -35,11 +35,13 @@ PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
   else
     part.nodes.push_back(nodes.text());
   if (const auto f = map.find("axis")) {
-    part.axis = f->vector3();
+    constexpr double least = 1e-6, most = 1e6;
+    part.axis = f->vector3(most);
     if (part.axis == dvec3(0.0)) f->fail("an axis other than [0, 0, 0]");
+    if (glm::length(part.axis) < least) f->fail(fmt::format("an axis of a length of {:g} or more", least));
   }
   part.rate = parse_turn_rate(map, tick_rate_hz);
-  if (const auto f = map.find("phase_deg")) part.phase = radians(f->number());
+  if (const auto f = map.find("phase_deg")) part.phase = radians(f->number(most_angle_deg));
   return part;
 }
 
@@ -64,7 +66,7 @@ NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rat
   if (const auto f = map.find("model")) {
     const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale", "parts"});
     node.model = parse_model_source(model);
-    if (const auto g = model.find("position_m")) node.model_mount.position_m = g->vector3();
+    if (const auto g = model.find("position_m")) node.model_mount.position_m = g->position();
     if (const auto g = model.find("rotation_deg")) node.model_mount.rotation = g->angles_deg();
     if (const auto g = model.find("scale")) node.model_scale = parse_scale(*g);
     if (const auto g = model.find("parts"))
@@ -152,14 +154,15 @@ std::vector<std::string> parse_antenna_names(const Field& field, const std::vect
 
 /// Of carrier, subcarriers, spacing and bandwidth: spacing x subcarriers = bandwidth, any two of the three.
 void parse_band(const FieldMap& map, ChannelConfig& channel) {
-  if (const auto f = map.find("carrier_hz")) channel.carrier_hz = f->positive();
+  if (const auto f = map.find("carrier_hz"))
+    channel.carrier_hz = f->positive(least_carrier_hz, most_carrier_hz);
   const auto count = map.find("subcarriers"), spacing = map.find("subcarrier_spacing_hz"),
              bandwidth = map.find("bandwidth_hz");
   constexpr uint32_t most = 1u << 20;
   if (count) channel.subcarriers = count->integer32(1, most);
-  if (spacing) channel.subcarrier_spacing_hz = spacing->positive();
+  if (spacing) channel.subcarrier_spacing_hz = spacing->positive(1e-3, most_carrier_hz);
   if (bandwidth) {
-    const double band_hz = bandwidth->positive();
+    const double band_hz = bandwidth->positive(1e-3, most_carrier_hz);
     if (spacing && count)
       bandwidth->fail("two of bandwidth_hz, subcarrier_spacing_hz and subcarriers", "all three");
     if (spacing) {
@@ -204,7 +207,7 @@ void parse_outputs(const FieldMap& map, ChannelConfig& channel) {
   }
   if (const auto f = map.find("power_dbm")) channel.power_dbm = f->between(-200.0, 200.0);
   if (const auto f = map.find("resistance_ohm")) {
-    channel.resistance_ohm = f->positive();
+    channel.resistance_ohm = f->positive(1e-6, 1e12);
     if (!channel.power_dbm) f->fail("a 'power_dbm' beside it", "none");
   }
 }
@@ -245,14 +248,14 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   parse_band(map, channel);
   parse_outputs(map, channel);
   if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
-  if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive();
+  if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive(1e-12, 1e6);
   if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
   if (const auto f = map.find("max_transmissions"))
     channel.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
   if (const auto f = map.find("max_reflections_after")) channel.max_reflections_after = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_before_scattering"))
     channel.max_reflections_before_scattering = f->integer32(0, 16);
-  if (const auto f = map.find("scattering_patch_m")) channel.scattering_patch_m = f->positive();
+  if (const auto f = map.find("scattering_patch_m")) channel.scattering_patch_m = f->positive(1e-3, 1e8);
   if (const auto f = map.find("max_paths")) channel.max_paths = f->integer32(1, 1u << 30);
   if (const auto f = map.find("candidates")) {
     f->choice({"beams", "rays"});

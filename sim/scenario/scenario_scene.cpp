@@ -52,7 +52,7 @@ StaticObject parse_object(const Field& field) {
   StaticObject object;
   object.name = map.require("name", "a name").name();
   object.model = parse_model_source(map);
-  if (const auto f = map.find("position_m")) object.position_m = f->vector3();
+  if (const auto f = map.find("position_m")) object.position_m = f->position();
   if (const auto f = map.find("rotation_deg")) object.rotation = f->angles_deg();
   if (const auto f = map.find("scale")) object.scale = parse_scale(*f);
   if (const auto f = map.find("class")) object.semantic_class = parse_semantic_class(*f);
@@ -80,9 +80,13 @@ std::string parse_semantic_class(const Field& field) {
 }
 
 dvec3 parse_scale(const Field& field) {
-  const dvec3 scale = field.is_scalar() ? dvec3(field.number()) : field.vector3();
+  constexpr double least = 1e-6, most = 1e6;
+  const dvec3 scale = field.is_scalar() ? dvec3(field.number(most)) : field.vector3(most);
   if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0)
     field.fail("scale factors other than 0", fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
+  if (glm::any(glm::lessThan(glm::abs(scale), dvec3(least))))
+    field.fail(fmt::format("scale factors of a magnitude of {:g} or more", least),
+               fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
   return scale;
 }
 
@@ -119,7 +123,7 @@ SceneConfig parse_scene(const Field& field) {
   }
   if (const auto f = map.find("radio_materials")) scene.radio_materials = f->file();
   if (const auto f = map.find("optical_only")) scene.optical_only = f->boolean();
-  if (const auto f = map.find("origin_m")) scene.origin_m = f->vector3();
+  if (const auto f = map.find("origin_m")) scene.origin_m = f->position();
   return scene;
 }
 

@@ -13,7 +13,7 @@ namespace {
 StaticTrajectory parse_static(const Field& field) {
   const FieldMap map(field, {"type", "position_m", "rotation_deg"});
   StaticTrajectory trajectory;
-  trajectory.position_m = map.require("position_m", "a list of 3 numbers").vector3();
+  trajectory.position_m = map.require("position_m", "a list of 3 numbers").position();
   if (const auto f = map.find("rotation_deg")) trajectory.rotation = f->angles_deg();
   return trajectory;
 }
@@ -24,10 +24,10 @@ std::vector<WayPoint> parse_points(const Field& field) {
     const FieldMap map(item, {"t_s", "position_m", "rotation_deg"});
     const Field time = map.require("t_s", "a time in seconds");
     WayPoint point;
-    point.time_s = time.number();
+    point.time_s = time.number(most_time_s);
     if (!points.empty() && !(point.time_s > points.back().time_s))
       time.fail(fmt::format("a time greater than the one before, {}", points.back().time_s));
-    point.position_m = map.require("position_m", "a list of 3 numbers").vector3();
+    point.position_m = map.require("position_m", "a list of 3 numbers").position();
     if (const auto f = map.find("rotation_deg")) {
       const dvec3 angles = f->angles_deg();
       point.orientation = orientation_from_yaw_pitch_roll(angles.x, angles.y, angles.z);
@@ -58,9 +58,9 @@ void parse_distance(const Field& field, size_t node, BezierTrajectory& trajector
   const Field reference = map.require("node", "a node's name");
   trajectory.reference_node = reference.text();
   references.push_back({node, reference});
-  if (const auto f = map.find("min_m")) trajectory.min_distance_m = f->non_negative();
+  if (const auto f = map.find("min_m")) trajectory.min_distance_m = f->non_negative(1e9);
   if (const auto f = map.find("max_m")) {
-    trajectory.max_distance_m = f->non_negative();
+    trajectory.max_distance_m = f->non_negative(1e9);
     if (trajectory.max_distance_m < trajectory.min_distance_m)
       f->fail(fmt::format("a number of at least min_m, {}", trajectory.min_distance_m));
   }
@@ -73,21 +73,21 @@ BezierTrajectory parse_bezier(const Field& field, size_t node, std::vector<NodeR
     for (const char* drawn : {"box", "distance", "offset_m"}) map.exclude("control_points_m", drawn);
     const std::vector<Field> points = control->list("control points");
     if (points.size() != 4) control->fail("a list of 4 control points");
-    trajectory.control_points = {points[0].vector3(), points[1].vector3(), points[2].vector3(),
-                                 points[3].vector3()};
+    trajectory.control_points = {points[0].position(), points[1].position(), points[2].position(),
+                                 points[3].position()};
     return trajectory;
   }
   const FieldMap box(map.require("box", "a box (or 'control_points_m')"), {"min_m", "max_m"});
-  trajectory.min_m = box.require("min_m", "a list of 3 numbers").vector3();
+  trajectory.min_m = box.require("min_m", "a list of 3 numbers").position();
   const Field upper = box.require("max_m", "a list of 3 numbers");
-  trajectory.max_m = upper.vector3();
+  trajectory.max_m = upper.position();
   for (int axis = 0; axis < 3; ++axis)
     if (trajectory.max_m[axis] < trajectory.min_m[axis])
       upper.fail("a corner not below min_m", fmt::format("{} < {} on axis {}", trajectory.max_m[axis],
                                                          trajectory.min_m[axis], "xyz"[axis]));
   if (const auto f = map.find("distance")) parse_distance(*f, node, trajectory, references);
   if (const auto f = map.find("offset_m")) {
-    trajectory.offset_m = f->vector3();
+    trajectory.offset_m = f->position();
     if (glm::any(glm::lessThan(trajectory.offset_m, dvec3(0.0))))
       f->fail("3 numbers of at least 0", fmt::format("[{}, {}, {}]", trajectory.offset_m.x,
                                                      trajectory.offset_m.y, trajectory.offset_m.z));
@@ -99,13 +99,13 @@ CorridorTrajectory parse_corridor(const Field& field) {
   const FieldMap map(field, {"type", "center_line_m", "width_m", "height_m", "legs"});
   CorridorTrajectory trajectory;
   for (const Field& item : map.require("center_line_m", "a list of points").list("points", 2)) {
-    const dvec3 point = item.vector3();
+    const dvec3 point = item.position();
     if (!trajectory.center_line_m.empty() && point == trajectory.center_line_m.back())
       item.fail("a point other than the one before", "the same one");
     trajectory.center_line_m.push_back(point);
   }
-  if (const auto f = map.find("width_m")) trajectory.width_m = f->non_negative();
-  if (const auto f = map.find("height_m")) trajectory.height_m = f->non_negative();
+  if (const auto f = map.find("width_m")) trajectory.width_m = f->non_negative(most_position_m);
+  if (const auto f = map.find("height_m")) trajectory.height_m = f->non_negative(most_position_m);
   // A leg that spanned a bend of the centre line would leave the corridor: one leg or more a section.
   const auto sections = static_cast<uint32_t>(trajectory.center_line_m.size() - 1);
   trajectory.legs = static_cast<int>(std::max(4u, sections));

@@ -106,28 +106,36 @@ std::string Field::name() const {
   return node_.Scalar();
 }
 
-double Field::number() const {
+double Field::finite() const {
   const auto value = node_.IsScalar() && node_.Tag() != "!" ? parse_number(node_.Scalar()) : std::nullopt;
   if (!value) fail("a finite number");
   return *value;
 }
 
-double Field::positive() const {
-  const double value = number();
-  if (!(value > 0.0)) fail("a number greater than 0");
+double Field::number(double most) const {
+  const double value = finite(), size = std::abs(value);
+  if (size > most) fail(fmt::format("a number from {:g} to {:g}", -most, most));
+  if (size > 0.0 && size < least_number) fail(fmt::format("0, or a number of {:g} or more", least_number));
   return value;
 }
 
-double Field::non_negative() const {
-  const double value = number();
-  if (!(value >= 0.0)) fail("a number of at least 0");
+double Field::positive(double least, double most) const {
+  const double value = finite();
+  if (!(value > 0.0)) fail("a number greater than 0");
+  if (value < least || value > most) fail(fmt::format("a number from {:g} to {:g}", least, most));
   return value;
+}
+
+double Field::non_negative(double most) const {
+  const double value = finite();
+  if (!(value >= 0.0)) fail("a number of at least 0");
+  return number(most);
 }
 
 double Field::between(double low, double high) const {
-  const double value = number();
+  const double value = finite();
   if (!(value >= low && value <= high)) fail(fmt::format("a number from {} to {}", low, high));
-  return value;
+  return number(std::max(std::abs(low), std::abs(high)));
 }
 
 uint64_t Field::integer(uint64_t low, uint64_t high) const {
@@ -161,15 +169,17 @@ TurnRate Field::turn_rate(const std::string& expected) const {
   return {*size, negative};
 }
 
-dvec3 Field::vector3() const {
+dvec3 Field::position() const { return vector3(most_position_m); }
+
+dvec3 Field::vector3(double most) const {
   if (!node_.IsSequence() || node_.size() != 3) fail("a list of 3 numbers");
   const std::vector<Field> items = list("numbers");
-  return {items[0].number(), items[1].number(), items[2].number()};
+  return {items[0].number(most), items[1].number(most), items[2].number(most)};
 }
 
 dvec3 Field::angles_deg() const {
   if (!node_.IsSequence() || node_.size() != 3) fail("a list of 3 numbers: yaw, pitch, roll in degrees");
-  const dvec3 angles = vector3();
+  const dvec3 angles = vector3(most_angle_deg);
   return {radians(angles.x), radians(angles.y), radians(angles.z)};
 }
 

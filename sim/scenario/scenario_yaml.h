@@ -19,12 +19,14 @@
 
 #include "core/error.h"
 #include "core/vec.h"
+#include "sim/scenario/limits.h"
 #include "sim/scenario/rational.h"
 #include "sim/scenario/rotation.h"
 
 namespace greatx::sim {
 
-/// One value of the document. Numbers follow YAML 1.2's core schema: plain (unquoted) scalars, finite.
+/// One value of the document. Numbers follow YAML 1.2's core schema: plain (unquoted) scalars; 0, or of a magnitude from
+/// least_number to most_number.
 class Field {
  public:
   /// The root of the one document in `text`. Throws UserError with the line if it is not well-formed YAML.
@@ -43,9 +45,9 @@ class Field {
   /// A name that is also a folder's or file's: letters, digits, '_', '-', '.'; does not begin with '.' or
   /// '-'.
   std::string name() const;
-  double number() const;
-  double positive() const;
-  double non_negative() const;
+  double number(double most = most_number) const;  ///< from -most
+  double positive(double least = least_number, double most = most_number) const;
+  double non_negative(double most = most_number) const;
   double between(double low, double high) const;  ///< inclusive
   uint64_t integer(uint64_t low, uint64_t high = std::numeric_limits<uint64_t>::max()) const;
   uint32_t integer32(uint32_t low, uint32_t high) const { return static_cast<uint32_t>(integer(low, high)); }
@@ -53,8 +55,9 @@ class Field {
   Rational rational(const std::string& expected) const;
   /// The same with a sign, '-' or none.
   TurnRate turn_rate(const std::string& expected) const;
-  dvec3 vector3() const;
-  dvec3 angles_deg() const;  ///< yaw, pitch, roll in degrees; returned in rad
+  dvec3 vector3(double most = most_number) const;  ///< each from -most
+  dvec3 position() const;                          ///< of something in the world, or a way or extent in it, m
+  dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
   /// The index of the text in `choices`.
   size_t choice(std::initializer_list<std::string_view> choices) const;
   /// Items with at least `least` of them; `of_what` names them in messages, e.g. "sensors".
@@ -63,6 +66,7 @@ class Field {
   std::filesystem::path file() const;
 
  private:
+  double finite() const;
   friend std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
   struct Source {
     std::string file_name;

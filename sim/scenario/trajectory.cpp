@@ -219,8 +219,8 @@ class PathMaker {
         sequence_(sequence),
         paths_(scenario.nodes.size()),
         begun_(scenario.nodes.size()) {
-    GREATX_CHECK(scenario.ticks > 0, "{} ticks", scenario.ticks);
-    duration_s_ = Clock(scenario.tick_rate_hz).seconds(scenario.ticks - 1);
+    GREATX_CHECK(scenario.curve_ticks() > 0, "{} ticks", scenario.curve_ticks());
+    duration_s_ = Clock(scenario.tick_rate_hz).seconds(scenario.curve_ticks() - 1);
   }
 
   std::vector<std::unique_ptr<Path>> make_all() {

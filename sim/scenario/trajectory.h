@@ -26,7 +26,7 @@ std::vector<dvec3> way_point_velocities(const std::vector<WayPoint>& points);
 
 /// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node's name,
 /// sequence): other nodes change nothing. Bezier curves and corridors last from tick 0 to the last tick, T =
-/// (ticks - 1) / tick_rate: u = t / T; beyond that they go straight on. Way-points have their own times and
+/// (curve_ticks - 1) / tick_rate: u = t / T; beyond that they go straight on. Way-points have their own times and
 /// hold before and after. Throws UserError naming the node if the limits cannot be met (e.g. no point of the
 /// box within d_min..d_max).
 std::vector<std::unique_ptr<Path>> make_paths(const Scenario& scenario, uint32_t sequence);

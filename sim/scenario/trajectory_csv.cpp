@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "sim/scenario/csv.h"
+#include "sim/scenario/limits.h"
 
 namespace greatx::sim {
 namespace {
@@ -56,6 +57,10 @@ WayPoint parse_point(const CsvLine& line) {
     const auto value = csv_number(line.cells[i].text);
     if (!value || !std::isfinite(*value))
       fail(line, i, "a finite number", fmt::format("'{}'", line.cells[i].text));
+    const double most = i == 0 ? most_time_s : i < 4 ? most_position_m : most_angle_deg;
+    if (std::abs(*value) > most)
+      fail(line, i, fmt::format("a number from {:g} to {:g}", -most, most),
+           fmt::format("'{}'", line.cells[i].text));
     values[i] = *value;
   }
   WayPoint point{values[0], {values[1], values[2], values[3]}, std::nullopt};

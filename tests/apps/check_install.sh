@@ -2,11 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# check_install.sh CMAKE BUILD_FOLDER: installs into a scratch prefix and runs the program there, from another folder.
+# check_install.sh CMAKE BUILD_FOLDER PYTHON: installs into a scratch prefix, looks at what the loader would find there, and
+# runs the program, from another folder.
 set -euo pipefail
+checks=$(cd "$(dirname "$0")" && pwd)
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
 "$1" --install "$2" --prefix "$prefix" >/dev/null
+"$3" "$checks/check_binaries.py" 1 "$prefix"
 cd "$prefix"
 bin/greatx --version
 bin/greatx explain city --ticks 1 > explained  # no pipe: grep -q would close it early

@@ -54,7 +54,7 @@ def main():
 
     look(schema, False)
 
-    good = sorted(path for path in folder.glob("*.yaml") if path.name != "materials.yaml")
+    good = sorted(path for path in folder.rglob("*.yaml") if path.name != "materials.yaml")
     for path in good:
         for error in validator.iter_errors(yaml.load(path.read_text(), Core)):
             faults.append(f"{path.name}: refused: {error.json_path}: {error.message}")

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command line refuses and how; how a run that somebody or a limit stops ends.
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using greatx::apps::test::greatx;
+using greatx::apps::test::Outcome;
+using greatx::apps::test::read_file;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+void expect_refused(const std::string& arguments, const std::string& what) {
+  const Outcome outcome = greatx(arguments);
+  EXPECT_EQ(outcome.code, 1) << arguments;
+  EXPECT_THAT(outcome.err, StartsWith("greatx: error: " + what + "\n")) << arguments;
+  EXPECT_EQ(outcome.out, "") << arguments;
+}
+
+TEST(CommandLine, UnknownCommandsAreNamed) {
+  expect_refused("generat", "no command 'generat', did you mean 'generate'?");
+  expect_refused("generat city -o /nonexistent/x", "no command 'generat', did you mean 'generate'?");
+  expect_refused("scene citi", "no command 'scene citi', did you mean 'city'?");
+  EXPECT_THAT(greatx("simulate").err,
+              StartsWith("greatx: error: no command 'simulate'; there are info, generate,"));
+  EXPECT_THAT(greatx("").err, StartsWith("greatx: error: expected a command (info, generate,"));
+  EXPECT_THAT(greatx("scene").err, StartsWith("greatx: error: expected a command (city, "));
+  EXPECT_EQ(greatx("scene --help").code, 0);
+}
+
+TEST(CommandLine, NumbersAreReadStrictly) {
+  const std::string natural = "expected an integer from 0 to 18446744073709551615, found";
+  expect_refused("explain --seed=-1", "--seed: " + natural + " '-1'");
+  expect_refused("explain --seed=18446744073709551616", "--seed: " + natural + " '18446744073709551616'");
+  expect_refused("explain --seed=0x10", "--seed: " + natural + " '0x10'");
+  expect_refused("explain --seed 1e3", "--seed: " + natural + " '1e3'");
+  expect_refused("explain --seed ''", "--seed: " + natural + " ''");
+  expect_refused("explain --ticks 0", "--ticks: expected an integer from 1 to 1000000000000, found '0'");
+  expect_refused("explain --ticks=-5", "--ticks: expected an integer from 1 to 1000000000000, found '-5'");
+  expect_refused("explain --sequences 4294967297",
+                 "--sequences: expected an integer from 1 to 1000000, found '4294967297'");
+  expect_refused("paths --within nan", "--within: expected a finite number, found 'nan'");
+  expect_refused("paths --within=-1", "--within: expected a number of 0 or more, found '-1'");
+  expect_refused("map -o /nonexistent/x --min 0 inf", "--min: expected a finite number, found 'inf'");
+  expect_refused("map -o /nonexistent/x --min 0 1e300",
+                 "--min: expected a number from -100000000 to 100000000, found '1e300'");
+  expect_refused("scene city --size 1e999", "--size: expected a finite number, found '1e999'");
+}
+
+/// No option of a number takes -2^64 + 1, which CLI11 would wrap to 1, nor a word.
+TEST(CommandLine, EveryUnsignedOptionRefusesWhatWraps) {
+  size_t options = 0;
+  for (const char* command : {"info", "generate x", "inspect x", "verify x", "scene city", "scene import x",
+                              "scene info x", "explain", "paths", "map", "bench"}) {
+    const std::string help =
+        greatx(std::string(command).substr(0, std::string(command).find(" x")) + " --help").out;
+    for (size_t at = help.find("UINT"); at != std::string::npos; at = help.find("UINT", at + 1)) {
+      const size_t line = help.rfind('\n', at) + 1, name = help.find("--", line);
+      ASSERT_LT(name, at) << help;
+      const std::string option = help.substr(name, help.find_first_of(" ,", name) - name);
+      const Outcome outcome = greatx(fmt::format("{} {}=-18446744073709551615", command, option));
+      EXPECT_EQ(outcome.code, 1) << command << ' ' << option;
+      EXPECT_THAT(outcome.err, StartsWith("greatx: error: " + option + ": expected an integer")) << command;
+      ++options;
+    }
+  }
+  EXPECT_GT(options, 25u);
+}
+
+TEST(CommandLine, LeadingZerosAreDecimal) {
+  const greatx::test::TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  for (const char* seed : {"10", "010", "+10"})
+    ASSERT_EQ(greatx(fmt::format("scene canyon --size 60 --seed {} -o {}/{}.glb", seed, path, seed)).code, 0);
+  EXPECT_EQ(read_file(path + "/010.glb"), read_file(path + "/10.glb"));
+  EXPECT_EQ(read_file(path + "/+10.glb"), read_file(path + "/10.glb"));
+}
+
+// ------------------------------------------------------------------------------------------------ what stops a run
+
+constexpr const char* long_scenario = R"(greatx: 1
+name: long
+ticks: 5000
+tick_rate_hz: 10
+scene: {generate: {kind: room}}
+nodes:
+  - name: uav
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [1, 1, 1]}, {t_s: 500, position_m: [2, 2, 2]}]}
+    sensors: [{name: camera, type: camera, rate_hz: 10, width: 32, height: 24, fov_deg: 90}]
+)";
+
+class Stopped : public testing::Test {
+ protected:
+  void SetUp() override { std::ofstream(folder_ / "long.yaml") << long_scenario; }
+  /// Runs `arguments` in the background, waits for `file` of the folder, sends the signal, waits for the end.
+  int stop(std::vector<std::string> arguments, const std::string& file, int signal) const {
+    arguments.insert(arguments.begin(), "greatx");
+    const pid_t child = fork();
+    if (child == 0) {
+      std::vector<char*> raw;
+      for (std::string& argument : arguments) raw.push_back(argument.data());
+      raw.push_back(nullptr);
+      const bool redirected = std::freopen((folder_ / "out").c_str(), "w", stdout) != nullptr &&
+                              std::freopen((folder_ / "err").c_str(), "w", stderr) != nullptr;
+      if (redirected) execv(GREATX_PROGRAM, raw.data());
+      _exit(127);
+    }
+    for (int i = 0; i < 6000 && !fs::exists(folder_ / file); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_TRUE(fs::exists(folder_ / file)) << read_file(folder_ / "err");
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  greatx::test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+};
+
+TEST_F(Stopped, ARunSaysHowToGoOnAndWhatThereIs) {
+  const std::string data = (folder_ / "data").string();
+  const std::vector<std::string> arguments{"generate", (folder_ / "long.yaml").string(), "-o", data,
+                                           "--json"};
+  ASSERT_EQ(stop(arguments, "data/sequence_0000/uav/camera/rgb/000004.png", SIGINT), 130)
+      << read_file(folder_ / "err");
+  EXPECT_THAT(read_file(folder_ / "err"),
+              testing::ContainsRegex("greatx: interrupted: .*data: complete up to tick [0-9]+ of 5000 in "
+                                     "sequence 1 of 1; the same command with --resume goes on\n"));
+  const auto summary = nlohmann::json::parse(read_file(folder_ / "out"));
+  EXPECT_EQ(summary["finished"], false);
+  int64_t files = 0;
+  uint64_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(data))
+    if (entry.is_regular_file()) ++files, bytes += entry.file_size();
+  EXPECT_EQ(summary["files"], files);
+  EXPECT_EQ(summary["bytes"], bytes);
+  EXPECT_GT(bytes, 1000u);
+}
+
+/// A limit of the shell's is met by a write, whichever command makes it.
+TEST_F(Stopped, AFileSizeLimitIsAnErrorByName) {
+  const std::string data = (folder_ / "data").string(), glb = (folder_ / "city.glb").string();
+  const Outcome run =
+      greatx(fmt::format("generate {} --ticks 400 -o {} -q", (folder_ / "long.yaml").string(), data),
+             "ulimit -f 20;");
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("cannot be written: File too large"));
+  EXPECT_THAT(run.err, HasSubstr("--resume finishes it"));
+  const Outcome scene = greatx(fmt::format("scene city -o {}", glb), "ulimit -f 100;");
+  EXPECT_EQ(scene.code, 1) << scene.err;
+  EXPECT_THAT(scene.err, HasSubstr(glb + ": cannot be written"));
+  const Outcome printed = greatx("explain city --json", "ulimit -f 1;");
+  EXPECT_EQ(printed.code, 1);
+  EXPECT_THAT(printed.err, HasSubstr("standard output: cannot be written"));
+}
+
+}  // namespace
