@@ -130,7 +130,10 @@ void JsonDocument::fail(const Json* value, std::string_view member, std::string_
   uint64_t number = 0;
   std::string name;
   locate(*root_, value, number, name);
-  if (!member.empty()) name += (name.empty() ? "" : ".") + std::string(member);
+  if (!member.empty()) {
+    if (!name.empty()) name += '.';
+    name += member;
+  }
   const SourceLocation place{where_.file, where_.line > 0 ? where_.line + line_of_value(number) : 0};
   throw_user_error_at(place, "{}{}expected {}, found {}", plain_text(name), name.empty() ? "" : ": ",
                       expected, found);

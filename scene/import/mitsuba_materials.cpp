@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "scene/material.h"
 
 namespace greatx::scene {
