@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 
 from case import OUTSIDE, Case, Entry, Raw, sign_manifest
 import pictures
-import seeds
 
 DEEP = 100000
 

@@ -29,7 +29,8 @@ class Raw:
 
 def to_bytes(text: str) -> bytes:
     """Lone surrogates \\udc80 to \\udcff become the bytes 0x80 to 0xff: so does text that is no UTF-8 come about."""
-    return text.encode("utf-8", "surrogateescape" if all(not 0xD800 <= ord(c) < 0xDC80 for c in text) else "surrogatepass")
+    return text.encode(
+        "utf-8", "surrogateescape" if all(not 0xD800 <= ord(c) < 0xDC80 for c in text) else "surrogatepass")
 
 
 def json_text(tree, indent=None) -> str:
@@ -57,13 +58,16 @@ def yaml_text(tree, depth=0) -> str:
     if isinstance(tree, dict) and tree:
         lines = []
         for key, value in tree.items():
-            nested = (isinstance(value, dict) and value) or (isinstance(value, list) and any(isinstance(v, dict) for v in value))
-            lines.append(f"{indent}{yaml_key(key)}:" + ("\n" + yaml_text(value, depth + 1) if nested else f" {json_text(value)}\n"))
+            nested = (isinstance(value, dict) and value) or (isinstance(value, list) and
+                                                             any(isinstance(v, dict) for v in value))
+            lines.append(f"{indent}{yaml_key(key)}:" +
+                         ("\n" + yaml_text(value, depth + 1) if nested else f" {json_text(value)}\n"))
         return "".join(lines)
     if isinstance(tree, list) and any(isinstance(value, dict) for value in tree):
         lines = []
         for value in tree:
-            block = yaml_text(value, depth + 1) if isinstance(value, dict) and value else f"{indent}  {json_text(value)}\n"
+            block = yaml_text(value, depth +
+                              1) if isinstance(value, dict) and value else f"{indent}  {json_text(value)}\n"
             lines.append(f"{indent}- {block[len(indent) + 2:]}")
         return "".join(lines)
     return f"{indent}{json_text(tree)}\n"
@@ -87,7 +91,8 @@ def journal_bytes(lines: list) -> bytes:
     """A journal as the program writes it: each line with its CRC-32."""
     text = b""
     for line in lines:
-        body = to_bytes(line.text if isinstance(line, Raw) else json_text(line).replace(", ", ",").replace(": ", ":"))
+        body = to_bytes(
+            line.text if isinstance(line, Raw) else json_text(line).replace(", ", ",").replace(": ", ":"))
         text += body + b"\t%08x\n" % zlib.crc32(body)
     return text
 
@@ -162,7 +167,10 @@ class Case:
             else:
                 record["zlib_base64"] = base64.b64encode(zlib.compress(content, 9)).decode()
             files[name.encode("utf-8", "surrogatepass").decode("latin-1")] = record
-        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self) if field.name != "files"}
+        fields = {
+            field.name: getattr(self, field.name) for field in dataclasses.fields(self)
+            if field.name != "files"
+        }
         return json.dumps({**fields, "files": files}, indent=1) + "\n"
 
     @staticmethod
@@ -174,13 +182,15 @@ class Case:
                 data = "".join(record["text"]).encode("utf-8")
             else:
                 data = zlib.decompress(base64.b64decode(record["zlib_base64"]))
-            files[name.encode("latin-1").decode("utf-8", "surrogatepass")] = Entry(record.get("type", "file"), data)
+            files[name.encode("latin-1").decode("utf-8",
+                                                "surrogatepass")] = Entry(record.get("type", "file"), data)
         return Case(files=files, **fields)
 
     def copy(self) -> "Case":
         """Trees are shared until a mutator replaces them: it copies first."""
         files = {name: dataclasses.replace(entry) for name, entry in self.files.items()}
-        return dataclasses.replace(self, files=files, done=list(self.done), command=list(self.command), env=dict(self.env))
+        return dataclasses.replace(self, files=files, done=list(self.done), command=list(self.command),
+                                   env=dict(self.env))
 
 
 def sign_manifest(case: Case, root: str) -> bool:
@@ -195,7 +205,7 @@ def sign_manifest(case: Case, root: str) -> bool:
             if listed is not None and listed.type == "file":
                 content = listed.content()
                 file["size"], file["sha256"] = len(content), hashlib.sha256(content).hexdigest()
-    except (ValueError, TypeError, KeyError):
+    except (ValueError, TypeError, KeyError, RecursionError):
         return False
     case.files[f"{root}/manifest.json"] = Entry(data=json.dumps(manifest, indent=1).encode())
     return True
