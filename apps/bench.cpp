@@ -18,9 +18,9 @@
 #include "apps/commands.h"
 #include "apps/json_text.h"
 #include "apps/progress.h"
-#include "apps/watch.h"
 #include "apps/session.h"
 #include "apps/summary.h"
+#include "apps/watch.h"
 #include "io/dataset_writer.h"
 #include "sim/simulator.h"
 

@@ -65,7 +65,8 @@ std::string progress_line(const std::string& what, double share, double seconds)
   if (share < 0.0) return fmt::format("\r{}  {}   ", what, duration(seconds));
   constexpr int width = 30;
   const int filled = static_cast<int>(width * share);
-  const std::string left = share > 0.0 ? fmt::format(", {} left", duration(seconds * (1.0 - share) / share)) : "";
+  const std::string left =
+      share > 0.0 ? fmt::format(", {} left", duration(seconds * (1.0 - share) / share)) : "";
   return fmt::format("\r{} [{}{}] about {:.0f} %{}   ", what, std::string(filled, '#'),
                      std::string(width - filled, ' '), 100.0 * share, left);
 }

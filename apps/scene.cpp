@@ -82,8 +82,9 @@ std::string describe(const std::optional<scene::RadioMaterial>& radio) {
   if (radio->foliage) return "foliage, Weissberger's model";
   std::vector<std::string> layers;
   for (const scene::RadioLayer& layer : radio->layers)
-    layers.push_back(layer.thickness_m > 0.0 ? fmt::format("{}, {:g} m", layer.medium.source, layer.thickness_m)
-                                             : layer.medium.source + ", half-space");
+    layers.push_back(layer.thickness_m > 0.0
+                         ? fmt::format("{}, {:g} m", layer.medium.source, layer.thickness_m)
+                         : layer.medium.source + ", half-space");
   return fmt::format("{}", fmt::join(layers, " | "));
 }
 

@@ -279,8 +279,9 @@ class Simulation:
         """Every path of a channel (None: the only one) at a tick, from all transmitters to all receivers.
 
         receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers, each with `array`
-                          (by default one isotropic, vertical element) turned by orientation_deg. A point has the paths that
-                          an antenna there would have, to the bit, whichever others there are; the search from the
+                          (by default one isotropic, vertical element) turned by orientation_deg. The points have the paths
+                          that antennas there would have, to the bit; of other points a path depends only in so far as the
+                          farthest one decides which effects of the air matter (docs/paths.md). The search from the
                           transmitters is done once and kept for further calls.
         progress          called now and then with the number of receivers that are done
         """

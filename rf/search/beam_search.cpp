@@ -220,8 +220,8 @@ void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
 /// level are [level, level_end), `expanded` of all are done.
 double Tree::expected_nodes(size_t expanded, size_t level, size_t level_end, uint32_t depth) const {
   const auto of_level = static_cast<double>(level_end - level);
-  const double growth =
-      static_cast<double>(nodes_.size() - level_end) / static_cast<double>(std::max<size_t>(1, expanded - level));
+  const double growth = static_cast<double>(nodes_.size() - level_end) /
+                        static_cast<double>(std::max<size_t>(1, expanded - level));
   double expected = static_cast<double>(level_end), next = of_level;
   for (uint32_t more = depth + 1; more < std::min(options_.max_depth, options_.stop_depth); ++more)
     expected += next *= growth;

@@ -59,7 +59,8 @@ class Descriptor {
 class Draft {
  public:
   explicit Draft(fs::path file)
-      : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {}
+      : file_(std::move(file)),
+        descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644)) {}
   ~Draft() {
     if (descriptor_ && !placed_) ::unlink(file_.c_str());
   }
@@ -244,7 +245,8 @@ uint64_t most_bytes_by_environment() {
   uint64_t mib = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mib);
   if (error != std::errc{} || end != text.data() + text.size() || mib == 0 || mib > most_mib)
-    throw_user_error("GREATX_CACHE_MIB: expected a whole number of MiB from 1 to {}, found '{}'", most_mib, text);
+    throw_user_error("GREATX_CACHE_MIB: expected a whole number of MiB from 1 to {}, found '{}'", most_mib,
+                     text);
   return mib << 20;
 }
 
@@ -305,9 +307,11 @@ void SearchCache::store(const std::string& key, const BeamSearchResult& result) 
   static std::atomic<uint32_t> number{0};
   // Of several hosts or containers that share the folder, too: who comes second to a name takes none.
   Draft draft(folder_ / fmt::format("{}.{}.{}.{:x}{}", key, ::getpid(), number++,
-                                    std::chrono::steady_clock::now().time_since_epoch().count(), draft_ending));
+                                    std::chrono::steady_clock::now().time_since_epoch().count(),
+                                    draft_ending));
   const auto write_all = [&] {
-    for (std::string_view rest = body; !rest.empty(); rest.remove_prefix(std::min(rest.size(), chunk_bytes))) {
+    for (std::string_view rest = body; !rest.empty();
+         rest.remove_prefix(std::min(rest.size(), chunk_bytes))) {
       checkpoint();
       if (!draft.write(rest.substr(0, chunk_bytes))) return false;
     }

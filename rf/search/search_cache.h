@@ -21,9 +21,8 @@ namespace greatx::rf {
 /// body 0 that waves meet (numbers, shapes, kinds), their wedges, the source's 64-bit coordinates, every option but the
 /// number of threads, and the version of the search itself. Bodies that move, materials' values and what crowns look like
 /// are not in it. Not for searches among moving bodies.
-std::string search_key(const FacetWorld& world, const FacetKinds& kinds,
-                       std::span<const scene::Wedge> wedges, const dvec3& source,
-                       const BeamSearchOptions& options);
+std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
+                       const dvec3& source, const BeamSearchOptions& options);
 
 /// What the numbers in a result may refer to.
 struct SearchExtent {

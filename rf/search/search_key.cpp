@@ -53,9 +53,8 @@ void add_facet(const FacetWorld& world, uint32_t index, FacetKind kind, Numbers&
 
 }  // namespace
 
-std::string search_key(const FacetWorld& world, const FacetKinds& kinds,
-                       std::span<const scene::Wedge> wedges, const dvec3& source,
-                       const BeamSearchOptions& options) {
+std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
+                       const dvec3& source, const BeamSearchOptions& options) {
   // By name, so that a new option is a compiler's error here until it is decided whether it changes the result.
   const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
                stop_depth] = options;

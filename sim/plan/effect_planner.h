@@ -42,7 +42,7 @@ class Planner {
 };
 
 /// The radio part of the plan (sim/plan/radio_plan.cpp); `points` as make_effect_plan()'s.
-void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
-                const scene::Scene& scene, const scene::Bounds& points);
+void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const scene::Scene& scene,
+                const scene::Bounds& points);
 
 }  // namespace greatx::sim

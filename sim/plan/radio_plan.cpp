@@ -323,17 +323,16 @@ rf::Weather weather_of(const Environment& environment) {
   return weather;
 }
 
-void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
-                const scene::Scene& scene, const scene::Bounds& points) {
+void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const scene::Scene& scene,
+                const scene::Bounds& points) {
   const Asks asks = asks_of(scenario);
   const Surfaces surfaces = surfaces_of(scene, asks);
   const Radio radio{planner, asks, surfaces};
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);
   plan_on_request(plan, radio);
-  plan_attenuation(
-      plan, radio, scenario,
-      longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points));
+  plan_attenuation(plan, radio, scenario,
+                   longest_path_m(scenario, scene, asks.max_depth, plan.moving_reflectors.on, points));
   plan_doppler(plan, radio);
   plan_arrays(plan, planner, scenario);
 }

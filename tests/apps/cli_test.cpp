@@ -249,8 +249,8 @@ TEST_F(Cli, ScenesAreWrittenAndDescribed) {
 }
 
 TEST_F(Cli, SceneInfoSaysWhatMaterialsAre) {
-  ASSERT_EQ(greatx(fmt::format("scene canyon --size 60 -o {}", path("canyon.glb"))).code, 0);
-  const Outcome described = greatx("scene info " + path("canyon.glb"));
+  ASSERT_EQ(greatx(fmt::format("scene city --size 120 -o {}", path("city.glb"))).code, 0);
+  const Outcome described = greatx("scene info " + path("city.glb"));
   ASSERT_EQ(described.code, 0) << described.err;
   std::istringstream lines(described.out);
   std::map<std::string, std::string> materials;

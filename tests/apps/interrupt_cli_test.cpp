@@ -115,7 +115,8 @@ TEST_F(InterruptCli, WithoutATerminalNothingIsShown) {
     execl(GREATX_PROGRAM, "greatx", "paths", "long.yaml", nullptr);
     _exit(127);
   }
-  while (read_file(err).find("searching") == std::string::npos && waitpid(child, nullptr, WNOHANG) == 0) usleep(5000);
+  while (read_file(err).find("searching") == std::string::npos && waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(5000);
   usleep(1'500'000);  // longer than a search goes without a line on a terminal
   kill(child, SIGTERM);
   int status = 0;

@@ -276,6 +276,71 @@ TEST_F(PathsCli, ResponsesAreThoseOfARunAndOfNodesPutThere) {
   EXPECT_EQ(paths("-q --receiver 0 --cfr " + path("one.npy")).code, 1);
 }
 
+TEST_F(PathsCli, ThePointsOfACallDecideWhatTheAirDoes) {
+  const auto empty = [&](const std::string& name, const std::string& where) {
+    write(
+        name,
+        fmt::format(
+            "greatx: 1\nname: empty\nticks: 1\nnodes:\n"
+            "  - {{name: bs, trajectory: {{type: static, position_m: [0, 0, 20]}}, sensors: [{{name: a, "
+            "type: "
+            "antenna}}]}}\n"
+            "  - {{name: ue, trajectory: {{type: static, position_m: {}}}, sensors: [{{name: a, type: "
+            "antenna}}]}}\n"
+            "channels: [{{name: csi, tx: bs/a, rx: [ue/a], rate_hz: 10, subcarriers: 4, bandwidth_hz: 20e6, "
+            "carrier_hz: 60e9, max_depth: 0}}]\n",
+            where));
+    return path(name);
+  };
+  const std::string near = empty("near.yaml", "[0.1, 0, 20]"), far = empty("far.yaml", "[1000, 0, 20]");
+  write("points.csv", "0.1,0,20\n1000,0,20\n");
+  const auto json_of = [](const std::string& arguments) {
+    const Outcome outcome = greatx("paths --json " + arguments, "GREATX_CACHE=off");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(outcome.out);
+  };
+  const json node = json_of(far),
+             points = json_of(fmt::format("{} --receivers {}", near, path("points.csv")));
+  EXPECT_EQ(json_of(near)["effects"]["gas"]["on"], false);
+  EXPECT_EQ(points["effects"]["gas"]["on"], true);
+  EXPECT_EQ(points["receivers"][1]["paths"], node["receivers"][0]["paths"]);
+  // One of the list is what it is in the list.
+  const json one = json_of(fmt::format("{} --receivers {} --receiver 0", near, path("points.csv")));
+  EXPECT_EQ(one["receivers"][0], points["receivers"][0]);
+  const Outcome map = greatx(
+      fmt::format("map {} -o {} --plane 20 --min 995 -5 --max 1005 5 --cell 10 --beyond-scene --no-pictures",
+                  near, path("map")),
+      "GREATX_CACHE=off");
+  ASSERT_EQ(map.code, 0) << map.err;
+  EXPECT_EQ(json::parse(read_file(path("map/map.json")))["request"]["effects"]["gas"], true);
+}
+
+TEST_F(PathsCli, WhatIsNoFileOfTheCacheIsWarnedOf) {
+  const fs::path cache = folder_ / "cache";
+  const auto run = [&] {
+    return greatx("paths --brief " + path("flat.yaml"), "GREATX_CACHE=" + cache.string());
+  };
+  ASSERT_EQ(run().code, 0);
+  ASSERT_EQ(std::distance(fs::directory_iterator(cache), fs::directory_iterator()), 1);
+  const fs::path entry = fs::directory_iterator(cache)->path();
+  fs::remove(entry);
+  fs::create_directories(entry / "inner");
+  const Outcome blocked = run();
+  EXPECT_EQ(blocked.code, 0) << blocked.err;
+  EXPECT_THAT(blocked.err, HasSubstr(entry.filename().string() + ": a folder, not a file; searching again"));
+  EXPECT_THAT(blocked.err, HasSubstr("candidates are not kept"));
+  fs::remove_all(entry);
+  write("cache/" + entry.filename().string(), "nonsense");
+  const Outcome damaged = run();
+  EXPECT_EQ(damaged.code, 0);
+  EXPECT_THAT(damaged.err, HasSubstr("damaged"));
+  EXPECT_EQ(run().err, "") << "replaced";
+  const Outcome limit =
+      greatx("paths " + path("flat.yaml"), "GREATX_CACHE_MIB=some GREATX_CACHE=" + cache.string());
+  EXPECT_EQ(limit.code, 1);
+  EXPECT_THAT(limit.err, HasSubstr("GREATX_CACHE_MIB: expected a whole number of MiB"));
+}
+
 TEST_F(PathsCli, TakesOneOfSeveralTransmitters) {
   std::string text = scenario;
   const std::string one = "name: csi, tx: bs/panel, rx: [uav/antenna]";

@@ -271,7 +271,8 @@ TEST_F(SearchCacheTest, SeveralProcessesShareAFolder) {
 
 TEST_F(SearchCacheTest, TheLimitIsTheEnvironments) {
   const char* value = std::getenv("GREATX_CACHE_MIB");
-  const std::optional<std::string> before = value == nullptr ? std::nullopt : std::optional<std::string>(value);
+  const std::optional<std::string> before =
+      value == nullptr ? std::nullopt : std::optional<std::string>(value);
   unsetenv("GREATX_CACHE_MIB");
   EXPECT_EQ(SearchCache::standard().most_bytes(), 512u << 20);
   setenv("GREATX_CACHE_MIB", "7", 1);
