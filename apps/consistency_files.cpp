@@ -174,8 +174,7 @@ std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, 
     begin = end + 1;
     if (++number == 1) {
       if (line != header)
-        throw_user_error("{}:1: expected '{}', found '{}'", name, header,
-                         io::plain_text(std::string_view(line).substr(0, 200)));
+        throw_user_error("{}:1: expected '{}', found '{}'", name, header, line.substr(0, 200));
       continue;
     }
     const std::vector<std::string> fields = split(line);
@@ -186,7 +185,7 @@ std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, 
                                  fields[0] == sim::radar_figure);
     if (!known)
       throw_user_error("{}:{}: expected a figure's line ({}), found '{}'", name, number, header,
-                       io::plain_text(std::string_view(line).substr(0, 200)));
+                       line.substr(0, 200));
     row.figure = fields[0];
     row.sensor = fields[3];
     row.other = fields[4];

@@ -50,7 +50,11 @@ Animation::Animation(const DatasetReader& reader, size_t frames, uint32_t sequen
   if (frames == 0) throw_user_error("animation: expected 1 frame or more, found 0");
   check_has_records(reader, sequence);
   moments_ = choose_moments(reader, sequence, frames);
-  playback_ = playback_of(moments_);
+  try {
+    playback_ = playback_of(moments_);
+  } catch (const UserError& error) {
+    throw_user_error("{}: {}", (reader.folder() / sequence_folder(sequence)).string(), error.what());
+  }
   choose_panels(reader, sequence);
   draw_background(summarize(reader).title);
 }

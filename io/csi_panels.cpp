@@ -45,7 +45,7 @@ struct Link {
   std::vector<std::vector<std::complex<float>>> columns;  ///< [time][subcarrier]
 
   explicit Link(const PanelSource& source) : sensor(source.spec().name) {
-    spacing_hz = number_of(metadata_of(source.spec()), "subcarrier_spacing_hz", 1.0, 1e-6, 1e15);
+    spacing_hz = number_of(metadata_of(source), "subcarrier_spacing_hz", 1.0, 1e-6, 1e15);
     const std::vector<IndexRow> rows = source.reader.records_of(source.sequence, source.sensor);
     if (rows.empty()) return;
     first_time_s = 1e-9 * static_cast<double>(rows.front().time_ns);

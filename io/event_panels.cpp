@@ -23,8 +23,12 @@ class EventPanel : public FramePanel {
                 y = source_.load(record, "y", {DType::u16}, {-1}),
                 p = source_.load(record, "p", {DType::u8}, {-1});
     expect_same_rows(source_, {&x, &y, &p});
-    canvas.picture(picture,
-                   event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
+    try {
+      canvas.picture(picture,
+                     event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
+    } catch (const UserError& error) {
+      throw_user_error("{}, tick {}: {}", source_.place(), record.tick, error.what());
+    }
     const size_t count = p.as<uint8_t>().size();
     const auto on = static_cast<size_t>(std::count(p.as<uint8_t>().begin(), p.as<uint8_t>().end(), 1));
     std::string text = fmt::format("ON {} OFF {}", on, count - on);
@@ -86,7 +90,7 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 }
 
 void add_event_panels(const PanelSource& source, Panels& panels) {
-  const JsonDocument metadata = metadata_of(source.spec());
+  const JsonDocument metadata = metadata_of(source);
   const JsonValue root = metadata.root();
   constexpr int64_t longest_side = 16384;
   if (root.has("width") && root.has("height") && source.has("x") && source.has("y") && source.has("p"))

@@ -32,10 +32,10 @@ const char* kind_of_file(mode_t mode) {
                           : "a device";
 }
 
-void File::expect_plain() const {
+void File::expect_plain(bool or_device) const {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) throw_user_error("{}: {}", path_.string(), reason(errno));
-  if (!S_ISREG(status.st_mode))
+  if (!S_ISREG(status.st_mode) && !(or_device && S_ISCHR(status.st_mode)))
     throw_user_error("{}: expected a file, found {}", path_.string(), kind_of_file(status.st_mode));
 }
 
@@ -53,7 +53,7 @@ File File::open_for_writing(const std::filesystem::path& path) {
     throw_user_error("{}: expected a file to write, found a symbolic link", path.string());
   if (descriptor < 0) throw WriteError(path, errno);
   File file(path, descriptor);
-  file.expect_plain();
+  file.expect_plain(true);
   return file;
 }
 

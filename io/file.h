@@ -34,8 +34,8 @@ class File {
   File() = default;
   /// For reading. Throws UserError, also for what is no plain file: a FIFO would have to be waited for.
   static File open_for_reading(const std::filesystem::path& path);
-  /// For reading and writing, created if missing, kept if there. Throws WriteError; UserError for what is no plain file or a
-  /// symbolic link, which nothing is written through.
+  /// For reading and writing, created if missing, kept if there. Throws WriteError; UserError for a symbolic
+  /// link, which nothing is written through, and for what is neither a plain file nor a device (/dev/full, /dev/null).
   static File open_for_writing(const std::filesystem::path& path);
   ~File();
   File(File&& other) noexcept;
@@ -57,7 +57,7 @@ class File {
 
  private:
   File(std::filesystem::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
-  void expect_plain() const;
+  void expect_plain(bool or_device = false) const;
   std::filesystem::path path_;
   int descriptor_ = -1;
 };

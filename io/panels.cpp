@@ -26,8 +26,8 @@ constexpr double farthest_m = 1e12;
 constexpr size_t most_nodes = 1'000'000;
 
 /// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
-Pose mount_of(const SensorSpec& sensor) {
-  const JsonDocument metadata = metadata_of(sensor);
+Pose mount_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
   Pose mount;
   if (!metadata.root().has("body_from_sensor")) return mount;
   const JsonValue json = metadata.root().at("body_from_sensor");
@@ -65,7 +65,7 @@ Array PanelSource::load(const IndexRow& row, const std::string& array, const std
     std::vector<std::string> names, axes;
     for (const DType type : types) names.emplace_back(numpy_name(type));
     for (const int64_t extent : shape) axes.push_back(extent > 0 ? std::to_string(extent) : "n");
-    throw_user_error("{}: {}: expected an array {} of {} [{}], found {}", dataset_file, spec().name, array,
+    throw_user_error("{}: expected an array {} of {} [{}], found {}", place(), array,
                      fmt::join(names, " or "), fmt::join(axes, ", "),
                      declared == arrays.end() ? "none"
                                               : fmt::format("{} [{}]", numpy_name(declared->dtype),
@@ -73,14 +73,19 @@ Array PanelSource::load(const IndexRow& row, const std::string& array, const std
   }
   Array loaded = reader.load(sequence, row, array);
   if (const std::string bad = find_bad_value(spec(), *declared, loaded); !bad.empty())
-    throw_user_error("{}: {}, tick {}: expected finite values, found {}", sequence_folder(sequence),
-                     spec().name, row.tick, bad);
+    throw_user_error("{}, tick {}: expected finite values, found {}", place(), row.tick, bad);
   return loaded;
 }
 
-JsonDocument metadata_of(const SensorSpec& sensor) {
-  return JsonDocument(sensor.metadata_json.empty() ? "{}" : sensor.metadata_json,
-                      {fmt::format("{}: {}: metadata", dataset_file, sensor.name), 0});
+std::string PanelSource::place() const {
+  return (reader.folder() / sequence_folder(sequence) / spec().name).string();
+}
+
+JsonDocument metadata_of(const PanelSource& source) {
+  const SensorSpec& sensor = source.spec();
+  return JsonDocument(
+      sensor.metadata_json.empty() ? "{}" : sensor.metadata_json,
+      {fmt::format("{}: {}: metadata", (source.reader.folder() / dataset_file).string(), sensor.name), 0});
 }
 
 double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most) {
@@ -90,9 +95,8 @@ double number_of(const JsonDocument& metadata, const char* key, double otherwise
 void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays) {
   for (const Array* array : arrays)
     if (array->shape[0] != (*arrays.begin())->shape[0])
-      throw_user_error("{}: {}: expected arrays of as many rows, found {} and {}",
-                       sequence_folder(source.sequence), source.spec().name, (*arrays.begin())->shape[0],
-                       array->shape[0]);
+      throw_user_error("{}: expected arrays of as many rows, found {} and {}", source.place(),
+                       (*arrays.begin())->shape[0], array->shape[0]);
 }
 
 void add_panels(const PanelSource& source, Panels& panels) {
@@ -105,7 +109,7 @@ bool has_frame_panels(std::string_view kind) {
                      [&](const Maker& maker) { return maker.kind == kind && maker.frames; });
 }
 
-std::vector<std::string> node_names(const SensorSpec& pose) {
+std::vector<std::string> node_names(const PanelSource& pose) {
   const JsonDocument metadata = metadata_of(pose);
   std::vector<std::string> names;
   if (!metadata.root().has("nodes")) return names;
@@ -123,7 +127,8 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
     return s.kind == "pose" && has(s, "position") && has(s, "orientation");
   });
   if (pose == sensors.end()) return std::nullopt;
-  const std::vector<std::string> names = node_names(*pose);
+  const PanelSource poses{source.reader, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
+  const std::vector<std::string> names = node_names(poses);
   const std::string node = source.spec().name.substr(0, source.spec().name.find('/'));
   const auto found = std::find(names.begin(), names.end(), node);
   if (found == names.end()) return std::nullopt;
@@ -133,16 +138,15 @@ std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow&
       std::find_if(rows.begin(), rows.end(), [&](const IndexRow& r) { return r.tick == row.tick; });
   if (at == rows.end()) return std::nullopt;
   const auto number = static_cast<size_t>(found - names.begin());
-  const PanelSource poses{source.reader, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
   const Array positions = poses.load(*at, "position", {DType::f64}, {0, 3});
   const Array orientations = poses.load(*at, "orientation", {DType::f64}, {0, 4});
   expect_same_rows(poses, {&positions, &orientations});
   if (number >= static_cast<size_t>(positions.shape[0]))
-    throw_user_error("{}: {}: expected poses of {} nodes, found {}", dataset_file, pose->name, names.size(),
+    throw_user_error("{}: expected poses of {} nodes, found {}", poses.place(), names.size(),
                      positions.shape[0]);
   const std::span<const double> p = positions.as<double>().subspan(3 * number, 3);
   const std::span<const double> q = orientations.as<double>().subspan(4 * number, 4);
-  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source.spec());
+  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source);
 }
 
 }  // namespace greatx::io

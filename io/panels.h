@@ -28,6 +28,8 @@ struct PanelSource {
   std::vector<IndexRow> chosen;
   const SensorSpec& spec() const { return reader.sensors()[sensor]; }
   bool has(std::string_view array) const;
+  /// "DIR/sequence_0000/SENSOR", as messages begin.
+  std::string place() const;
   /// An array as panels need it, whatever the data set makes of its name: of one of these types and this shape (-1: any
   /// extent, 0: any from 1 on), without numbers that must not be there. Throws UserError.
   Array load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
@@ -85,13 +87,13 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 /// A sensor's pose in the world at a record: that of its node from the "pose" sensor, times its mount
 /// ("body_from_sensor" of its metadata). Empty if the data set does not say.
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
-/// A sensor's metadata, in messages "dataset.json: SENSOR: metadata".
-JsonDocument metadata_of(const SensorSpec& sensor);
+/// A sensor's metadata, in messages "DIR/dataset.json: SENSOR: metadata".
+JsonDocument metadata_of(const PanelSource& source);
 /// A number of them if it is there. Throws UserError.
 double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most);
 /// Throws UserError unless all have as many rows.
 void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays);
 /// The names of the nodes of a "pose" sensor.
-std::vector<std::string> node_names(const SensorSpec& pose);
+std::vector<std::string> node_names(const PanelSource& pose);
 
 }  // namespace greatx::io

@@ -7,7 +7,6 @@
 
 #include <fmt/ranges.h>
 
-#include "io/untrusted_json.h"
 #include "io/vertex_rows.h"
 
 namespace greatx::io {
@@ -62,7 +61,7 @@ std::vector<VertexProperty> properties_of(const Header& header, const std::strin
     if (type == std::end(type_letters) || counts[i] != "1")
       throw_user_error(
           "{}: expected fields of one value of a known type, found {} of size {}, type {}, count {}", name,
-          plain_text(fields[i]), plain_text(sizes[i]), plain_text(types[i]), plain_text(counts[i]));
+          fields[i], sizes[i], types[i], counts[i]);
     properties.push_back({fields[i], type->dtype});
   }
   return properties;
@@ -105,8 +104,7 @@ std::map<std::string, Array> decode_pcd(std::span<const std::byte> file, const s
   const size_t stride = row_bytes(properties);
   const std::string& points = values_of(header, "POINTS", 1, name)[0];
   if (data.size() % stride != 0 || points != std::to_string(data.size() / stride))
-    throw_user_error("{}: expected {} points of {} bytes, found {} bytes", name, plain_text(points), stride,
-                     data.size());
+    throw_user_error("{}: expected {} points of {} bytes, found {} bytes", name, points, stride, data.size());
   return vertex_columns(properties, data.size() / stride, data);
 }
 

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <sstream>
 
-#include "io/untrusted_json.h"
 #include "io/vertex_rows.h"
 
 namespace greatx::io {
@@ -40,7 +39,7 @@ void parse_property(Header& header, const std::string& line, const std::string& 
     header.properties.push_back({property, candidate.dtype});
     return;
   }
-  throw_user_error("{}: expected a property of a PLY type, found \"{}\"", file, plain_text(line));
+  throw_user_error("{}: expected a property of a PLY type, found \"{}\"", file, line);
 }
 
 Header parse_header(std::string_view text, const std::string& file) {
@@ -60,8 +59,7 @@ Header parse_header(std::string_view text, const std::string& file) {
       parse_property(header, line, file);
       continue;
     }
-    throw_user_error("{}: expected one element vertex in binary little endian, found \"{}\"", file,
-                     plain_text(line));
+    throw_user_error("{}: expected one element vertex in binary little endian, found \"{}\"", file, line);
   }
   if (header.vertices < 0) throw_user_error("{}: expected an element vertex", file);
   return header;

@@ -14,7 +14,7 @@ constexpr size_t most_points = 2000;  ///< of one node's line
 /// Where the nodes go, seen from above, north up, the same scale on both axes.
 class TrajectoryPanel : public SeriesPanel {
  public:
-  explicit TrajectoryPanel(const PanelSource& source) : source_(source), names_(node_names(source.spec())) {
+  explicit TrajectoryPanel(const PanelSource& source) : source_(source), names_(node_names(source)) {
     const std::vector<IndexRow> rows = source.reader.records_of(source.sequence, source.sensor);
     const size_t step = std::max<size_t>(1, rows.size() / most_points);
     for (size_t i = 0; i < rows.size();

@@ -16,8 +16,8 @@ struct Axes {
   double range_bin_m = 1.0, velocity_min = -1.0, velocity_bin = 1.0, azimuth_min = -1.0, azimuth_max = 1.0;
 };
 
-Axes axes_of(const SensorSpec& spec) {
-  const JsonDocument metadata = metadata_of(spec);
+Axes axes_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
   Axes axes;
   axes.range_bin_m = number_of(metadata, "range_bin_m", axes.range_bin_m, 1e-6, 1e9);
   axes.velocity_min = number_of(metadata, "velocity_min_m_s", axes.velocity_min, -1e9, 1e9);
@@ -36,7 +36,7 @@ double dbm(float watt) { return watt > 0.0f ? 10.0 * std::log10(static_cast<doub
 /// Maps of all rows on one scale: from the noise's middle up to the strongest cell.
 class RadarPanel : public FramePanel {
  public:
-  RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source.spec())) {
+  RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source)) {
     double top = -400.0;
     std::vector<double> middles;
     for (const IndexRow& row : source_.chosen) {

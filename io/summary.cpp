@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "io/manifest.h"
-#include "io/untrusted_json.h"
 
 namespace greatx::io {
 
@@ -87,17 +87,17 @@ Summary summarize(const DatasetReader& reader) {
 
 std::string to_text(const Summary& summary) {
   // Names come from the data set: what reaches a terminal is printable.
-  std::string text = fmt::format("{}: {}{}\n", plain_text(summary.folder), plain_text(summary.title),
+  std::string text = fmt::format("{}: {}{}\n", printable(summary.folder), printable(summary.title),
                                  summary.finished ? "" : " (unfinished)");
   text += fmt::format("  {} of {} sequences, {} ticks of 1/{} s each ({:.4g} s), {} records",
                       summary.sequences_present, summary.sequences, summary.ticks_per_sequence,
                       summary.tick_rate_hz, summary.duration_s, summary.records);
   text += summary.finished ? fmt::format(", {} files, {}\n", summary.files, size_text(summary.bytes)) : "\n";
   for (const Summary::Sensor& sensor : summary.sensors) {
-    text += fmt::format("  {} ({}{}): {} records{}\n", plain_text(sensor.name), plain_text(sensor.kind),
+    text += fmt::format("  {} ({}{}): {} records{}\n", printable(sensor.name), printable(sensor.kind),
                         sensor.rate_hz.empty() ? "" : ", " + sensor.rate_hz + " Hz", sensor.records,
                         summary.finished ? ", " + size_text(sensor.bytes) : "");
-    for (const std::string& output : sensor.outputs) text += fmt::format("    {}\n", plain_text(output));
+    for (const std::string& output : sensor.outputs) text += fmt::format("    {}\n", printable(output));
   }
   return text;
 }

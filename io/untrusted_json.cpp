@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
+
 namespace greatx::io {
 
 using Json = nlohmann::ordered_json;
@@ -63,27 +65,19 @@ bool locate(const Json& value, const Json* wanted, uint64_t& number, std::string
   return false;
 }
 
-/// As ASCII without control characters.
 std::string excerpt(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return fmt::format("a list of {}", value.size());
   if (value.is_string()) {
     const auto& text = value.get_ref<const std::string&>();
     const size_t length = std::min(text.size(), longest_excerpt);
-    std::string shown = Json(text.substr(0, length)).dump(-1, ' ', true, Json::error_handler_t::replace);
+    std::string shown = Json(text.substr(0, length)).dump(-1, ' ', false, Json::error_handler_t::replace);
     return length < text.size() ? shown + "..." : shown;
   }
   return value.dump();
 }
 
 }  // namespace
-
-std::string plain_text(std::string_view text) {
-  std::string quoted = Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
-  for (size_t at = quoted.find('\x7f'); at != quoted.npos; at = quoted.find('\x7f', at))
-    quoted.replace(at, 1, "\\u007f");
-  return quoted.substr(1, quoted.size() - 2);
-}
 
 JsonDocument::JsonDocument(std::string text, const SourceLocation& where, const JsonLimits& limits)
     : text_(std::move(text)), where_(where) {
@@ -110,7 +104,7 @@ JsonDocument::JsonDocument(std::string text, const SourceLocation& where, const 
         error.what();  // "[json.exception...] parse error at line 1, column 2: what is wrong"
     if (const size_t colon = reason.find(": "); colon != reason.npos) reason = reason.substr(colon + 2);
     throw_user_error_at({where_.file, line(static_cast<int>(below))}, "is no JSON: {}",
-                        plain_text(std::string_view(reason).substr(0, 200)));
+                        printable(std::string_view(reason).substr(0, 200)));
   }
 }
 JsonDocument::~JsonDocument() = default;
@@ -135,8 +129,8 @@ void JsonDocument::fail(const Json* value, std::string_view member, std::string_
     name += member;
   }
   const SourceLocation place{where_.file, where_.line > 0 ? where_.line + line_of_value(number) : 0};
-  throw_user_error_at(place, "{}{}expected {}, found {}", plain_text(name), name.empty() ? "" : ": ",
-                      expected, found);
+  throw_user_error_at(place, "{}{}expected {}, found {}", printable(name), name.empty() ? "" : ": ", expected,
+                      found);
 }
 
 void JsonValue::fail(std::string_view expected) const {

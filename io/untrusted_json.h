@@ -23,9 +23,6 @@ struct JsonLimits {
   int depth = 64;
 };
 
-/// A text of unknown origin as printable ASCII: everything else is escaped, as JSON does it.
-std::string plain_text(std::string_view text);
-
 class JsonDocument;
 
 /// A value of a JsonDocument, valid as long as that. Every getter throws UserError: "FILE:LINE: sensors[0].name: expected a

@@ -6,11 +6,11 @@
 #include <map>
 #include <set>
 
+#include "core/text.h"
 #include "io/dataset_reader.h"
 #include "io/inside.h"
 #include "io/manifest.h"
 #include "io/npy.h"
-#include "io/untrusted_json.h"
 #include "io/worker_pool.h"
 
 namespace greatx::io {
@@ -126,7 +126,7 @@ void Verifier::check_foreign_files() {
     if (path != manifest_file && !companion && !listed_.contains(path)) foreign.insert(path);
   }
   for (const std::string& path : foreign)
-    report(plain_text(path), "does not belong to the data set", "no such file", "a file");
+    report(printable(path), "does not belong to the data set", "no such file", "a file");
 }
 
 void Verifier::check_index(const DatasetReader& reader, uint32_t sequence) {

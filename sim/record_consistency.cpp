@@ -21,8 +21,9 @@ Json metadata_of(const RecordView& record) { return Json::parse(record.spec.meta
 
 Pose pose_of(const Json& json) {
   const Json &p = json.at("position_m"), &q = json.at("orientation_wxyz");
-  return {{p[0], p[1], p[2]},
-          {q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>()}};
+  const auto number = [](const Json& list, size_t i) { return list.at(i).get<double>(); };
+  return {{number(p, 0), number(p, 1), number(p, 2)},
+          {number(q, 0), number(q, 1), number(q, 2), number(q, 3)}};
 }
 
 bool has(const SensorSpec& spec, const std::string& name) {
@@ -57,7 +58,7 @@ class Nodes {
     };
     for (size_t i = 0; i < nodes.size(); ++i) {
       const std::span<const double> q = orientation.as<double>().subspan(4 * i, 4);
-      numbers_[nodes[i].get<std::string>()] = static_cast<uint32_t>(i);
+      numbers_[nodes.at(i).get<std::string>()] = static_cast<uint32_t>(i);
       motions_.push_back({{vector(position, i), dquat(q[0], q[1], q[2], q[3])},
                           vector(velocity, i),
                           vector(acceleration, i),

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/map/journal.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <sys/file.h>
 
 #include "core/hash.h"
+#include "io/inside.h"
+#include "io/untrusted_json.h"
 
 namespace greatx::apps {
 
@@ -17,7 +20,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view mark = "greatx map 1\n";
 constexpr const char* journal_file = "links.part";
-constexpr size_t numbers = 12;  ///< doubles of a link on disk
+constexpr size_t numbers = 12;                      ///< doubles of a link on disk
+constexpr uint64_t most_links = uint64_t{1} << 24;  ///< of a block
 using Stored = std::array<double, numbers>;
 
 Stored stored(const rf::LinkStatistics& link) {
@@ -75,8 +79,7 @@ std::string difference(const Json& asked, const Json& found) {
   return "it has more in it";
 }
 
-void check_same(const fs::path& folder, const Json& request, const std::string& stored_text) {
-  const Json found = Json::parse(stored_text, nullptr, false);
+void check_same(const fs::path& folder, const Json& request, const Json& found) {
   if (found == request) return;
   throw_user_error("{}: holds a radio map that asked for something else, which this one cannot resume: {}",
                    folder.string(), difference(request, found));
@@ -88,19 +91,18 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
   io::create_folders(folder);
   io::ignore_file_size_signal();
   const fs::path journal = folder / journal_file, description = folder / map_description;
-  if (fs::exists(description)) {
+  if (io::exists_inside(folder, map_description)) {
     if (!resume)
       throw_user_error("{}: holds a finished radio map, which is not overwritten; choose another folder",
                        folder.string());
-    const Json finished = Json::parse(io::read_text_file(description), nullptr, false);
-    if (!finished.is_object() || !finished.contains("request"))
-      throw_user_error("{}: expected a radio map's description, found something else", description.string());
-    check_same(folder, request, finished["request"].dump());
+    const io::JsonDocument finished(io::read_text_file(description, io::JsonLimits{}.bytes),
+                                    {description.string(), 1});
+    check_same(folder, request, finished.root().at("request").json());
     finished_ = true;
     fs::remove(journal);  // if the map was killed between its last file and this
     return;
   }
-  if (fs::exists(journal)) {
+  if (io::exists_inside(folder, journal_file)) {
     if (!resume)
       throw_user_error("{}: holds an unfinished radio map; --resume finishes it, or choose another folder",
                        folder.string());
@@ -129,9 +131,13 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
     open_new(request.dump());
     return;
   }
+  if (length > io::JsonLimits{}.bytes)
+    throw_user_error("{}: expected a request of at most {} bytes, found {}", journal.string(),
+                     io::JsonLimits{}.bytes, length);
   text.resize(length);
   file_.read_at(head, std::as_writable_bytes(std::span(text)));
-  check_same(folder, request, text);
+  const io::JsonDocument asked(text, {journal.string(), 0});
+  check_same(folder, request, asked.root().json());
   read_blocks(head + length);
 }
 
@@ -153,7 +159,7 @@ void MapJournal::read_blocks(uint64_t begin) {
     BlockHead head;
     file_.read_at(bytes_, std::as_writable_bytes(std::span(&head, 1)));
     const uint64_t room = size - bytes_ - sizeof head;
-    if (head.links == 0 || head.links > room / sizeof(Stored)) break;
+    if (head.links == 0 || head.links > std::min<uint64_t>(room / sizeof(Stored), most_links)) break;
     std::vector<Stored> payload(head.links);
     file_.read_at(bytes_ + sizeof head, std::as_writable_bytes(std::span(payload)));
     const BlockHead expected = head_of(bytes_, std::as_bytes(std::span(payload)), head.links);

@@ -15,7 +15,8 @@ EXTREMES = (0, -1, 1, 2**31, 2**32 - 1, 2**53, 2**63 - 1, 2**64, 1e300, -1e300, 
 
 
 def files_of(folder: pathlib.Path) -> list:
-    return sorted(p for p in folder.rglob("*") if p.is_file() and not p.is_symlink())
+    """Plain files that can be read at once."""
+    return sorted(p for p in folder.rglob("*") if not p.is_symlink() and p.is_file() and p.stat().st_size < 1 << 26)
 
 
 def pick(folder: pathlib.Path, rng: random.Random) -> pathlib.Path:
@@ -92,14 +93,16 @@ def _places(tree, place=()):
 
 def change_json(folder: pathlib.Path, rng: random.Random) -> str:
     """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to fit."""
-    names = [n for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt") if (folder / n).is_file()]
+    names = [n for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt") if folder / n in files_of(folder)]
+    if not names:
+        return "nothing"
     path = folder / rng.choice(names)
     text = path.read_text("utf-8", "replace")
     lines = text.splitlines()
     row = rng.randrange(len(lines)) if path.name == "journal.txt" and lines else None
     try:
         tree = json.loads(text if row is None else lines[row].rsplit("\t", 1)[0])
-    except (ValueError, IndexError):
+    except (ValueError, IndexError, RecursionError):
         return "nothing"
     *way, last = [None, *rng.choice(list(_places(tree)) or [()])]
     holder, value = {None: tree}, rng.choice(EXTREMES)
@@ -129,6 +132,8 @@ def sign(folder: pathlib.Path) -> None:
     """Makes sizes and hashes of the manifest fit, so that what lies behind them is reached."""
     import hashlib
     path = folder / "manifest.json"
+    if not path.is_file() or path.stat().st_size > 1 << 26:  # a FIFO, a link to a device, a sparse file
+        return
     try:
         manifest = json.loads(path.read_text())
         for file in manifest["files"]:

@@ -6,9 +6,11 @@
 
 #include <cstring>
 #include <functional>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "io/dataset_format.h"
@@ -134,6 +136,37 @@ TEST_F(ConsistencyFiles, ADelayAPoseAndARangeAreNamed) {
     for (float& range : ranges) range += 12.0f;
   });
   EXPECT_THAT(problems(), HasSubstr("sequence_0000/van/radar, tick 0: radar_range_vs_box against poses"));
+}
+
+TEST_F(ConsistencyFiles, MetadataThatLieAreNamed) {
+  const fs::path file = folder() / io::dataset_file;
+  const std::string original = io::read_text_file(file);
+  const auto set = [&](const char* path, const nlohmann::ordered_json& value) {
+    auto json = nlohmann::ordered_json::parse(original);
+    json[nlohmann::ordered_json::json_pointer(path)] = value;
+    io::write_file_atomically(file, json.dump(2));
+  };
+  std::map<std::string, size_t> sensors;
+  const auto json = nlohmann::ordered_json::parse(original);
+  for (size_t i = 0; i < json["sensors"].size(); ++i) sensors[json["sensors"][i]["name"]] = i;
+  const auto metadata = [&](const char* sensor, const char* field) {
+    return fmt::format("/sensors/{}/metadata/{}", sensors.at(sensor), field);
+  };
+  for (const nlohmann::ordered_json& value :
+       {nlohmann::ordered_json::array({1}), nlohmann::ordered_json("x")}) {
+    set(metadata("van/camera", "body_from_sensor/position_m").c_str(), value);
+    EXPECT_THAT(problems(), HasSubstr("sequence_0000/van/lidar, tick 0: lidar_vs_depth: "));
+    set(metadata("csi", "receivers/0/body_from_antenna/position_m").c_str(), value);
+    EXPECT_THAT(problems(), HasSubstr("sequence_0000/csi, tick 0: line_of_sight_delay_vs_distance: "));
+    set(metadata("poses", "nodes").c_str(), value);
+    EXPECT_THROW(problems(), UserError);
+    set("/run/instances/0/box_m", value);
+    EXPECT_THROW(problems(), UserError);
+  }
+  set(metadata("van/camera", "width").c_str(), 4'000'000'000);
+  EXPECT_THAT(problems(), HasSubstr("van/camera: depth: expected"));
+  set(metadata("poses", "nodes").c_str(), {"van", "car", "third"});
+  EXPECT_THAT(problems(), HasSubstr("poses: position: expected 9 elements"));
 }
 
 TEST_F(ConsistencyFiles, WhatIsMissingOrBrokenIsSaid) {

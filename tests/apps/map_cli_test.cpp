@@ -187,6 +187,11 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   const Outcome again = map("parts", large + " --resume");
   EXPECT_EQ(again.code, 0);
   EXPECT_THAT(again.out, HasSubstr("already finished"));
+
+  { std::ofstream(folder_ / "parts/map.json") << std::string(100'000, '['); }
+  const Outcome deep = map("parts", large + " --resume");
+  EXPECT_EQ(deep.code, 1);
+  EXPECT_THAT(deep.err, HasSubstr("map.json:1: expected JSON nested at most 64 deep"));
 }
 
 TEST_F(MapCli, AnyNumberOfThreadsGivesTheSameBytes) {
