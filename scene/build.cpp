@@ -9,9 +9,9 @@
 #include <set>
 #include <span>
 
+#include "core/activity.h"
 #include "core/budget.h"
 #include "core/error.h"
-#include "core/phase.h"
 #include "scene/build_geometry.h"
 #include "scene/build_materials.h"
 #include "scene/facets.h"
@@ -369,7 +369,7 @@ class Builder {
 }  // namespace
 
 Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options) {
-  const Phase phase("building the scene");
+  const Activity activity("building the scene");
   for (const Placement& placement : placements) check_placement(placement);
   const uint64_t triangles = planned_triangles(placements);
   Scene scene;
