@@ -41,7 +41,7 @@ TEST(HostileBudget, OneAccessorForThousandsOfPrimitivesCountsEachTime) {
   AssetFolder folder({});
   const GltfFile file = parse_gltf("test.glb", writer.glb(), folder);
   GeometryMemory memory;
-  memory.all.plan("before", budget::model_geometry.most - 100);
+  memory.all.plan("before", budget::model_geometry.most - 60);
   EXPECT_EQ(read_floats(file, positions, 3, "test.glb: mesh 'm', primitive 7", memory).size(), 12u);
   expect_user_error(
       [&] { read_floats(file, positions, 3, "test.glb: mesh 'm', primitive 8, POSITION", memory); },
