@@ -11,8 +11,8 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/terminal.h"
+#include "core/activity.h"
 #include "core/error.h"
-#include "core/phase.h"
 #include "io/file.h"
 
 namespace {

@@ -12,9 +12,6 @@ namespace greatx::apps {
 
 namespace {
 
-/// Text is passed on when there is this much of it, at the end of a line.
-constexpr size_t enough = 1 << 16;
-
 class SafeMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
@@ -43,7 +40,7 @@ SafeStream::int_type SafeStream::overflow(int_type character) {
 std::streamsize SafeStream::xsputn(const char* text, std::streamsize size) {
   line_.append(text, static_cast<size_t>(size));
   const bool ends = size > 0 && text[size - 1] == '\n';
-  return !ends || line_.size() < enough || pass_on() ? size : 0;
+  return !ends || pass_on() ? size : 0;
 }
 
 bool SafeStream::pass_on() {

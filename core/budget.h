@@ -41,6 +41,7 @@ inline constexpr Budget model_textures{"the textures of a model", 1 * gib};
 inline constexpr Budget scene_textures{"the textures of a scene", 2 * gib};
 /// Each place of a mesh has its own.
 inline constexpr Budget scene_triangles{"a scene", 24'000'000, "triangles"};
+inline constexpr Budget scene_vertices{"a scene", 72'000'000, "vertices"};
 inline constexpr Budget import_geometry{"the geometry of an imported scene", 2 * gib};
 /// Ends of paths between single elements, of all links of a channel that may be in their near field.
 inline constexpr Budget element_pairs{"links solved element by element", 1 << 20, "pairs of elements"};

@@ -83,7 +83,8 @@ std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, 
   return bytes_of(InputFile(file, what, budget));
 }
 
-AssetFolder::AssetFolder(const std::filesystem::path& asset) : in_memory_(asset.empty()) {
+AssetFolder::AssetFolder(const std::filesystem::path& asset, const Budget& files)
+    : in_memory_(asset.empty()), files_(files), read_(files) {
   if (in_memory_) return;
   const std::filesystem::path parent = asset.parent_path();
   std::error_code error;
@@ -106,7 +107,7 @@ std::vector<unsigned char> AssetFolder::read(const std::string& uri, const std::
   if (!is_below(file, folder_)) {
     throw_user_error("{}: URI '{}' leaves the asset's folder through a symbolic link", what, uri);
   }
-  const InputFile input(file, what, budget::model_externals);
+  const InputFile input(file, what, files_);
   read_.plan(fmt::format("{}: with file '{}'", what, file.string()), input.size());
   return bytes_of(input);
 }

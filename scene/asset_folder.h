@@ -14,19 +14,20 @@ namespace greatx::scene {
 class AssetFolder {
  public:
   /// `asset` is the glTF file; an empty path stands for an asset in memory, which may name no external file
-  /// at all.
-  explicit AssetFolder(const std::filesystem::path& asset);
+  /// at all. `files`: what all of them may come to.
+  explicit AssetFolder(const std::filesystem::path& asset, const Budget& files = budget::model_externals);
 
   /// The bytes of the file that `uri` (RFC 3986, percent-encoded, relative) names. Throws UserError, starting
   /// with `what` ("x.gltf: buffer 0"), if the URI is absolute, has a scheme, a ".." or a backslash (also
   /// percent-encoded), if the file lies outside the folder through a symbolic link, is no regular file, or
-  /// cannot be read; or if this and all read before are more than budget::model_externals.
+  /// cannot be read; or if this and all read before are too much.
   std::vector<unsigned char> read(const std::string& uri, const std::string& what);
 
  private:
   std::filesystem::path folder_;  ///< canonical
   bool in_memory_ = false;
-  Spending read_{budget::model_externals};
+  Budget files_;
+  Spending read_;
 };
 
 /// Percent-decodes; throws UserError starting with `what` on a broken escape or a NUL.

@@ -9,9 +9,9 @@
 #include <set>
 #include <span>
 
+#include "core/activity.h"
 #include "core/budget.h"
 #include "core/error.h"
-#include "core/phase.h"
 #include "scene/build_geometry.h"
 #include "scene/build_materials.h"
 #include "scene/facets.h"
@@ -112,21 +112,35 @@ dvec3 default_origin(const std::vector<Placement>& placements) {
   return glm::floor(bounds.center() + 0.5 + 1e-6);
 }
 
-/// Triangles that the scene will have, said before it is made: a small file may place one mesh many times.
-uint64_t planned_triangles(const std::vector<Placement>& placements) {
-  uint64_t planned = 0;
+/// What the scene will have, said before it is made: a small file may place one mesh many times.
+struct Planned {
+  uint64_t triangles = 0, vertices = 0;
+};
+
+Planned planned_of(const ModelMesh& mesh) {
+  Planned planned;
+  for (const ModelPrimitive& primitive : mesh.primitives) {
+    planned.triangles += primitive.indices.size() / 3;
+    // Flat normals take three vertices for each triangle.
+    planned.vertices += primitive.normals.empty() ? primitive.indices.size() : primitive.positions.size();
+  }
+  return planned;
+}
+
+Planned planned_of(const std::vector<Placement>& placements) {
+  Planned planned;
   for (const Placement& placement : placements) {
     const Model& model = *placement.model;
-    std::vector<uint64_t> of_mesh;
-    for (const ModelMesh& mesh : model.meshes) {
-      uint64_t triangles = 0;
-      for (const ModelPrimitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
-      of_mesh.push_back(triangles);
+    std::vector<Planned> of_mesh;
+    for (const ModelMesh& mesh : model.meshes) of_mesh.push_back(planned_of(mesh));
+    for (const ModelInstance& instance : model.instances) {
+      planned.triangles += of_mesh[instance.mesh].triangles;
+      planned.vertices += of_mesh[instance.mesh].vertices;
     }
-    for (const ModelInstance& instance : model.instances) planned += of_mesh[instance.mesh];
-    require_within(fmt::format("object '{}' ({}): {} places of {} meshes", placement.name,
-                               model.file.string(), model.instances.size(), model.meshes.size()),
-                   planned, budget::scene_triangles);
+    const std::string where = fmt::format("object '{}' ({}): {} places of {} meshes", placement.name,
+                                          model.file.string(), model.instances.size(), model.meshes.size());
+    require_within(where, planned.triangles, budget::scene_triangles);
+    require_within(where, planned.vertices, budget::scene_vertices);
   }
   return planned;
 }
@@ -369,15 +383,19 @@ class Builder {
 }  // namespace
 
 Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options) {
-  const Phase phase("building the scene");
+  const Activity activity("building the scene");
   for (const Placement& placement : placements) check_placement(placement);
-  const uint64_t triangles = planned_triangles(placements);
+  const Planned planned = planned_of(placements);
   Scene scene;
   scene.name = options.name;
   scene.origin = options.origin ? *options.origin : default_origin(placements);
-  scene.indices.reserve(3 * triangles);
-  scene.facet_triangles.reserve(triangles);
-  scene.facet_of_triangle.reserve(triangles);
+  scene.positions.reserve(planned.vertices);
+  scene.normals.reserve(planned.vertices);
+  scene.tangents.reserve(planned.vertices);
+  scene.uvs.reserve(planned.vertices);
+  scene.indices.reserve(3 * planned.triangles);
+  scene.facet_triangles.reserve(planned.triangles);
+  scene.facet_of_triangle.reserve(planned.triangles);
   Builder builder(scene, options);
   builder.add_body("static");
   for (const Placement& placement : placements) {

@@ -43,7 +43,6 @@ class PlaneFit {
 /// Many triangles around one edge, by the direction of their normals about it.
 class Fan {
  public:
-  static constexpr uint32_t least = 16;  ///< triangles: fewer are compared one by one
   /// What normals may turn while one answer is still good.
   static constexpr double margin_rad = 0.01;
 
@@ -93,8 +92,12 @@ class Fan {
 
 class Merger {
  public:
-  Merger(const FacetInput& input, const BuildOptions& options)
-      : input_(input), options_(options), edges_(input.vertices), taken_(input.corners.size() / 3) {
+  Merger(const FacetInput& input, const BuildOptions& options, uint32_t crowd)
+      : input_(input),
+        options_(options),
+        crowd_(crowd),
+        edges_(input.vertices),
+        taken_(input.corners.size() / 3) {
     const size_t count = taken_.size();
     triangles_.reserve(count);
     grown_.reserve(count);
@@ -217,7 +220,7 @@ class Merger {
       const uint32_t triangle = grown_[next];
       for (uint32_t side = 0; side < 3; ++side) {
         const EdgeTable::Edge edge = edges_.edge(triangle, side);
-        if (edge.count >= Fan::least)
+        if (edge.count >= crowd_)
           join_fan(fan_of(edge, triangle, side), fixed, plane);
         else
           for (const uint32_t neighbour : edges_.triangles(edge)) join(neighbour, fixed, plane);
@@ -266,6 +269,7 @@ class Merger {
 
   const FacetInput& input_;
   const BuildOptions& options_;
+  uint32_t crowd_;
   EdgeTable edges_;
   std::vector<Triangle> triangles_;
   std::vector<uint8_t> taken_;
@@ -277,10 +281,10 @@ class Merger {
 
 }  // namespace
 
-FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options) {
+FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options, uint32_t crowd) {
   GREATX_CHECK(input.corners.size() == input.vertices.size() && input.corners.size() % 3 == 0,
                "{} corners, {} vertices", input.corners.size(), input.vertices.size());
-  return Merger(input, options).run();
+  return Merger(input, options, crowd).run();
 }
 
 }  // namespace greatx::scene

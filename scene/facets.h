@@ -34,6 +34,7 @@ struct FacetGroups {
 /// Every triangle ends in exactly one facet; facets come in order of their first triangle. No binning: planes are
 /// compared with the facet that grows, so that nothing can fall across the edge of a bin. Of many triangles around one
 /// edge those are compared alone whose normals are near enough, so that a fan of n takes n log n.
-FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options);
+/// `crowd`: from so many triangles around an edge on; what comes out does not depend on it.
+FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options, uint32_t crowd = 16);
 
 }  // namespace greatx::scene

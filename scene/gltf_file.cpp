@@ -162,6 +162,7 @@ bool take_externals(const std::string& name, json& document, const char* list, c
         throw_user_error("{}: byteLength {}, but file '{}' has {} bytes", what, length, uri, bytes.size());
       }
       bytes.resize(length);
+      bytes.shrink_to_fit();
     }
     element["uri"] = fmt::format("{}{}", external_token, externals.size());
     externals.push_back(std::move(bytes));

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "core/phase.h"
+#include "core/activity.h"
 #include "scene/static_tree.h"
 #include "shaders/shared/tree.h"
 
@@ -67,7 +67,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOption
 }
 
 void GpuScene::upload_geometry() {
-  const Phase phase("uploading the scene");
+  const Activity activity("uploading the scene");
   gpu::Device& device = *device_;
   const VkBufferUsageFlags build_input =
       options_.acceleration_structure ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR

@@ -8,8 +8,8 @@
 
 #include <fmt/ranges.h>
 
+#include "core/activity.h"
 #include "core/error.h"
-#include "core/phase.h"
 #include "core/text.h"
 #include "scene/asset_folder.h"
 #include "scene/gltf_file.h"
@@ -94,7 +94,7 @@ std::string node_names(const Model& model) {
 }
 
 Model load_model(const std::filesystem::path& file, const LoadOptions& options) {
-  const Phase phase("loading a model");
+  const Activity activity("loading a model");
   const std::string name = file.string();
   const std::vector<unsigned char> bytes = read_regular_file(file, "model", budget::model_file);
   AssetFolder folder(file);

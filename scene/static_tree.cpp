@@ -10,8 +10,8 @@
 #include <numeric>
 #include <span>
 
+#include "core/activity.h"
 #include "core/error.h"
-#include "core/phase.h"
 #include "shaders/shared/tree.h"
 
 namespace greatx::scene {
@@ -255,7 +255,7 @@ std::vector<Sphere> moving_spheres(const Scene& scene) {
 }  // namespace
 
 StaticTree make_static_tree(const Scene& scene) {
-  const Phase phase("building the tree of triangles");
+  const Activity activity("building the tree of triangles");
   std::vector<Leaf> leaves;
   for_triangles(scene, scene.bodies[0],
                 [&](const std::array<vec3, 3>& corners, uint32_t triangle, uint32_t primitive) {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/phase.h"
+#include "core/activity.h"
 #include "renderer/probe.h"
 #include "rf/crossings.h"
 #include "sim/channel/channel_sensor.h"
@@ -213,7 +213,7 @@ bool Simulator::step(RecordSink& sink) {
 }
 
 void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due) {
-  const Phase phase("recording a tick");
+  const Activity activity("recording a tick");
   gpu_scene_.record_update(slot, moment.bodies);
   const bool camera_due = std::any_of(
       due.begin(), due.end(), [&](const Due& d) { return specs_[d.sensor].kind.ends_with("camera"); });
@@ -243,7 +243,7 @@ void Simulator::drain(RecordSink& sink) {
 }
 
 void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
-  const Phase phase("collecting a tick");
+  const Activity activity("collecting a tick");
   {
     const HostScope scope(*this, "wait");
     ring_.wait(*in_flight.slot);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/activity.h"
 #include "core/budget.h"
-#include "core/phase.h"
 #include "core/text.h"
 #include "scene/asset_folder.h"
 #include "scene/import/mitsuba_materials.h"
@@ -165,7 +165,7 @@ class MitsubaImporter {
 }  // namespace
 
 ImportedScene import_mitsuba(const std::filesystem::path& xml, const MitsubaOptions& options) {
-  const Phase phase("importing a scene");
+  const Activity activity("importing a scene");
   if (!(options.default_thickness_m > 0.0) || !std::isfinite(options.default_thickness_m))
     throw_user_error("thickness: expected metres above 0, found {}", options.default_thickness_m);
   return MitsubaImporter(xml, options).import();

@@ -80,9 +80,9 @@ void ChannelSensor::describe() {
                             static_cast<uint64_t>(transmitters), static_cast<uint64_t>(columns_.tx_ports),
                             static_cast<uint64_t>(block.time), static_cast<uint64_t>(block.last),
                             sizeof(std::complex<float>)}));
-    require_within(fmt::format("{}: channel '{}': {}: {} x {} ports, {} x {} ports, {} x {} values each",
-                               config_.where.str(), config_.name, block.name, receivers, columns_.rx_ports,
-                               transmitters, columns_.tx_ports, block.time, block.last),
+    require_within(fmt::format("channel '{}': {}: {} x {} ports, {} x {} ports, {} x {} values each",
+                               config_.name, block.name, receivers, columns_.rx_ports, transmitters,
+                               columns_.tx_ports, block.time, block.last),
                    planned, budget::channel_record);
     spec_.arrays.push_back(
         {block.name,

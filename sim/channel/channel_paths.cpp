@@ -7,8 +7,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/activity.h"
 #include "core/parallel.h"
-#include "core/phase.h"
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
@@ -75,7 +75,7 @@ std::vector<dvec3> ChannelPaths::receiver_positions(const TickContext& context) 
 }
 
 void ChannelPaths::start(const TickContext& context) {
-  const Phase phase("searching paths");
+  const Activity activity("searching paths");
   ids_known_ = false;
   placed_.clear();
   placements_told_ = 0;

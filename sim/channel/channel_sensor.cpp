@@ -67,9 +67,9 @@ void ChannelSensor::find_near_links() {
       if (!(far_m > 0.0 && (all || may_be_near(scenario_, config_, t, r)))) continue;
       const uint64_t of_link =
           uint64_t{transmitter_arrays_[t].element_count()} * receiver_arrays_[r].element_count();
-      pairs.plan(fmt::format("{}: channel '{}': {} and {}, {} elements and {}, may be in their near field "
+      pairs.plan(fmt::format("channel '{}': {} and {}, {} elements and {}, may be in their near field "
                              "(effects: {{every_element: off}} takes a plane wave)",
-                             config_.where.str(), config_.name, config_.transmitters[t], config_.receivers[r],
+                             config_.name, config_.transmitters[t], config_.receivers[r],
                              transmitter_arrays_[t].element_count(), receiver_arrays_[r].element_count()),
                  of_link);
       near_links_.push_back({r, t, all ? std::numeric_limits<double>::infinity() : far_m, nullptr, {}});

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/activity.h"
 #include "core/input_file.h"
-#include "core/phase.h"
 #include "core/units.h"
 #include "sim/scenario/scenario_parse.h"
 
@@ -106,7 +106,7 @@ SensorPlace sensor_place(const Scenario& scenario, const std::string& name) {
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets) {
-  const Phase phase("reading the scenario");
+  const Activity activity("reading the scenario");
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::exists(file, error))

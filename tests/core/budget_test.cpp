@@ -94,8 +94,8 @@ TEST(Budget, TheDocumentSaysTheSame) {
   for (const Budget& budget :
        {budget::yaml_file, budget::yaml_values, budget::csv_file, budget::model_file, budget::model_json,
         budget::model_externals, budget::import_xml, budget::model_geometry, budget::model_zeros,
-        budget::model_textures, budget::scene_textures, budget::scene_triangles, budget::import_geometry,
-        budget::element_pairs, budget::channel_record})
+        budget::model_textures, budget::scene_textures, budget::scene_triangles, budget::scene_vertices,
+        budget::import_geometry, budget::element_pairs, budget::channel_record})
     EXPECT_THAT(document, HasSubstr(fmt::format("| {} | {} |", budget.what, amount(budget.most, budget))));
 }
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/activity.h"
 #include "core/error.h"
-#include "core/phase.h"
 
 namespace greatx {
 namespace {
@@ -69,11 +69,11 @@ TEST(Text, NumbersDoNotFollowTheLocale) {
   std::setlocale(LC_NUMERIC, before.c_str());
 }
 
-TEST(Phase, MemoryThatIsNotThereNamesWhatWasDone) {
+TEST(Activity, MemoryThatIsNotThereNamesWhatWasDone) {
   watch_memory();
   const auto ask = [] {
-    const Phase outer("loading a model");
-    const Phase inner("building the scene");
+    const Activity outer("loading a model");
+    const Activity inner("building the scene");
     std::get_new_handler()();  // as operator new does; a sanitizer's own would end the test
   };
   EXPECT_THROW(ask(), std::bad_alloc);

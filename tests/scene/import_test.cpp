@@ -292,21 +292,6 @@ TEST(ImportMitsuba, IdsAreUtf8AndATerminalObeysNone) {
   EXPECT_EQ(import_mitsuba(file, {}).objects.at(0).name, "\xc3\xa4");
 }
 
-TEST(ImportMitsuba, OneMeshNamedByManyShapesIsBounded) {
-  const Folder folder;
-  folder.scene(concrete);
-  std::filesystem::path ply = folder.write("meshes/big.ply", ascii_triangle);
-  std::filesystem::resize_file(ply, 300u << 20);
-  const std::string shape =
-      "<shape type=\"ply\" id=\"a\"><string name=\"filename\" value=\"meshes/big.ply\"/>"
-      "<ref id=\"mat-itu_concrete\"/></shape>\n";
-  std::string shapes = concrete;
-  for (int i = 0; i < 8; ++i) shapes += shape;
-  EXPECT_THAT(
-      message_of([&] { import_mitsuba(folder.write("s.xml", "<scene>\n" + shapes + "</scene>"), {}); }),
-      testing::AllOf(HasSubstr("s.xml:8: shape 'a': with file"), HasSubstr("at most 2 GiB")));
-}
-
 TEST(ImportMitsuba, WhatIsWrongIsSaidWithItsLine) {
   const Folder folder;
   const auto error = [&](const std::string& elements) {

@@ -192,7 +192,7 @@ TEST(PatternCsv, LinesThatEachHaveTheirOwnAnglesMakeNoSquareOfThem) {
   std::string text = std::string(gain_header) + "\n";
   for (int i = 0; i <= 30000; ++i)
     text += fmt::format("{:.6f},{:.6f},0\n", i * (180.0 / 30000.0), i * (360.0 / 30001.0));
-  EXPECT_EQ(message_of(text), "p.csv:2: theta_deg 0, phi_deg 0.0119996: expected a line, found none");
+  EXPECT_EQ(message_of(text), "p.csv:2: theta_deg 0, phi_deg 0.012: expected a line, found none");
 }
 
 TEST(PatternCsv, AFileThatIsNotThereIsNamed) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/phase.h"
+#include "core/activity.h"
 
 #include <atomic>
 #include <new>
@@ -9,7 +9,7 @@ namespace greatx {
 namespace {
 
 thread_local const char* current = nullptr;
-/// A thread that parallel_for() starts has no phase of its own: the outermost thread's is the best there is.
+/// A thread that parallel_for() starts has no activity of its own: the outermost thread's is the best there is.
 std::atomic<const char*> latest{nullptr}, failed{nullptr};
 
 void on_failure() {
@@ -19,8 +19,8 @@ void on_failure() {
 
 }  // namespace
 
-Phase::Phase(const char* what) : before_(current) { latest = current = what; }
-Phase::~Phase() { latest = current = before_; }
+Activity::Activity(const char* what) : before_(current) { latest = current = what; }
+Activity::~Activity() { latest = current = before_; }
 
 void watch_memory() { std::set_new_handler(on_failure); }
 
