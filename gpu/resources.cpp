@@ -3,6 +3,8 @@
 #include "gpu/resources.h"
 
 #include <algorithm>
+#include <atomic>
+#include <sys/resource.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,6 +30,31 @@ uint32_t memory_type_for(const Device& device, uint32_t bits, Memory memory) {
   throw ContractError("unknown kind of memory");
 }
 
+/// A CPU's driver (lavapipe) keeps all its memory in one nameless file, to which the file-size limit applies. Beyond it the
+/// file does not grow, nothing says so, and the first access ends the process with a bus error.
+std::atomic<uint64_t> bytes_in_file{0};
+
+bool keeps_memory_in_file(const Device& device) { return device.info().type == "cpu"; }
+uint64_t pages_of(VkDeviceSize size) { return (size + 4095) / 4096 * 4096; }
+
+void take_from_file(const Device& device, VkDeviceSize size, std::string_view name) {
+  if (!keeps_memory_in_file(device)) return;
+  const uint64_t all = bytes_in_file += pages_of(size);
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || all <= limit.rlim_cur)
+    return;
+  bytes_in_file -= pages_of(size);
+  throw_user_error(
+      "device '{}' keeps its memory in a file: '{}' makes it {} bytes; expected a file-size limit (ulimit "
+      "-f) "
+      "of that at least, found {} bytes",
+      device.info().name, name, all, limit.rlim_cur);
+}
+
+void give_back_to_file(const Device& device, VkDeviceSize size) {
+  if (keeps_memory_in_file(device)) bytes_in_file -= pages_of(size);
+}
+
 VkDeviceMemory allocate(Device& device, const VkMemoryRequirements& needs, uint32_t type, bool address,
                         std::string_view name) {
   VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
@@ -35,6 +62,7 @@ VkDeviceMemory allocate(Device& device, const VkMemoryRequirements& needs, uint3
   VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, address ? &flags : nullptr};
   info.allocationSize = needs.size;
   info.memoryTypeIndex = type;
+  take_from_file(device, needs.size, name);
   VkDeviceMemory memory = VK_NULL_HANDLE;
   const VkResult result = vkAllocateMemory(device.handle(), &info, nullptr, &memory);
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
@@ -84,6 +112,9 @@ Buffer::~Buffer() {
   if (buffer_ == VK_NULL_HANDLE) return;
   device_->remove_large(buffer_);
   device_->finish();
+  VkMemoryRequirements had{};
+  vkGetBufferMemoryRequirements(device_->handle(), buffer_, &had);
+  give_back_to_file(*device_, had.size);
   vkDestroyBuffer(device_->handle(), buffer_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);
 }
@@ -129,6 +160,9 @@ Image::Image(Device& device, const ImageDesc& desc, std::string_view name) : dev
 Image::~Image() {
   if (image_ == VK_NULL_HANDLE) return;
   device_->finish();
+  VkMemoryRequirements had{};
+  vkGetImageMemoryRequirements(device_->handle(), image_, &had);
+  give_back_to_file(*device_, had.size);
   vkDestroyImageView(device_->handle(), view_, nullptr);
   vkDestroyImage(device_->handle(), image_, nullptr);
   vkFreeMemory(device_->handle(), memory_, nullptr);

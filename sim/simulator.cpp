@@ -25,14 +25,14 @@ namespace {
 constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
 constexpr uint32_t poses_sensor = 0;  ///< the first sensor; due whenever another one is
 
-/// What `make` gives; its errors say where the scenario has what they are about.
-template <typename Make>
-std::unique_ptr<Sensor> placed(const SourceLocation& where, const std::string& what, const Make& make) {
+/// What `act` gives; its errors say where the scenario has what they are about.
+template <typename Act>
+auto located(const SourceLocation& where, const Act& act) {
   try {
-    return make();
+    return act();
   } catch (const UserError& error) {
-    if (error.located()) throw;
-    throw_user_error_at(where, "{}: {}", what, error.what());
+    if (error.located() || where.line == 0) throw;
+    throw_user_error_at(where, "{}", error.what());
   }
 }
 
@@ -103,20 +103,21 @@ Simulator::~Simulator() = default;
 
 void Simulator::add_sensors() {
   sensors_.push_back(std::make_unique<PoseSensor>(scenario_, world_.scene.origin));
+  places_.emplace_back();
   for (uint32_t node = 0; node < scenario_.nodes.size(); ++node) {
     const std::vector<SensorConfig>& configs = scenario_.nodes[node].sensors;
     for (uint32_t i = 0; i < configs.size(); ++i) {
       if (std::holds_alternative<AntennaConfig>(configs[i].config)) continue;
-      const std::string what = fmt::format("nodes[{}].sensors[{}]", node, i);
-      add(placed(configs[i].where, what, [&] { return make_sensor(node, i); }), configs[i].rate_hz);
+      add(located(configs[i].where, [&] { return make_sensor(node, i); }), configs[i].rate_hz,
+          configs[i].where);
     }
   }
   for (uint32_t i = 0; i < scenario_.channels.size(); ++i) {
+    const ChannelConfig& config = scenario_.channels[i];
     const auto make = [&] {
       return std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, plan_, scenario_, world_, i);
     };
-    add(placed(scenario_.channels[i].where, fmt::format("channels[{}]", i), make),
-        scenario_.channels[i].rate_hz);
+    add(located(config.where, make), config.rate_hz, config.where);
   }
   for (const auto& sensor : sensors_) {
     specs_.push_back(sensor->spec());
@@ -147,8 +148,9 @@ const CameraSensor* Simulator::shared_camera(uint32_t node, uint32_t sensor) con
   return dynamic_cast<const CameraSensor*>(found->get());
 }
 
-void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz) {
+void Simulator::add(std::unique_ptr<Sensor> sensor, Rational rate_hz, const SourceLocation& where) {
   sensors_.push_back(std::move(sensor));
+  places_.push_back(where);
   schedule_.add(rate_hz);
 }
 
@@ -162,7 +164,9 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
     next_tick_ = schedule_.next(next_tick_ + 1, scenario_.ticks);
   if (next_tick_ >= scenario_.ticks) return;
   const Moment moment = moment_at(next_tick_), beginning = moment_at(0);
-  for (const auto& sensor : sensors_) sensor->start(sensor->remembers() ? beginning.context : moment.context);
+  for (size_t i = 0; i < sensors_.size(); ++i)
+    located(places_[i],
+            [&] { sensors_[i]->start(sensors_[i]->remembers() ? beginning.context : moment.context); });
   replay(next_tick_);
 }
 
@@ -220,7 +224,7 @@ void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vec
   if (camera_due) passes_->lighting->record(slot, moment.bodies);
   for (const Due& sensor : due) {
     const HostScope scope(*this, "record", specs_[sensor.sensor].name);
-    sensors_[sensor.sensor]->record(slot, moment.context);
+    located(places_[sensor.sensor], [&] { sensors_[sensor.sensor]->record(slot, moment.context); });
   }
 }
 

@@ -76,7 +76,7 @@ class Simulator {
   Moment moment_at(int64_t tick) const;
   void add_sensors();
   std::unique_ptr<Sensor> make_sensor(uint32_t node, uint32_t sensor);  ///< of any kind but antennas
-  void add(std::unique_ptr<Sensor> sensor, Rational rate_hz);
+  void add(std::unique_ptr<Sensor> sensor, Rational rate_hz, const SourceLocation& where);
   const CameraSensor* shared_camera(uint32_t node, uint32_t sensor) const;
   void replay(int64_t end);
   void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
@@ -101,6 +101,7 @@ class Simulator {
   struct Passes;
   std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, crossings, probe
   std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::vector<SourceLocation> places_;  ///< [sensor] in the scenario; the poses have none
   std::vector<SensorSpec> specs_;
   Courses courses_;
   std::unique_ptr<InFlight> pending_;

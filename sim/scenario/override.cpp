@@ -94,8 +94,10 @@ std::string text_with(const std::string& text, const std::vector<NewValue>& valu
     return plan_edit(text, root, value, edits);
   });
   std::string edited = text;
-  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
-  for (const Edit& edit : edits) edited.replace(edit.at, edit.length, edit.text);
+  // From the back, so that places hold; what goes to one place comes to stand in the order given.
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at < b.at; });
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+    edited.replace(edit->at, edit->length, edit->text);
   if (!planned || !says(edited, values)) edited = rewritten(root, values);
   GREATX_CHECK(says(edited, values), "no way to write {} values into the scenario", values.size());
   return edited;

@@ -107,6 +107,19 @@ nodes:
     sensors: [{name: camera, type: camera, rate_hz: 10, width: 32, height: 24, fov_deg: 90}]
 )";
 
+/// 8 MiB of channel a tick.
+constexpr const char* wide_scenario = R"(greatx: 1
+name: wide
+ticks: 40
+tick_rate_hz: 10
+nodes:
+  - {name: a, trajectory: {type: static, position_m: [0, 0, 0]}, sensors: [{name: antenna, type: antenna}]}
+  - {name: b, trajectory: {type: static, position_m: [9, 0, 0]}, sensors: [{name: antenna, type: antenna}]}
+channels:
+  - {name: csi, tx: a/antenna, rx: [b/antenna], rate_hz: 10, subcarriers: 16384, subcarrier_spacing_hz: 15e3, max_depth: 0,
+     time_samples: 64, outputs: [cfr]}
+)";
+
 class Stopped : public testing::Test {
  protected:
   void SetUp() override { std::ofstream(folder_ / "long.yaml") << long_scenario; }
@@ -155,13 +168,21 @@ TEST_F(Stopped, ARunSaysHowToGoOnAndWhatThereIs) {
   EXPECT_GT(bytes, 1000u);
 }
 
-/// A limit of the shell's is met by a write, whichever command makes it.
+/// A limit of the shell's is met by a write, or by the device's memory, whichever comes first.
 TEST_F(Stopped, AFileSizeLimitIsAnErrorByName) {
-  const std::string data = (folder_ / "data").string(), glb = (folder_ / "city.glb").string();
-  const Outcome run =
-      greatx(fmt::format("generate {} --ticks 400 -o {} -q", (folder_ / "long.yaml").string(), data),
-             "ulimit -f 20;");
+  const std::string glb = (folder_ / "city.glb").string(), data = (folder_ / "data").string();
+  if (nlohmann::json::parse(greatx("info --json").out)["devices"][0]["type"] == "cpu") {
+    const Outcome run = greatx(fmt::format("generate {} -o {} -q", (folder_ / "long.yaml").string(), data),
+                               "ulimit -f 2000;");
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("keeps its memory in a file"));
+    EXPECT_THAT(run.err, HasSubstr("file-size limit (ulimit -f)"));
+  }
+  std::ofstream(folder_ / "wide.yaml") << wide_scenario;
+  const Outcome run = greatx(fmt::format("generate {} -o {} -q", (folder_ / "wide.yaml").string(), data),
+                             "ulimit -f 200000;");  // of 512 bytes
   EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("cfr.npy"));
   EXPECT_THAT(run.err, HasSubstr("cannot be written: File too large"));
   EXPECT_THAT(run.err, HasSubstr("--resume finishes it"));
   const Outcome scene = greatx(fmt::format("scene city -o {}", glb), "ulimit -f 100;");
