@@ -316,7 +316,7 @@ std::string BeamSearch::guarantee(uint64_t left_out, uint32_t complete_depth) co
                                 : std::string();
   const std::string more =
       left_out > 0
-          ? fmt::format("; of those of more, {} at least are left out, beyond the {} that a search keeps",
+          ? fmt::format("; of longer ones {} at least are left out, beyond the {} that a search keeps",
                         left_out, options_.capacity)
           : std::string();
   return fmt::format(

@@ -205,14 +205,20 @@ TEST_F(RadioCli, TheDeepestPathsRun) {
 }
 
 TEST_F(RadioCli, PatchesTooSmallToBeCutAreRefused) {
-  for (const std::string side : {"1e-300", "1e-12", "1e-4"}) {
+  const auto with_patches_of = [&](const std::string& side) {
     change("house.yaml", scenario, "max_depth: 2", "scattering_patch_m: " + side);
     write("house.yaml",
           greatx::apps::test::read_file(folder_ / "house.yaml") + "effects: {scattering: on}\n");
-    const Outcome outcome = run("paths");
-    EXPECT_EQ(outcome.code, 1) << side;
-    EXPECT_THAT(outcome.err, HasSubstr("scattering_patch_m: "));
-    EXPECT_THAT(outcome.err, HasSubstr(" m makes more than 10000000 patches"));
+  };
+  for (const std::string side : {"1e-300", "1e-12"}) {
+    with_patches_of(side);
+    fails(side, {"house.yaml:", "channels[0].scattering_patch_m", "'" + side + "'"});
+  }
+  with_patches_of("0.001");  // in the range, but not for so large a house
+  for (const std::string command : {"paths", "generate"}) {
+    const Outcome outcome = run(command, command == "generate" ? "-o " + path("patches") : "");
+    EXPECT_EQ(outcome.code, 1) << command;
+    EXPECT_THAT(outcome.err, HasSubstr("scattering_patch_m: 0.001 m makes more than 10000000 patches"));
   }
 }
 

@@ -419,7 +419,7 @@ TEST(BeamSearch, TheGuaranteeSaysWhatHolds) {
   EXPECT_THAT(
       BeamSearch(world, kinds, {}, options).guarantee(1234, 1),
       ::testing::AllOf(::testing::HasSubstr("a path of up to 1 reflections"),
-                       ::testing::HasSubstr("of those of more, 1234 at least are left out, beyond the 40")));
+                       ::testing::HasSubstr("of longer ones 1234 at least are left out, beyond the 40")));
 }
 
 }  // namespace
