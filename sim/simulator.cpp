@@ -255,8 +255,9 @@ void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
   Packet packet{in_flight.tick, clock_.nanoseconds(in_flight.tick), {}};
   for (const Due& due : in_flight.due) {
     const HostScope scope(*this, "collect", specs_[due.sensor].name);
-    packet.records.push_back({due.sensor, packet.tick, packet.time_ns, due.sample,
-                              sensors_[due.sensor]->collect(*in_flight.slot)});
+    const auto collect = [&] { return sensors_[due.sensor]->collect(*in_flight.slot); };
+    packet.records.push_back(
+        {due.sensor, packet.tick, packet.time_ns, due.sample, located(places_[due.sensor], collect)});
     ++statistics_.records[specs_[due.sensor].name];
   }
   {
