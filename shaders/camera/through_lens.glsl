@@ -15,65 +15,81 @@ struct Center {
   uint id;
 };
 
-const uint lens_candidates = 4u * sample_count;
+/// One pixel of the pinhole picture: the place of its sample nearest to the ray, and what that sees.
+struct Sample {
+  vec2 place;
+  uint id;
+};
 
-/// Where a candidate's sample lies (Vulkan's standard places of four).
-vec2 candidate_place(ivec2 first, uint i) {
-  const vec2 places[4] = vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
-  vec2 within = sample_count == 1u ? vec2(0.5) : places[i >> 2];
-  return vec2(first + ivec2(i & 1u, i >> 1 & 1u)) + within;
+Sample nearest_sample(ivec2 at, vec2 pixel) {
+  Sample nearest = Sample(vec2(at) + 0.5, 0u);
+  uint number = 0u;
+  if (sample_count > 1u) {  // Vulkan's standard places of four
+    const vec2 places[4] = vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+    float least = 1e9;
+    for (uint s = 0u; s < 4u; ++s) {
+      vec2 away = vec2(at) + places[s] - pixel;
+      float distance = dot(away, away);
+      if (distance < least) {
+        nearest.place = vec2(at) + places[s];
+        number = s;
+        least = distance;
+      }
+    }
+  }
+  nearest.id = visible_at(at, number);
+  return nearest;
+}
+
+Sample nearer(Sample a, Sample b, vec2 pixel) {
+  vec2 to_a = a.place - pixel, to_b = b.place - pixel;
+  if (dot(to_b, to_b) < dot(to_a, to_a)) return b;
+  return a;
 }
 
 /// `pixel`: the ray's place in the pinhole picture.
 Center through_lens(vec2 pixel, vec3 ray) {
   const Center nothing = Center(uintBitsToFloat(0x7f800000u), 0u);
   ivec2 first = ivec2(pixel - 0.5);
-  uint ids[lens_candidates];
-  uint own = 0u;  // of the sample nearest to the ray
-  vec2 own_place = pixel;
-  float own_distance = 1e9;
-  bool same = true, sky = false;
-  for (uint i = 0u; i < lens_candidates; ++i) {
-    ids[i] = visible_at(first + ivec2(i & 1u, i >> 1 & 1u), i >> 2);
-    vec2 place = candidate_place(first, i);
-    float distance = dot(place - pixel, place - pixel);
-    if (distance < own_distance) {
-      own = ids[i];
-      own_place = place;
-      own_distance = distance;
-    }
-    same = same && ids[i] == ids[0];
-    sky = sky || ids[i] == 0u;
-  }
+  Sample a = nearest_sample(first, pixel), b = nearest_sample(first + ivec2(1, 0), pixel),
+         c = nearest_sample(first + ivec2(0, 1), pixel), d = nearest_sample(first + ivec2(1, 1), pixel);
+  uvec4 ids = uvec4(a.id, b.id, c.id, d.id);
+  bool same = all(equal(ids, uvec4(a.id)));
   if (same) {  // the ray passes between places on one triangle, or all see nothing
-    if (own == 0u) return nothing;
-    Seen seen = see(own - 1u);
-    return Center(dot(seen.p0, seen.normal) / dot(ray, seen.normal), own);
+    if (a.id == 0u) return nothing;
+    Seen seen = see(a.id - 1u);
+    return Center(dot(seen.p0, seen.normal) / dot(ray, seen.normal), a.id);
   }
+  Sample own = nearer(nearer(a, b, pixel), nearer(c, d, pixel), pixel);
   Center met = nothing, missed = nothing;
   bool keeps = false;
-  uint before = 0u;
-  for (uint i = 0u; i < lens_candidates; ++i) {
-    uint id = ids[i];
-    if (id != 0u && id != before) {
+  uint left = 15u;  // samples not yet looked at
+  while (left != 0u) {
+    uint id = (left & 1u) != 0u ? ids.x : (left & 2u) != 0u ? ids.y : (left & 4u) != 0u ? ids.z : ids.w;
+    bvec4 alike = equal(ids, uvec4(id));
+    left &= ~(uint(alike.x) | uint(alike.y) << 1 | uint(alike.z) << 2 | uint(alike.w) << 3);
+    if (id != 0u) {
       Seen seen = see(id - 1u);
       Outline outline = outline_of(seen);
       vec3 f = edge_functions(seen, outline.side, ray);
+      bool covers = outline_covers(outline, f);
       // Of triangles narrower than a pixel most are seen by no sample, and where an alpha mask has holes its samples alone
       // know: both go by the nearest sample, so that they cover their share of the picture.
-      bool by_sample = outline.thin || triangle_record(id - 1u, 5u).w != 0u;
-      bool covers = outline_covers(outline, f) && (id == own || !by_sample);
-      float depth = outline_depth(outline, f);
-      if (covers && depth < met.depth) met = Center(depth, id);
-      if (!covers && id == own) {
-        vec3 there = edge_functions(seen, outline.side, pixel_ray(own_place));
+      bool by_sample = outline.thin;
+      bool asks = covers != (id == own.id);
+      if (asks) by_sample = by_sample || triangle_record(id - 1u, 5u).w != 0u;
+      if (covers && (id == own.id || !by_sample)) {
+        float depth = outline_depth(outline, f);
+        if (depth < met.depth) met = Center(depth, id);
+      } else if (id == own.id) {
+        vec3 there = edge_functions(seen, outline.side, pixel_ray(own.place));
         missed = Center(outline_depth(outline, outline_entered(f, there)), id);
         keeps = by_sample;
       }
     }
-    before = id;
   }
   // The nearest sample also stands for what no sample sees.
+  bool sky = any(equal(ids, uvec4(0u)));
   bool stays = missed.id != 0u && (keeps || (met.id == 0u && !sky));
   if (stays && missed.depth < met.depth) return missed;
   return met;
