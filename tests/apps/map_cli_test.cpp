@@ -164,7 +164,7 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   int status = 0;
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(fs::exists(path("parts/links.part")));
   EXPECT_FALSE(fs::exists(path("parts/map.json")));
 
@@ -220,7 +220,8 @@ TEST_F(MapCli, SaysWhatIsWrong) {
        "--plane: expected a height within the scene and its transmitters, z 0 to 20 m, found 800"},
       {"--min 5000 5000 --max 5100 5100 --plane 1", "x -500 to 1500 m and y -500 to 1500 m"},
       {"--height 0", "--height: expected more than 0 m, found 0"},
-      {"--power nan", "--power: expected -200 to 200 dBm"},
+      {"--power nan", "--power: expected a finite number, found 'nan'"},
+      {"--power 201", "--power: expected -200 to 200 dBm"},
       {"--power 30,30,30", "--power: expected 1 number, or 2"},
       {"--bandwidth 0", "--bandwidth: expected more than 0 Hz"},
       {"--noise-figure -3", "--noise-figure: expected 0 dB or more"},
