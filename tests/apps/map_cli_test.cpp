@@ -164,7 +164,7 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   int status = 0;
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status)) << "ended by the signal, not cleanly";
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_TRUE(fs::exists(path("parts/links.part")));
   EXPECT_FALSE(fs::exists(path("parts/map.json")));
 
