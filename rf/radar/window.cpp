@@ -48,7 +48,7 @@ std::complex<double> kernel_of(double bins, uint32_t size) {
   const double top = std::sin(pi * (bins - whole * size)), bottom = std::sin(pi * (turns - whole));
   const double sum = std::abs(bottom) < 1e-15 ? size : top / bottom;
   const double sign = std::fmod(std::abs(whole), 2.0) == 0.0 || size % 2 == 1 ? 1.0 : -1.0;
-  return std::polar(sum, lean) * sign;
+  return sum * std::polar(1.0, lean) * sign;  // the sum may be negative, which polar() refuses
 }
 
 }  // namespace
