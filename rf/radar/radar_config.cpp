@@ -46,6 +46,16 @@ Fault check_waveform(const RadarWaveform& w) {
         fmt::format(
             "expected samples that fit the chirp of {} s; {} samples at {} Hz from {} s on end at {} s",
             w.chirp_s, w.samples, w.sample_rate_hz, w.adc_start_s, w.adc_start_s + w.sampled_s())};
+  // Beyond these, bins and noise leave the range of the numbers that files hold.
+  constexpr double least_bandwidth_hz = 1e-3, most_sample_rate_hz = 1e12;
+  if (w.sample_rate_hz > most_sample_rate_hz)
+    return RadarFault{"waveform.sample_rate_hz", fmt::format("expected at most {:g} Hz, found {} Hz",
+                                                             most_sample_rate_hz, w.sample_rate_hz)};
+  if (w.bandwidth_hz() < least_bandwidth_hz)
+    return RadarFault{
+        "waveform.slope_hz_per_s",
+        fmt::format("expected a ramp that covers {:g} Hz at least while it is sampled, found {} Hz",
+                    least_bandwidth_hz, w.bandwidth_hz())};
   if (w.bandwidth_hz() >= 2.0 * w.carrier_hz)
     return RadarFault{"waveform.slope_hz_per_s",
                       fmt::format("expected a ramp that stays above 0 Hz; it covers {} Hz about {} Hz",
@@ -86,14 +96,14 @@ Fault check_arrays(const RadarSignalConfig& config) {
 }
 
 Fault check_receiver(const RadarReceiver& receiver, double sample_rate_hz) {
-  if (receiver.noise_figure_db &&
-      !(std::isfinite(*receiver.noise_figure_db) && *receiver.noise_figure_db >= 0.0))
+  if (receiver.noise_figure_db && !(*receiver.noise_figure_db >= 0.0 && *receiver.noise_figure_db <= 200.0))
     return RadarFault{"receiver.noise_figure_db",
-                      fmt::format("expected 0 dB or more, found {}", *receiver.noise_figure_db)};
+                      fmt::format("expected 0 to 200 dB, found {}", *receiver.noise_figure_db)};
   if (receiver.phase_noise) {
-    if (!std::isfinite(receiver.phase_noise->level_dbc_hz))
-      return RadarFault{"receiver.phase_noise.level_dbc_hz",
-                        fmt::format("expected a number, found {}", receiver.phase_noise->level_dbc_hz)};
+    if (!(receiver.phase_noise->level_dbc_hz >= -300.0 && receiver.phase_noise->level_dbc_hz <= 0.0))
+      return RadarFault{
+          "receiver.phase_noise.level_dbc_hz",
+          fmt::format("expected -300 to 0 dBc/Hz, found {}", receiver.phase_noise->level_dbc_hz)};
     if (Fault fault = check_positive("receiver.phase_noise.pole_hz", receiver.phase_noise->pole_hz))
       return fault;
     if (receiver.phase_noise->pole_hz > 50.0 * sample_rate_hz)
@@ -105,9 +115,9 @@ Fault check_receiver(const RadarReceiver& receiver, double sample_rate_hz) {
     if (receiver.adc->bits < 2 || receiver.adc->bits > 24)
       return RadarFault{"receiver.adc.bits",
                         fmt::format("expected 2 to 24 bits, found {}", receiver.adc->bits)};
-    if (!std::isfinite(receiver.adc->full_scale_dbm))
+    if (!(std::abs(receiver.adc->full_scale_dbm) <= 200.0))
       return RadarFault{"receiver.adc.full_scale_dbm",
-                        fmt::format("expected a number, found {}", receiver.adc->full_scale_dbm)};
+                        fmt::format("expected -200 to 200 dBm, found {}", receiver.adc->full_scale_dbm)};
   }
   return {};
 }
