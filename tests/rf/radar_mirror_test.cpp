@@ -66,7 +66,7 @@ TEST(RadarMirror, TrihedralAtSeveralAngles) {
   const double axis = degrees(std::atan(std::sqrt(0.5)));
   for (const auto& [az, el] : {std::pair(45.0, axis), std::pair(45.0, 25.0), std::pair(20.0, 20.0)}) {
     const dvec3 at = from(az, el), middle(a / 4);
-    EXPECT_NEAR(over_mirror_db(trihedral(), middle + at, middle, exact(0.1, 400), 3),
+    EXPECT_NEAR(over_mirror_db(trihedral(), middle + at, middle, exact(0.1, 6400), 3),
                 trihedral_db(glm::normalize(at)), 0.01)
         << az << " " << el;
   }
