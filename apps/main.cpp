@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -70,6 +71,9 @@ int main(int argc, char** argv) {
   } catch (const Interrupted& interrupted) {
     std::cerr << "greatx: interrupted: " << interrupted.what() << '\n';
     return apps::exit_interrupted;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "greatx: error: " << error.path1().string() << ": " << error.code().message() << '\n';
+    return apps::exit_user;
   } catch (const std::bad_alloc&) {
     std::cerr << "greatx: error: " << out_of_memory() << '\n';
     return apps::exit_internal;

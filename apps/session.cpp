@@ -47,7 +47,8 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
                                    options.assets);
   } else {
     const std::filesystem::path file = options.scenario;
-    if (!std::filesystem::is_regular_file(file)) {
+    std::error_code unreadable;  // a link to itself, say
+    if (!std::filesystem::is_regular_file(file, unreadable)) {
       std::vector<std::string_view> names;
       for (const EmbeddedScenario& s : embedded_scenarios()) names.push_back(s.name);
       throw_user_error("{}: no such scenario: expected a YAML file or one of {}", options.scenario,

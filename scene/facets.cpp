@@ -45,6 +45,7 @@ class Fan {
  public:
   /// What normals may turn while one answer is still good.
   static constexpr double margin_rad = 0.01;
+  uint64_t settled = 0;  ///< Merger::changes_ when all were last asked and none joined
 
   explicit Fan(const dvec3& edge) {
     const dvec3 along = glm::normalize(edge);
@@ -179,9 +180,10 @@ class Merger {
     plane = trial;
     taken_[neighbour] = true;
     grown_.push_back(neighbour);
+    ++changes_;
   }
 
-  const Fan& fan_of(const EdgeTable::Edge& edge, uint32_t triangle, uint32_t side) {
+  Fan& fan_of(const EdgeTable::Edge& edge, uint32_t triangle, uint32_t side) {
     const dvec3* corners = &input_.corners[size_t{triangle} * 3];
     const auto [entry, is_new] = fans_.try_emplace(edge.first, corners[(side + 1) % 3] - corners[side]);
     if (is_new) {
@@ -192,8 +194,15 @@ class Merger {
     return entry->second;
   }
 
-  /// What the loop over all of them would find, in its order: asked again when the plane has turned.
-  void join_fan(const Fan& fan, bool fixed, PlaneFit& plane) {
+  /// What the loop over all of them would find, in its order: asked again when the plane has turned. Every triangle of a
+  /// facet that lies around the edge asks; nobody new can join as long as nothing has changed since nobody did.
+  void join_fan(Fan& fan, bool fixed, PlaneFit& plane) {
+    if (fan.settled == changes_) return;
+    const uint64_t before = changes_;
+    ask_fan(fan, fixed, plane);
+    if (changes_ == before) fan.settled = before;
+  }
+  void ask_fan(const Fan& fan, bool fixed, PlaneFit& plane) {
     for (uint32_t next = 0;;) {
       const dvec3 asked = plane.normal();
       fan.near(asked, next, near_);
@@ -216,6 +225,7 @@ class Merger {
     plane.add(triangles_[seed].normal, triangles_[seed].weight, centroid(seed));
     grown_.push_back(seed);
     taken_[seed] = true;
+    ++changes_;
     for (; next < grown_.size(); ++next) {
       const uint32_t triangle = grown_[next];
       for (uint32_t side = 0; side < 3; ++side) {
@@ -275,6 +285,7 @@ class Merger {
   std::vector<uint8_t> taken_;
   std::unordered_map<uint32_t, Fan> fans_;  ///< by EdgeTable::Edge::first
   std::vector<uint32_t> near_;
+  uint64_t changes_ = 0;            ///< of the plane that grows and of taken_
   std::vector<uint32_t> grown_;     ///< triangles of one group after the other, as they joined
   std::vector<FacetGroup> groups_;  ///< as they grew; their ranges into grown_
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -149,12 +150,30 @@ class EdgeFinder {
 
   std::vector<Piece> pieces() {
     std::vector<Piece> found;
-    for (const uint32_t facet : facets_)
-      for (const Side& side : outline(scene_, scene_.facets[facet])) along(side.a, side.b, found);
+    for (const Side& side : sides()) along(side.a, side.b, found);
     return found;
   }
 
  private:
+  /// The sides of all outlines. Facets that share one have it once: what lies along it is the same for each of
+  /// them, and around an edge of very many facets asking for each would take the square of the time.
+  std::vector<Side> sides() const {
+    std::vector<Side> all;
+    for (const uint32_t facet : facets_)
+      for (const Side& side : outline(scene_, scene_.facets[facet])) all.push_back(side);
+    std::vector<size_t> order(all.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto edge = [&](size_t index) { return std::tuple(key(all[index].a), key(all[index].b)); };
+    std::sort(order.begin(), order.end(),
+              [&](size_t x, size_t y) { return std::tuple(edge(x), x) < std::tuple(edge(y), y); });
+    std::vector<bool> again(all.size());
+    for (size_t i = 1; i < order.size(); ++i) again[order[i]] = edge(order[i]) == edge(order[i - 1]);
+    std::vector<Side> once;
+    for (size_t i = 0; i < all.size(); ++i)
+      if (!again[i]) once.push_back(all[i]);
+    return once;
+  }
+
   static std::vector<FacetTriangle> triangles_of(const Scene& scene, const std::vector<uint32_t>& facets,
                                                  std::vector<uint32_t>& facet_of) {
     std::vector<FacetTriangle> triangles;

@@ -357,6 +357,21 @@ TEST(FindWedgesHardCase, N46_FlatSeamsAreIgnored) {
   EXPECT_EQ(folded(-2.1), 1u);
 }
 
+TEST(FindWedges, PagesOfABookHaveOneSpine) {
+  // Asked once for each page, the spine would take the square of their number.
+  const int pages = 2000;
+  Hand book;
+  for (int page = 0; page < pages; ++page) {
+    const double angle = 0.5 * pi * page / (pages - 1);
+    book.plate(dvec3(0), {std::cos(angle), std::sin(angle), 0}, {0, 0, 2});
+  }
+  const std::vector<Wedge> wedges = find_wedges(book.scene, {});
+  ASSERT_EQ(wedges.size(), 1u);
+  EXPECT_NEAR(total_length(wedges), 2.0, 1e-12);
+  EXPECT_NEAR(wedges[0].n, 1.5, 1e-9);
+  EXPECT_EQ(std::minmax(wedges[0].facet_0, wedges[0].facet_n), std::minmax(0u, uint32_t(pages - 1)));
+}
+
 TEST(FindWedgesHardCase, N47_SplitEdgesAndDiagonalsMakeNoMore) {
   // Each wall and the roof in another grid, no common vertices but the corners: still 12 edges of full length.
   Hand hand;
