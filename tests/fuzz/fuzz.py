@@ -48,6 +48,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the cases that fail")
     parser.add_argument("--attacks", action="store_true",
                         help="also the named attacks of attacks.py, on the kinds chosen")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="of the attacks each N-th alone")
     parser.add_argument("--corpus", type=pathlib.Path, help="also every case kept in this folder")
     parser.add_argument("--replay", type=pathlib.Path, nargs="+", help="kept cases, and nothing else")
     parser.add_argument("--into", type=pathlib.Path,
@@ -174,7 +175,7 @@ def jobs_of(options: argparse.Namespace, kinds: list[str], bases: dict[str, list
                 yield case.kind, case
     if options.attacks:
         for kind in kinds:
-            for case in attacks.attacks_of(kind, bases[kind]):
+            for case in itertools.islice(attacks.attacks_of(kind, bases[kind]), 0, None, max(options.every, 1)):
                 yield kind, case
     for number in range(options.first, options.first + options.count):
         for kind in kinds:
