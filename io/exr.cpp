@@ -178,8 +178,8 @@ Array read_exr(const std::filesystem::path& path, const std::vector<int64_t>& ex
       compression != Imf::ZIP_COMPRESSION)
     throw_user_error("{}: expected no compression or ZIP, found number {}", path.string(),
                      static_cast<int>(compression));
-  const std::vector<int64_t> shape = names.size() == 1 ? std::vector<int64_t>{height, width}
-                                                       : std::vector<int64_t>{height, width, 3};
+  const std::vector<int64_t> shape =
+      names.size() == 1 ? std::vector<int64_t>{height, width} : std::vector<int64_t>{height, width, 3};
   check_picture_shape(path.string(), DType::f32, shape, expected_shape);
   Array image(DType::f32, shape);
   file.setFrameBuffer(frame_buffer(names, reinterpret_cast<char*>(image.bytes.data()), window));
