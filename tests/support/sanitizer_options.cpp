@@ -5,6 +5,8 @@
 // The names are the sanitizers' own (sanitizer/lsan_interface.h).
 #include <dlfcn.h>
 
+// The loader and the sanitizers' library look for these in the program, where all else is hidden.
+#pragma GCC visibility push(default)
 extern "C" {
 
 /// Drivers stay loaded: a leak can be laid at the door of its library only while that is in memory.
@@ -21,3 +23,4 @@ const char* __lsan_default_options();
 const char* __lsan_default_options() { return "print_suppressions=0"; }
 
 }  // extern "C"
+#pragma GCC visibility pop
