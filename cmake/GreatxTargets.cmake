@@ -15,8 +15,11 @@ target_compile_options(greatx_options INTERFACE -ffp-contract=off)
 # What meets files of strangers fails early and is hard to turn to other ends: canaries on stacks, bounds of buffers and of
 # containers checked where the compiler and the library know them, all addresses resolved at start and then read-only, no
 # fixed address. tests/apps/check_binaries.py looks for each. Sanitizers have checks of their own, and want none beside.
+# Libraries that only compute, from values that others have checked, go without the checks of containers (greatx_library's
+# COMPUTES): these cost time in their inner loops, and no file of a stranger reaches them.
 if(NOT GREATX_SANITIZE)
-  target_compile_options(greatx_options INTERFACE -fstack-protector-strong -D_GLIBCXX_ASSERTIONS
+  target_compile_options(greatx_options INTERFACE -fstack-protector-strong
+                                                  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:GREATX_COMPUTES>>>:-D_GLIBCXX_ASSERTIONS>
                                                   # Needs an optimizer.
                                                   "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
   target_link_options(greatx_options INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
@@ -27,14 +30,15 @@ if(GREATX_SANITIZE)
   target_link_options(greatx_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# greatx_library(NAME SOURCES ... LINK ...): the static library of one folder.
+# greatx_library(NAME [COMPUTES] SOURCES ... LINK ...): the static library of one folder; COMPUTES: it reads no input.
 function(greatx_library NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;LINK;PRIVATE" ${ARGN})
   if(NOT ARG_SOURCES)
     add_library(greatx_${NAME} INTERFACE)
     return()
   endif()
   add_library(greatx_${NAME} STATIC ${ARG_SOURCES})
+  set_target_properties(greatx_${NAME} PROPERTIES GREATX_COMPUTES ${ARG_COMPUTES})
   target_link_libraries(greatx_${NAME} PUBLIC greatx_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
