@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
-#include "apps/json_text.h"
-#include "apps/session.h"
+#include "apps/console/json_text.h"
+#include "apps/console/session.h"
 #include "sim/channel/notes.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 

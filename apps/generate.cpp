@@ -7,16 +7,17 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/consistency_files.h"
-#include "apps/json_text.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/summary.h"
-#include "apps/watch.h"
-#include "io/dataset_writer.h"
-#include "sim/simulator.h"
+#include "apps/console/command_line.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/summary.h"
+#include "apps/console/watch.h"
+#include "apps/files/consistency_files.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "io/animation.h"
-#include "io/contact_sheet.h"
-#include "io/summary.h"
+#include "apps/console/command_line.h"
+#include "draw/sheet/animation.h"
+#include "draw/sheet/contact_sheet.h"
+#include "io/dataset/summary.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::apps {

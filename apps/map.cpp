@@ -8,20 +8,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/json_text.h"
-#include "apps/map/background.h"
+#include "apps/console/command_line.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/watch.h"
 #include "apps/map/journal.h"
 #include "apps/map/output.h"
-#include "apps/paths/render.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/watch.h"
 #include "core/hash.h"
-#include "sim/channel/antennas.h"
+#include "draw/map/background.h"
+#include "draw/paths/render.h"
 #include "sim/channel/radio_map_values.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 

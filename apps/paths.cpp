@@ -8,19 +8,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/console/command_line.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/watch.h"
 #include "apps/paths/cfr.h"
-#include "apps/paths/draw.h"
 #include "apps/paths/glb.h"
 #include "apps/paths/output.h"
-#include "apps/paths/render.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/watch.h"
-#include "io/png.h"
+#include "draw/paths/draw.h"
+#include "draw/paths/render.h"
+#include "io/formats/png.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/receiver_list.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/receiver_list.h"
 
 namespace greatx::apps {
 

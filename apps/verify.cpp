@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/verify.h"
+#include "io/dataset/verify.h"
 
 #include <iostream>
 #include <memory>
@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
-#include "apps/consistency_files.h"
-#include "apps/json_text.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/json_text.h"
+#include "apps/files/consistency_files.h"
 
 namespace greatx::apps {
 

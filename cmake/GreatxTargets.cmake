@@ -30,16 +30,50 @@ if(GREATX_SANITIZE)
   target_link_options(greatx_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# greatx_library(NAME [COMPUTES] SOURCES ... LINK ...): the static library of one folder; COMPUTES: it reads no input.
-function(greatx_library NAME)
-  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;LINK;PRIVATE" ${ARGN})
-  if(NOT ARG_SOURCES)
-    add_library(greatx_${NAME} INTERFACE)
-    return()
+# greatx_target(VARIABLE ROOM): the library of a room; of rf/radar/echoes it is greatx_rf_radar_echoes.
+function(greatx_target VARIABLE ROOM)
+  string(REPLACE "/" "_" name ${ROOM})
+  set(${VARIABLE} greatx_${name} PARENT_SCOPE)
+endfunction()
+
+# greatx_links(TARGET ROOM...): what a program or a module is made of; tests/apps/check_arrows.py reads it.
+function(greatx_links TARGET)
+  foreach(room ${ARGN})
+    greatx_target(library ${room})
+    target_link_libraries(${TARGET} PRIVATE ${library})
+  endforeach()
+endfunction()
+
+# greatx_room(ROOM [COMPUTES] SOURCES FILE... ROOMS ROOM... USES LIBRARY...): a folder and its static library. ROOMS are
+# the arrows: the rooms that its files may include, which tests/apps/check_arrows.py holds them to. USES are libraries from
+# elsewhere. COMPUTES: it reads no input of strangers (see above).
+function(greatx_room ROOM)
+  cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;ROOMS;USES" ${ARGN})
+  greatx_target(library ${ROOM})
+  set(links greatx_options)
+  foreach(other ${ARG_ROOMS})
+    greatx_target(name ${other})
+    list(APPEND links ${name})
+  endforeach()
+  if(ARG_SOURCES)
+    list(TRANSFORM ARG_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/${ROOM}/)
+    add_library(${library} STATIC ${ARG_SOURCES})
+    target_link_libraries(${library} PUBLIC ${links} ${ARG_USES})
+    set_target_properties(${library} PROPERTIES GREATX_COMPUTES ${ARG_COMPUTES})
+  else()
+    add_library(${library} INTERFACE)
+    target_link_libraries(${library} INTERFACE ${links} ${ARG_USES})
   endif()
-  add_library(greatx_${NAME} STATIC ${ARG_SOURCES})
-  set_target_properties(greatx_${NAME} PROPERTIES GREATX_COMPUTES ${ARG_COMPUTES})
-  target_link_libraries(greatx_${NAME} PUBLIC greatx_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
+  # All rooms of a top folder together, for tests.
+  string(REGEX REPLACE "/.*" "" top ${ROOM})
+  if(NOT top STREQUAL ROOM)
+    if(NOT TARGET greatx_${top})
+      add_library(greatx_${top} INTERFACE)
+    endif()
+    if(NOT top STREQUAL core)
+      target_link_libraries(greatx_${top} INTERFACE ${library})
+    endif()
+  endif()
 endfunction()
 
 # greatx_test(NAME SOURCES ... LINK ...): a GoogleTest program, each test of it known to ctest under the label NAME; those

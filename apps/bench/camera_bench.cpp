@@ -13,12 +13,13 @@
 #include "core/units.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
-#include "sim/moment.h"
+#include "sim/plan/camera_desc.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/clock.h"
-#include "sim/sensors/camera_desc.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/session.h"
+#include "apps/console/session.h"
 
 namespace greatx::apps {
 

@@ -7,10 +7,10 @@
 #include "apps/bench/radio_rows.h"
 #include "apps/bench/recall_scene.h"
 #include "apps/paths/cfr.h"
-#include "io/dataset_writer.h"
-#include "sim/channel/antennas.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
 
 namespace greatx::apps {
 

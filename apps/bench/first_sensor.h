@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sim/moment.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 

@@ -12,7 +12,8 @@
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/sensor_alone.h"
-#include "sim/sensors/lidar_sensor.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/sensors/lidar/lidar_sensor.h"
 
 namespace greatx::apps {
 

@@ -11,9 +11,10 @@
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/sensor_alone.h"
-#include "rf/radar/receiver.h"
-#include "rf/radar/window.h"
-#include "sim/sensors/radar_sensor.h"
+#include "rf/radar/signal/receiver.h"
+#include "rf/radar/signal/window.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/sensors/radar/radar_sensor.h"
 
 namespace greatx::apps {
 

@@ -14,11 +14,12 @@
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/channel_snapshot.h"
-#include "sim/moment.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/world/moment.h"
 
 namespace greatx::apps {
 

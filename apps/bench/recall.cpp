@@ -13,15 +13,16 @@
 
 #include "apps/bench/measure.h"
 #include "apps/bench/recall_scene.h"
-#include "apps/commands.h"
-#include "apps/json_text.h"
-#include "apps/progress.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "sim/channel/channel_paths.h"
-#include "sim/moment.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/receiver_list.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/receiver_list.h"
+#include "sim/world/moment.h"
 
 namespace greatx::apps {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/session.h"
+#include "apps/console/session.h"
 
 namespace greatx::apps {
 

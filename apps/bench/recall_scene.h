@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "sim/moment.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 

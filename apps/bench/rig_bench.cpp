@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "apps/bench/measure.h"
-#include "io/dataset_writer.h"
-#include "sim/simulator.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 

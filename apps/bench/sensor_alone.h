@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "gpu/tick_ring.h"
-#include "sim/moment.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 

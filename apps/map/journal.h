@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "rf/channel/statistics.h"
 
 namespace greatx::apps {

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/units.h"
-#include "io/npy.h"
-#include "io/png.h"
+#include "io/formats/npy.h"
+#include "io/formats/png.h"
 
 namespace greatx::apps {
 

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/map/draw.h"
+#include "draw/map/draw.h"
 #include "sim/channel/radio_map_values.h"
 
 namespace greatx::apps {

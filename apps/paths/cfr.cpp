@@ -4,8 +4,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "io/npy.h"
-#include "sim/channel/antennas.h"
+#include "io/formats/npy.h"
+#include "sim/plan/antennas.h"
 
 namespace greatx::apps {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "rf/channel/dispersion.h"
 #include "rf/channel/frequency_response.h"
 #include "sim/channel/channel_snapshot.h"

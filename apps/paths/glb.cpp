@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/srgb.h"
-#include "io/glb_writer.h"
+#include "io/formats/glb_writer.h"
 
 namespace greatx::apps {
 

@@ -16,6 +16,7 @@
 #include "python/src/path_set.h"
 #include "python/src/session.h"
 #include "python/src/stream.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::python {
 

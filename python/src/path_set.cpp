@@ -14,8 +14,8 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/received.h"
 #include "rf/channel/taps.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/columns.h"
+#include "sim/plan/antennas.h"
 
 namespace greatx::python {
 

@@ -11,10 +11,11 @@
 #include "python/src/map_result.h"
 #include "python/src/path_set.h"
 #include "python/src/stream.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/notes.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/override.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/override.h"
 
 namespace greatx::python {
 

@@ -21,7 +21,7 @@
 #include "sim/channel/radio_map.h"
 #include "sim/plan/effect_plan.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace greatx::python {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "python/src/session.h"
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
 
 namespace greatx::python {
 

@@ -9,8 +9,8 @@
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/develop.h"
 #include "renderer/camera/edges.h"
+#include "renderer/camera/lamps.h"
 #include "renderer/camera/meter.h"
-#include "renderer/light/lamps.h"
 
 namespace greatx::render {
 

@@ -16,10 +16,10 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "renderer/camera/lens.h"
 #include "renderer/camera/picture.h"
+#include "renderer/lens/lens.h"
 #include "renderer/light/lighting.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
 
@@ -109,7 +109,7 @@ double saturation_luminance(double ev100);
 /// of the scene, so that halves hold day and night (docs/film.md).
 double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting);
 
-/// Lamps of one picture (renderer/light/lamps.h).
+/// Lamps of one picture (renderer/camera/lamps.h).
 struct LampCounts {
   uint32_t seen = 0;     ///< lamps in at least one cluster
   uint32_t entries = 0;  ///< lamps summed over clusters

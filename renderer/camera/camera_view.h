@@ -9,7 +9,7 @@
 #include "core/vec.h"
 #include "renderer/camera/camera.h"
 #include "renderer/light/shadow.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 
 namespace greatx::render {
 

@@ -14,7 +14,7 @@
 
 #include "gpu/tick_ring.h"
 #include "renderer/event/event_sort.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/shared/events.h"
 
 namespace greatx::render {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
+#include "renderer/lidar/scan/footprint.h"
 
 namespace greatx::render {
 

@@ -3,7 +3,7 @@
 //
 // LiDAR on the GPU (docs/lidar.md):
 //
-//   ScanPattern, poses, targets ─► rays of every shot ─► echoes ─► make_scan (renderer/lidar/returns.h)
+//   ScanPattern, poses, targets ─► rays of every shot ─► echoes ─► make_scan (renderer/lidar/scan/returns.h)
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 #include "core/vec.h"
 #include "gpu/pipeline.h"
 #include "gpu/tick_ring.h"
-#include "renderer/lidar/returns.h"
-#include "renderer/lidar/scan_pattern.h"
-#include "scene/gpu_scene.h"
+#include "renderer/lidar/scan/returns.h"
+#include "renderer/lidar/scan/scan_pattern.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/shared/lidar.h"
 
 namespace greatx::render {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "scene/material.h"
+#include "scene/material/material.h"
 #include "shaders/shared/lidar.h"
 
 namespace greatx::render {

@@ -8,7 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/units.h"
-#include "renderer/octahedral.h"
+#include "renderer/surface/octahedral.h"
 
 namespace greatx::render {
 

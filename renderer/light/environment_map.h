@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sky as a picture: octahedral (renderer/octahedral.h).
+// The sky as a picture: octahedral (renderer/surface/octahedral.h).
 #pragma once
 
 #include <cstdint>

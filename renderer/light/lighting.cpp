@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "renderer/daylight/haze.h"
 #include "renderer/light/environment_map.h"
-#include "renderer/light/haze.h"
 #include "renderer/light/night_sky.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"

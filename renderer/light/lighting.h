@@ -11,8 +11,8 @@
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
 #include "renderer/light/shadow.h"
-#include "renderer/surface_tables.h"
-#include "scene/gpu_scene.h"
+#include "renderer/surface/surface_tables.h"
+#include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
 
@@ -36,7 +36,7 @@ struct Lighting {
   SkyModel sky_model = SkyModel::clear;
   double turbidity = 2.0;              ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
   double ground_albedo = 0.15;         ///< of what lies below the horizon beyond the scene; clear sky only
-  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/light/haze.h
+  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/daylight/haze.h
   double haze_depth = 0.0;             ///< their optical depth between scene and sky, vertically
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves

@@ -10,9 +10,9 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "renderer/light/almanac.h"
+#include "renderer/daylight/almanac.h"
 #include "renderer/light/sky.h"
-#include "renderer/octahedral.h"
+#include "renderer/surface/octahedral.h"
 
 namespace greatx::render {
 

@@ -11,7 +11,7 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/light/atmosphere.h"
-#include "renderer/light/haze.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/haze.h"
+#include "renderer/daylight/twilight.h"
 
 namespace greatx::render {
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "rf/atmosphere/weather.h"
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 namespace greatx::rf {
 

@@ -4,7 +4,7 @@
 // Foliage as a volume: a closed mesh that neither reflects nor blocks and takes power by the depth of it on the way.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf {
 

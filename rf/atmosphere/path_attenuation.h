@@ -6,9 +6,9 @@
 #pragma once
 
 #include "core/vec.h"
+#include "rf/antenna/field_vector.h"
 #include "rf/atmosphere/rain.h"
 #include "rf/atmosphere/weather.h"
-#include "rf/field_vector.h"
 
 namespace greatx::rf {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "rf/channel/statistics.h"
-#include "rf/path.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
 

@@ -10,8 +10,8 @@
 
 #include "rf/atmosphere/weather.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field.h"
-#include "scene/scene.h"
+#include "rf/field/field.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf {
 

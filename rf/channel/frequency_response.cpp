@@ -3,9 +3,9 @@
 #include "rf/channel/frequency_response.h"
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "rf/channel/link_sum.h"
 #include "rf/channel/pair_amplitudes.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {

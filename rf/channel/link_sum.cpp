@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "rf/channel/phase.h"
+#include "core/phase.h"
 #include "rf/channel/summing_order.h"
 
 namespace greatx::rf {

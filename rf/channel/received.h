@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/units.h"
+#include "rf/antenna/field_vector.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field_vector.h"
-#include "rf/path.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
 

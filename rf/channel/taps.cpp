@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "core/units.h"
 #include "rf/channel/link_sum.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rf/channel/frequency_response.h"
-#include "rf/path.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
 

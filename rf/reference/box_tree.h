@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The reference that greatx's specular paths are held against: every sequence of facets is tried, host, fp64. It shares
-// no code with the searches (rf/search/, rf/candidate_search.h), the image tree (rf/geometry.h) or the GPU passes; only
+// no code with the searches (rf/search/, rf/search/candidate_search.h), the image tree (rf/geometry/geometry.h) or the GPU passes; only
 // FacetWorld's planes and its test of a point in a facet are the same.
 //
 // Sequences are pruned by two bounds alone, neither of which can lose a path:
@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
-#include "rf/path.h"
-#include "scene/scene.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/path.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -41,7 +41,7 @@ struct ExhaustiveResult {
   uint64_t geometric_paths = 0;  ///< of these, with occlusion not looked at, duplicates included
 };
 
-/// What counts as a path is what rf/geometry.h says: reflections on either side of a facet; facets closed within
+/// What counts as a path is what rf/geometry/geometry.h says: reflections on either side of a facet; facets closed within
 /// PosedFacet::tolerance_m; an end in a facet's plane is not reflected by it; two reflections in one point only in an
 /// inner corner; paths with one polyline (reflection points within 1e-6 m, 1e-9 of the length beyond 1 km) are one, the
 /// first sequence in canonical order. What blocks: rf/reference/occluders.h.

@@ -71,7 +71,7 @@ bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   return in_plane(stretch.a) || in_plane(stretch.b);
 }
 
-/// The rule that rf/crossings.h states: walls in one plane are one, so are walls met in their common edge, within the
+/// The rule that rf/paths/crossings.h states: walls in one plane are one, so are walls met in their common edge, within the
 /// tolerance of visibility.
 bool Occluders::one_wall(const Stretch& stretch, const WallPassed& a, const WallPassed& b) const {
   const double tolerance = 1e-4 + 0x1p-22 * std::max(largest(stretch.a), largest(stretch.b));

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
 #include "rf/reference/box_tree.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -39,7 +39,7 @@ class Occluders {
             const FacetKinds& kinds);
 
   /// Whether the stretch is free but for `budget` walls at most, which `passed` then has in order (appended). Rules, the
-  /// same as rf/crossings.h states for greatx:
+  /// same as rf/paths/crossings.h states for greatx:
   /// - facets and bodies that the stretch names are never in its way;
   /// - nor is a facet whose plane one of the ends lies in, within 0.1 mm + 2^-22 of the largest coordinate of the end
   ///   and of the facet's first corner;

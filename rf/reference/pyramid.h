@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_world.h"
 #include "rf/reference/box_tree.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
-#include "scene/wedges.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "scene/description/wedges.h"
 
 namespace greatx::rf {
 

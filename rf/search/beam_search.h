@@ -17,11 +17,11 @@
 #include <string>
 
 #include "core/vec.h"
-#include "rf/candidates.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/candidates.h"
 #include "rf/search/beam_scene.h"
-#include "scene/wedges.h"
+#include "scene/description/wedges.h"
 
 namespace greatx::rf {
 

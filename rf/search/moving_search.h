@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/candidates.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/candidates.h"
 #include "rf/search/beam_scene.h"
 #include "rf/search/beam_search.h"
 #include "rf/search/seams.h"

@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "rf/facet_world.h"
-#include "rf/geometry.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/geometry.h"
 #include "rf/search/beam_scene.h"
 
 namespace greatx::rf {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
 #include "rf/search/beam_search.h"
 
 namespace greatx::rf {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two plain scenes for radio: a street between two rows of houses, and a closed room.
+#include "scene/generator/canyon.h"
+
 #include <array>
 #include <vector>
 
@@ -9,9 +11,8 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "scene/generator/kinds.h"
-#include "scene/generator/materials.h"
-#include "scene/generator/mesh_builder.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/mesh_builder.h"
 
 namespace greatx::scene::generator {
 

@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "scene/generator/kinds.h"
-#include "scene/generator/objects.h"
-#include "scene/generator/vehicles.h"
+#include "scene/generator/canyon.h"
+#include "scene/generator/city/city.h"
+#include "scene/generator/country/country.h"
+#include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/vehicles.h"
 
 namespace greatx::scene {
 

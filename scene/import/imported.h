@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene of another program holds, before it is written as glTF (apps/scene_import.h).
+// What a scene of another program holds, before it is written as glTF (apps/files/scene_import.h).
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 #include "core/activity.h"
 #include "core/budget.h"
 #include "core/text.h"
-#include "scene/asset_folder.h"
+#include "scene/files/asset_folder.h"
 #include "scene/import/mitsuba_materials.h"
 #include "scene/import/mitsuba_xml.h"
 #include "scene/import/ply_mesh.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 namespace greatx::scene {
 

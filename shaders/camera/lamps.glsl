@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lamps: each pixel looks at those of its cluster alone (renderer/light/lamps.h makes the clusters).
+// Lamps: each pixel looks at those of its cluster alone (renderer/camera/lamps.h makes the clusters).
 #ifndef GREATX_CAMERA_LAMPS_GLSL
 #define GREATX_CAMERA_LAMPS_GLSL
 #include "camera/light.glsl"

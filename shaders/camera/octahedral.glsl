@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions on a square, z up: renderer/octahedral.h.
+// Directions on a square, z up: renderer/surface/octahedral.h.
 #ifndef GREATX_CAMERA_OCTAHEDRAL_GLSL
 #define GREATX_CAMERA_OCTAHEDRAL_GLSL
 

@@ -62,7 +62,7 @@ vec3 surface_normal(uint triangle, uint body, vec3 ray) {
   return normalize(same_side ? n : -n);
 }
 
-/// distort(n + by) - distort(n), without subtracting what is nearly equal (renderer/camera/lens.h has the model).
+/// distort(n + by) - distort(n), without subtracting what is nearly equal (renderer/lens/lens.h has the model).
 vec2 distorted_difference(vec2 n, vec2 by) {
   vec2 m = n + by;
   float r2 = dot(n, n), s = dot(2.0 * n + by, by), q2 = r2 + s;  // q: radius of m

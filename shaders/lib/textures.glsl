@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures (scene/gpu_textures.h), known by references (texture_array_shift). `arrays` says which arrays the
+// The scene's textures (scene/device/gpu_textures.h), known by references (texture_array_shift). `arrays` says which arrays the
 // texture may be in, a bit each, a specialization constant (GpuTextures::arrays_of); 0: any.
 #ifndef GREATX_LIB_TEXTURES_GLSL
 #define GREATX_LIB_TEXTURES_GLSL

@@ -103,7 +103,7 @@ const uint triangle_record_quads = 6u;
 ///      roughness as fractions of 65535; base-colour texture
 ///   1  emission in floats; emissive texture
 ///   2  scale of the normal map; normal texture, metallic-roughness texture
-/// A texture is its reference (scene/texture_layers.h) + 1, 0 if there is none.
+/// A texture is its reference (scene/device/texture_layers.h) + 1, 0 if there is none.
 const uint material_record_quads = 3u;
 const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
 const uint roughness_in_alpha = 2u;    ///< of the base-colour texture

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays of a radar: what rf/radar/echo_pass.cpp and shaders/radar/echoes.comp.glsl agree on.
+// Rays of a radar: what rf/radar/echoes/echo_pass.cpp and shaders/radar/echoes.comp.glsl agree on.
 #ifndef GREATX_SHADERS_SHARED_RADAR_H
 #define GREATX_SHADERS_SHARED_RADAR_H
 #include "scene.h"

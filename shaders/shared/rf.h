@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio on the GPU: what rf/candidate_search.cpp, rf/crossings.cpp and shaders/rf/ agree on.
+// Radio on the GPU: what rf/search/candidate_search.cpp, rf/paths/crossings.cpp and shaders/rf/ agree on.
 #ifndef GREATX_SHADERS_SHARED_RF_H
 #define GREATX_SHADERS_SHARED_RF_H
 #include "scene.h"

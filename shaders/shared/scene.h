@@ -22,9 +22,9 @@ const uint moving_mask = 2u;
 // Specialization constant of shaders that trace: the static world through the tree of tree.h instead of the driver.
 const uint trace_tree_id = 15u;
 
-/// Arrays of textures that a shader may ask for one by one (scene/gpu_textures.h).
+/// Arrays of textures that a shader may ask for one by one (scene/device/gpu_textures.h).
 const uint most_tried_arrays = 24u;
-/// What a texture is known by (scene/texture_layers.h): its layer in the lowest 12 bits; the binary logarithms of how often
+/// What a texture is known by (scene/device/texture_layers.h): its layer in the lowest 12 bits; the binary logarithms of how often
 /// it lies side by side in there along u and v; its array.
 const uint texture_tiles_u_shift = 12u;
 const uint texture_tiles_v_shift = 16u;

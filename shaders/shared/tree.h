@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of the static world (scene/static_tree.h makes it, lib/tree.glsl walks it): one buffer of quadruples of words.
+// The tree of the static world (scene/device/static_tree.h makes it, lib/tree.glsl walks it): one buffer of quadruples of words.
 // Indices count quadruples.
 //
 //   0                 frame: smallest coordinates (3 floats), reference to the root

@@ -10,8 +10,8 @@
 #include "core/parallel.h"
 #include "rf/channel/coherence.h"
 #include "rf/channel/received.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/channel_sensor.h"
+#include "sim/plan/antennas.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {

@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "rf/path_solver.h"
-#include "rf/placement.h"
+#include "rf/facets/placement.h"
+#include "rf/paths/path_solver.h"
 #include "sim/channel/channel_search.h"
 #include "sim/channel/ends.h"
 #include "sim/plan/effect_plan.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace greatx::sim {
 

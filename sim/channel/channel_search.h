@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "rf/candidate_search.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 #include "rf/search/beam_search.h"
+#include "rf/search/candidate_search.h"
 #include "rf/search/moving_search.h"
 #include "sim/plan/effect_plan.h"
 

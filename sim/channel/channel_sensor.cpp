@@ -9,7 +9,7 @@
 
 #include "core/budget.h"
 #include "core/units.h"
-#include "sim/channel/antennas.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 
 namespace greatx::sim {

@@ -18,7 +18,7 @@
 #include "sim/channel/element_paths.h"
 #include "sim/plan/effect_plan.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace greatx::sim {
 

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "gpu/tick_ring.h"
-#include "rf/crossings.h"
-#include "scene/gpu_scene.h"
+#include "rf/paths/crossings.h"
+#include "scene/device/gpu_scene.h"
 #include "sim/channel/channel_paths.h"
-#include "sim/moment.h"
+#include "sim/world/moment.h"
 
 namespace greatx::sim {
 

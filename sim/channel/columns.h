@@ -14,8 +14,8 @@
 
 #include "core/record.h"
 #include "rf/channel/statistics.h"
-#include "rf/path.h"
-#include "rf/radio_model.h"
+#include "rf/geometry/path.h"
+#include "rf/paths/radio_model.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace greatx::sim {
 

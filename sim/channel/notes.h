@@ -8,7 +8,7 @@
 
 #include "sim/plan/effect_plan.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace greatx::sim {
 

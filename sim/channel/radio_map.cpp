@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "rf/placement.h"
-#include "sim/channel/antennas.h"
+#include "rf/facets/placement.h"
+#include "sim/plan/antennas.h"
 
 namespace greatx::sim {
 

@@ -63,8 +63,8 @@ enum class CellPlacement : uint8_t {
   solid = 1,            ///< inside something that is not foliage
   nothing_beneath = 2,  ///< draped, and there is no ground
   foliage = 3,
-  on_surface = 4,  ///< within the visibility tolerance of one (rf/placement.h)
-  beneath = 5,     ///< an open surface, with nothing below (rf/placement.h)
+  on_surface = 4,  ///< within the visibility tolerance of one (rf/facets/placement.h)
+  beneath = 5,     ///< an open surface, with nothing below (rf/facets/placement.h)
 };
 
 /// A box, world coordinates, that holds the middles of all cells, wherever the ground beneath them is.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "scene/scene.h"
-#include "scene/triangle_tree.h"
+#include "scene/description/scene.h"
+#include "scene/description/triangle_tree.h"
 
 namespace greatx::sim {
 

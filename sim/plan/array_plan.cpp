@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "sim/channel/antennas.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/trajectory_bounds.h"
 
 namespace greatx::sim {

@@ -11,8 +11,8 @@
 #include "renderer/camera/camera_view.h"
 #include "renderer/light/sky.h"
 #include "shaders/shared/camera.h"
+#include "sim/plan/camera_desc.h"
 #include "sim/plan/light_plan.h"
-#include "sim/sensors/camera_desc.h"
 
 namespace greatx::sim {
 

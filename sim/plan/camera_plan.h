@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 #include "sim/plan/effect_planner.h"
 
 namespace greatx::sim {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/light/almanac.h"
-#include "renderer/light/atmosphere.h"
+#include "renderer/daylight/almanac.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/twilight.h"
 #include "renderer/light/sky.h"
-#include "renderer/light/twilight.h"
 
 namespace greatx::sim {
 

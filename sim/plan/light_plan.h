@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "renderer/light/haze.h"
+#include "renderer/daylight/haze.h"
 #include "renderer/light/lighting.h"
 #include "sim/scenario/optics.h"
 
@@ -29,7 +29,7 @@ struct ResolvedLight {
 };
 
 /// Illuminances that the scenario leaves open follow from the positions: with a place and a time, or when the sun is
-/// below the horizon, or under clouds, by the models of renderer/light/twilight.h; with a sun by hand above the horizon
+/// below the horizon, or under clouds, by the models of renderer/daylight/twilight.h; with a sun by hand above the horizon
 /// they are 100 000 lux (sun) and 15 000 lux (sky) whatever its height.
 ResolvedLight resolve(const Environment& environment);
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "renderer/light/lighting.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "sim/plan/effect_plan.h"
 
 namespace greatx::sim {

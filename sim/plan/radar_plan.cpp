@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "rf/roughness.h"
+#include "rf/surface/roughness.h"
 
 namespace greatx::sim {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -12,7 +12,7 @@ namespace greatx::sim {
 /// minute's first. Nothing if it is not well formed or no such day or time exists. Gregorian calendar, years 0 to 9999.
 std::optional<double> parse_date_time(std::string_view text);
 
-/// 1900 to 2150: the years for which sun and moon are known (renderer/light/almanac.h), as seconds since 1970.
+/// 1900 to 2150: the years for which sun and moon are known (renderer/daylight/almanac.h), as seconds since 1970.
 inline constexpr double first_known_instant = -2208988800.0, last_known_instant = 5711817600.0;
 
 }  // namespace greatx::sim

@@ -12,11 +12,11 @@
 
 #include "core/units.h"
 #include "core/vec.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 
 namespace greatx::sim {
 
-/// Where on the Earth the scene's origin is, and when: sun and moon follow from it (renderer/light/almanac.h).
+/// Where on the Earth the scene's origin is, and when: sun and moon follow from it (renderer/daylight/almanac.h).
 struct PlaceAndTime {
   double latitude = 0.0, longitude = 0.0;  ///< rad, north and east positive (WGS 84)
   double height_m = 0.0;                   ///< above the sea

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "rf/radar/echo_options.h"
-#include "rf/radar/radar_config.h"
+#include "rf/config/echo_options.h"
+#include "rf/config/radar_config.h"
 #include "sim/scenario/antenna.h"
 
 namespace greatx::sim {

@@ -18,8 +18,8 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "core/vec.h"
-#include "renderer/lidar/returns.h"
-#include "renderer/lidar/scan_pattern.h"
+#include "renderer/lidar/scan/returns.h"
+#include "renderer/lidar/scan/scan_pattern.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/optics.h"
@@ -233,14 +233,5 @@ struct SensorPlace {
 std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name);
 /// Of a name that the parser has checked, such as a channel's ends.
 SensorPlace sensor_place(const Scenario& scenario, const std::string& name);
-
-/// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
-/// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
-/// sensors).
-/// A relative path that does not exist beside the scenario is looked for in `assets`, if that is not empty.
-Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets = {});
-/// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
-Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
-                        const std::filesystem::path& assets = {});
 
 }  // namespace greatx::sim

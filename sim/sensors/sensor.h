@@ -17,34 +17,11 @@
 #include "core/record.h"
 #include "core/vec.h"
 #include "gpu/tick_ring.h"
-#include "sim/error_statistics.h"
+#include "sim/compare/error_statistics.h"
 #include "sim/scenario/scenario.h"
+#include "sim/world/tick_context.h"
 
 namespace greatx::sim {
-
-/// Everything that a sensor may know of the tick being recorded.
-struct TickContext {
-  int64_t tick = 0;
-  uint32_t sequence = 0;  ///< of the run
-  double time_s = 0.0;
-  /// Time of the tick before at which something was due; NaN at the first one of a sequence.
-  double previous_time_s = 0.0;
-  std::span<const Motion> nodes;     ///< world frame, by node
-  std::span<const Pose> body_poses;  ///< local coordinates, by body
-  /// Motion of any node at any other time (a sweep's shots).
-  std::function<Motion(uint32_t node, double time_s)> motion_at;
-  /// Motion of any body at any other time: pose in local coordinates, its derivatives those of the body's origin (same
-  /// axes). Body 0 stands still at the identity. At time_s the poses are those of body_poses, to the bit.
-  std::function<Motion(uint32_t body, double time_s)> body_motion_at;
-  Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
-  /// Of all bodies.
-  std::vector<Pose> body_poses_at(double at_s) const {
-    if (at_s == time_s) return {body_poses.begin(), body_poses.end()};
-    std::vector<Pose> poses;
-    for (uint32_t body = 0; body < body_poses.size(); ++body) poses.push_back(body_pose_at(body, at_s));
-    return poses;
-  }
-};
 
 /// Figures of a run that show that the modalities see one world.
 struct Consistency {
@@ -87,11 +64,5 @@ class Sensor {
 
 /// Slots of the tick ring: one in flight while the one before it is collected.
 inline constexpr uint32_t slots_in_flight = 2;
-
-/// World pose of a sensor: the node's pose times its mount.
-inline Pose mount_pose(const Mount& mount) {
-  return {mount.position_m,
-          orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
-}
 
 }  // namespace greatx::sim

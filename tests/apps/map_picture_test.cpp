@@ -7,10 +7,11 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/map/background.h"
-#include "apps/paths/render.h"
-#include "scene/scene_hash.h"
+#include "draw/map/background.h"
+#include "draw/paths/render.h"
+#include "scene/description/scene_hash.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

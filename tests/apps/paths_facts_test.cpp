@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths/facts.h"
 #include "apps/paths/output.h"
 #include "apps/paths/text.h"
 #include "core/error.h"
+#include "draw/paths/facts.h"
 #include "tests/apps/sample_paths.h"
 
 namespace greatx::apps {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths/draw.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "draw/paths/draw.h"
 #include "tests/apps/sample_paths.h"
 
 namespace greatx::apps {

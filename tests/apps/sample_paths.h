@@ -4,8 +4,8 @@
 // Paths made by hand in a scene of a wall and a roof.
 #pragma once
 
-#include "apps/paths/facts.h"
 #include "core/units.h"
+#include "draw/paths/facts.h"
 #include "tests/support/tiny_scene.h"
 
 namespace greatx::apps {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/yaml.h"
+#include "core/yaml/yaml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

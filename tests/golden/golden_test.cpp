@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "io/canvas.h"
-#include "io/file.h"
-#include "io/png.h"
+#include "draw/canvas/canvas.h"
+#include "io/files/file.h"
+#include "io/formats/png.h"
 #include "tests/golden/pictures.h"
 #include "tests/support/flip.h"
 

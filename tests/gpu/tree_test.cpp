@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of the static world (scene/static_tree.h, shaders/lib/tree.glsl): against the driver's ray queries, and along the
+// The tree of the static world (scene/device/static_tree.h, shaders/lib/tree.glsl): against the driver's ray queries, and along the
 // edges and vertices of closed meshes, where there is no other answer than a hit.
 #include "shaders/shared/tree.h"
 
@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/static_tree.h"
+#include "scene/device/static_tree.h"
 #include "tests/gpu/tracing.h"
 
 namespace greatx {

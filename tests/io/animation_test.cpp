@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/animation.h"
+#include "draw/sheet/animation.h"
 
 #include <cstdlib>
 #include <memory>
@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/webp.h"
+#include "io/formats/webp.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/contact_sheet.h"
+#include "draw/sheet/contact_sheet.h"
 
 #include <set>
 
@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "io/panels.h"
-#include "io/png.h"
-#include "io/summary.h"
-#include "io/verify.h"
+#include "draw/sheet/panels.h"
+#include "io/dataset/summary.h"
+#include "io/dataset/verify.h"
+#include "io/formats/png.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

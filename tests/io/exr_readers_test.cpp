@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "io/exr.h"
+#include "io/formats/exr.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::io {

@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "io/exr.h"
-#include "io/npy.h"
-#include "io/pcd.h"
-#include "io/ply.h"
-#include "io/png.h"
+#include "io/formats/exr.h"
+#include "io/formats/npy.h"
+#include "io/formats/pcd.h"
+#include "io/formats/ply.h"
+#include "io/formats/png.h"
 #include "tests/support/temporary_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION

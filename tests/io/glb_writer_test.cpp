@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Files are read back by tinygltf, which shares no code with the writer.
-#include "io/glb_writer.h"
+#include "io/formats/glb_writer.h"
 
 #include <cstring>
 

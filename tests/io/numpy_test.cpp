@@ -4,8 +4,8 @@
 // NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of a set.
 #include <gtest/gtest.h>
 
-#include "io/file.h"
-#include "io/npy.h"
+#include "io/files/file.h"
+#include "io/formats/npy.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "io/dataset_writer.h"
+#include "io/dataset/dataset_writer.h"
 
 namespace greatx::io {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sun and moon against the worked examples of the books, and against published almanacs' figures.
-#include "renderer/light/almanac.h"
+#include "renderer/daylight/almanac.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::test {

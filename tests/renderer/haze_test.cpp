@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fog in pictures: Koschmieder's law, the white furnace, shadows that fade.
-#include "renderer/light/haze.h"
+#include "renderer/daylight/haze.h"
 
 #include <cmath>
 

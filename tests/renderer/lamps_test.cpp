@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/light/lamps.h"
+#include "renderer/camera/lamps.h"
 
 #include <algorithm>
 #include <bit>

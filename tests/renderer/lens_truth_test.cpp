@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 #include "tests/renderer/truth_rig.h"
 
 namespace greatx::test {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
+#include "renderer/lidar/scan/footprint.h"
 #include "tests/renderer/lidar_rig.h"
 
 namespace greatx::render {

@@ -9,11 +9,11 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
-#include "renderer/lidar/receiver.h"
-#include "renderer/lidar/returns.h"
-#include "renderer/lidar/scan_pattern.h"
+#include "renderer/lidar/scan/footprint.h"
+#include "renderer/lidar/scan/receiver.h"
+#include "renderer/lidar/scan/returns.h"
+#include "renderer/lidar/scan/scan_pattern.h"
 
 namespace greatx::render {
 namespace {

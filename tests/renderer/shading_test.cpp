@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "shaders/shared/develop.h"
 #include "tests/renderer/camera_rig.h"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/light/atmosphere.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/twilight.h"
 
 namespace greatx::test {
 namespace {

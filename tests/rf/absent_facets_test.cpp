@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {

@@ -19,9 +19,9 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/gas_lines.h"
 #include "rf/atmosphere/path_attenuation.h"
-#include "rf/roughness.h"
-#include "rf/surfaces.h"
-#include "scene/build.h"
+#include "rf/surface/roughness.h"
+#include "rf/surface/surfaces.h"
+#include "scene/build/build.h"
 #include "scene/generator/generate.h"
 #include "tests/rf/scenes.h"
 

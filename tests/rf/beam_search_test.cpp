@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "rf/radio_model.h"
+#include "rf/paths/radio_model.h"
 #include "rf/reference/exhaustive_paths.h"
-#include "scene/wedges.h"
+#include "scene/description/wedges.h"
 #include "tests/rf/random_scene.h"
 #include "tests/rf/search_scenes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "rf/candidate_search.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf::testing {
 

@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "rf/antenna/antenna.h"
 #include "rf/channel/statistics.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 

@@ -9,8 +9,8 @@
 
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/channel/received.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 

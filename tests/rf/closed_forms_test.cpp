@@ -9,14 +9,14 @@
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
-#include "rf/diffraction.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

@@ -12,7 +12,7 @@
 
 #include "core/hash.h"
 #include "core/random.h"
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {

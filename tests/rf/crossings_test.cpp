@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/crossings.h"
+#include "rf/paths/crossings.h"
 
 #include <algorithm>
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/diffraction.h"
+#include "rf/field/diffraction.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/channel/phase.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -282,7 +282,7 @@ TEST(EdgeDyadic, MovesWithItsBody) {
 }
 
 TEST(EdgeDyadic, FaceThatAnEndLiesInDoesNotReflect) {
-  // As in rf/geometry.h: then only the direct wave is there, and half of it on the shadow boundary.
+  // As in rf/geometry/geometry.h: then only the direct wave is there, and half of it on the shadow boundary.
   const Setting setting(corner(concrete));
   const dvec3 tx(20, 0, 1), sent(0, 0, 1);
   const FieldVector above = setting.total(tx, at(10, pi - 1e-6, 1), sent),

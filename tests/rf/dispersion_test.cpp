@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "core/units.h"
-#include "rf/channel/phase.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

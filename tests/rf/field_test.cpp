@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/field.h"
+#include "rf/field/field.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
-#include "rf/diffraction.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

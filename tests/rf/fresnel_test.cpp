@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/fresnel.h"
+#include "rf/surface/fresnel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/surfaces.h"
+#include "rf/surface/surfaces.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -281,7 +281,8 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
     std::sort(expected[order].begin(), expected[order].end());
     for (size_t i = 0; i < counts[order]; ++i) EXPECT_NEAR(found[order][i] / expected[order][i], 1.0, 1e-12);
   }
-  for (size_t i = 1; i < paths.size(); ++i) EXPECT_TRUE(sequence_less(paths[i - 1].facets(), paths[i].facets()));
+  for (size_t i = 1; i < paths.size(); ++i)
+    EXPECT_TRUE(sequence_less(paths[i - 1].facets(), paths[i].facets()));
 }
 
 TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {

@@ -12,8 +12,8 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/geometry.h"
-#include "rf/path_solver.h"
+#include "rf/geometry/geometry.h"
+#include "rf/paths/path_solver.h"
 #include "tests/rf/random_scene.h"
 #include "tests/support/gpu_fixture.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // All stages together on scenes of a few facets: candidates, geometry, crossings on the device, fields.
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 
 #include <algorithm>
 #include <cmath>

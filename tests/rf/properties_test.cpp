@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/search/beam_search.h"

@@ -8,7 +8,7 @@
 #include <complex>
 #include <vector>
 
-#include "rf/radar/radar_processor.h"
+#include "rf/radar/signal/radar_processor.h"
 
 namespace greatx::rf::testing {
 

@@ -11,9 +11,9 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/diffraction.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

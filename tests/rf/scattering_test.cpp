@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/scattering.h"
+#include "rf/surface/scattering.h"
 
 #include <cmath>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/field.h"
+#include "rf/field/field.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rf/facet_kind.h"
-#include "rf/path.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/geometry/path.h"
 #include "rf/search/beam_search.h"
 #include "tests/rf/scenes.h"
 

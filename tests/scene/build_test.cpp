@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/build.h"
+#include "scene/build/build.h"
 
 #include <cmath>
 #include <set>

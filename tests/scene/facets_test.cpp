@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Edges that many triangles share, against every triangle asked about every other.
-#include "scene/facets.h"
+#include "scene/build/facets.h"
 
 #include <cmath>
 #include <limits>

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/budget.h"
-#include "scene/build.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_file.h"
+#include "scene/build/build.h"
+#include "scene/gltf/gltf_accessor.h"
+#include "scene/gltf/gltf_file.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/model.h"
+#include "scene/gltf/model.h"
 
 #include "tests/scene/gltf_writer.h"
 #include "tests/scene/png.h"

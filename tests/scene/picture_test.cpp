@@ -3,7 +3,7 @@
 //
 // Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has made), and
 // damaged ones.
-#include "scene/picture.h"
+#include "scene/files/picture.h"
 
 #include <cmath>
 #include <csetjmp>

@@ -4,8 +4,8 @@
 // Where a material's radio properties come from: name, extension, sidecar.
 #include <set>
 
-#include "scene/build.h"
-#include "scene/scene_hash.h"
+#include "scene/build/build.h"
+#include "scene/description/scene_hash.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/wedges.h"
+#include "scene/description/wedges.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
 #include "core/units.h"
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {

@@ -3,7 +3,7 @@
 //
 // Boxes against projected vertices, dense samples and rays in fp64; how much of an object is seen in closed form and
 // against counting.
-#include "sim/sensors/boxes.h"
+#include "sim/sensors/camera/boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::sim {

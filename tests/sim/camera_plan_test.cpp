@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "sim/plan/effect_plan.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {

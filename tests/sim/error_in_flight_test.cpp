@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {

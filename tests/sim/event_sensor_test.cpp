@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Event cameras in whole runs: instants between ticks, memory, resuming, other sensors beside them.
-#include "sim/sensors/event_sensor.h"
+#include "sim/sensors/event/event_sensor.h"
 
 #include <numeric>
 
@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {

@@ -10,6 +10,7 @@
 
 #include "assets/assets.h"
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {

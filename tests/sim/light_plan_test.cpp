@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/twilight.h"
 #include "sim/scenario/date_time.h"
 
 namespace greatx::sim {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where bodies are at the tick and at any other time.
-#include "sim/moment.h"
+#include "sim/world/moment.h"
 
 #include <gtest/gtest.h>
+
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {

@@ -18,7 +18,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "scene/scene_hash.h"
+#include "scene/description/scene_hash.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/tiny_scene.h"
 

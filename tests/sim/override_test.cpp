@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/scenario/override.h"
+#include "sim/scenario/parse/override.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/trajectory.h"
 
 namespace greatx::sim {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/glb_writer.h"
-#include "scene/generator/materials.h"
+#include "scene/generator/mesh/glb_writer.h"
+#include "scene/generator/mesh/materials.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -80,7 +81,7 @@ dvec2 pixel_of(const dvec3& point, const dvec3& eye) {
   return {0.5 * width + focal * d.y / d.z, 0.5 * height + focal * d.x / d.z};
 }
 
-/// Blades and hubs reach 0.66 m from their axis and lie within 4 cm (scene/generator/quadrotor.cpp).
+/// Blades and hubs reach 0.66 m from their axis and lie within 4 cm (scene/generator/objects/quadrotor.cpp).
 void expect_on_rotor(const dvec3& in_rotor, double slack) {
   EXPECT_LE(std::hypot(in_rotor.x, in_rotor.y), 0.66 + slack);
   EXPECT_GE(in_rotor.z, -0.022 - slack);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/scenario/pattern_csv.h"
+#include "sim/scenario/parse/pattern_csv.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,6 +13,7 @@
 #include "sim/channel/radio_map.h"
 #include "sim/plan/plan_options.h"
 #include "sim/plan/radio_plan.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {

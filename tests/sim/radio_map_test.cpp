@@ -13,6 +13,7 @@
 #include "core/units.h"
 #include "sim/channel/radio_map_values.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {

@@ -12,7 +12,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "rf/radio_model.h"
+#include "rf/paths/radio_model.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_hash.h"
+#include "scene/description/scene_hash.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/tiny_scene.h"
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -10,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "scene/description/scene.h"
 #include "scene/generator/generate.h"
-#include "scene/scene.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {

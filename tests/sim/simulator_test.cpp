@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The whole tick on small generated scenes, under validation.
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
 
 #include <cstring>
 #include <numeric>

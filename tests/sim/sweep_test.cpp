@@ -15,8 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/dataset_format.h"
-#include "sim/simulator.h"
+#include "io/dataset/dataset_format.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/sweep_support.h"
 
 namespace greatx::sim {

@@ -13,7 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace greatx::test {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::test {
 

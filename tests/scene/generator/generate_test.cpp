@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "scene/build.h"
-#include "scene/generator/materials.h"
-#include "scene/generator/mesh_builder.h"
-#include "scene/generator/png_encoder.h"
-#include "scene/generator/textures.h"
+#include "scene/build/build.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/mesh_builder.h"
+#include "scene/generator/mesh/png_encoder.h"
+#include "scene/generator/paint/textures.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/materials.h"
-#include "scene/generator/textures.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/paint/textures.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
-#include "scene/generator/canvas.h"
+#include "scene/build/build.h"
+#include "scene/generator/paint/canvas.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {

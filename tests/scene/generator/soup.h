@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/generator/generate.h"
-#include "scene/model.h"
+#include "scene/gltf/model.h"
 
 namespace greatx::scene {
 

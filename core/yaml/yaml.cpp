@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/yaml/yaml.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/budget.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace greatx {
+namespace {
+
+int line_of(const YAML::Node& node) { return node.Mark().is_null() ? 0 : node.Mark().line + 1; }
+
+/// How many values a document has when its aliases are written out, each node visited once.
+class Counter {
+ public:
+  explicit Counter(const std::string& name) : name_(name) {}
+
+  uint64_t count(const YAML::Node& node) {
+    if (!node.IsSequence() && !node.IsMap()) return 1;
+    // An alias is the node that it names. The library does not say which nodes are one; where they begin does, since a
+    // map begins with its first key, but not with a map.
+    const auto [entry, is_new] = counts_.try_emplace({node.Mark().pos, node.Type()}, open);
+    if (!is_new && entry->second == open)
+      throw_user_error_at({name_, line_of(node)},
+                          "expected values, found an alias inside what it stands for");
+    if (!is_new) return entry->second;
+    uint64_t total = 1;
+    for (const auto& item : node) {
+      if (node.IsSequence())
+        total = saturating_sum(total, count(item));
+      else
+        total = saturating_sum(total, saturating_sum(count(item.first), count(item.second)));
+    }
+    // Saturated is not open.
+    total = std::min(total, open - 1);
+    require_within(SourceLocation{name_, line_of(node)}.str(), total, budget::yaml_values);
+    entry->second = total;
+    return total;
+  }
+
+ private:
+  static constexpr uint64_t open = UINT64_MAX;
+  const std::string& name_;
+  std::map<std::pair<int, YAML::NodeType::value>, uint64_t> counts_;
+};
+
+}  // namespace
+
+std::vector<YAML::Node> load_yaml(const std::string& text, const std::string& name) {
+  if (const auto bad = find_bad_utf8(text)) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(*bad);
+    throw_user_error_at({name, 1 + static_cast<int>(std::count(text.begin(), end, '\n'))},
+                        "expected UTF-8, found the byte 0x{:02x}", static_cast<unsigned char>(text[*bad]));
+  }
+  std::vector<YAML::Node> documents = YAML::LoadAll(text);
+  uint64_t total = 0;
+  Counter counter(name);
+  for (const YAML::Node& document : documents) total = saturating_sum(total, counter.count(document));
+  require_within(name, total, budget::yaml_values);
+  return documents;
+}
+
+}  // namespace greatx

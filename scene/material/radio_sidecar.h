@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/material/radio_fields.h"
+
+namespace greatx::scene {
+
+/// The YAML file that maps material names or globs to radio fields (docs/materials.md).
+class RadioSidecar {
+ public:
+  /// Empty: no entries.
+  RadioSidecar() = default;
+  /// Throws UserError with file:line: not YAML, no `materials` map, unknown or repeated key.
+  static RadioSidecar read(const std::filesystem::path& file);
+
+  /// The fields for `material_name`: the entry of that exact name, else the first glob that matches, else
+  /// null.
+  const Field* find(const std::string& material_name) const;
+
+ private:
+  std::vector<std::pair<std::string, Field>> entries_;
+};
+
+}  // namespace greatx::scene

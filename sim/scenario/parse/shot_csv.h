@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A LiDAR's shots from CSV (docs/scenario.md, "A table of shots").
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "renderer/lidar/scan/scan_pattern.h"
+
+namespace greatx::sim {
+
+/// Columns t_s, azimuth_deg, elevation_deg and optionally channel (0 to 65534), in this order; one header line may name
+/// them. Times are those after the tick, 0 or more, none before the one before; azimuths -360 to 360 (left is
+/// positive), elevations -90 to 90. Throws UserError "file:line:column: expected ..., found ...".
+render::ShotTable load_shots(const std::filesystem::path& file);
+/// The same from text; `name` stands for the file in messages.
+render::ShotTable parse_shots(std::string_view text, const std::string& name);
+
+}  // namespace greatx::sim

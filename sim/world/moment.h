@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/scenario/clock.h"
+#include "sim/scenario/rotation.h"
+#include "sim/scenario/trajectory.h"
+#include "sim/world/tick_context.h"
+#include "sim/world/world.h"
+
+namespace greatx::sim {
+
+/// How everything moves in one sequence.
+struct Courses {
+  std::vector<std::unique_ptr<Path>> paths;  ///< [nodes]
+  std::vector<Rotation> rotations;           ///< [World::parts]
+};
+
+/// Starts of parts that the scenario does not give are drawn from (seed, the part's name, sequence). Throws like
+/// make_paths.
+Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence);
+
+/// How `body` moves: pose in local coordinates; 0 stands still. Of a part, from its node's motion and its turn: angular
+/// velocity W + R a w, velocity V + W x (R p) of its origin; its acceleration leaves out that of the node's turning.
+Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s);
+
+/// The poses of all bodies: local coordinates, index = body, [0] the identity.
+std::vector<Pose> body_poses(const World& world, const Courses& courses, double time_s);
+
+/// Where everything is at a tick; owns what the context points at, also when it is moved.
+struct Moment {
+  Moment() = default;
+  Moment(Moment&&) = default;
+  Moment& operator=(Moment&&) = default;
+
+  std::vector<Motion> motions;  ///< [nodes]
+  std::vector<Pose> bodies;     ///< [bodies] local coordinates
+  TickContext context;
+};
+
+/// The moment of `tick` on these courses; world and courses outlive it. `previous`: the tick before at which something was
+/// due; -1: none.
+Moment moment_at(const World& world, const Courses& courses, const Clock& clock, int64_t tick,
+                 int64_t previous = -1);
+
+}  // namespace greatx::sim
