@@ -244,7 +244,7 @@ def main(binary: str, source: str, files: list[str]) -> int:
             page = Page(file, program, pathlib.Path(source).resolve(), folder)
             try:
                 page.check()
-                if file.name == "README.md":
+                if file.resolve() == page.source / "README.md":
                     page.folder.mkdir(exist_ok=True)
                     check_readme(page)
             except Failure as failure:
