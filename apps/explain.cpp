@@ -16,12 +16,12 @@ namespace greatx::apps {
 
 namespace {
 
-struct Options {
+struct ExplainOptions {
   ScenarioOptions scenario;
   bool json = false;
 };
 
-void run(const Options& options) {
+void run_explain(const ExplainOptions& options) {
   const sim::Scenario scenario = load_scenario(options.scenario);
   const sim::World world = sim::load_world(scenario);
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
@@ -68,10 +68,10 @@ void run(const Options& options) {
 void add_explain(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "explain", "say which effects a scenario calls for, why, and what the others could change");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainOptions>();
   options->scenario.add_to(*command);
   command->add_flag("--json", options->json, "print one JSON object");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_explain(*options); });
 }
 
 }  // namespace greatx::apps

@@ -23,7 +23,7 @@ namespace greatx::apps {
 
 namespace {
 
-struct Options {
+struct GenerateOptions {
   ScenarioOptions scenario;
   RunOptions run;
   std::string output = "out/dataset";
@@ -58,7 +58,7 @@ bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const s
   return true;
 }
 
-void run(const Options& options) {
+void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
   const sim::Scenario scenario = load_scenario(options.scenario);
   const sim::World world = sim::load_world(scenario);
@@ -118,7 +118,7 @@ void run(const Options& options) {
 
 void add_generate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("generate", "run a scenario and write its data set");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--output", options->output, "folder of the data set")->capture_default_str();
@@ -131,7 +131,7 @@ void add_generate(CLI::App& app) {
       ->check(integer_of(0, 1024));
   command->add_flag("--json", options->json, "print one JSON object with the run's summary");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_generate(*options); });
 }
 
 }  // namespace greatx::apps

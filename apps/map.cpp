@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MapOptions {
   ScenarioOptions scenario;
   RunOptions run;
   sim::ChannelSnapshot::Instant instant;
@@ -47,7 +47,7 @@ struct Options {
 constexpr double default_height_m = 1.5;
 
 /// What is asked of which channel.
-struct Request {
+struct MapRequest {
   uint32_t channel = 0;
   sim::MapGrid grid;
   sim::MapHeight height;
@@ -58,8 +58,8 @@ struct Request {
 };
 
 /// All that needs no scene.
-Request request_of(const Options& options, const sim::Scenario& scenario) {
-  Request request;
+MapRequest map_request(const MapOptions& options, const sim::Scenario& scenario) {
+  MapRequest request;
   request.channel = find_channel(options.channel, scenario);
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   check_instant(options.instant.sequence, options.instant.tick, scenario);
@@ -70,7 +70,7 @@ Request request_of(const Options& options, const sim::Scenario& scenario) {
 }
 
 /// What needs the moment: where transmitters are, how the receiver is turned.
-void add_ends(Request& request, const Options& options, const sim::Scenario& scenario,
+void add_ends(MapRequest& request, const MapOptions& options, const sim::Scenario& scenario,
               const sim::World& world, const sim::Moment& moment) {
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   for (const std::string& name : channel.transmitters) {
@@ -107,7 +107,7 @@ std::string hash_of(std::span<const Pose> bodies) {
   return hash.hex();
 }
 
-Json json_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+Json json_of(const MapOptions& options, const MapRequest& request, const sim::Scenario& scenario,
              const sim::World& world, const sim::EffectPlan& plan, const sim::MapCells& cells,
              const gpu::Device& device, const sim::Moment& moment) {
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
@@ -163,7 +163,7 @@ Json json_of(const Options& options, const Request& request, const sim::Scenario
 }
 
 /// Until every cell has its links, or somebody stops it.
-void solve(const Options& options, const Request& request, const sim::Scenario& scenario,
+void solve(const MapOptions& options, const MapRequest& request, const sim::Scenario& scenario,
            const sim::MapCells& cells, sim::ChannelSnapshot& snapshot, MapJournal& journal) {
   const size_t transmitters = request.ends.size(), total = cells.grid.cells();
   const auto done = [&] { return journal.links().size() / transmitters; };
@@ -185,7 +185,7 @@ void solve(const Options& options, const Request& request, const sim::Scenario& 
                                   options.output, done(), total));
 }
 
-MapStage stage_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+MapStage stage_of(const MapOptions& options, const MapRequest& request, const sim::Scenario& scenario,
                   const sim::MapCells& cells, const sim::Moment& moment) {
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   MapStage stage;
@@ -201,15 +201,15 @@ MapStage stage_of(const Options& options, const Request& request, const sim::Sce
   return stage;
 }
 
-void run(const Options& given) {
-  Options options = given;
+void run_map(const MapOptions& given) {
+  MapOptions options = given;
   options.files.pictures = !options.no_pictures;
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds_since = [](auto start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   const sim::Scenario scenario = load_scenario(options.scenario);
-  Request request = request_of(options, scenario);
+  MapRequest request = map_request(options, scenario);
   const sim::World world = sim::load_world(scenario);
   const auto corner = [](const std::vector<double>& xy) {
     return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
@@ -275,7 +275,7 @@ void run(const Options& given) {
   }
 }
 
-void add_place(CLI::App& command, Options& options) {
+void add_place(CLI::App& command, MapOptions& options) {
   CLI::Option* plane =
       command.add_option("--plane", options.plane, "one height of the world for all cells, m")
           ->check(number_of(-sim::most_position_m, sim::most_position_m));
@@ -303,7 +303,7 @@ void add_place(CLI::App& command, Options& options) {
   command.add_flag("--beyond-scene", options.beyond_scene, "the map may lie outside of the scene's bounds");
 }
 
-void add_radio(CLI::App& command, Options& options) {
+void add_radio(CLI::App& command, MapOptions& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
       ->check(integer_of(0, sim::most_ticks));
@@ -328,7 +328,7 @@ void add_radio(CLI::App& command, Options& options) {
 void add_map(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "map", "radio map: gain, SINR, best server, spreads over a plane or the terrain (docs/map.md)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--output", options->output, "folder of the map")->required();
@@ -347,7 +347,7 @@ void add_map(CLI::App& app) {
   command->add_flag("--resume", options->resume, "go on with a map that was stopped");
   command->add_flag("--json", options->json, "print figures as one JSON object");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_map(*options); });
 }
 
 }  // namespace greatx::apps

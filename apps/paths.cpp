@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PathsOptions {
   ScenarioOptions scenario;
   RunOptions run;
   sim::ChannelSnapshot::Instant instant;
@@ -47,7 +47,7 @@ struct Options {
 constexpr uint32_t picture_bars = picture_head + picture_foot;
 
 /// What is asked of which channel.
-struct Request {
+struct PathsRequest {
   uint32_t channel = 0;
   sim::ChannelSnapshot::Instant instant;
   std::vector<dvec3> points;         ///< of --receivers; empty: the channel's own
@@ -67,8 +67,8 @@ uint32_t find_end(const char* option, const std::string& text, size_t count,
                    names.empty() ? "" : fmt::format(", or one of {}", fmt::join(names, ", ")), text);
 }
 
-Request request_of(const Options& options, const sim::Scenario& scenario) {
-  Request request;
+PathsRequest paths_request(const PathsOptions& options, const sim::Scenario& scenario) {
+  PathsRequest request;
   request.channel = find_channel(options.channel, scenario);
   if (!options.receivers.empty()) request.points = sim::load_receiver_list(options.receivers);
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
@@ -102,7 +102,7 @@ constexpr const char* gain_note =
 constexpr const char* phase_note =
     "arg of (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: vertical to vertical, at the carrier";
 
-Json head_of(const Options& options, const Request& request, const sim::Scenario& scenario,
+Json head_of(const PathsOptions& options, const PathsRequest& request, const sim::Scenario& scenario,
              const sim::World& world, const sim::EffectPlan& plan, const sim::Moment& moment) {
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   Json head{{"greatx", GREATX_VERSION},
@@ -150,7 +150,7 @@ std::string closing_text(const PathTotals& totals, const Json& head, const Json&
   return text;
 }
 
-void write_picture(const Options& options, const Request& request, const sim::Scenario& scenario,
+void write_picture(const PathsOptions& options, const PathsRequest& request, const sim::Scenario& scenario,
                    const sim::World& world, const sim::EffectPlan& plan, const Json& head,
                    std::span<const PathLink> links, const PathScene& scene, sim::ChannelSnapshot& snapshot) {
   PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, scenario.environment,
@@ -176,7 +176,7 @@ void write_picture(const Options& options, const Request& request, const sim::Sc
   io::write_file_atomically(file, png);
 }
 
-void write_glb(const Options& options, const Json& head, std::span<const PathLink> links,
+void write_glb(const PathsOptions& options, const Json& head, std::span<const PathLink> links,
                const PathScene& scene, const sim::ChannelSnapshot& snapshot) {
   PathGlbOptions glb;
   glb.colors = options.colors;
@@ -190,7 +190,7 @@ void write_glb(const Options& options, const Json& head, std::span<const PathLin
 }
 
 /// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
-std::vector<PathLink> solve(const Options& options, const Request& request, const PathScene& scene,
+std::vector<PathLink> solve(const PathsOptions& options, const PathsRequest& request, const PathScene& scene,
                             sim::ChannelSnapshot& snapshot,
                             std::span<const std::unique_ptr<PathsOutput>> outputs, CfrFile* cfr,
                             PathTotals& totals) {
@@ -222,10 +222,10 @@ std::vector<PathLink> solve(const Options& options, const Request& request, cons
   return kept;
 }
 
-void run(const Options& options) {
+void run_paths(const PathsOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const sim::Scenario scenario = load_scenario(options.scenario);
-  const Request request = request_of(options, scenario);
+  const PathsRequest request = paths_request(options, scenario);
   const sim::World world = sim::load_world(scenario);
   scene::Bounds points;
   for (const dvec3& point : request.points) points.add(point);
@@ -275,7 +275,7 @@ void run(const Options& options) {
     if (!file->empty()) std::cout << "wrote " << *file << '\n';
 }
 
-void add_selection(CLI::App& command, Options& options) {
+void add_selection(CLI::App& command, PathsOptions& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
       ->check(integer_of(0, sim::most_ticks));
@@ -292,7 +292,7 @@ void add_selection(CLI::App& command, Options& options) {
                      "this one alone: its number, from 0, or its name node/sensor [all]");
 }
 
-void add_pictures(CLI::App& command, Options& options) {
+void add_pictures(CLI::App& command, PathsOptions& options) {
   command.add_option("--png", options.png, "draw the paths over a view of the scene");
   command
       .add_option("--view", options.view,
@@ -323,7 +323,7 @@ void add_pictures(CLI::App& command, Options& options) {
 void add_paths(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("paths", "find, list and draw all paths of a channel at one tick (docs/paths.md)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PathsOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   add_selection(*command, *options);
@@ -340,7 +340,7 @@ void add_paths(CLI::App& app) {
       "write frequency responses as .npy, complex64 [receivers, rx_ant, 1, tx_ant, time, subcarrier]");
   add_pictures(*command, *options);
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_paths(*options); });
 }
 
 }  // namespace greatx::apps

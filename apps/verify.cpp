@@ -19,11 +19,11 @@ void add_verify(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "verify",
       "check a data set: files, hashes, index, lengths, values, and that its sensors see one world");
-  struct Options {
+  struct VerifyOptions {
     std::string folder;
     bool json = false;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyOptions>();
   command->add_option("DIR", options->folder, "folder of the data set")->required();
   command->add_flag("--json", options->json, "print one JSON object");
   command->callback([options] {

@@ -31,9 +31,9 @@ constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 25
                  fog_ev100 = 13.4;
 
 /// One way to take the picture, with everything it needs.
-class Row {
+class CameraRow {
  public:
-  Row(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
+  CameraRow(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
       const render::Lighting& lighting, const render::CameraEffects& effects, const render::CameraDesc& desc)
       : name_(std::move(name)),
         scene_(std::make_unique<scene::Scene>(std::move(scene))),
@@ -160,9 +160,9 @@ render::CameraDesc enlarged(render::CameraDesc desc) {
   return desc;
 }
 
-class Bench {
+class CameraBench {
  public:
-  Bench(const ScenarioOptions& options, const RunOptions& run)
+  CameraBench(const ScenarioOptions& options, const RunOptions& run)
       : scenario_(load_scenario(options)),
         world_(sim::load_world(scenario_)),
         plan_(sim::make_effect_plan(scenario_, world_.scene)),
@@ -209,7 +209,7 @@ class Bench {
     render::CameraDesc large = enlarged(desc_);
     large.msaa = 1;
     large.smooth_edges = false;
-    reference_ = std::make_unique<Row>(device_, "reference", world_.scene, plan_, day_, effects_, large);
+    reference_ = std::make_unique<CameraRow>(device_, "reference", world_.scene, plan_, day_, effects_, large);
   }
 
   nlohmann::json measure(const CameraBenchOptions& options) {
@@ -226,7 +226,7 @@ class Bench {
  private:
   void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
            const render::CameraEffects& effects, const render::CameraDesc& desc) {
-    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+    rows_.push_back(std::make_unique<CameraRow>(device_, name, std::move(scene), plan_, lighting, effects, desc));
   }
 
   /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.
@@ -324,16 +324,16 @@ class Bench {
   render::CameraDesc desc_;
   render::Lighting day_;
   render::CameraEffects effects_;
-  std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::unique_ptr<CameraRow>> rows_;
   std::vector<std::unique_ptr<EventRow>> event_rows_;
-  std::unique_ptr<Row> reference_;
+  std::unique_ptr<CameraRow> reference_;
 };
 
 }  // namespace
 
 nlohmann::json camera_bench(const ScenarioOptions& scenario, const RunOptions& run,
                             const CameraBenchOptions& options) {
-  Bench bench(scenario, run);
+  CameraBench bench(scenario, run);
   bench.add_rows();
   return bench.measure(options);
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr double response_target_ms = 1.0, written_tick_target_ms = 4.0, many_responses_target_ms = 8000.0;
 constexpr size_t response_paths = 20;
 
-const TickRow& plain = tick_rows[0];
+const TickRow& plain_tick = tick_rows[0];
 
 /// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of their sum.
 std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points,
@@ -40,7 +40,7 @@ std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const
 }  // namespace
 
 nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOptions& run) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
+  const sim::Scenario scenario = radio_only(scenario_options, plain_tick);
   const sim::World world = sim::load_world(scenario);
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   gpu::Device device(run.device_options());
@@ -71,7 +71,7 @@ nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOp
 
 nlohmann::json written_tick_row(const ScenarioOptions& scenario_options, const RunOptions& run,
                                 const RadioBenchOptions& options) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
+  const sim::Scenario scenario = radio_only(scenario_options, plain_tick);
   const sim::World world = sim::load_world(scenario);
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   gpu::Device device(run.device_options());
@@ -95,7 +95,7 @@ nlohmann::json written_tick_row(const ScenarioOptions& scenario_options, const R
 
 nlohmann::json many_responses_row(const ScenarioOptions& scenario_options, const RunOptions& run,
                                   uint32_t receivers) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
+  const sim::Scenario scenario = radio_only(scenario_options, plain_tick);
   const sim::World world = sim::load_world(scenario);
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
   gpu::Device device(run.device_options());

@@ -19,7 +19,7 @@ namespace greatx::apps {
 
 namespace {
 
-constexpr const char* option = "--lidar";
+constexpr const char* lidar_option = "--lidar";
 constexpr double spun_s = 0.1;         ///< of the rows with a sweep, where the scenario's has none
 constexpr double divergence = 1.5e-3;  ///< rad, of the rows with rings, where the scenario's has none
 constexpr double noise_equivalent_power = 1e-8;
@@ -29,7 +29,7 @@ constexpr const char* effect_names[] = {
     "lidar_glass",      "lidar_haze",     "lidar_backscatter",  "lidar_detection",     "lidar_range_noise"};
 
 /// What a row adds to the plain sweep.
-struct Change {
+struct LidarChange {
   std::string name;
   std::vector<std::string> effects;  ///< that the plan may switch on; the first one is what the row is about
   std::function<void(sim::LidarConfig&, sim::Environment&)> apply;
@@ -49,7 +49,7 @@ render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions
   return scan;
 }
 
-std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
+std::vector<LidarChange> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
   const double sweep_s = render::duration_s(own.scan) > 0.0 ? render::duration_s(own.scan) : spun_s;
   const auto spin = [sweep_s](sim::LidarConfig& c) {
     std::get<render::SpinningScan>(c.scan).sweep_s = sweep_s;
@@ -95,7 +95,7 @@ std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions
 }
 
 /// The plain sweep with a change, every other effect off.
-sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const Change& change,
+sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const LidarChange& change,
                       const LidarBenchOptions& options) {
   auto& config = std::get<sim::LidarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
   const render::SpinningScan scan = plain_scan(config.scan, options);
@@ -112,9 +112,9 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
 }
 
 /// One way to sweep, with everything it needs.
-class Row {
+class LidarRow {
  public:
-  Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
+  LidarRow(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
       const sim::SensorPlace& place)
       : name_(std::move(name)), lidar_(device, std::move(scenario), world, place) {
     const auto& config =
@@ -156,16 +156,16 @@ class Row {
   uint64_t returns_ = 0;
 };
 
-class Bench {
+class LidarBench {
  public:
-  Bench(const ScenarioOptions& options, const RunOptions& run)
-      : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), option, "a LiDAR")),
-        place_(first_sensor<sim::LidarConfig>(scenario_, option, "a LiDAR")),
+  LidarBench(const ScenarioOptions& options, const RunOptions& run)
+      : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), lidar_option, "a LiDAR")),
+        place_(first_sensor<sim::LidarConfig>(scenario_, lidar_option, "a LiDAR")),
         world_(sim::load_world(scenario_)),
         device_(run.device_options()) {}
 
   void add_rows(const LidarBenchOptions& options) {
-    for (const Change& change : changes(own(), options)) {
+    for (const LidarChange& change : changes(own(), options)) {
       sim::Scenario scenario = changed(scenario_, place_, change, options);
       if (!change.effects.empty()) {
         const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
@@ -193,7 +193,7 @@ class Bench {
     return std::get<sim::LidarConfig>(scenario_.nodes[place_.node].sensors[place_.sensor].config);
   }
   void add(const std::string& name, sim::Scenario scenario) {
-    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scenario), world_, place_));
+    rows_.push_back(std::make_unique<LidarRow>(device_, name, std::move(scenario), world_, place_));
   }
 
   nlohmann::json result() const {
@@ -215,7 +215,7 @@ class Bench {
   sim::SensorPlace place_;
   sim::World world_;
   gpu::Device device_;
-  std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::unique_ptr<LidarRow>> rows_;
   std::map<std::string, std::string> left_out_;
 };
 
@@ -223,7 +223,7 @@ class Bench {
 
 nlohmann::json lidar_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const LidarBenchOptions& options) {
-  Bench bench(scenario, run);
+  LidarBench bench(scenario, run);
   bench.add_rows(options);
   nlohmann::json result = bench.measure(options);
   check_validation(bench.device());

@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json triple(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
 /// Vertex colours are linear, colours on a screen are sRGB (IEC 61966-2-1).
 vec3 linear(io::Color color) {
   const auto channel = [](uint8_t byte) { return linear_from_srgb(byte / 255.0f); };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
-
-Json json_of(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// An octahedron added to triangles.
 void add_marker(io::GlbPrimitive& markers, const dvec3& center, double radius, const vec3& color) {
@@ -76,7 +76,7 @@ void Exporter::links(std::span<const PathLink> links) {
                                      .extras_json = Json{{"carrier_hz", scene_.carrier_hz},
                                                          {"tick", options_.tick},
                                                          {"time_s", options_.time_s},
-                                                         {"local_origin_m", json_of(scene_.scene->origin)}}
+                                                         {"local_origin_m", triple(scene_.scene->origin)}}
                                                         .dump()});
   for (const PathLink& each : links) link(each, root);
   if (!links.empty()) end("transmitter", links[0].transmitter_m, linear({255, 92, 92}));
@@ -86,7 +86,7 @@ void Exporter::links(std::span<const PathLink> links) {
 void Exporter::link(const PathLink& link, int root) {
   const LinkFigures figures = figures_of(link, scene_.carrier_hz);
   Json extras{{"index", link.index},
-              {"position_m", json_of(link.receiver_m)},
+              {"position_m", triple(link.receiver_m)},
               {"distance_m", link.distance_m},
               {"paths", figures.paths},
               {"line_of_sight", figures.line_of_sight}};
@@ -194,7 +194,7 @@ void Exporter::scene() {
 }
 
 io::Bytes Exporter::finish() {
-  return writer_.finish(options_.name, Json{{"local_origin_m", json_of(scene_.scene->origin)},
+  return writer_.finish(options_.name, Json{{"local_origin_m", triple(scene_.scene->origin)},
                                             {"tick", options_.tick},
                                             {"time_s", options_.time_s}}
                                            .dump());

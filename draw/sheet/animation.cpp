@@ -13,7 +13,7 @@ namespace {
 
 using namespace sheet;
 
-constexpr int header_height = 84, bar_height = 4;
+constexpr int frame_header_height = 84, bar_height = 4;
 constexpr int shortest_own_step_ms = 25, longest_own_step_ms = 150, step_otherwise_ms = 100;
 
 size_t columns_for(size_t panels) { return panels == 4 ? 2 : std::min<size_t>(panels, 3); }
@@ -74,7 +74,7 @@ void Animation::choose_panels(const DatasetReader& reader, uint32_t sequence) {
     if (!panels.series.empty() && panels_.series.size() < free)
       panels_.series.push_back(std::move(panels.series[0]));
 
-  int y = margin + header_height;
+  int y = margin + frame_header_height;
   for (const Band& band : bands_) {
     tops_.push_back(y + title_height);
     y += title_height + band.picture_height + legend_height + row_gap;

@@ -12,7 +12,7 @@ namespace greatx::io {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr size_t most_columns = 600, most_cells = 1 << 22;
+constexpr size_t most_time_columns = 600, most_cells = 1 << 22;
 constexpr double dynamic_range_db = 50.0;
 
 /// In place, radix 2, e^{+j}: x[n] = sum_k X[k] e^{+j 2 pi k n / N}.
@@ -50,7 +50,7 @@ struct Link {
     if (rows.empty()) return;
     first_time_s = 1e-9 * static_cast<double>(rows.front().time_ns);
     last_time_s = 1e-9 * static_cast<double>(rows.back().time_ns);
-    size_t count = std::min(rows.size(), most_columns);
+    size_t count = std::min(rows.size(), most_time_columns);
     for (size_t i = 0; i < count; ++i) {
       const Array cfr =
           source.load(rows[i * rows.size() / count], "cfr", {DType::complex64}, {0, 0, 0, 0, 0, 0});

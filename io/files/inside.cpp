@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 /// Of what is there, a link itself; empty: nothing is.
 std::optional<struct stat> status_of(const fs::path& path) {
@@ -26,7 +25,7 @@ std::optional<struct stat> status_of(const fs::path& path) {
     return status;
   }
   if (errno == ENOENT) return std::nullopt;
-  throw_user_error("{}: cannot be read: {}", path.string(), reason(errno));
+  throw_user_error("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
 }
 
 /// Calls visit(path, last) for every part of the way, until it returns false.

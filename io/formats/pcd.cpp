@@ -36,9 +36,9 @@ std::vector<std::string> words_of(const std::string& line) {
 }
 
 /// The header's lines by their first word.
-using Header = std::map<std::string, std::vector<std::string>>;
+using PcdHeader = std::map<std::string, std::vector<std::string>>;
 
-const std::vector<std::string>& values_of(const Header& header, const std::string& key, size_t count,
+const std::vector<std::string>& values_of(const PcdHeader& header, const std::string& key, size_t count,
                                           const std::string& name) {
   const auto found = header.find(key);
   if (found == header.end() || (count > 0 && found->second.size() != count))
@@ -46,7 +46,7 @@ const std::vector<std::string>& values_of(const Header& header, const std::strin
   return found->second;
 }
 
-std::vector<VertexProperty> properties_of(const Header& header, const std::string& name) {
+std::vector<VertexProperty> properties_of(const PcdHeader& header, const std::string& name) {
   const std::vector<std::string>& fields = values_of(header, "FIELDS", 0, name);
   if (fields.empty()) throw_user_error("{}: expected a line FIELDS with one field or more, found none", name);
   const std::vector<std::string>&sizes = values_of(header, "SIZE", fields.size(), name),
@@ -92,7 +92,7 @@ std::map<std::string, Array> decode_pcd(std::span<const std::byte> file, const s
                               std::min<size_t>(file.size(), 65536));
   const size_t end = text.find(end_mark);
   if (end == text.npos) throw_user_error("{}: expected a PCD file with binary data", name);
-  Header header;
+  PcdHeader header;
   std::istringstream lines{std::string(text.substr(0, end))};
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::string> words = words_of(line);

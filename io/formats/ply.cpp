@@ -25,12 +25,12 @@ std::string_view ply_type(DType dtype) {
   return {};
 }
 
-struct Header {
+struct PlyHeader {
   int64_t vertices = -1;
   std::vector<VertexProperty> properties;
 };
 
-void parse_property(Header& header, const std::string& line, const std::string& file) {
+void parse_property(PlyHeader& header, const std::string& line, const std::string& file) {
   std::istringstream words(line);
   std::string keyword, type, property;
   words >> keyword >> type >> property;
@@ -42,8 +42,8 @@ void parse_property(Header& header, const std::string& line, const std::string& 
   throw_user_error("{}: expected a property of a PLY type, found \"{}\"", file, line);
 }
 
-Header parse_header(std::string_view text, const std::string& file) {
-  Header header;
+PlyHeader parse_header(std::string_view text, const std::string& file) {
+  PlyHeader header;
   std::istringstream lines{std::string(text)};
   std::string line;
   std::getline(lines, line);
@@ -82,7 +82,7 @@ std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const s
                               std::min<size_t>(file.size(), 65536));
   const size_t end = text.find(end_mark);
   if (end == text.npos) throw_user_error("{}: expected a PLY file", name);
-  const Header header = parse_header(text.substr(0, end), name);
+  const PlyHeader header = parse_header(text.substr(0, end), name);
   const std::span<const std::byte> data = file.subspan(end + end_mark.size());
   const auto count = static_cast<size_t>(header.vertices);
   const size_t stride = row_bytes(header.properties);

@@ -14,7 +14,7 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// `fill(view, T* row)`.
 template <typename T, typename View, typename Fill>
@@ -82,7 +82,7 @@ PathColumn angles(const char* name, const char* text, dvec3 rf::Path::*direction
 
 void fill_vertices(const PathView& view, const dvec3& origin, size_t depth, double* out) {
   for (size_t i = 0; i < depth; ++i) {
-    const dvec3 point = i < view.path->interactions.size() ? view.path->vertices[i + 1] + origin : dvec3(nan);
+    const dvec3 point = i < view.path->interactions.size() ? view.path->vertices[i + 1] + origin : dvec3(missing);
     for (int c = 0; c < 3; ++c) *out++ = point[c];
   }
 }

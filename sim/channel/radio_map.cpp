@@ -14,7 +14,7 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_ground = std::numeric_limits<double>::quiet_NaN();
 
 /// A round one.
 double default_cell(double extent_m) {
@@ -58,7 +58,7 @@ void check_plane(double z, scene::Bounds bounds, std::span<const dvec3> ends) {
 /// World z of every cell.
 std::vector<double> heights(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                             std::string& rule) {
-  std::vector<double> z(grid.cells(), nan);
+  std::vector<double> z(grid.cells(), no_ground);
   if (height.plane_z_m) {
     rule = fmt::format("{:.17g} m, a plane of the world", *height.plane_z_m);
     std::fill(z.begin(), z.end(), *height.plane_z_m);

@@ -60,12 +60,12 @@ Offers offers_of(const scene::Scene& scene) {
 
 namespace {
 
-void add(Asks& asks, const PinholeConfig& camera) {
+void add(CameraAsks& asks, const PinholeConfig& camera) {
   asks.smooth_edges |= camera.smooth_edges;
   asks.distortion |= camera.distortion.any();
 }
 
-void add(Asks& asks, const CameraConfig& camera) {
+void add(CameraAsks& asks, const CameraConfig& camera) {
   ++asks.cameras;
   asks.rgb |= camera.rgb;
   asks.depth |= camera.depth || camera.depth_png24 || camera.depth_log;
@@ -84,8 +84,8 @@ void add(Asks& asks, const CameraConfig& camera) {
 
 }  // namespace
 
-Asks asks_of(const Scenario& scenario) {
-  Asks asks;
+CameraAsks camera_asks_of(const Scenario& scenario) {
+  CameraAsks asks;
   for (const NodeConfig& node : scenario.nodes) {
     for (const SensorConfig& sensor : node.sensors) {
       if (const auto* camera = std::get_if<CameraConfig>(&sensor.config)) {
@@ -129,7 +129,7 @@ class Shading {
   bool color_;
 };
 
-void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
+void plan_outputs(EffectPlan& plan, const Planner& planner, const CameraAsks& asks) {
   const size_t all = asks.cameras + asks.event_cameras;
   plan.camera = planner.fixed("camera", all > 0, all > 0 ? fmt::format("{} of them", all) : "no camera");
   const auto output = [&](const char* name, bool asked) {
@@ -179,7 +179,7 @@ void check_lenses(const Scenario& scenario) {
 }
 
 /// What a lens, an exposure and a sensor of light do to a picture.
-void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
+void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks) {
   const auto asked = [&](const char* name, bool wanted, const char* bound = "") {
     return planner.fixed(name, wanted,
                          !asks.color() ? "no camera delivers colour"
@@ -197,7 +197,7 @@ void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
 }
 
 void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shading, const Offers& offers,
-                   const Asks& asks, double ground_lux) {
+                   const CameraAsks& asks, double ground_lux) {
   const bool camera = asks.cameras + asks.event_cameras > 0;
   plan.textures = shading.decide("textures", offers.textures, "materials have them", "no material has one");
   plan.normal_maps =
@@ -258,7 +258,7 @@ void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenar
 }  // namespace
 
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
-                 const Asks& asks) {
+                 const CameraAsks& asks) {
   check_lenses(scenario);
   const ResolvedLight light = resolve(scenario.environment);
   const Shading shading(planner, asks.color());

@@ -115,7 +115,7 @@ bool same_effects(const EffectPlan& a, const EffectPlan& b) {
 EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                             const scene::Bounds& points) {
   const Offers offers = offers_of(scene);
-  const Asks asks = asks_of(scenario);
+  const CameraAsks asks = camera_asks_of(scenario);
   Planner planner(scenario);
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);

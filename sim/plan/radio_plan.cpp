@@ -25,7 +25,7 @@ namespace greatx::sim {
 namespace {
 
 /// What the channels ask for, and the largest of each.
-struct Asks {
+struct RadioAsks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
@@ -34,7 +34,7 @@ struct Asks {
 };
 
 /// What the scene's surfaces are to radio.
-struct Surfaces {
+struct RadioSurfacesSeen {
   bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
   size_t walls = 0;            ///< materials that let waves pass (rf::dark_wall_db)
   double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
@@ -42,8 +42,8 @@ struct Surfaces {
   double roughness_m = 0.0;
 };
 
-Asks asks_of(const Scenario& scenario) {
-  Asks asks;
+RadioAsks radio_asks_of(const Scenario& scenario) {
+  RadioAsks asks;
   for (const ChannelConfig& channel : scenario.channels) {
     ++asks.channels;
     asks.max_depth = std::max(asks.max_depth, channel.max_depth);
@@ -60,8 +60,8 @@ Asks asks_of(const Scenario& scenario) {
   return asks;
 }
 
-Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
-  Surfaces surfaces;
+RadioSurfacesSeen radio_surfaces_of(const scene::Scene& scene, const RadioAsks& asks) {
+  RadioSurfacesSeen surfaces;
   std::vector<bool> seen(scene.materials.size(), false);
   for (const scene::Facet& facet : scene.facets) {
     surfaces.triangles = true;
@@ -139,15 +139,15 @@ double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint3
 /// The parts of the decision that every function below needs.
 struct Radio {
   const Planner& planner;
-  const Asks& asks;
-  const Surfaces& surfaces;
+  const RadioAsks& asks;
+  const RadioSurfacesSeen& surfaces;
   bool on() const { return asks.channels > 0; }
   /// `reason`, unless there is no channel.
   std::string why(const std::string& reason) const { return on() ? reason : "no channel"; }
 };
 
 void plan_reflection(EffectPlan& plan, const Radio& radio) {
-  const Asks& asks = radio.asks;
+  const RadioAsks& asks = radio.asks;
   plan.channel =
       radio.planner.fixed("channel", radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
   plan.line_of_sight =
@@ -172,7 +172,7 @@ void plan_reflection(EffectPlan& plan, const Radio& radio) {
 }
 
 void plan_transmission(EffectPlan& plan, const Radio& radio) {
-  const Surfaces& surfaces = radio.surfaces;
+  const RadioSurfacesSeen& surfaces = radio.surfaces;
   const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
   plan.transmission = radio.planner.decide(
       "transmission", walls,
@@ -228,7 +228,7 @@ struct Most {
 };
 using AirBound = double (*)(const rf::Weather&, double frequency_hz, double distance_m);
 
-Most most_of(const Asks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
+Most most_of(const RadioAsks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
              AirBound bound) {
   Most most;
   for (const double carrier : asks.carriers_hz) {
@@ -271,7 +271,7 @@ Effect plan_air(const Radio& radio, const char* name, const Most& most, double l
 void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
   const double tolerance = scenario.tolerance_db;
   const rf::Weather weather = weather_of(scenario.environment);
-  const Asks& asks = radio.asks;
+  const RadioAsks& asks = radio.asks;
   const Most gas = most_of(asks, weather, longest_m, rf::gas_model_covers, rf::most_gas_db);
   plan.gas = plan_air(radio, "gas", gas, longest_m, tolerance, "no air", "P.676-13");
   Most rain, fog;
@@ -325,8 +325,8 @@ rf::Weather weather_of(const Environment& environment) {
 
 void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const scene::Scene& scene,
                 const scene::Bounds& points) {
-  const Asks asks = asks_of(scenario);
-  const Surfaces surfaces = surfaces_of(scene, asks);
+  const RadioAsks asks = radio_asks_of(scenario);
+  const RadioSurfacesSeen surfaces = radio_surfaces_of(scene, asks);
   const Radio radio{planner, asks, surfaces};
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);

@@ -19,7 +19,7 @@ void check_count(const CsvLine& line) {
 }
 
 /// A header in another order would swap coordinates in silence: its names are checked.
-void check_header(const CsvLine& line) {
+void check_receiver_header(const CsvLine& line) {
   check_count(line);
   for (size_t i = 0; i < names.size(); ++i) {
     const std::string name = lower_case(line.cells[i].text);
@@ -57,7 +57,7 @@ std::vector<dvec3> parse_receiver_list(std::string_view text, const std::string&
     const bool header = first && !cell.empty() && !csv_number(cell);
     first = false;
     if (header)
-      check_header(*line);
+      check_receiver_header(*line);
     else
       positions.push_back(parse_position(*line));
   }

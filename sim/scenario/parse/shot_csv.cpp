@@ -12,11 +12,11 @@
 namespace greatx::sim {
 namespace {
 
-constexpr std::array<const char*, 4> column_names = {"t_s", "azimuth_deg", "elevation_deg", "channel"};
+constexpr std::array<const char*, 4> shot_columns = {"t_s", "azimuth_deg", "elevation_deg", "channel"};
 
 [[noreturn]] void fail(const CsvLine& line, size_t cell, const std::string& expected) {
   line.fail(cell,
-            fmt::format("{}: expected {}, found '{}'", column_names[cell], expected, line.cells[cell].text));
+            fmt::format("{}: expected {}, found '{}'", shot_columns[cell], expected, line.cells[cell].text));
 }
 
 void check_count(const CsvLine& line, size_t columns) {
@@ -29,11 +29,11 @@ void check_count(const CsvLine& line, size_t columns) {
                 : fmt::format("expected {} values as in the lines before, found {}", columns, count));
 }
 
-void check_header(const CsvLine& line) {
+void check_shot_header(const CsvLine& line) {
   check_count(line, 0);
   for (size_t i = 0; i < line.cells.size(); ++i)
-    if (lower_case(line.cells[i].text) != column_names[i])
-      fail(line, i, fmt::format("a number, or '{}' in a header line", column_names[i]));
+    if (lower_case(line.cells[i].text) != shot_columns[i])
+      fail(line, i, fmt::format("a number, or '{}' in a header line", shot_columns[i]));
 }
 
 double number(const CsvLine& line, size_t cell, double low, double high, const std::string& expected) {
@@ -64,7 +64,7 @@ render::ShotTable parse_shots(std::string_view text, const std::string& name) {
   CsvReader reader(text, name);
   while (const std::optional<CsvLine> line = reader.next()) {
     if (columns == 0 && !csv_number(line->cells[0].text)) {
-      check_header(*line);
+      check_shot_header(*line);
       columns = line->cells.size();
       continue;
     }

@@ -13,12 +13,12 @@
 namespace greatx::sim {
 namespace {
 
-constexpr std::array<const char*, 7> column_names = {"t", "x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg"};
+constexpr std::array<const char*, 7> trajectory_columns = {"t", "x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg"};
 
 [[noreturn]] void fail(const CsvLine& line, size_t cell, const std::string& expected,
                        const std::string& found) {
   line.fail(cell, fmt::format("{}expected {}, found {}",
-                              cell < column_names.size() ? std::string(column_names[cell]) + ": " : "",
+                              cell < trajectory_columns.size() ? std::string(trajectory_columns[cell]) + ": " : "",
                               expected, found));
 }
 
@@ -31,7 +31,7 @@ void check_count(const CsvLine& line) {
 }
 
 /// A header in another order would be read as garbage: its names are checked.
-void check_header(const CsvLine& line) {
+void check_trajectory_header(const CsvLine& line) {
   check_count(line);
   constexpr std::array<std::array<const char*, 4>, 7> spellings = {{{"t", "t_s", "time", "time_s"},
                                                                     {"x", "x_m"},
@@ -45,7 +45,7 @@ void check_header(const CsvLine& line) {
     const bool known = std::any_of(spellings[i].begin(), spellings[i].end(),
                                    [&](const char* spelling) { return spelling && name == spelling; });
     if (!known)
-      fail(line, i, fmt::format("a number, or '{}' in a header line", column_names[i]),
+      fail(line, i, fmt::format("a number, or '{}' in a header line", trajectory_columns[i]),
            fmt::format("'{}'", line.cells[i].text));
   }
 }
@@ -78,7 +78,7 @@ std::vector<WayPoint> parse_way_points(std::string_view text, const std::string&
   CsvReader reader(text, name);
   while (const std::optional<CsvLine> line = reader.next()) {
     if (columns == 0 && !csv_number(line->cells[0].text)) {
-      check_header(*line);
+      check_trajectory_header(*line);
       columns = line->cells.size();
       continue;
     }
