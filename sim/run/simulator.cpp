@@ -77,25 +77,25 @@ class Simulator::HostScope {
   std::chrono::steady_clock::time_point begin_;
 };
 
-Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World& world,
-                     const EffectPlan& plan)
-    : scenario_(scenario),
-      world_(world),
-      plan_(plan),
+Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
+    : experiment_(experiment),
+      scenario_(experiment.scenario),
+      world_(*experiment.world),
+      plan_(experiment.plan),
       device_(device),
-      gpu_scene_(device, world.scene, gpu_scene_options(plan)),
+      gpu_scene_(device, world_.scene, gpu_scene_options(plan_)),
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
-      clock_(scenario.tick_rate_hz),
-      schedule_(scenario.tick_rate_hz),
+      clock_(scenario_.tick_rate_hz),
+      schedule_(scenario_.tick_rate_hz),
       passes_(std::make_unique<Passes>()) {
-  if (plan.camera.on)
-    passes_->lighting = std::make_unique<render::SceneLighting>(gpu_scene_, lighting_of(scenario.environment),
-                                                                camera_effects(plan));
-  if (passes_->lighting) passes_->stage = std::make_unique<Stage>(gpu_scene_, *passes_->lighting, world);
-  if (plan.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
-  if (plan.channel.on)
+  if (plan_.camera.on)
+    passes_->lighting = std::make_unique<render::SceneLighting>(
+        gpu_scene_, lighting_of(scenario_.environment), camera_effects(plan_));
+  if (passes_->lighting) passes_->stage = std::make_unique<Stage>(gpu_scene_, *passes_->lighting, world_);
+  if (plan_.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
+  if (plan_.channel.on)
     passes_->crossings = std::make_unique<rf::CrossingPass>(
-        gpu_scene_, rf::facet_kinds(world.scene, radio_effects(plan, scenario)));
+        gpu_scene_, rf::facet_kinds(world_.scene, radio_effects(experiment_)));
   add_sensors();
 }
 
@@ -115,7 +115,7 @@ void Simulator::add_sensors() {
   for (uint32_t i = 0; i < scenario_.channels.size(); ++i) {
     const ChannelConfig& config = scenario_.channels[i];
     const auto make = [&] {
-      return std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, plan_, scenario_, world_, i);
+      return std::make_unique<ChannelSensor>(gpu_scene_, *passes_->crossings, experiment_, i);
     };
     add(located(config.where, make), config.rate_hz, config.where);
   }

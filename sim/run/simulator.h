@@ -15,13 +15,12 @@
 #include "gpu/tick_ring.h"
 #include "scene/device/gpu_scene.h"
 #include "sim/compare/record_consistency.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/run/schedule.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/sensors/sensor.h"
 #include "sim/world/moment.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
@@ -53,8 +52,8 @@ struct RunStatistics {
 
 class Simulator {
  public:
-  /// Uploads the scene and builds the pipelines of the plan. All arguments outlive the simulator.
-  Simulator(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan);
+  /// Uploads the scene and builds the pipelines of the plan. Both arguments outlive the simulator.
+  Simulator(gpu::Device& device, const Experiment& experiment);
   ~Simulator();
 
   /// What the packets will hold; index = Record::sensor.
@@ -90,6 +89,7 @@ class Simulator {
   void keep(const char* figure, const Packet& packet, uint32_t sensor, uint32_t other,
             const ErrorStatistics& errors, ErrorStatistics* total);
 
+  const Experiment& experiment_;
   const Scenario& scenario_;
   const World& world_;
   const EffectPlan& plan_;
