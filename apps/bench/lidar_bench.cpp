@@ -167,7 +167,7 @@ class LidarBench {
     for (const LidarChange& change : changes(own(), options)) {
       sim::Experiment experiment = sim::make_experiment(changed(scenario_, place_, change, options), world_);
       if (!change.effects.empty()) {
-        for (const sim::Effect* effect : std::as_const(experiment.plan).all())
+        for (const sim::Effect* effect : experiment.plan.all())
           if (effect->name == change.effects[0] && !effect->on) left_out_[change.name] = effect->reason;
         if (left_out_.contains(change.name)) continue;
       }

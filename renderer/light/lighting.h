@@ -55,7 +55,7 @@ struct KeyLight {
 };
 KeyLight key_light(const Lighting& lighting);
 
-/// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
+/// The effect plan decides; names that it has, too, are the same (sim/plan/effect_list.h). Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
 /// alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;             ///< the key light, be it sun or moon

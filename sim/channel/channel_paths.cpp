@@ -9,27 +9,14 @@
 
 #include "core/activity.h"
 #include "core/parallel.h"
+#include "sim/plan/plan_options.h"
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
 
 rf::RadioEffects radio_effects(const Experiment& experiment) {
-  const EffectPlan& plan = experiment.plan;
   const Scenario& scenario = experiment.scenario;
-  rf::RadioEffects effects;
-  effects.line_of_sight = plan.line_of_sight.on;
-  effects.reflection = plan.reflection.on;
-  effects.transmission = plan.transmission.on;
-  effects.diffraction = plan.diffraction.on;
-  effects.scattering = plan.scattering.on;
-  effects.lit_region = plan.diffraction_lit_region.on;
-  effects.free_edges = plan.free_edges.on;
-  effects.field.roughness = plan.roughness.on;
-  effects.field.scattering = plan.scattering.on;
-  effects.field.gas = plan.gas.on;
-  effects.field.rain = plan.rain.on;
-  effects.field.fog = plan.fog.on;
-  effects.field.foliage = plan.foliage.on;
+  rf::RadioEffects effects = radio_switches(experiment.plan);
   effects.field.seed = scenario.seed;
   effects.weather = weather_of(scenario.environment);
   for (const ChannelConfig& channel : scenario.channels)
