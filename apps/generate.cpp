@@ -109,7 +109,8 @@ void run_generate(const GenerateOptions& options) {
     const io::DatasetWriter::Position next = writer.resume_position();
     throw Interrupted(fmt::format(
         "{}: complete up to tick {} of {} in sequence {} of {}; the same command with --resume goes on",
-        options.output, next.next_tick, scenario.ticks, next.sequence + 1, scenario.sequences));
+        options.output, next.next_tick, experiment.scenario.ticks, next.sequence + 1,
+        experiment.scenario.sequences));
   }
 }
 
