@@ -170,14 +170,19 @@ py::object radio_map(Session& session, const std::string& channel, uint32_t sequ
                      const std::vector<double>& power_dbm, std::optional<double> bandwidth_hz,
                      double noise_figure_db, bool inside_solids, bool beyond_scene,
                      const std::string& antenna, const py::object& progress) {
-  MapRequest request{std::nullopt, std::nullopt,    cell_m,        {},           power_dbm,
-                     bandwidth_hz, noise_figure_db, inside_solids, beyond_scene, antenna};
+  sim::MapRequest request;
+  request.cell_m = cell_m;
+  request.power_dbm = power_dbm;
+  request.bandwidth_hz = bandwidth_hz;
+  request.noise_figure_db = noise_figure_db;
+  request.inside_solids = inside_solids;
+  request.beyond_scene = beyond_scene;
   if (min_m) request.min_m = dvec2((*min_m)[0], (*min_m)[1]);
   if (max_m) request.max_m = dvec2((*max_m)[0], (*max_m)[1]);
   request.height = {z_m, height_m, over_roofs ? sim::MapOver::roofs : sim::MapOver::ground};
-  std::optional<MapResult> result =
-      watched([&](const GoOn& go_on) { return session.radio_map(channel, sequence, tick, request, go_on); },
-              progress);
+  std::optional<MapResult> result = watched(
+      [&](const GoOn& go_on) { return session.radio_map(channel, sequence, tick, request, antenna, go_on); },
+      progress);
   return py::make_tuple(result->facts, numpy(std::move(result->arrays)));
 }
 

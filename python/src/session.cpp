@@ -331,41 +331,32 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
 }
 
 std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t sequence, int64_t tick,
-                                            const MapRequest& request, const GoOn& go_on) {
+                                            const sim::MapRequest& request, const std::string& antenna,
+                                            const GoOn& go_on) {
   const std::lock_guard lock(mutex_);
   const uint32_t channel = find_channel(name);
   check_instant(sequence, tick);
   const sim::ChannelConfig& config = scenario_.channels[channel];
-  const sim::MapPower power =
-      sim::map_power(request.power_dbm, request.bandwidth_hz, request.noise_figure_db, config);
-  sim::MapReceiver receiver = antenna_at_points(request.antenna, config.carrier_hz);
+  sim::check_map_request(request, config);
+  sim::MapReceiver receiver = antenna_at_points(antenna, config.carrier_hz);
 
   const std::shared_ptr<const sim::Experiment> now = experiment();
-  const sim::MapGrid grid = sim::map_grid_of(request.min_m, request.max_m, request.cell_m, now->scene(),
-                                             config.transmitters.size());
+  const scene::Bounds bounds = sim::map_bounds(request, config, now->scene());
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   try {
-    sim::ChannelSnapshot& snapshot = this->snapshot(now, gpu, channel, {sequence, tick, std::nullopt},
-                                                    sim::bounds_of_cells(grid, request.height, now->scene()));
-    const sim::Moment& moment = snapshot.moment();
-    std::vector<dvec3> ends;
-    for (const std::string& end : config.transmitters)
-      ends.push_back(sim::world_position(sim::antenna_end(*now, end), moment.context));
-    sim::MapCells cells = sim::place_cells(grid, request.height, now->scene(), snapshot.model().kinds,
-                                           moment.bodies, ends, request.beyond_scene);
-    cells.solve_inside = request.inside_solids;
+    sim::RadioMapRun run(snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, bounds), request,
+                         std::move(receiver));
     std::vector<rf::LinkStatistics> links;
     bool stopped = false;
-    sim::RadioMapSolver(snapshot, now->scenario, channel, std::move(receiver))
-        .solve(cells, 0, [&](std::span<const rf::LinkStatistics> more) {
-          links.insert(links.end(), more.begin(), more.end());
-          stopped = !go_on(links.size() / ends.size());
-          return !stopped;
-        });
+    run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+      links.insert(links.end(), more.begin(), more.end());
+      stopped = !go_on(links.size() / run.transmitters().size());
+      return !stopped;
+    });
     gpu->check_validation();
     if (stopped) return std::nullopt;
-    return map_result({&cells, links, power}, ends, config);
+    return map_result(run, links, config);
   } catch (...) {
     kept_.reset();
     throw;

@@ -18,7 +18,7 @@
 #include "core/record.h"
 #include "gpu/device.h"
 #include "sim/channel/channel_snapshot.h"
-#include "sim/channel/radio_map.h"
+#include "sim/channel/radio_map_run.h"
 #include "sim/experiment/experiment.h"
 #include "sim/scenario/scenario.h"
 
@@ -71,17 +71,6 @@ struct PointReceivers {
   std::string antenna;        ///< a scenario whose first sensor is the antenna at each of them
 };
 
-/// A radio map (sim/channel/radio_map.h).
-struct MapRequest {
-  std::optional<dvec2> min_m, max_m;  ///< none: the scene's bounds
-  double cell_m = 1.0;
-  sim::MapHeight height;
-  std::vector<double> power_dbm;  ///< one, or one a transmitter; empty: the channel's
-  std::optional<double> bandwidth_hz;
-  double noise_figure_db = 0.0;
-  bool inside_solids = false, beyond_scene = false;
-  std::string antenna;  ///< as PointReceivers'
-};
 struct MapResult {
   NamedArrays arrays;
   std::string facts;  ///< JSON
@@ -108,9 +97,10 @@ class Session {
   /// All paths of a channel. Null: `go_on` said that it is enough.
   std::shared_ptr<PathSet> solve(const std::string& channel, uint32_t sequence, int64_t tick,
                                  const std::optional<PointReceivers>& points, const GoOn& go_on);
-  /// Null: stopped.
+  /// `antenna`: as PointReceivers'. None: stopped.
   std::optional<MapResult> radio_map(const std::string& channel, uint32_t sequence, int64_t tick,
-                                     const MapRequest& request, const GoOn& go_on);
+                                     const sim::MapRequest& request, const std::string& antenna,
+                                     const GoOn& go_on);
   std::unique_ptr<Stream> stream(uint32_t sequence, int64_t first_tick);
 
  private:

@@ -153,12 +153,12 @@ MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::
 
 rf::LinkStatistics no_link() { return rf::link_statistics({}, {}); }
 
-RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, const Scenario& scenario, uint32_t channel,
-                               MapReceiver receiver)
-    : snapshot_(snapshot),
-      carrier_hz_(scenario.channels[channel].carrier_hz),
-      receiver_(std::move(receiver)) {
-  for (const std::string& name : scenario.channels[channel].transmitters)
+RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver)
+    : snapshot_(snapshot), receiver_(std::move(receiver)) {
+  const Scenario& scenario = snapshot.experiment().scenario;
+  const ChannelConfig& config = scenario.channels[snapshot.channel()];
+  carrier_hz_ = config.carrier_hz;
+  for (const std::string& name : config.transmitters)
     transmitters_.push_back(antenna_array(scenario, name, carrier_hz_));
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Radio maps: the links from all transmitters of a channel to the centres of a grid's cells, by the paths that a receiver
-// put there would have, to the bit.
+// put there would have, to the bit. sim/channel/radio_map_run.h makes whole maps of these steps.
 //
 //   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx] ─► map_arrays
 #pragma once
@@ -101,8 +101,8 @@ struct MapReceiver {
 
 class RadioMapSolver {
  public:
-  /// `snapshot` (with all transmitters that the map has) and `scenario` outlive this.
-  RadioMapSolver(ChannelSnapshot& snapshot, const Scenario& scenario, uint32_t channel, MapReceiver receiver);
+  /// `snapshot` outlives this and has all transmitters that the map has.
+  RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver);
 
   /// Hands over the links of the cells from `first` on, in the order of cells, some hundred at a time: [cells, tx]; those of
   /// cells without values have no path. Ends early if `take` returns false. No cell depends on another, nor on `first`.
@@ -113,7 +113,7 @@ class RadioMapSolver {
   std::vector<rf::LinkStatistics> statistics_of(std::span<const ChannelSnapshot::Link> links) const;
 
   ChannelSnapshot& snapshot_;
-  double carrier_hz_;
+  double carrier_hz_ = 0.0;
   MapReceiver receiver_;
   std::vector<rf::AntennaArray> transmitters_;  ///< [transmitters of the channel]
 };

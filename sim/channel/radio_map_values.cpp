@@ -139,6 +139,17 @@ const MapQuantity& map_quantity(const std::string& name) {
   throw_user_error("--quantities: expected some of {}, found '{}'", fmt::join(names, ", "), name);
 }
 
+Array map_heights(const MapCells& cells) {
+  return Array::of<double>({cells.grid.rows, cells.grid.columns}, cells.z_m);
+}
+
+Array map_placement(const MapCells& cells) {
+  std::vector<uint8_t> values;
+  values.reserve(cells.placement.size());
+  for (const CellPlacement placement : cells.placement) values.push_back(static_cast<uint8_t>(placement));
+  return Array::of<uint8_t>({cells.grid.rows, cells.grid.columns}, values);
+}
+
 Array map_array(const RadioMap& map, const MapQuantity& quantity) {
   const size_t cells = map.cells->grid.cells(), count = quantity.per_transmitter ? map.transmitters() : 1;
   std::vector<double> values(count * cells, quantity.without_value);

@@ -61,6 +61,9 @@ struct RadioMap {
   MapPower power;
   size_t transmitters() const { return power.transmit_dbm.size(); }
 };
+/// The cells' own arrays, [rows, columns]: world heights of their middles, and CellPlacement as u8.
+Array map_heights(const MapCells& cells);
+Array map_placement(const MapCells& cells);
 /// [tx, rows, columns], or [rows, columns] if the quantity is not a transmitter's.
 Array map_array(const RadioMap& map, const MapQuantity& quantity);
 /// The same of the best server of each cell, [cells]; NaN where there is none.
