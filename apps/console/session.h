@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands share this: from the command line to a scenario and a device, and from an experiment to a data set.
+// The commands share this: from the command line to a scenario and a device, and from an experiment to a data
+// set.
 #pragma once
 
 #include <filesystem>

@@ -15,8 +15,8 @@
 
 namespace greatx::apps {
 
-/// The plan of an experiment whose scenario has a camera of RGB and depth as well: it has all that a picture of the scene
-/// needs.
+/// The plan of an experiment whose scenario has a camera of RGB and depth as well: it has all that a picture
+/// of the scene needs.
 sim::EffectPlan picture_plan(const sim::Experiment& experiment);
 
 /// Pictures of the scene at one moment, from anywhere.

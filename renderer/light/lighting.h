@@ -55,8 +55,9 @@ struct KeyLight {
 };
 KeyLight key_light(const Lighting& lighting);
 
-/// The effect plan decides; names that it has, too, are the same (sim/plan/effect_list.h). Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
-/// alpha masks need GpuSceneOptions::textures.
+/// The effect plan decides what is on; an effect of it has the same name there (sim/plan/effect_list.h). What
+/// is off is not in the pipelines, not rendered and not uploaded. Textures, normal maps and alpha masks need
+/// GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;             ///< the key light, be it sun or moon
   bool sky = true;             ///< as background, ambient light and reflection

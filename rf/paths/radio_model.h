@@ -15,7 +15,8 @@
 
 namespace greatx::rf {
 
-/// Which effects act. The effect plan decides; names that it has, too, are the same (sim/plan/effect_list.h).
+/// Which effects act. The effect plan decides; an effect of it has the same name there
+/// (sim/plan/effect_list.h).
 struct RadioEffects {
   bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
   bool diffraction_lit_region = true;  ///< diffraction where the wedge does not shade, too

@@ -37,8 +37,8 @@ class ChannelSnapshot {
     LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
   };
-  /// `device` and `experiment` outlive this. `options`: of the scene on the GPU, for whoever draws it as well; none: the
-  /// plan's. Throws UserError like ChannelPaths.
+  /// `device` and `experiment` outlive this. `options`: of the scene on the GPU, for whoever draws it as
+  /// well; none: the plan's. Throws UserError like ChannelPaths.
   ChannelSnapshot(gpu::Device& device, const Experiment& experiment, uint32_t channel, const Instant& instant,
                   const std::optional<scene::GpuSceneOptions>& options = {});
 

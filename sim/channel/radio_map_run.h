@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A radio map from what is asked for to what it says, the same way for `greatx map`, Python and the benchmark:
+// A radio map from the request to its links, the same way for `greatx map`, Python and the benchmark:
 //
-//   MapRequest ─► map_bounds ─► Experiment ─► ChannelSnapshot ─► RadioMapRun { transmitters, cells } ─► RadioMap
+//   MapRequest ─► map_bounds ─► Experiment ─► ChannelSnapshot ─► RadioMapRun ─► RadioMap
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct MapRequest {
   bool beyond_scene = false;   ///< the map may lie outside of the scene's bounds
 };
 
-/// What can be said without a scene. Throws UserError like map_power().
+/// Checks all that needs no scene. Throws UserError like map_power().
 void check_map_request(const MapRequest& request, const ChannelConfig& config);
 
 /// Where the cells will be, for make_experiment(). Throws UserError like map_grid_of().
@@ -36,8 +36,8 @@ scene::Bounds map_bounds(const MapRequest& request, const ChannelConfig& config,
 
 class RadioMapRun {
  public:
-  /// Places the cells. `snapshot` outlives this and has all transmitters of its channel; its experiment knows of the
-  /// cells by map_bounds(). Throws UserError like the functions above and place_cells().
+  /// Places the cells. `snapshot` outlives this and has all transmitters of its channel; its experiment knows
+  /// of the cells by map_bounds(). Throws UserError like the functions above and place_cells().
   RadioMapRun(ChannelSnapshot& snapshot, const MapRequest& request, MapReceiver receiver);
 
   const std::vector<dvec3>& transmitters() const { return transmitters_; }  ///< where they are, world

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that a run is made of, before there is a device: the scenario, the world that it loads and the plan that both
-// call for. It is made once and handed on whole.
+// Everything that a run is made of, before there is a device: the scenario, the world that it loads and the
+// plan that both call for. It is made once and handed on whole.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every effect, declared once. The members of EffectPlan, their names under `effects:`, their order and docs/effects.md
-// follow from these rows (tests/apps/check_docs_effects.py --write makes the page).
+// Every effect is declared once. The members of EffectPlan, their names under `effects:`, their order and
+// docs/effects.md follow from these rows (tests/apps/check_docs_effects.py --write makes the page).
 //
 //   X(name, switchable, passed, documentation)
 //

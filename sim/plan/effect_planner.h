@@ -18,8 +18,8 @@ class Planner {
  public:
   explicit Planner(const Scenario& scenario) : scenario_(scenario) {}
 
-  /// `needed` is what the scenario and the scene call for. Throws UserError if the scenario switches an effect that it
-  /// cannot switch.
+  /// `needed`: whether the scenario and the scene call for the effect. Throws UserError if the scenario
+  /// switches an effect that it cannot switch.
   void decide(Effect& effect, bool needed, const std::string& reason, const std::string& bound = "") const {
     const auto it = scenario_.effects.find(effect.name);
     const Switch wish = it == scenario_.effects.end() ? Switch::automatic : it->second;

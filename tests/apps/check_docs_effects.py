@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that the documentation names exactly the effects that the program has, as `greatx explain --json` lists them:
-docs/scenario.md and docs/scenario.schema.json those that can be switched, docs/effects.md all of them. docs/effects.md
-is made from the table in sim/plan/effect_list.h; --write makes it.
+"""Checks that the documentation names exactly the effects that the program has, as `greatx explain --json`
+lists them: docs/scenario.md and docs/scenario.schema.json name those that can be switched, docs/effects.md
+all of them. --write makes docs/effects.md from the table in sim/plan/effect_list.h.
 
 usage: check_docs_effects.py [--write] PROGRAM SOURCE_FOLDER
 """
@@ -13,8 +13,8 @@ import re
 import subprocess
 import sys
 
-GROUPS = {"RAY": "Tracing rays", "CAMERA": "Cameras", "LIDAR": "LiDARs", "RADAR": "Radars", "RADIO": "Channels",
-          "CHECKS": "Checks"}
+GROUPS = {"RAY": "Tracing rays", "CAMERA": "Cameras", "LIDAR": "LiDARs", "RADAR": "Radars", 
+          "RADIO": "Channels", "CHECKS": "Checks"}
 HEAD = """<!-- SPDX-FileCopyrightText: 2026 The greatx authors -->
 <!-- SPDX-License-Identifier: Apache-2.0 -->
 <!-- tests/apps/check_docs_effects.py --write makes this page from sim/plan/effect_list.h -->

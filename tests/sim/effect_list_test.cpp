@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of effects: each row is a member, a name, a rule about switching, and a place that it is passed to.
+// The table of effects: each row is a member, a name, a rule about switching, and a struct that has the
+// switch.
 #include <set>
 
 #include <fmt/format.h>
