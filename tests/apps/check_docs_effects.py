@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that docs/scenario.md and docs/scenario.schema.json name exactly the effects that the program can switch, as
-`greatx explain --json` lists them.
+"""Checks that docs/scenario.md and docs/scenario.schema.json name exactly the effects that the program can
+switch, as `greatx explain --json` lists them.
 
 usage: check_docs_effects.py PROGRAM SCENARIO_MD SCHEMA
 """

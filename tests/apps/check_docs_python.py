@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_docs_python.py PROGRAM DATASET_MD README_MD PACKAGE: runs the Python of two pages.
 
-The block of docs/dataset.md runs on a data set made for the purpose, whose values are known. The block of README.md
-runs on the first ticks of the default scenario, with the built package; without a compiled module (PACKAGE is empty)
-it is left out. torch is not a package that the tests may need, so a stand-in with NumPy's semantics takes its place;
-everything else is the pages' own text.
+The block of docs/dataset.md runs on a data set made for the purpose, whose values are known. The block of
+README.md runs on the first ticks of the default scenario, with the built package; without a compiled module
+(PACKAGE is empty) it is left out. torch is not a package that the tests may need, so a stand-in with NumPy's
+semantics takes its place; everything else is the pages' own text.
 """
 import os
 import pathlib
