@@ -27,9 +27,8 @@ if(NOT GREATX_SANITIZE)
   target_link_options(greatx_options INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
 endif()
 if(GREATX_SANITIZE)
-  # GCC 12 takes std::regex for uninitialized under AddressSanitizer (its bug 105562).
   target_compile_options(greatx_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                                                  -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+                                                  -fno-omit-frame-pointer)
   target_link_options(greatx_options INTERFACE -fsanitize=address,undefined)
 endif()
 
