@@ -4,8 +4,9 @@
 
 The block of docs/dataset.md runs on a data set made for the purpose, whose values are known. The block of
 README.md runs on the first ticks of the default scenario, with the built package; without a compiled module
-(PACKAGE is empty) it is left out. torch is not a package that the tests may need, so a stand-in with NumPy's
-semantics takes its place; everything else is the pages' own text.
+(PACKAGE is empty) it is left out. The listings of docs/tutorial.md are compared with the example that they
+explain. torch is not a package that the tests may need, so a stand-in with NumPy's semantics takes its place;
+everything else is the pages' own text.
 """
 import os
 import pathlib
@@ -76,8 +77,19 @@ def check_readme(page: str, program: str, package: str) -> None:
     assert h.dtype == numpy.complex64 and h.shape[0] == 1 and numpy.all(numpy.isfinite(h)), (h.dtype, h.shape)
 
 
+def check_tutorial(page: str) -> None:
+    """The listings of docs/tutorial.md stand in python/examples/tutorial.py, which the page tells to run."""
+    text = (pathlib.Path(page).parent / "../python/examples/tutorial.py").resolve().read_text()
+    listings = [code for code in re.findall(r"```python\n(.*?)```", pathlib.Path(page).read_text(), re.DOTALL)
+                if not code.startswith(">>>")]
+    assert len(listings) >= 5, f"{page}: expected five listings or more, found {len(listings)}"
+    for code in listings:
+        assert code in text, f"{page}: not in tutorial.py:\n{code}"
+
+
 def main(program: str, dataset_page: str, readme: str, package: str) -> int:
     stand_in_for_torch()
+    check_tutorial(str(pathlib.Path(dataset_page).with_name("tutorial.md")))
     for check in (lambda: check_dataset_page(dataset_page, program),
                   lambda: check_readme(readme, program, package) if package else None):
         with tempfile.TemporaryDirectory() as folder:
