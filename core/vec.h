@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors and frames. World: right-handed, x east, y north, z up, metres. Sensor and body frames: x forward,
-// y left, z up. Camera optical frame: x right, y down, z forward. Matrices read right to left.
+// Vectors and frames. The world is right-handed: x east, y north, z up, in metres. Sensor and body frames
+// have x forward, y left, z up. The camera's optical frame has x right, y down, z forward. Matrices read
+// right to left.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -47,7 +48,7 @@ inline dquat orientation_from_yaw_pitch_roll(double yaw, double pitch, double ro
          glm::angleAxis(roll, dvec3(1, 0, 0));
 }
 
-/// What a body does at an instant: pose and its derivatives in the world frame.
+/// The pose of a body at an instant and its derivatives in the world frame.
 struct Motion {
   Pose pose;
   dvec3 velocity{0.0};          ///< m/s

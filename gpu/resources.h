@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Buffers, images and samplers: move-only, each with its memory and its name. As everything in gpu/ they wait, before they
-// are destroyed, for submissions that nobody has waited for (Device::finish).
+// Buffers, images and samplers. They are move-only, and each has its memory and its name. As everything in
+// gpu/, they wait before they are destroyed for submissions that the host has not waited for
+// (Device::finish).
 #pragma once
 
 #include <cstddef>
@@ -41,8 +42,9 @@ struct Slice {
 class Buffer {
  public:
   Buffer() = default;
-  /// Usable as storage, transfer source and target, and by address; `extra_usage` adds to that.
-  /// A size of 0 makes a buffer of 16 bytes, so that empty scenes need no special case.
+  /// Makes a buffer that is usable as storage, as source and target of transfers, and by address;
+  /// `extra_usage` adds to that. A size of 0 makes a buffer of 16 bytes, so that empty scenes need no special
+  /// case.
   Buffer(Device& device, VkDeviceSize size, Memory memory, std::string_view name,
          VkBufferUsageFlags extra_usage = 0);
   ~Buffer();
@@ -64,7 +66,7 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
-/// What an image is used for next; layout, stage and access follow from it.
+/// The next use of an image. Its layout, stage and access follow from it.
 enum class ImageUse {
   undefined,
   color_target,
@@ -84,8 +86,8 @@ struct ImageDesc {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };
 
-/// A 2-D image, or an array of such, with one view of all its mip levels and layers. Cmd::transition keeps track of its
-/// use, in recording order.
+/// A 2-D image, or an array of 2-D images, with one view of all its mip levels and layers. Cmd::transition
+/// keeps track of its use, in recording order.
 class Image {
  public:
   Image() = default;
