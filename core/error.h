@@ -28,7 +28,7 @@ class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& message);
   UserError(const SourceLocation& where, const std::string& message);
-  /// Whether the message begins with a line of a file.
+  /// Returns whether the message begins with a line of a file.
   bool located() const { return located_; }
 
  private:

@@ -36,8 +36,8 @@ DeviceInfo describe(VkPhysicalDevice physical, uint32_t index);
 /// Returns the device extensions that greatx switches on where they exist.
 std::vector<const char*> wanted_extensions(VkPhysicalDevice physical);
 bool has_ray_tracing_extensions(VkPhysicalDevice physical);
-/// Whether the device has VK_EXT_conditional_rendering and its feature, by which the GPU leaves out work
-/// (gpu/condition.h).
+/// Returns whether the device has VK_EXT_conditional_rendering and its feature, by which the GPU leaves out
+/// work (gpu/condition.h).
 bool has_conditional_rendering(VkPhysicalDevice physical);
 
 }  // namespace greatx::gpu

@@ -14,7 +14,7 @@ struct SpirvModule {
   std::span<const uint32_t> words;
 };
 
-/// Every embedded shader.
+/// Returns every embedded shader.
 std::span<const SpirvModule> spirv_modules();
 
 }  // namespace greatx
