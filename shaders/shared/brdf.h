@@ -60,8 +60,8 @@ GREATX_FUNCTION vec3 schlick_fresnel(vec3 f0, float one_minus_cos) {
 
 /// Returns the scale of F0 and the offset that give the directional albedo of a single bounce:
 /// E_ss(F0) = F0 x + y (the split sum of Karis, "Real Shading in Unreal Engine 4", 2013). The polynomials
-/// were fitted by least squares to this header's own lobe on n.v = .02, .05, .1 ... 1 and roughness .05 ... 1.
-/// The rms error is .01, and the largest is .06 where both are small.
+/// were fitted by least squares to this header's own lobe on n.v = .02, .05, .1 ... 1 and roughness .05 ...
+/// 1. The rms error is .01, and the largest is .06 where both are small.
 GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   float r = roughness, u = 1.0f - n_dot_v, u2 = u * u, u5 = u2 * u2 * u;
   vec4 p = vec4(1.0f, r, r * r, r * r * r);

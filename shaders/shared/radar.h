@@ -10,9 +10,9 @@
 GREATX_SHARED_BEGIN
 
 const uint radar_directions_binding = first_pass_binding;  // vec3[rays], unit, local axes
-const uint radar_hits_binding =
-    first_pass_binding + 1u;  // uint[max_bounces * rays + 1]: a bounce's rays side by side;
-// After them comes one uint: whether the source itself sees the receiver.
+// uint[max_bounces * rays + 1]: the rays of a bounce stand side by side. The last uint says whether the
+// source itself sees the receiver.
+const uint radar_hits_binding = first_pass_binding + 1u;
 const uint radar_group = 64u;
 
 // A hit is its facet, a flag that the receiver is seen from there, and a flag that it is seen over the first
