@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene of another program holds, before it is written as glTF (apps/files/scene_import.h).
+// The content of another program's scene, before it is written as glTF (apps/files/scene_import.h).
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ struct ImportedObject {
 struct ImportedScene {
   std::vector<ImportedMaterial> materials;
   std::vector<ImportedObject> objects;
-  std::vector<std::string> notes;  ///< what was ignored or chosen
+  std::vector<std::string> notes;  ///< the parts that were ignored, and the choices made
 
   size_t triangle_count() const {
     size_t corners = 0;

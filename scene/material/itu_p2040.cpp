@@ -66,7 +66,8 @@ constexpr TableMaterial table3[] = {
 };
 // clang-format on
 
-/// Lower case without '_', '-', ' ' and without a leading "itu": "ITU_Ceiling-Board" -> "ceilingboard".
+/// Returns the name in lower case without '_', '-', ' ' and without a leading "itu": "ITU_Ceiling-Board" ->
+/// "ceilingboard".
 std::string comparison_key(const std::string& name) {
   std::string key;
   for (const char character : name) {
