@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds on the memory that input may make the program hold. A few hundred bytes can ask for gigabytes
-// (aliases, counts, sizes of pictures). Code therefore states how much it plans to hold before it allocates
-// it, and a plan beyond one of the figures below is refused by name. docs/limits.md lists the figures for the
-// user, and tests/core/budget_test.cpp compares the two.
+// Defines bounds on the memory that input may make the program hold. A few hundred bytes can ask for
+// gigabytes (aliases, counts, sizes of pictures). Code therefore states how much it plans to hold before it
+// allocates it, and a plan beyond one of the figures below is refused by name. docs/limits.md lists the
+// figures for the user, and tests/core/budget_test.cpp compares the two.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace greatx {
 
-/// A bound, and the thing that it bounds.
+/// Describes a bound, and the thing that it bounds.
 struct Budget {
   const char* what;  ///< "textures of a model"
   uint64_t most;
@@ -71,7 +71,7 @@ std::string amount(uint64_t value, const Budget& budget);
 /// is beyond the budget. `where` names the file and the field.
 void require_within(const std::string& where, uint64_t planned, const Budget& budget);
 
-/// A budget that several things share. Each of them is stated in turn, before it is allocated.
+/// Represents a budget that several things share. Each of them is stated in turn, before it is allocated.
 class Spending {
  public:
   explicit Spending(const Budget& budget) : budget_(budget) {}

@@ -11,8 +11,8 @@
 
 namespace greatx {
 
-/// A file that a person gave, which is read whole. It is a regular file (not a folder, and not a pipe, which
-/// would hang) and within its budget. Both are checked before anything is allocated.
+/// Reads a file that a person gave, whole. It is a regular file (not a folder, and not a pipe, which would
+/// hang) and within its budget. Both are checked before anything is allocated.
 class InputFile {
  public:
   /// Throws UserError "`what`: ..." if the file does not exist, is not regular, cannot be read or is too

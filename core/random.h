@@ -8,8 +8,8 @@
 
 namespace greatx {
 
-/// A stream of counter-based random numbers on the host (shaders/shared/random.h). The n-th draw of a stream
-/// depends on (seed, stream, sequence, n) only.
+/// Represents a stream of counter-based random numbers on the host (shaders/shared/random.h). The n-th draw
+/// of a stream depends on (seed, stream, sequence, n) only.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, uint32_t stream, uint32_t sequence = 0)

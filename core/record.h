@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The output of the simulator: one Packet a tick, with one Record of every sensor that fired. Each Record
-// holds the arrays that its SensorSpec declared before the run. A RecordSink takes the packets in order of
-// ticks; the data set's writer in io/ is one, and tests use a vector.
+// The simulator delivers one Packet a tick, with one Record of every sensor that fired. Each Record holds the
+// arrays that its SensorSpec declared before the run. A RecordSink takes the packets in order of ticks; the
+// data set's writer in io/ is one, and tests use a vector.
 #pragma once
 
 #include <algorithm>
@@ -69,7 +69,7 @@ struct DTypeOf<std::complex<float>> {
   static constexpr DType value = DType::complex64;
 };
 
-/// A dense array in C order, little-endian, which owns its bytes.
+/// Holds a dense array in C order, little-endian, which owns its bytes.
 struct Array {
   DType dtype = DType::u8;
   std::vector<int64_t> shape;
@@ -108,7 +108,7 @@ struct ArraySpec {
   std::string description;     ///< axes and meaning, in one line
 };
 
-/// The way in which arrays become files.
+/// Names the way in which arrays become files.
 enum class FileFormat {
   npy_stack,  ///< one .npy per sequence, records stacked along a new first axis
   /// One .npy per sequence holds the records, concatenated along their first axis; NAME_offsets.npy

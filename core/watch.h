@@ -29,7 +29,7 @@ struct WorkState {
   double seconds = 0.0;        ///< since it began
 };
 
-/// The party that waits for the work.
+/// Represents the party that waits for the work.
 class Watch {
  public:
   virtual ~Watch() = default;
@@ -41,7 +41,7 @@ class Watch {
 
 namespace detail {
 
-/// The state that a watch, its thread and the threads that work for it share.
+/// Represents the state that a watch, its thread and the threads that work for it share.
 class WatchedWork {
  public:
   explicit WatchedWork(Watch& watch) : watch_(watch) {}
@@ -98,8 +98,8 @@ inline void checkpoint() {
   if (detail::watched_work != nullptr) detail::watched_work->check();
 }
 
-/// Work that may take long, as long as this lives. The watch hears of the outermost stage on the watched
-/// thread.
+/// Marks work that may take long, as long as this lives. The watch hears of the outermost stage on the
+/// watched thread.
 class WorkStage {
  public:
   /// `what` is a literal.
