@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Acceleration structures. Each body has a bottom level, which is built once. The top level holds the bodies
-// and is refitted when one of them has moved.
+// Defines acceleration structures. Each body has a bottom level, which is built once. The top level holds the
+// bodies and is refitted when one of them has moved.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace greatx::gpu {
 
 class Cmd;
 
-/// One geometry (a range of triangles) of a bottom-level structure.
+/// Holds one geometry (a range of triangles) of a bottom-level structure.
 struct BlasGeometry {
   VkDeviceAddress vertices = 0;  ///< vec3 fp32, stride 12
   uint32_t max_vertex = 0;       ///< highest index + 1
@@ -41,15 +41,15 @@ class AccelerationStructure {
   Buffer storage_;
 };
 
-/// A bottom level. A set-up submission of its own builds it, and the constructor waits for that. It is fast
-/// to trace and cannot be updated.
+/// Represents a bottom level. A set-up submission of its own builds it, and the constructor waits for that.
+/// It is fast to trace and cannot be updated.
 class Blas : public AccelerationStructure {
  public:
   Blas() = default;
   Blas(Device& device, std::span<const BlasGeometry> geometries, std::string_view name);
 };
 
-/// A body in the top level.
+/// Describes a body in the top level.
 struct TlasInstance {
   const Blas* blas = nullptr;
   dmat4 local_from_body{1.0};
@@ -57,7 +57,7 @@ struct TlasInstance {
   uint32_t mask = 0xff;       ///< 8 bits
 };
 
-/// The top level over a fixed number of instances.
+/// Represents the top level over a fixed number of instances.
 class Tlas : public AccelerationStructure {
  public:
   Tlas() = default;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The demands of greatx on a Vulkan device, in one place. The query for `greatx info` and the creation of the
-// device read the same chain of feature structs.
+// States in one place the demands of greatx on a Vulkan device. The query for `greatx info` and the creation
+// of the device read the same chain of feature structs.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace greatx::gpu {
 
-/// A chain of feature structs. It cannot be moved, since its members point at each other.
+/// Holds a chain of feature structs. It cannot be moved, since its members point at each other.
 struct FeatureChain {
   VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Straight-line recording of commands: scopes, explicit barriers, push descriptors, dispatches, draws,
+// Records commands in a straight line: scopes, explicit barriers, push descriptors, dispatches, draws,
 // copies.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace greatx::gpu {
 
-/// One side of a barrier.
+/// Describes one side of a barrier.
 struct Sync {
   VkPipelineStageFlags2 stage;
   VkAccessFlags2 access;
@@ -42,7 +42,7 @@ inline constexpr Sync ray_query_read{
     VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
 }  // namespace sync
 
-/// The groups of a dispatch along x and y.
+/// Holds the groups of a dispatch along x and y.
 struct GroupGrid {
   uint32_t x = 0, y = 0;
   friend bool operator==(const GroupGrid&, const GroupGrid&) = default;
@@ -51,7 +51,7 @@ struct GroupGrid {
 /// can be: x * y is `groups` or up to y - 1 more.
 GroupGrid group_grid(uint64_t groups);
 
-/// A descriptor that is pushed into set 0.
+/// Holds a descriptor that is pushed into set 0.
 struct Descriptor {
   uint32_t slot = 0;
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -80,13 +80,13 @@ struct RenderTargets {
   uint32_t width = 0, height = 0;
 };
 
-/// The time that a scope took on the GPU.
+/// Holds the time that a scope took on the GPU.
 struct PassTime {
   std::string name;
   double milliseconds = 0.0;
 };
 
-/// The timestamps of one command buffer.
+/// Represents the timestamps of one command buffer.
 class Timestamps {
  public:
   Timestamps() = default;
@@ -107,8 +107,8 @@ class Timestamps {
   std::vector<std::string> names_;
 };
 
-/// A command buffer that is being recorded. The caller records barriers and image transitions, one at each
-/// hand-over.
+/// Represents a command buffer that is being recorded. The caller records barriers and image transitions, one
+/// at each hand-over.
 class Cmd {
  public:
   Cmd(Device& device, VkCommandBuffer handle, Timestamps* timestamps)

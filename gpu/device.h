@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The choice of a GPU, its capabilities, and the one queue that takes all submissions.
+// Chooses a GPU, finds its capabilities, and has the one queue that takes all submissions.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@
 
 namespace greatx::gpu {
 
-/// A feature that greatx needs or could use, and whether a device has it.
+/// Describes a feature that greatx needs or could use, and whether a device has it.
 struct Capability {
   std::string name;      ///< the name in Vulkan, e.g. "rayQuery"
   std::string used_for;  ///< in words
@@ -83,7 +83,7 @@ struct Counters {
   std::vector<std::string> pipelines;  ///< names, in the order built
 };
 
-/// The entry points of extensions, loaded once.
+/// Holds the entry points of extensions, loaded once.
 struct Functions {
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;
@@ -98,8 +98,8 @@ struct Functions {
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 };
 
-/// The logical device. It can be neither copied nor moved, since everything else refers to it and is
-/// destroyed before it. Recording and submitting happen on one thread.
+/// Represents the logical device. It can be neither copied nor moved, since everything else refers to it and
+/// is destroyed before it. Recording and submitting happen on one thread.
 class Device {
  public:
   /// Throws UserError naming the missing features if no device fits.

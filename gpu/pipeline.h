@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pipelines from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording. Set 1, if
-// a pass asks for it, is a table of textures that lives as long as the scene.
+// Pipelines are made from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording.
+// Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct Binding {
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 };
 
-/// A fixed array of combined image samplers for set 1, binding 0, visible to fragment and compute shaders.
+/// Represents a fixed array of combined image samplers for set 1, binding 0, visible to fragment and compute
+/// shaders.
 class TextureTable {
  public:
   TextureTable() = default;
@@ -45,7 +46,7 @@ class TextureTable {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// The common part of both kinds of pipeline.
+/// Represents the common part of both kinds of pipeline.
 class Pipeline {
  public:
   Pipeline() = default;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Buffers, images and samplers. They are move-only, and each has its memory and its name. As everything in
-// gpu/, they wait before they are destroyed for submissions that the host has not waited for
+// Defines buffers, images and samplers. They are move-only, and each has its memory and its name. As
+// everything in gpu/, they wait before they are destroyed for submissions that the host has not waited for
 // (Device::finish).
 #pragma once
 
@@ -23,7 +23,7 @@ enum class Memory {
   readback,  ///< written by the GPU, read by the host; mapped, coherent, cached if there is such a kind
 };
 
-/// A part of a buffer.
+/// Describes a part of a buffer.
 struct Slice {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
@@ -66,7 +66,7 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
-/// The next use of an image. Its layout, stage and access follow from it.
+/// Names the next use of an image. Its layout, stage and access follow from it.
 enum class ImageUse {
   undefined,
   color_target,
@@ -86,8 +86,8 @@ struct ImageDesc {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };
 
-/// A 2-D image, or an array of 2-D images, with one view of all its mip levels and layers. Cmd::transition
-/// keeps track of its use, in recording order.
+/// Represents a 2-D image, or an array of 2-D images, with one view of all its mip levels and layers.
+/// Cmd::transition keeps track of its use, in recording order.
 class Image {
  public:
   Image() = default;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// N slots in flight. Each has a command buffer, an upload and a readback arena, and timestamps. One timeline
-// semaphore counts the submitted ticks. A tick is one submission.
+// The ring has N slots in flight. Each has a command buffer, an upload and a readback arena, and timestamps.
+// One timeline semaphore counts the submitted ticks. A tick is one submission.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace greatx::gpu {
 
-/// Memory that is handed out front to back and taken back all at once. It grows by a block when a tick asks
-/// for more than any tick before it. A steady state allocates nothing.
+/// Represents memory that is handed out front to back and taken back all at once. It grows by a block when a
+/// tick asks for more than any tick before it. A steady state allocates nothing.
 class Arena {
  public:
   Arena() = default;
@@ -47,8 +47,8 @@ class Arena {
   uint64_t growths_ = 0;
 };
 
-/// Everything that one tick needs while it is in flight. Slices of its arenas are valid until the slot is
-/// begun again.
+/// Holds everything that one tick needs while it is in flight. Slices of its arenas are valid until the slot
+/// is begun again.
 struct TickSlot {
   uint32_t index = 0;
   Cmd* cmd = nullptr;  ///< valid between begin and submit
