@@ -8,7 +8,7 @@
 
 namespace greatx {
 
-/// One shader of the program, compiled to SPIR-V at build time and embedded.
+/// Holds one shader of the program, compiled to SPIR-V at build time and embedded.
 struct SpirvModule {
   std::string_view name;  ///< path below shaders/ without ".glsl", e.g. "lidar/sweep.comp"
   std::span<const uint32_t> words;

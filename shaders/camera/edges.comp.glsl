@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Smooth edges from one sample a pixel. Where neighbours see different triangles, the outline of the nearer
+// Smooths edges from one sample a pixel. Where neighbours see different triangles, the outline of the nearer
 // one is known exactly. The length by which it reaches between the two centres gives the share that it covers
 // of each pixel (after E. Persson, "Geometry Buffer Anti-Aliasing", 2011).
 #include "camera/effects.glsl"
@@ -22,7 +22,7 @@ layout(set = 0, binding = edges_luminance_to_binding, scalar) writeonly buffer T
   float to_luminance[];
 };
 
-/// Colour and luminance of a pixel. A member that is not wanted is 0.
+/// Holds colour and luminance of a pixel. A member that is not wanted is 0.
 struct Shaded {
   vec4 color;
   float luminance;

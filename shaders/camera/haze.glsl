@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fog and rain between a surface and the eye (docs/light.md).
+// Adds fog and rain between a surface and the eye (docs/light.md).
 #ifndef GREATX_CAMERA_HAZE_GLSL
 #define GREATX_CAMERA_HAZE_GLSL
 #include "camera/light.glsl"

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lamps. Each pixel looks only at the lamps of its cluster (renderer/camera/lamps.h makes the clusters).
+// Adds the light of lamps. Each pixel looks only at the lamps of its cluster (renderer/camera/lamps.h makes
+// the clusters).
 #ifndef GREATX_CAMERA_LAMPS_GLSL
 #define GREATX_CAMERA_LAMPS_GLSL
 #include "camera/light.glsl"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rays of a camera's pixels, with or without a lens that distorts, and the places of these pixels in the
-// pinhole picture.
+// Computes the rays of a camera's pixels, with or without a lens that distorts, and the places of these
+// pixels in the pinhole picture.
 #ifndef GREATX_CAMERA_LENS_RAY_GLSL
 #define GREATX_CAMERA_LENS_RAY_GLSL
 #include "camera/effects.glsl"

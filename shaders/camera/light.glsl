@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light that arrives at a surface point: sun with its shadows, sky, lamps.
+// Computes the light that arrives at a surface point: sun with its shadows, sky, lamps.
 #ifndef GREATX_CAMERA_LIGHT_GLSL
 #define GREATX_CAMERA_LIGHT_GLSL
 #include "camera/effects.glsl"

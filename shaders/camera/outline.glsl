@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The outline of a triangle in the pinhole picture: whether a place lies within it, and where the way to a
-// place within enters it. Edges are functions linear in pixels, so nothing is projected, and corners behind
-// the eye do no harm.
+// Computes the outline of a triangle in the pinhole picture: whether a place lies within it, and where the
+// way to a place within enters it. Edges are functions linear in pixels, so nothing is projected, and corners
+// behind the eye do no harm.
 #ifndef GREATX_CAMERA_OUTLINE_GLSL
 #define GREATX_CAMERA_OUTLINE_GLSL
 #include "camera/triangle.glsl"

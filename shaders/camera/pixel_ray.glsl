@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rays of a pinhole camera. The including shader has a block `camera` with ray_0, ray_x and ray_y. Behind
-// a lens that distorts, pass the place where a pinhole camera would show the same thing
+// Computes the rays of a pinhole camera. The including shader has a block `camera` with ray_0, ray_x and
+// ray_y. Behind a lens that distorts, pass the place where a pinhole camera would show the same thing
 // (TruthConstants::lens).
 #ifndef GREATX_CAMERA_PIXEL_RAY_GLSL
 #define GREATX_CAMERA_PIXEL_RAY_GLSL

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light that a pixel sees where there is no surface.
+// Computes the light that a pixel sees where there is no surface.
 #ifndef GREATX_CAMERA_SKY_GLSL
 #define GREATX_CAMERA_SKY_GLSL
 #include "camera/haze.glsl"

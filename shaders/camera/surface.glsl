@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The material of a triangle around a ray.
+// Finds the material of a triangle around a ray.
 #ifndef GREATX_CAMERA_SURFACE_GLSL
 #define GREATX_CAMERA_SURFACE_GLSL
 #include "camera/effects.glsl"
@@ -15,7 +15,7 @@ layout(set = 0, binding = material_records_binding, scalar) readonly buffer Mate
 
 uvec4 material_record(uint material, uint quad) { return material_records[material * material_record_quads + quad]; }
 
-/// The place where textures are read, and the width of a pixel there.
+/// Holds the place where textures are read, and the width of a pixel there.
 struct Footprint {
   vec2 uv, dx, dy;
 };

@@ -10,14 +10,14 @@
 #include "camera/lens_ray.glsl"
 #include "camera/outline.glsl"
 
-/// The view of a pixel's centre: planar depth, triangle + 1.
+/// Holds the view of a pixel's centre: planar depth, triangle + 1.
 struct Center {
   float depth;
   uint id;
 };
 
-/// One pixel of the pinhole picture: the place of its sample nearest to the ray, and the id that the sample
-/// sees.
+/// Holds one pixel of the pinhole picture: the place of its sample nearest to the ray, and the id that the
+/// sample sees.
 struct Sample {
   vec2 place;
   uint id;

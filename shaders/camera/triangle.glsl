@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A triangle as the eye sees it. Code that few pixels need (moving bodies) stands in branches: a device that
-// masks its lanes jumps over a branch that no lane takes, unless it is short.
+// Describes a triangle as the eye sees it. Code that few pixels need (moving bodies) stands in branches: a
+// device that masks its lanes jumps over a branch that no lane takes, unless it is short.
 #ifndef GREATX_CAMERA_TRIANGLE_GLSL
 #define GREATX_CAMERA_TRIANGLE_GLSL
 #include "camera/visibility_view.glsl"

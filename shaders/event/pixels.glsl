@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The common part of the pass that counts events and the pass that writes them, so that the two agree to the
-// bit.
+// This is the common part of the pass that counts events and the pass that writes them, so that the two agree
+// to the bit.
 #ifndef GREATX_EVENT_PIXELS_GLSL
 #define GREATX_EVENT_PIXELS_GLSL
 #extension GL_EXT_buffer_reference : require
@@ -37,7 +37,7 @@ layout(push_constant, scalar) uniform Constants { EventConstants interval; };
 ivec2 pair(uint64_t words) { return ivec2(unpack32(words)); }
 uint64_t words_of(int x, int y) { return pack64(u32vec2(uint(x), uint(y))); }
 
-/// The step from the picture before to this picture.
+/// Holds the step from the picture before to this picture.
 struct Step {
   int from_ns;
   int dt_ns;
@@ -69,8 +69,8 @@ uvec2 run_start(uint run, out uint count) {
 /// Returns the on and off thresholds of a pixel. `nominal` holds those without mismatch.
 ivec2 thresholds_at(uint pixel, ivec2 nominal) { return mismatch_on ? pair(thresholds[pixel]) : nominal; }
 
-/// Events of shot noise, drawn one after the other. The Poisson process begins anew with each step, which
-/// changes nothing, since it has no memory.
+/// Draws events of shot noise one after the other. The Poisson process begins anew with each step,
+/// which changes nothing, since it has no memory.
 struct Shot {
   float mean_ns;
   uint pixel;

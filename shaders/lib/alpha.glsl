@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures where a ray meets a triangle: alpha masks (glTF 2.0, section 3.9.4) and base colour. Set 1 is the
-// scene's texture table.
+// Reads textures where a ray meets a triangle: alpha masks (glTF 2.0, section 3.9.4) and base colour. Set 1
+// is the scene's texture table.
 #ifndef GREATX_LIB_ALPHA_GLSL
 #define GREATX_LIB_ALPHA_GLSL
 #include "lib/scene.glsl"

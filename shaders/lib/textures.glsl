@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures (scene/device/gpu_textures.h), which are named by references (texture_array_shift).
-// `arrays` is a specialization constant with one bit for each array that the texture may be in
-// (GpuTextures::arrays_of); 0: any.
+// Samples the scene's textures (scene/device/gpu_textures.h), which are named by references
+// (texture_array_shift). `arrays` is a specialization constant with one bit for each array that the texture
+// may be in (GpuTextures::arrays_of); 0: any.
 #ifndef GREATX_LIB_TEXTURES_GLSL
 #define GREATX_LIB_TEXTURES_GLSL
 #extension GL_EXT_nonuniform_qualifier : require

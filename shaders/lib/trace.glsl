@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing rays: one interface and two back ends. One is the driver's ray query. The other, switched on by the
-// specialization constant trace_tree, is a tree of our own for the static world in trace_closest,
+// Traces rays, with one interface and two back ends. One is the driver's ray query. The other, switched on by
+// the specialization constant trace_tree, is a tree of our own for the static world in trace_closest,
 // trace_closest_masked and trace_closest_except (lib/tree.glsl). The driver is then asked only for bodies
 // that move, and only by rays that come near one.
 //
@@ -177,8 +177,8 @@ Ray look(vec3 origin, vec3 direction, uint which) {
   return Ray(origin + side * (reach * 2.3841858e-7), direction + side * (size * 4.7683716e-7));
 }
 
-/// Returns the hit of trace_closest, made watertight whatever the driver. If a ray beside the first meets another facet that
-/// is clearly nearer, then the first ray has slipped past that facet.
+/// Returns the hit of trace_closest, made watertight whatever the driver. If a ray beside the first meets
+/// another facet that is clearly nearer, then the first ray has slipped past that facet.
 Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_max) {
   Hit hit = no_hit(t_max);
   for (uint which = 0u; which < looks; ++which) {  // one query in a loop: drivers compile it once
@@ -212,7 +212,7 @@ bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max,
   return false;
 }
 
-/// The corners of a triangle in local coordinates.
+/// Holds the corners of a triangle in local coordinates.
 struct Corners {
   vec3 a, b, c;
 };
@@ -236,9 +236,9 @@ vec3 geometric_normal(Corners corners) {
   return squared > 0.0 ? normal * inversesqrt(squared) : vec3(0.0);
 }
 
-/// The place of a hit, from its barycentric coordinates. This is far more exact than origin + t * direction,
-/// whose error grows with the distance travelled. `error` bounds each coordinate by seven rounding errors: of
-/// the products, the sums and the first barycentric coordinate (M. Pharr et al., "Physically Based
+/// Holds the place of a hit, from its barycentric coordinates. This is far more exact than origin + t *
+/// direction, whose error grows with the distance travelled. `error` bounds each coordinate by seven rounding
+/// errors: of the products, the sums and the first barycentric coordinate (M. Pharr et al., "Physically Based
 /// Rendering", 4th ed., section 6.8.5). The pose of a moving body adds some more, which trace_leaving makes
 /// good.
 struct HitPoint {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing without the driver: the tree of the static world (shared/tree.h), one ray an invocation. It is made
+// Traces the tree of the static world (shared/tree.h) without the driver, one ray an invocation. It is made
 // for drivers that run eight invocations in a CPU's vector registers. There a load is expensive however few
 // words it brings, so a node is two quadruples. The rules for every back end (lib/trace.glsl) hold here, and
 // also these:
@@ -17,8 +17,8 @@
 
 layout(set = 0, binding = tree_binding, scalar) readonly buffer TreeBlock { uvec4 tree[]; };
 
-/// The rows of the shear that takes the ray to the z axis at unit speed. Their elements are 0, 1 and ratios
-/// of the direction's elements, so that rows times a corner round as Woop's permuted corners do.
+/// Holds the rows of the shear that takes the ray to the z axis at unit speed. Their elements are 0, 1 and
+/// ratios of the direction's elements, so that rows times a corner round as Woop's permuted corners do.
 struct TreeShear {
   vec3 x, y, z;
 };
@@ -70,8 +70,8 @@ float upper(float a, float b) { return a > b ? a : b; }
 vec3 lower(vec3 a, vec3 b) { return vec3(lower(a.x, b.x), lower(a.y, b.y), lower(a.z, b.z)); }
 vec3 upper(vec3 a, vec3 b) { return vec3(upper(a.x, b.x), upper(a.y, b.y), upper(a.z, b.z)); }
 
-/// A ray in steps of the tree's frame: t at step s of an axis is s * slope + near or far, which include the
-/// margin.
+/// Describes a ray in steps of the tree's frame: t at step s of an axis is s * slope + near or far, which
+/// include the margin.
 struct TreeRay {
   vec3 slope, near, far;
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray an invocation. It goes from the sensor's pose at the shot's own time to the first surface, and
-// through panes of glass to the first surface that is not a pane. Without divergence a shot is one ray.
+// Each invocation traces one ray. It goes from the sensor's pose at the shot's own time to the first surface,
+// and through panes of glass to the first surface that is not a pane. Without divergence a shot is one ray.
 // sweep.comp.glsl includes this with all surfaces solid and one reflectance a material.
 // sweep_textured.comp.glsl includes it with alpha masks that let beams through and base-colour textures that
 // vary the reflectance.
@@ -33,8 +33,8 @@ layout(push_constant, scalar) uniform Constants { LidarConstants constants; };
 vec3 turned(GpuBody body, vec3 d) { return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d)); }
 vec3 moved(GpuBody body, vec3 p) { return turned(body, p) + vec3(body.row0.w, body.row1.w, body.row2.w); }
 
-/// A hit, and the motion that took the ray to where its body stands at the tick. The data of a body's
-/// triangles hold there.
+/// Describes a hit, and the motion that took the ray to where its body stands at the tick. The data of a
+/// body's triangles hold there.
 struct ShotHit {
   Hit hit;
   uint motion;  // lidar_still: no motion
@@ -105,7 +105,7 @@ float reflectance_at(Hit hit, GpuMaterial material) {
   return near ? material.reflectance_905nm : material.reflectance_1550nm;
 }
 
-/// The shares of the light on a pane that the pane gives back and lets through.
+/// Holds the shares of the light on a pane that the pane gives back and lets through.
 struct PaneLight {
   float back, through;
 };

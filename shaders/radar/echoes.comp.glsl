@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray an invocation, reflected specularly off every facet that it meets. The pass finds which facets a
-// path meets. The host computes in fp64 the exact points and the phase.
+// Each invocation traces one ray, reflected specularly off every facet that it meets. The pass finds which
+// facets a path meets. The host computes in fp64 the exact points and the phase.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/radar.h"
 #include "lib/trace.glsl"

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray an invocation, reflected specularly off every facet that it meets. The sequence of facets is the
-// ray's key. At a wall the ray goes both ways, one after the other: first reflected, and straight on when the
-// reflected way has ended. The keys hold only reflections. Rays share nothing, and each writes to its own
-// slots.
+// Each invocation traces one ray, reflected specularly off every facet that it meets. The sequence of facets
+// is the ray's key. At a wall the ray goes both ways, one after the other: first reflected, and straight on
+// when the reflected way has ended. The keys hold only reflections. Rays share nothing, and each writes to
+// its own slots.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 
@@ -30,7 +30,7 @@ layout(push_constant, scalar) uniform Constants { CandidateConstants constants; 
 
 const float infinite_range = 1e30;
 
-/// A ray under way: its next start and the facets that it has met.
+/// Describes a ray under way: its next start and the facets that it has met.
 struct Way {
   vec3 origin, direction;
   uint left_facet;

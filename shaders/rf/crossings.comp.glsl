@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One segment an invocation: finds the obstacles between its ends. The facets and bodies that the ends belong
-// to are passed over by name. So is a surface on which an end lies as far as fp32 can tell
+// Each invocation finds the obstacles between the ends of one segment. The facets and bodies that the ends
+// belong to are passed over by name. So is a surface on which an end lies as far as fp32 can tell
 // (visibility_tolerance). The measure is the distance of the end to the surface's plane, not the length along
 // the segment. Grazing segments then need no other bound, and nothing is cut off the segment itself.
 //
@@ -47,16 +47,16 @@ bool lies_on(vec3 end, GpuFacetPlane plane) {
   return abs(dot(plane.normal, end - plane.point)) <= visibility_tolerance(max(largest(end), largest(plane.point)));
 }
 
-/// The walls met so far, each once.
+/// Holds the walls met so far, each once.
 struct Walls {
   uint count;
   uint facets[crossings_max];
   float distances[crossings_max];  // from the segment's start
 };
 
-/// The length of a segment behind each crossing of a foliage's surface, + entering, - leaving, in units of
-/// 1 / crossings_foliage_one. These are integers, so that their order does not matter. `net` is times entered -
-/// times left.
+/// Holds the length of a segment behind each crossing of a foliage's surface, + entering, - leaving, in units
+/// of 1 / crossings_foliage_one. These are integers, so that their order does not matter. `net` is times
+/// entered - times left.
 struct Depth {
   int sum, net;
 };

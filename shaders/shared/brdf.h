@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface reflects light: glTF 2.0 metallic-roughness (appendix B) with the height-correlated Smith
-// term and compensation for multiple scattering. C++ tests and shaders read the same pure functions.
+// Describes how a surface reflects light: glTF 2.0 metallic-roughness (appendix B) with the height-correlated
+// Smith term and compensation for multiple scattering. C++ tests and shaders read the same pure functions.
 //
 //   f = diffuse (1 - E) / pi + D V F k
 //   E  directional albedo of the specular lobe; the diffuse part leaves out the light of the lobe
@@ -78,7 +78,7 @@ GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   return vec2(clamp(whole, 0.1f, 1.0f) - y, y);
 }
 
-/// The material of a surface at a point, and its response in the direction of the eye.
+/// Describes the material of a surface at a point, and its response in the direction of the eye.
 struct Reflectance {
   vec3 diffuse;  ///< albedo of the diffuse part, with E taken off
   vec3 f0;

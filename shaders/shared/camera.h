@@ -126,8 +126,9 @@ const uint star_cells = 128u;
 /// The radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
 const float emissive_nits = 1000.0f;
 
-/// Push constants of the visibility and shading pipelines. Positions are taken relative to the eye before
-/// anything is rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a float.
+/// Holds the push constants of the visibility and shading pipelines. Positions are taken relative to the eye
+/// before anything is rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a
+/// float.
 struct CameraConstants {
   vec3 eye_high;
   vec3 eye_low;
@@ -145,9 +146,9 @@ struct CameraConstants {
   uint size;       ///< of the picture: width | height << 16
 };
 
-/// Data set at construction: key light (sun or moon), sky, haze, the static shadow map. Radiometric units are
-/// photometric: lux and cd/m^2 per linear Rec. 709 channel, such that 0.2126 R + 0.7152 G + 0.0722 B is the
-/// illuminance or luminance.
+/// Holds the lighting, which is set at construction: key light (sun or moon), sky, haze, the static shadow
+/// map. Radiometric units are photometric: lux and cd/m^2 per linear Rec. 709 channel, such that 0.2126 R +
+/// 0.7152 G + 0.0722 B is the illuminance or luminance.
 struct GpuLighting {
   vec3 sun_direction;         ///< unit, to the key light, local frame; also the third axis of its frame
   float sun_cos_radius;       ///< of the disc, cosine
@@ -183,21 +184,21 @@ struct GpuLighting {
   vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
 };
 
-/// One cell of the map of stars.
+/// Holds one cell of the map of stars.
 struct GpuStar {
   uint place;  ///< octahedral coordinates within the cell, 16 bits each
   uint light;  ///< halves: illuminance / 1e-6 lux, 0 where there is none; warmth from 0 (blue) to 1
 };
 
-/// The header before the tiles: their number, and the common bounds in the sun's x, y.
+/// Holds the header before the tiles: their number, and the common bounds in the sun's x, y.
 struct ShadowTilesHeader {
   uint count;
   vec2 min;
   vec2 max;
 };
 
-/// The shadow of one moving body: a square of the sun's frame around it, and the place of that square in the
-/// atlas.
+/// Holds the shadow of one moving body: a square of the sun's frame around it, and the place of that square
+/// in the atlas.
 struct GpuShadowTile {
   vec3 center;  ///< of the body's bounding sphere, the sun's frame
   float radius;
@@ -206,7 +207,7 @@ struct GpuShadowTile {
   float texel_m;
 };
 
-/// Push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
+/// Holds the push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
 struct ShadowConstants {
   vec4 row0;
   vec4 row1;

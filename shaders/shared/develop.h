@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From linear light to eight bits: tone curve and sRGB. C++ tests and shaders read the same pure functions.
+// Takes linear light to eight bits by a tone curve and sRGB. C++ tests and shaders read the same pure
+// functions.
 #ifndef GREATX_SHADERS_SHARED_DEVELOP_H
 #define GREATX_SHADERS_SHARED_DEVELOP_H
 #include "glsl.h"

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pixel of an event camera, as pure functions that shaders and C++ tests read alike (docs/events.md).
+// Defines the pixel of an event camera, as pure functions that shaders and C++ tests read alike
+// (docs/events.md).
 //
 // Logarithms, references and thresholds are integers, multiples of 2^-24 of a natural logarithm. Sums of
 // thresholds are exact however many there are, "on the threshold" is a comparison of integers, and a
@@ -149,7 +150,7 @@ GREATX_FUNCTION int shot_gap_ns(uint bits, float mean_ns) {
   return gap < 2e9f ? 1 + whole_part(gap) : 2000000001;
 }
 
-/// The crossings of one pixel within one step, one after the other in order of time.
+/// Holds the crossings of one pixel within one step, one after the other in order of time.
 struct EventWalk {
   int dt_ns;        ///< length of the step
   uint whole;       ///< size of the signal's change during it
@@ -239,7 +240,7 @@ const uint event_group_size = 64u;
 const uint event_scan_size = 256u;
 const uint most_substeps = 64u;
 
-/// The data that do not change.
+/// Holds the data that do not change.
 struct EventModel {
   uint width;
   uint height;
@@ -261,14 +262,14 @@ struct EventModel {
   uint pattern_stream;
 };
 
-/// A run of pixels in one step.
+/// Describes a run of pixels in one step.
 struct EventRun {
   uint first;  ///< the events before it in the interval; of the last step's scan
   uint count;  ///< its own
   uint fired;  ///< bit i: pixel i of the run has events
 };
 
-/// The head of the buffer. It is kept from tick to tick.
+/// Holds the head of the buffer. It is kept from tick to tick.
 struct EventControl {
   uint64_t leaked_last;  ///< thresholds leaked at the last picture taken, 32.32
   uint64_t leaked_from;  ///< and at the one before it
@@ -285,8 +286,8 @@ struct EventControl {
 };
 const uint event_due_offset = 52u;  ///< bytes
 
-/// How a body moves as the camera sees it, in optical axes: the velocity of the point p is a + w x p, m/s and
-/// rad/s.
+/// Describes how a body moves as the camera sees it, in optical axes: the velocity of the point p is a + w x
+/// p, m/s and rad/s.
 struct EventMotion {
   vec3 a;
   vec3 w;

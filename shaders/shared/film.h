@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The camera's sensor and its meter. The developing passes and renderer/ share these definitions. The noise
-// of a pixel is a pure function, which C++ tests and shaders read alike. docs/film.md has the models.
+// Defines the camera's sensor and its meter. The developing passes and renderer/ share these definitions. The
+// noise of a pixel is a pure function, which C++ tests and shaders read alike. docs/film.md has the models.
 #ifndef GREATX_SHADERS_SHARED_FILM_H
 #define GREATX_SHADERS_SHARED_FILM_H
 #include "random.h"
@@ -46,7 +46,7 @@ const uint develop_group_size = 64u;
 /// The pixels that one invocation of the developing pass packs into whole 64-bit words.
 const uint develop_pixels = 8u;
 
-/// The constants of light on a sensor.
+/// Holds the constants of light on a sensor.
 struct SensorConstants {
   float full_well;   ///< electrons of light 1 (L_max)
   float read_noise;  ///< electrons, rms

@@ -74,14 +74,14 @@ struct LidarEcho {
   uint material;    // index + 1; 0: none
 };
 
-// A material that lets light through.
+// Describes a material that lets light through.
 struct LidarPane {
   float sheets;      // of glass one behind the other; 0: opaque
   float clearness;   // of the light that is not reflected, the part that goes through
   float scattering;  // diffuse reflectance: dirt, frosting
 };
 
-// A body at the times of the shots.
+// Describes a body at the times of the shots.
 struct LidarTarget {
   uint body;
   uint first_motion;  // index of its first motion, one motion an instant; lidar_still: none

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Counter-based random numbers. Each is a pure function of (seed, sensor, tick, element, dimension), so that
-// nothing depends on threads, on order, or on which other sensors are on. Philox4x32-10: J. Salmon et al.,
-// "Parallel Random Numbers: As Easy as 1, 2, 3", SC'11, section 4.2 and table 2.
+// Makes counter-based random numbers. Each is a pure function of (seed, sensor, tick, element, dimension), so
+// that nothing depends on threads, on order, or on which other sensors are on. Philox4x32-10: J. Salmon et
+// al., "Parallel Random Numbers: As Easy as 1, 2, 3", SC'11, section 4.2 and table 2.
 #ifndef GREATX_SHADERS_SHARED_RANDOM_H
 #define GREATX_SHADERS_SHARED_RANDOM_H
 #include "glsl.h"

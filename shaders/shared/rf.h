@@ -63,7 +63,7 @@ struct GpuSegment {
   uint only_if;
 };
 
-/// A facet's plane in its body's frame: (x - point) . normal = 0.
+/// Describes a facet's plane in its body's frame: (x - point) . normal = 0.
 struct GpuFacetPlane {
   vec3 normal;
   vec3 point;
@@ -71,7 +71,7 @@ struct GpuFacetPlane {
   uint body;
 };
 
-/// A box around all foliage of a body, in its frame, with room to spare.
+/// Describes a box around all foliage of a body, in its frame, with room to spare.
 struct GpuFoliageBox {
   vec3 low, high;
   uint body;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as shaders see it. A hit's primitive is instanceCustomIndex + geometryIndex (a body's custom
-// index is its first primitive). Its triangle is primitives[i].first_triangle + primitiveIndex.
+// Defines the scene as shaders see it. A hit's primitive is instanceCustomIndex + geometryIndex (a body's
+// custom index is its first primitive). Its triangle is primitives[i].first_triangle + primitiveIndex.
 #ifndef GREATX_SHADERS_SHARED_SCENE_H
 #define GREATX_SHADERS_SHARED_SCENE_H
 #include "glsl.h"
@@ -58,15 +58,16 @@ struct GpuPrimitive {
   uint owner;  ///< scene::Scene::owner_of(body), which a sensor compares that does not see its own body
 };
 
-/// The place of a body at this tick: the rows of local_from_body, and those of the tick before (for motion).
+/// Holds the place of a body at this tick: the rows of local_from_body, and those of the tick before (for
+/// motion).
 struct GpuBody {
   vec4 row0;
   vec4 row1;
   vec4 row2;
 };
 
-/// The addresses of the scene's buffers. One such block is a buffer of its own (binding `scene_binding` of
-/// set 0).
+/// Holds the addresses of the scene's buffers. One such block is a buffer of its own (binding `scene_binding`
+/// of set 0).
 struct GpuSceneAddresses {
   uint64_t positions;          // vec3[]
   uint64_t normals;            // vec3[]

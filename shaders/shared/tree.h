@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of the static world, in one buffer of quadruples of words (scene/device/static_tree.h makes it,
-// lib/tree.glsl walks it). Indices count quadruples.
+// Defines the tree of the static world, in one buffer of quadruples of words (scene/device/static_tree.h
+// makes it, lib/tree.glsl walks it). Indices count quadruples.
 //
 //   0                 frame: smallest coordinates (3 floats), reference to the root
 //   1                 frame: size of a step of 1/65535 along each axis (3 floats), bodies that move

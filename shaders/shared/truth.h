@@ -29,16 +29,17 @@ const uint truth_spec_count = 11u;
 
 const uint truth_group_size = 64u;
 
-/// How a body (index 0: the static world) moves against the camera until the camera's next sample, in optical
-/// axes (x right, y down, z forward): X' = X + D X + t. Row i is (D_i0, D_i1, D_i2, t_i). The identity is
-/// taken off in fp64.
+/// Describes how a body (index 0: the static world) moves against the camera until the camera's next sample,
+/// in optical axes (x right, y down, z forward): X' = X + D X + t. Row i is (D_i0, D_i1, D_i2, t_i). The
+/// identity is taken off in fp64.
 struct GpuBodyMotion {
   vec4 row0;
   vec4 row1;
   vec4 row2;
 };
 
-/// Push constants. The first members are those of CameraConstants that pixel_ray.glsl and barycentrics need.
+/// Holds the push constants. The first members are those of CameraConstants that pixel_ray.glsl and
+/// barycentrics need.
 struct TruthConstants {
   uint64_t normals;  ///< addresses of the packed outputs, 0 where not wanted
   uint64_t depth_ray;

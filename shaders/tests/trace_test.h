@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The queries that tests/gpu/trace_test.cpp makes of lib/trace.glsl.
+// Defines the queries that tests/gpu/trace_test.cpp makes of lib/trace.glsl.
 #ifndef GREATX_SHADERS_TESTS_TRACE_TEST_H
 #define GREATX_SHADERS_TESTS_TRACE_TEST_H
 #include "../shared/scene.h"
@@ -37,8 +37,8 @@ struct TraceTestResult {
   uint leaving_triangle;  // trace_leaving
 };
 
-/// The result of tests/tree.comp.glsl: trace_closest_except with skip_facet and skip_body, by the tracer that
-/// its pipeline has.
+/// Holds the result of tests/tree.comp.glsl: trace_closest_except with skip_facet and skip_body, by the
+/// tracer that its pipeline has.
 struct TreeTestResult {
   uint triangle;  // trace_test_none: nothing
   uint primitive;
