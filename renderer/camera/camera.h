@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pinhole camera. The scene is drawn once, into a picture that says which triangle each sample sees. A
-// compute pass turns that picture into radiance, planar depth and ids. Another pass develops and packs them.
-// docs/camera.md has the conventions.
+// Defines a pinhole camera. The scene is drawn once, into a picture that says which triangle each sample
+// sees. A compute pass turns that picture into radiance, planar depth and ids. Another pass develops and
+// packs them. docs/camera.md has the conventions.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@
 
 namespace greatx::render {
 
-/// The arrays to deliver. Colour is rendered only for rgb or hdr, depth and ids only if one of them is
-/// wanted.
+/// Selects the arrays to deliver. Colour is rendered only for rgb or hdr, depth and ids only if one of them
+/// is wanted.
 struct CameraOutputs {
   bool rgb = true, depth = true, instance = true, semantic = true, material = true;
   bool hdr = false;
@@ -46,8 +46,8 @@ struct CameraOutputs {
   bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }
 };
 
-/// The noise of a sensor of light (docs/film.md). Every draw is a function of (seed, stream, sequence, tick,
-/// pixel) only.
+/// Describes the noise of a sensor of light (docs/film.md). Every draw is a function of (seed, stream,
+/// sequence, tick, pixel) only.
 struct SensorNoise {
   double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
@@ -85,15 +85,15 @@ struct CameraDesc {
 
 LensGeometry lens_geometry(const CameraDesc& desc);
 
-/// A part of the exposure time. Pictures of several instants add up to one with motion blur.
+/// Describes a part of the exposure time. Pictures of several instants add up to one with motion blur.
 struct ExposurePart {
   float weight = 1.0f;  ///< the weights of a picture sum to 1
   bool first = true;
   bool last = true;  ///< this part's depth and ids are those of the picture, which is then developed
 };
 
-/// The arrays that a camera delivers at one tick. Arrays that were not asked for are empty. The arrays are in
-/// C order, row 0 on top.
+/// Holds the arrays that a camera delivers at one tick. Arrays that were not asked for are empty. The arrays
+/// are in C order, row 0 on top.
 struct CameraImages {
   uint32_t width = 0, height = 0;
   float ev100 = 0.0f;        ///< of the exposure that rgb was developed with
@@ -157,7 +157,7 @@ class CameraPass {
   const LampCounts& lamps() const { return lamps_; }
 
  private:
-  /// The bounding sphere of a primitive in its body's frame.
+  /// Holds the bounding sphere of a primitive in its body's frame.
   struct Sphere {
     dvec3 center{0.0};
     double radius = 0.0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The view of a camera at one tick: the constants of its shaders, and the test for bodies outside the view.
+// Defines the view of a camera at one tick: the constants of its shaders, and the test for bodies outside the
+// view.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@
 
 namespace greatx::render {
 
-/// The pinhole picture that the visibility pass draws. It is the camera's own picture, or, behind a lens that
-/// distorts, one that holds everything that the lens sees.
+/// Holds the pinhole picture that the visibility pass draws. It is the camera's own picture, or, behind a
+/// lens that distorts, one that holds everything that the lens sees.
 struct PinholeView {
   uint32_t width = 0, height = 0;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
@@ -36,7 +37,7 @@ struct CameraView {
   bool outside(const dvec3& center, double radius) const;
 
  private:
-  /// A unit normal that points into the view, and the offset along it where the view begins.
+  /// Describes a unit normal that points into the view, and the offset along it where the view begins.
   struct Plane {
     dvec3 normal{0.0};
     double offset = 0.0;

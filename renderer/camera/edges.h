@@ -18,7 +18,7 @@ class EdgePass {
  public:
   /// Smooths colour, luminance or both, as `desc` delivers them. `lighting` outlives this.
   EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
-  /// A picture, the view of its pixels (CameraPass::seen), and the buffers of its smooth version.
+  /// Names a picture, the view of its pixels (CameraPass::seen), and the buffers of its smooth version.
   struct Pictures {
     const Picture& from;
     const gpu::Buffer& seen;

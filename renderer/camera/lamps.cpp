@@ -14,7 +14,7 @@ namespace greatx::render {
 
 namespace {
 
-/// The place and the reach of a lamp in the view: right, down, forward from the eye.
+/// Holds the place and the reach of a lamp in the view: right, down, forward from the eye.
 struct Ball {
   dvec3 center{0.0};
   double radius = 0.0;
@@ -50,8 +50,8 @@ Ball ball_of(const scene::PunctualLight& light, const dvec3& position, const dve
   return {position + direction * (reach * cosine), reach * std::sin(half)};
 }
 
-/// The first and last tile along one axis of the points within `reach` of `offset` between two depths. It is
-/// empty if last < first.
+/// Holds the first and last tile along one axis of the points within `reach` of `offset` between two depths.
+/// It is empty if last < first.
 struct Span {
   int64_t first = 0, last = -1;
 };

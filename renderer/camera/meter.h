@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Automatic exposure. Each picture is metered by itself, so that no picture depends on another
+// Finds the automatic exposure. Each picture is metered by itself, so that no picture depends on another
 // (docs/film.md).
 #pragma once
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ground truth of a camera's pixels besides planar depth and ids (which DevelopPass unpacks): surface
-// normals, distance along the ray, optical flow. docs/truth.md has conventions, formulas and accuracy.
+// Computes ground truth of a camera's pixels besides planar depth and ids (which DevelopPass unpacks):
+// surface normals, distance along the ray, optical flow. docs/truth.md has conventions, formulas and
+// accuracy.
 #pragma once
 
 #include <span>
@@ -29,7 +30,7 @@ struct TruthImages {
   std::vector<float> flow;
 };
 
-/// A camera and the bodies that it looks at, at one instant, in local coordinates.
+/// Describes a camera and the bodies that it looks at, at one instant, in local coordinates.
 struct TruthInstant {
   Pose local_from_sensor;
   std::span<const Pose> bodies;  ///< by body; [0] is ignored: the static world stays

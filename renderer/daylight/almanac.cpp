@@ -21,7 +21,7 @@ double centuries(double jde) { return (jde - 2451545.0) / 36525.0; }
 
 double turn(double angle_deg) { return radians(std::remainder(angle_deg, 360.0)); }
 
-/// The main terms of ch. 22: within 0.5" in longitude and 0.1" in obliquity.
+/// Holds the main terms of ch. 22: within 0.5" in longitude and 0.1" in obliquity.
 struct Nutation {
   double longitude, obliquity;  ///< rad; the obliquity is the true one, mean plus nutation
 };

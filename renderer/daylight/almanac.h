@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The places of sun and moon over a point of the Earth at an instant. The source is J. Meeus, "Astronomical
-// Algorithms", 2nd edition (1998); its chapters are named beside the code that follows them. The code runs in
-// fp64 on the host and needs no device.
+// Finds the places of sun and moon over a point of the Earth at an instant. The source is J. Meeus,
+// "Astronomical Algorithms", 2nd edition (1998); its chapters are named beside the code that follows them.
+// The code runs in fp64 on the host and needs no device.
 //
 // The accuracy from 1900 to 2150 is 0.01 degrees for the sun, and for the moon 10" in longitude and 4" in
 // latitude (the bounds that Meeus states). The unmodelled UT1 - UTC adds at most 0.004 degrees of hour angle.
@@ -16,21 +16,21 @@
 
 namespace greatx::render {
 
-/// A point of the Earth's surface (WGS 84), and the air there, for refraction.
+/// Describes a point of the Earth's surface (WGS 84), and the air there, for refraction.
 struct Observer {
   double latitude = 0.0, longitude = 0.0;  ///< rad, north and east positive
   double height_m = 0.0;
   double pressure_hpa = 1010.0, temperature_k = 283.15;
 };
 
-/// A place as seen from the Earth's centre: the apparent place of the date.
+/// Describes a place as seen from the Earth's centre: the apparent place of the date.
 struct GeocentricPlace {
   double longitude = 0.0, latitude = 0.0;           ///< ecliptic, rad; of the moon without nutation
   double right_ascension = 0.0, declination = 0.0;  ///< rad
   double distance_m = 0.0;
 };
 
-/// A place as seen by an observer.
+/// Describes a place as seen by an observer.
 struct Sighting {
   double azimuth = 0.0;         ///< rad, from x (east) towards y (north), in (-pi, pi]
   double elevation = 0.0;       ///< rad above the horizon, lifted by refraction

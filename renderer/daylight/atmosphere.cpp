@@ -18,7 +18,7 @@ constexpr double air_at_550 = 1.3558e-5;  // Rayleigh's scattering at sea level,
 constexpr double disc_sine = 0.00465;     // half of the disc, for the edge of the Earth's shadow
 constexpr double lowest = -11.0;          // degrees
 
-/// Shares of the densities at sea level (for ozone, of the density at its peak).
+/// Holds shares of the densities at sea level (for ozone, of the density at its peak).
 struct Densities {
   double air = 0.0, aerosol = 0.0, ozone = 0.0;
   static Densities at(double height) {
@@ -72,7 +72,7 @@ struct Blend {
       : i(std::clamp(static_cast<int>(x), 0, count - 2)), share(std::clamp(x - i, 0.0, 1.0)) {}
 };
 
-/// The air, and the light that it scatters.
+/// Represents the air, and the light that it scatters.
 class Air {
  public:
   Air(double turbidity, double elevation) : elevation_(elevation) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A clear sky seen from the ground, by day and in twilight. The model has Rayleigh and aerosol scattering and
-// ozone over a round Earth whose shadow falls into its air. Light scattered twice and more is an isotropic
-// source: S. Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", EGSR 2020,
-// section 5.5. The spectrum has eight bands. Refraction is left out.
+// Defines a clear sky seen from the ground, by day and in twilight. The model has Rayleigh and aerosol
+// scattering and ozone over a round Earth whose shadow falls into its air. Light scattered twice and more is
+// an isotropic source: S. Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique",
+// EGSR 2020, section 5.5. The spectrum has eight bands. Refraction is left out.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@
 
 namespace greatx::render {
 
-/// The sky for a light (sun, moon) of illuminance 1 and the sun's colour above the air. Colours are linear
-/// Rec. 709.
+/// Represents the sky for a light (sun, moon) of illuminance 1 and the sun's colour above the air. Colours
+/// are linear Rec. 709.
 class Atmosphere {
  public:
   /// `turbidity` is the vertical optical depth of air and aerosol over that of air alone, at 550 nm.

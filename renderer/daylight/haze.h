@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The extinction of light by fog and rain: 1/m, one way. The same liquid water and rain rate attenuate radio.
+// Defines the extinction of light by fog and rain: 1/m, one way. The same liquid water and rain rate
+// attenuate radio.
 //
 // Drops are tens (fog) to thousands (rain) of times larger than the wavelength. Their extinction is therefore
 // twice their cross section whatever the wavelength (H. C. van de Hulst, "Light Scattering by Small
@@ -27,7 +28,7 @@ double visibility_m(double extinction_per_m);
 /// The mean cosine of the angle by which the drops scatter visible light (fog: 0.80 to 0.87).
 inline constexpr double haze_asymmetry = 0.85;
 
-/// The light from above after a layer of drops that absorb nothing.
+/// Describes the light from above after a layer of drops that absorb nothing.
 struct LayerLight {
   double direct_lux;  ///< on a surface that faces the light
   double sky_lux;     ///< on level ground, all other light

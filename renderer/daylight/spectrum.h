@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light in eight bands of 40 nm from 380 to 700 nm. They are enough for air, whose coefficients are smooth.
-// Three bands would turn a clear sky purple.
+// Defines light in eight bands of 40 nm from 380 to 700 nm. They are enough for air, whose coefficients are
+// smooth. Three bands would turn a clear sky purple.
 #pragma once
 
 #include <array>

@@ -12,8 +12,8 @@ namespace greatx::render {
 
 namespace {
 
-/// A piece of log10(lux) = a + b x + c x^2 + d x^3 with x = elevation / 90 degrees, from `low` up to the next
-/// piece.
+/// Describes a piece of log10(lux) = a + b x + c x^2 + d x^3 with x = elevation / 90 degrees, from `low` up
+/// to the next piece.
 struct Piece {
   double low;  ///< degrees
   double a, b, c, d;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light that a clear sky gives level ground by day, twilight and night, in lux. The source is P. Janiczek
-// and J. DeYoung, "Computer Programs for Sun and Moon Illuminance with Contingent Tables and Diagrams", US
-// Naval Observatory Circular 171 (1987). The cubics are those of P. K. Seidelmann (ed.), "Explanatory
-// Supplement to the Astronomical Almanac" (1992). The measured levels behind it scatter by some 20 % by day
-// and by a factor of two at night.
+// Defines the light that a clear sky gives level ground by day, twilight and night, in lux. The source is P.
+// Janiczek and J. DeYoung, "Computer Programs for Sun and Moon Illuminance with Contingent Tables and
+// Diagrams", US Naval Observatory Circular 171 (1987). The cubics are those of P. K. Seidelmann (ed.),
+// "Explanatory Supplement to the Astronomical Almanac" (1992). The measured levels behind it scatter by some
+// 20 % by day and by a factor of two at night.
 //
 // Elevations are those without refraction.
 #pragma once

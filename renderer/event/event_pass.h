@@ -20,7 +20,7 @@
 
 namespace greatx::render {
 
-/// The rule by which pictures are taken within an interval.
+/// Names the rule by which pictures are taken within an interval.
 enum class EventSteps {
   fixed,          ///< at each of `substeps` even instants
   by_flow,        ///< at those of them that keep motion from picture to picture to `wanted` pixels
@@ -53,14 +53,14 @@ struct EventDesc {
 /// Thresholds of a pixel stay within these bounds, whatever the mismatch draws (0.01: v2e, ESIM).
 inline constexpr double least_threshold = 0.01, largest_threshold = 2.0;
 
-/// The interval from the sample before to this one.
+/// Holds the interval from the sample before to this one.
 struct EventInterval {
   int64_t begin_ns = 0, end_ns = 0;  ///< after the beginning of the sequence
   int64_t sample = 0;
   uint32_t sequence = 0;
 };
 
-/// The events and pictures of an interval, in order of (t, y, x, p).
+/// Holds the events and pictures of an interval, in order of (t, y, x, p).
 struct EventFrame {
   std::vector<uint32_t> t_ns;  ///< after the interval's start, 1 to its length
   std::vector<uint16_t> x, y;  ///< column, row

@@ -14,7 +14,7 @@
 
 namespace greatx::render {
 
-/// An event as the GPU writes it.
+/// Describes an event as the GPU writes it.
 struct ListedEvent {
   uint32_t t_ns;
   uint32_t place;  ///< row << 15 | column << 1 | p

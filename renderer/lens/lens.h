@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The effects of a lens on directions and on light: distortion (Brown-Conrady) and its inverse, and
+// Defines the effects of a lens on directions and on light: distortion (Brown-Conrady) and its inverse, and
 // vignetting. The code runs on the host in fp64 and needs no device. docs/film.md has the formulas.
 //
 // Normalised coordinates are (x, y) = (X/Z, Y/Z) in optical axes. *Undistorted* ones are directions in the
@@ -17,8 +17,8 @@
 
 namespace greatx::render {
 
-/// Brown-Conrady distortion with the order and signs of OpenCV's calib3d (D. Brown, "Decentering Distortion
-/// of Lenses", 1966):
+/// Describes Brown-Conrady distortion with the order and signs of OpenCV's calib3d (D. Brown, "Decentering
+/// Distortion of Lenses", 1966):
 ///   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 ///   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y,   r^2 = x^2 + y^2.
 struct Distortion {
@@ -34,7 +34,7 @@ struct Distortion {
   double fold_radius() const;
 };
 
-/// The loss of light towards the rim, as factors of the light that reaches a pixel.
+/// Describes the loss of light towards the rim, as factors of the light that reaches a pixel.
 struct Vignetting {
   bool natural = false;  ///< cos^4 of the angle between the pixel's ray and the axis
   /// The factor is 1 + a1 q^2 + a2 q^4 + a3 q^6; q is the distance from the principal point over half of the
@@ -43,7 +43,7 @@ struct Vignetting {
   bool any() const { return natural || radial[0] != 0.0 || radial[1] != 0.0 || radial[2] != 0.0; }
 };
 
-/// The pixels of a picture, and its lens.
+/// Holds the pixels of a picture, and its lens.
 struct LensGeometry {
   std::string name = "camera";  ///< for messages
   uint32_t width = 0, height = 0;
@@ -51,13 +51,13 @@ struct LensGeometry {
   Distortion distortion;
 };
 
-/// A part of the plane of undistorted normalised coordinates.
+/// Describes a part of the plane of undistorted normalised coordinates.
 struct LensBounds {
   dvec2 least{0.0}, most{0.0};
 };
 
-/// A lens over a whole picture. Every result is exact to `tolerance` in normalised coordinates before it is
-/// rounded.
+/// Represents a lens over a whole picture. Every result is exact to `tolerance` in normalised coordinates
+/// before it is rounded.
 class Lens {
  public:
   /// An inverse counts as found at this step of Newton's iteration.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// LiDAR on the GPU (docs/lidar.md):
+// Traces a LiDAR on the GPU (docs/lidar.md):
 //
 //   ScanPattern, poses, targets ─► rays of every shot ─► echoes ─► make_scan (renderer/lidar/scan/returns.h)
 #pragma once
@@ -46,7 +46,7 @@ struct LidarDesc {
   bool target_motion = false;
 };
 
-/// A body that does not belong to the static world, as one sweep sees it.
+/// Describes a body that does not belong to the static world, as one sweep sees it.
 struct LidarTarget {
   uint32_t body = 0;
   /// tick_from_shot [instants] takes a point from where the body stands at an instant to where it stands at
@@ -56,16 +56,16 @@ struct LidarTarget {
   double radius_m = 0.0;
 };
 
-/// The moving bodies of a sweep. If `apart`, bodies are met one by one: those listed and no others, each
-/// where its motion takes it. Otherwise all of them stand where scene.record_update put them for this tick,
-/// except LidarDesc::excluded_body.
+/// Holds the moving bodies of a sweep. If `apart`, bodies are met one by one: those listed and no others,
+/// each where its motion takes it. Otherwise all of them stand where scene.record_update put them for this
+/// tick, except LidarDesc::excluded_body.
 struct LidarTargets {
   bool apart = false;
   std::vector<LidarTarget> bodies;
 };
 
-/// A LiDAR. Its intensity is rho * cos(theta), range-corrected, in [0, 1] for reflectances up to 1: the
-/// Lambertian reflectance at the wavelength times the cosine of the angle of incidence on the triangle.
+/// Traces a LiDAR. Its intensity is rho * cos(theta), range-corrected, in [0, 1] for reflectances up to 1:
+/// the Lambertian reflectance at the wavelength times the cosine of the angle of incidence on the triangle.
 /// docs/lidar.md describes panes.
 class LidarPass {
  public:
@@ -73,7 +73,7 @@ class LidarPass {
   /// UserError if the echoes of a sweep exceed the device's largest buffer.
   LidarPass(scene::GpuScene& scene, const LidarDesc& desc, std::string_view name = "lidar");
 
-  /// The place of a recorded sweep. It is valid until its slot is begun again.
+  /// Holds the place of a recorded sweep. It is valid until its slot is begun again.
   struct Pending {
     gpu::Slice echoes;
     std::shared_ptr<const ScanPattern> pattern;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The materials that let a LiDAR's light through.
+// Finds the materials that let a LiDAR's light through.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sun, sky and shadows of a scene, which all its cameras share. They are made once, and only the shadows of
-// moving bodies change.
+// Defines sun, sky and shadows of a scene, which all its cameras share. They are made once, and only the
+// shadows of moving bodies change.
 #pragma once
 
 #include <span>
@@ -23,9 +23,9 @@ enum class SkyModel {
   uniform,   ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
 
-/// The light that reaches the scene from outside. It is photometric, in lux. The sun's and the sky's colours
-/// are scaled so that 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is exactly sun
-/// sin(elevation) + sky.
+/// Describes the light that reaches the scene from outside. It is photometric, in lux. The sun's and the
+/// sky's colours are scaled so that 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is
+/// exactly sun sin(elevation) + sky.
 struct Lighting {
   dvec3 sun_direction{0.0, 0.0, 1.0};  ///< unit, local axes (x east, y north, z up), to the sun
   /// On a surface facing the sun. There is no light while the sun is below the horizon.
@@ -48,7 +48,7 @@ struct Lighting {
   static dvec3 direction(double azimuth, double elevation);
 };
 
-/// The one light that casts shadows: the sun while it is up, else the moon.
+/// Describes the one light that casts shadows: the sun while it is up, else the moon.
 struct KeyLight {
   enum class Body { none, sun, moon };
   dvec3 direction{0.0, 0.0, 1.0};  ///< unit
@@ -57,8 +57,8 @@ struct KeyLight {
 };
 KeyLight key_light(const Lighting& lighting);
 
-/// The effects that the effect plan switches on. An effect that is off is not in the pipelines, not rendered
-/// and not uploaded. Textures, normal maps and alpha masks need GpuSceneOptions::textures.
+/// Holds the effects that the effect plan switches on. An effect that is off is not in the pipelines, not
+/// rendered and not uploaded. Textures, normal maps and alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;             ///< the key light: sun or moon
   bool sky = true;             ///< as background, ambient light and reflection

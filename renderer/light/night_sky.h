@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stars and the moon's disc. The stars are drawn from a seed with the true numbers per magnitude. They are
-// not the real constellations, and they stand still in the local frame.
+// Defines stars and the moon's disc. The stars are drawn from a seed with the true numbers per magnitude.
+// They are not the real constellations, and they stand still in the local frame.
 #pragma once
 
 #include <cstdint>

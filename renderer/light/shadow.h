@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sun's shadow maps. One map holds everything that never moves and is rendered once. One atlas has a tile
-// for each moving body and is rendered every tick. Depth is reversed: nearer the sun is larger, and nothing
-// is 0.
+// Defines the sun's shadow maps. One map holds everything that never moves and is rendered once. One atlas
+// has a tile for each moving body and is rendered every tick. Depth is reversed: nearer the sun is larger,
+// and nothing is 0.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace greatx::render {
 
-/// Right-handed axes in the local frame, with z to the sun.
+/// Holds right-handed axes in the local frame, with z to the sun.
 struct SunFrame {
   dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   static SunFrame of(const dvec3& to_sun);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The radiance of sky and air as functions of direction, and the key light (docs/light.md). Colours are
-// linear Rec. 709.
+// Defines the radiance of sky and air as functions of direction, and the key light (docs/light.md). Colours
+// are linear Rec. 709.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class Sky {
   const dvec3& haze_directed() const { return haze_directed_; }
 
  private:
-  /// A clear sky lit by one body.
+  /// Describes a clear sky lit by one body.
   struct Lit;
   dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
   void add_haze(const Lighting& lighting, const KeyLight& key);

@@ -72,7 +72,8 @@ class Raiser {
   HeightField& field_;
 };
 
-/// The places where a horizon is looked up, from a cell's middle. They are the same for all cells of a field.
+/// Holds the places where a horizon is looked up, from a cell's middle. They are the same for all cells of a
+/// field.
 struct Looks {
   explicit Looks(double cell_m) {
     for (double distance = cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)

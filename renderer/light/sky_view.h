@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The share of the sky that a place sees, so that streets are darker than roofs in the shade. It is an
+// Finds the share of the sky that a place sees, so that streets are darker than roofs in the shade. It is an
 // approximation: the static world is a field of heights, with its horizon in some directions and shares at a
 // few heights above the floor. Small objects (a sill, a car) and objects overhead (a bridge, a crown seen
 // from below) hide nothing. docs/light.md has the errors.
@@ -16,7 +16,7 @@
 
 namespace greatx::render {
 
-/// Heights over a square of cells, in metres above `floor`; 0 where nothing stands.
+/// Holds heights over a square of cells, in metres above `floor`; 0 where nothing stands.
 struct HeightField {
   dvec2 corner{0.0};  ///< local x, y of the first cell's corner
   double cell_m = 1.0, floor = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single rays through the scene, with which pictures are compared.
+// Traces single rays through the scene, with which pictures are compared.
 #pragma once
 
 #include <optional>

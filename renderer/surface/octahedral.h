@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions on a square (Z. Cigolle et al., "A Survey of Efficient Representations for Independent Unit
-// Vectors", JCGT 3(2), 2014), z up. shaders/camera/octahedral.glsl does the same for shaders.
+// Maps directions to places on a square (Z. Cigolle et al., "A Survey of Efficient Representations for
+// Independent Unit Vectors", JCGT 3(2), 2014), z up. shaders/camera/octahedral.glsl does the same for
+// shaders.
 #pragma once
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The data of triangles and materials that shading needs, packed for few wide fetches. On a CPU driver most
-// of a pixel's cost is the gathers (docs/camera.md has the figures).
+// Defines the data of triangles and materials that shading needs, packed for few wide fetches. On a CPU
+// driver most of a pixel's cost is the gathers (docs/camera.md has the figures).
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The model of a LiDAR's receiver: the power of the light that comes back, the detection, and the error of
-// the range. The code is plain arithmetic.
+// Models a LiDAR's receiver: the power of the light that comes back, the detection, and the error of the
+// range. The code is plain arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace greatx::render {
 
-/// A receiver. Powers are relative to the transmitted one.
+/// Describes a receiver. Powers are relative to the transmitted one.
 struct Receiver {
   double aperture_diameter_m = 0.025;
   double system_efficiency = 1.0;
   double extinction_per_m = 0.0;  ///< of the air, one way
 
-  /// The noise of the electronics at the decision. A return of power P is detected if
-  /// P / noise_equivalent_power + n > threshold, with n normal of variance 1. Its probability is therefore
-  /// Phi(P / NEP - threshold).
+  /// Describes the noise of the electronics at the decision. A return of power P is detected if P /
+  /// noise_equivalent_power + n > threshold, with n normal of variance 1. Its probability is therefore Phi(P
+  /// / NEP - threshold).
   struct Detection {
     double noise_equivalent_power = 0.0;
     double threshold = 5.0;
@@ -63,8 +63,8 @@ inline constexpr double lidar_ratio_sr = 18.8;
 double normal_cdf(double x);
 double normal_quantile(double p);
 
-/// The random numbers of a sweep. They are functions of (seed, sensor, sequence, tick, shot, purpose, index)
-/// only.
+/// Represents the random numbers of a sweep. They are functions of (seed, sensor, sequence, tick, shot,
+/// purpose, index) only.
 class ShotNoise {
  public:
   enum class Purpose : uint32_t { detection, range, air_detection, air_range };

@@ -28,7 +28,7 @@ struct ReturnChoice {
   double resolution_m = 0.3;  ///< echoes whose ranges differ by less follow each other in one pulse
 };
 
-/// The echoes that the GPU delivers, where they lie: [slots][shots][sub-rays].
+/// Holds the echoes that the GPU delivers, where they lie: [slots][shots][sub-rays].
 struct EchoView {
   std::span<const shared::LidarEcho> echoes;
   uint32_t shots = 0, sub_rays = 1, slots = 1;
@@ -37,8 +37,8 @@ struct EchoView {
   }
 };
 
-/// One sweep. Returns are in the order in which the shots were fired, and within a shot by range. All arrays
-/// have `size()` elements.
+/// Holds one sweep. Returns are in the order in which the shots were fired, and within a shot by range. All
+/// arrays have `size()` elements.
 struct LidarScan {
   std::vector<vec4> points;    ///< x, y, z: metres in the sensor frame AT THE SHOT'S OWN TIME; w: intensity
   std::vector<uint32_t> shot;  ///< index into the pattern
@@ -63,7 +63,7 @@ struct Pulse {
   uint32_t instance = 0, material = 0;
 };
 
-/// One weighted echo of one ray.
+/// Holds one weighted echo of one ray.
 struct WeightedEcho {
   double range_m, weight, intensity, share;
   uint32_t instance, material;
@@ -72,7 +72,7 @@ struct WeightedEcho {
 std::vector<Pulse> pulses_of(std::vector<WeightedEcho>& echoes, const Receiver& receiver,
                              double resolution_m);
 
-/// The data with which the echoes of a sweep are read.
+/// Holds the data with which the echoes of a sweep are read.
 struct ReturnModel {
   std::vector<float> weights;  ///< [sub-rays] sum 1
   Receiver receiver;
