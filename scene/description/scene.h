@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one scene that every modality sees. It is immutable after loading and uploaded to the GPU once.
+// Defines the one scene that every modality sees. It is immutable after loading and uploaded to the GPU once.
 //
 //   Model  = one glTF file, as parsed (model.h)
 //   Scene  = models placed in the world (build.h): flat arrays, ready for upload
@@ -27,7 +27,7 @@
 
 namespace greatx::scene {
 
-/// The kind of an object. The values are stable, since they go to disk.
+/// Names the kind of an object. The values are stable, since they go to disk.
 enum class SemanticClass : uint32_t {
   unlabeled = 0,
   ground = 1,
@@ -66,7 +66,7 @@ struct Bounds {
   dvec3 size() const { return empty() ? dvec3(0.0) : max - min; }
 };
 
-/// An RGBA8 image, top row first.
+/// Describes an RGBA8 image, top row first.
 struct Texture {
   std::string name;
   uint32_t width = 0, height = 0;
@@ -89,8 +89,8 @@ struct Instance {
   Bounds bounds;  ///< in the body's frame
 };
 
-/// The joint of a part on the body that carries it. The part's frame has the carrier's axes until it turns
-/// about `axis`.
+/// Describes the joint of a part on the body that carries it. The part's frame has the carrier's axes until
+/// it turns about `axis`.
 struct Joint {
   uint32_t owner = 0;         ///< the carrier: an earlier body that is not a part itself
   dvec3 position{0.0};        ///< of the part's origin in its owner's frame, metres
@@ -109,7 +109,7 @@ struct Body {
   Bounds reach;
 };
 
-/// A light of KHR_lights_punctual, in the body's frame.
+/// Describes a light of KHR_lights_punctual, in the body's frame.
 struct PunctualLight {
   enum class Type : uint32_t { point, spot, directional } type = Type::point;
   std::string name;
@@ -121,8 +121,8 @@ struct PunctualLight {
   uint32_t body = 0;
 };
 
-/// The plane n . x = offset in the body's frame (body 0: local coordinates), in fp64 from the file's own
-/// numbers.
+/// Holds the plane n . x = offset in the body's frame (body 0: local coordinates), in fp64 from the file's
+/// own numbers.
 struct Facet {
   dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the side that the triangles' winding faces
   double offset = 0.0;
@@ -132,7 +132,7 @@ struct Facet {
   uint32_t first_triangle = 0, triangle_count = 0;  ///< into Scene::facet_triangles
 };
 
-/// A triangle of a facet, with exact corners in fp64.
+/// Describes a triangle of a facet, with exact corners in fp64.
 struct FacetTriangle {
   dvec3 corners[3];
 };

@@ -91,7 +91,7 @@ constexpr NamePattern patterns[] = {
     {"human", person},
 };
 
-// Two words that together mean something else than the first word.
+// Holds two words that together mean something else than the first word.
 struct PairPattern {
   std::string_view first, second;
   SemanticClass semantic_class;

@@ -10,8 +10,8 @@
 
 namespace greatx::scene {
 
-/// A tree of boxes around triangles, halved along their longest axis. It finds the triangles that a segment
-/// may touch.
+/// Represents a tree of boxes around triangles, halved along their longest axis. It finds the triangles that
+/// a segment may touch.
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);

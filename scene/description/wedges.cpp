@@ -21,7 +21,7 @@ constexpr double same_direction_rad = 1e-4;
 
 auto key(const dvec3& point) { return std::tuple(point.x, point.y, point.z); }
 
-/// A side of a facet's triangle across which no other triangle of the facet continues.
+/// Describes a side of a facet's triangle across which no other triangle of the facet continues.
 struct Side {
   dvec3 a, b;  ///< key(a) < key(b)
   bool left;   ///< of a to b, seen from the facet's front: the side of the triangle
@@ -50,7 +50,7 @@ std::vector<Side> outline(const Scene& scene, const Facet& facet) {
   return kept;
 }
 
-/// The part of an edge on which a triangle lies, and the sides of the edge to which it goes off.
+/// Describes the part of an edge on which a triangle lies, and the sides of the edge to which it goes off.
 struct Contact {
   double from = 0.0, to = 0.0;  ///< metres from the edge's start
   uint32_t facet = 0;
@@ -91,15 +91,15 @@ std::optional<Contact> contact_of(const FacetTriangle& triangle, uint32_t index,
   return contact;
 }
 
-/// A facet that goes off from the edge.
+/// Describes a facet that goes off from the edge.
 struct Direction {
   double angle;  ///< about the edge, by the right hand
   uint32_t facet;
   dvec3 tangent;
 };
 
-/// A piece of an edge with the same facets from end to end. The exterior opens from facet_0 by the right hand
-/// about a to b.
+/// Describes a piece of an edge with the same facets from end to end. The exterior opens from facet_0 by the
+/// right hand about a to b.
 struct Piece {
   dvec3 a, b;
   uint32_t facet_0 = no_facet, facet_n = no_facet;

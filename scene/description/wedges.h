@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges that diffract: straight edges where two facets meet, or where one facet ends.
+// Defines edges that diffract: straight edges where two facets meet, or where one facet ends.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace greatx::scene {
 
 inline constexpr uint32_t no_facet = ~0u;
 
-/// A straight edge with its two faces, in its body's frame (body 0: local coordinates). The exterior, where
-/// waves travel, spans n pi from face 0 to face n, turning about the edge from a to b by the right hand:
-/// n = (2 pi - interior angle)/pi. Facets reflect on both sides, so geometry defines the exterior and winding
-/// does not: it is the side that is wider than pi. Hence n is in (1, 2]: 3/2 for the corner of a house seen
-/// from outside and for the corner of a pillar in a room, and 2 for a half-plane. The narrow side (the corner
-/// of a room) does not diffract: there the waves reflected by both faces join without a gap.
+/// Describes a straight edge with its two faces, in its body's frame (body 0: local coordinates). The
+/// exterior, where waves travel, spans n pi from face 0 to face n, turning about the edge from a to b by the
+/// right hand: n = (2 pi - interior angle)/pi. Facets reflect on both sides, so geometry defines the exterior
+/// and winding does not: it is the side that is wider than pi. Hence n is in (1, 2]: 3/2 for the corner of a
+/// house seen from outside and for the corner of a pillar in a room, and 2 for a half-plane. The narrow side
+/// (the corner of a room) does not diffract: there the waves reflected by both faces join without a gap.
 struct Wedge {
   dvec3 a{0.0}, b{0.0};  ///< ends of the edge
   dvec3 tangent_0{0.0};  ///< unit, in face 0, perpendicular to the edge, pointing away from it

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene on the GPU. It is uploaded once; then only the bodies' poses change.
+// Defines the scene on the GPU. It is uploaded once; then only the bodies' poses change.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ enum class Tracer : uint32_t {
   tree,       ///< scene/device/static_tree.h; the driver still traces moving bodies
 };
 
-/// The parts that the plan asks the upload to make.
+/// Selects the parts that the plan asks the upload to make.
 struct GpuSceneOptions {
   bool acceleration_structure = true;  ///< some pass traces rays
   bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)

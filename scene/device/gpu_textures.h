@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures on the GPU, as scene/device/texture_layers.h lays them out: layers of few array
-// images. A CPU driver calls its sampling code for each of these images in turn.
+// Defines the scene's textures on the GPU, as scene/device/texture_layers.h lays them out: layers of few
+// array images. A CPU driver calls its sampling code for each of these images in turn.
 #pragma once
 
 #include <cstdint>

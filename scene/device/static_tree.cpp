@@ -121,7 +121,7 @@ class Builder {
     return me;
   }
 
-  /// The bins along an axis on which the centres are not all equal.
+  /// Holds the bins along an axis on which the centres are not all equal.
   struct Bins {
     double low, per_length;
     Bins(const Box& centers, int axis)
@@ -190,7 +190,7 @@ class Builder {
   uint32_t depth_ = 0;
 };
 
-/// The grid of the boxes' corners, with the shader's own numbers.
+/// Holds the grid of the boxes' corners, with the shader's own numbers.
 struct Frame {
   vec3 low{0.0f}, step{1.0f};
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tree of boxes around the triangles of the static world, for tracing without the driver
+// Defines a tree of boxes around the triangles of the static world, for tracing without the driver
 // (shaders/lib/tree.glsl). The driver's own structure on a CPU costs a gather for every word of a node.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace greatx::scene {
 
-/// The words that shaders/shared/tree.h lays out. The same scene gives the same words.
+/// Holds the words that shaders/shared/tree.h lays out. The same scene gives the same words.
 struct StaticTree {
   std::vector<uint32_t> words;  ///< quadruples, never empty
   uint32_t inner_nodes = 0, leaves = 0;

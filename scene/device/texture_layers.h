@@ -21,7 +21,7 @@ namespace greatx::scene {
 /// lies side by side, and its layer; -1: none.
 using TextureReference = int32_t;
 
-/// The textures of a material.
+/// Holds the textures of a material.
 struct MaterialTextures {
   TextureReference base_color = -1, metallic_roughness = -1, normal = -1, emissive = -1;
   /// The roughness stands in the alpha of the base colour. metallic_roughness is then -1.

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The look of a medium where the file gives none.
+/// Describes the look of a medium where the file gives none.
 struct Look {
   const char* itu;
   vec3 color;

@@ -13,7 +13,7 @@
 
 namespace greatx::scene {
 
-/// A Mitsuba document and the places of its elements. Messages begin with file:line.
+/// Represents a Mitsuba document and the places of its elements. Messages begin with file:line.
 class MitsubaXml {
  public:
   /// Throws UserError if the file is not readable, not well-formed, nested deeper than 64, not UTF-8, or has

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PLY meshes (G. Turk, The PLY Polygon File Format, 1994): ascii, and binary of either byte order. Elements
-// and properties other than those of PlyMesh are skipped.
+// Reads PLY meshes (G. Turk, The PLY Polygon File Format, 1994): ascii, and binary of either byte order.
+// Elements and properties other than those of PlyMesh are skipped.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One material with two sides: PBR for light and EM for radio, both read from the same glTF material.
+// Defines one material with two sides: PBR for light and EM for radio, both read from the same glTF material.
 #pragma once
 
 #include <complex>
@@ -16,7 +16,7 @@ namespace greatx::scene {
 
 enum class AlphaMode : uint32_t { opaque, mask };
 
-/// A material of glTF 2.0 metallic-roughness (section 3.9), linear light.
+/// Describes a material of glTF 2.0 metallic-roughness (section 3.9), linear light.
 struct PbrMaterial {
   vec4 base_color{1.0f};
   float metallic = 1.0f;
@@ -35,14 +35,14 @@ struct PbrMaterial {
   int32_t emissive_texture = -1;
 };
 
-/// One row of a frequency-dependent material: eta' = a f^b, sigma = c f^d S/m, f in GHz
-/// (ITU-R P.2040-4, eq. 28 and 29, Table 3).
+/// Holds one row of a frequency-dependent material: eta' = a f^b, sigma = c f^d S/m, f in GHz (ITU-R
+/// P.2040-4, eq. 28 and 29, Table 3).
 struct RadioRow {
   double a = 1.0, b = 0.0, c = 0.0, d = 0.0;
   double min_hz = 0.0, max_hz = 0.0;  ///< the range in which the row holds
 };
 
-/// A homogeneous medium with its rows and their source.
+/// Describes a homogeneous medium with its rows and their source.
 struct RadioMedium {
   std::string source;  ///< "ITU-R P.2040-4 Table 3, concrete", "explicit a, b, c, d", "explicit permittivity"
   std::vector<RadioRow> rows;
@@ -51,14 +51,15 @@ struct RadioMedium {
 
 enum class ScatteringPattern : uint32_t { lambertian, directive, backscattering };
 
-/// A layer of a wall. Layers are listed inwards from the outside (the side to which the normal points).
+/// Describes a layer of a wall. Layers are listed inwards from the outside (the side to which the normal
+/// points).
 struct RadioLayer {
   RadioMedium medium;
   double thickness_m = 0.0;
 };
 
-/// Leaves and twigs in a closed mesh. Foliage neither reflects nor blocks. It attenuates by the depth on the
-/// way (rf/atmosphere/foliage.h).
+/// Describes leaves and twigs in a closed mesh. Foliage neither reflects nor blocks. It attenuates by the
+/// depth on the way (rf/atmosphere/foliage.h).
 struct Foliage {
   std::optional<double> attenuation_db_per_m;  ///< at every frequency; empty: Weissberger's model
   friend bool operator==(const Foliage&, const Foliage&) = default;

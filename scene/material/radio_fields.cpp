@@ -38,8 +38,8 @@ std::string description_of(const Field& field) {
   throw_user_error_at(field.where, "{}: expected {}, found {}", field.path, expected, description_of(field));
 }
 
-/// The members of a map. The reader asks for each one, and a member that it does not ask for is an unknown
-/// key.
+/// Represents the members of a map. The reader asks for each one, and a member that it does not ask for is an
+/// unknown key.
 class Members {
  public:
   explicit Members(const Field& map) : map_(map) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The radio fields of docs/materials.md. One parser reads them from JSON (the extension) and from YAML (the
-// sidecar).
+// Reads the radio fields of docs/materials.md. One parser reads them from JSON (the extension) and from YAML
+// (the sidecar).
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace greatx::scene {
 
-/// A value of a JSON or YAML document, and its place.
+/// Describes a value of a JSON or YAML document, and its place.
 struct Field {
   enum class Kind { null, boolean, number, text, list, map } kind = Kind::null;
   bool boolean = false;
@@ -32,8 +32,8 @@ struct Field {
 /// Returns a JSON value as a Field; `what` starts every message ("x.glb: material 'wall'").
 Field field_from_json(const nlohmann::json& value, const std::string& what, const std::string& path);
 
-/// The statements of one source (name, extension or sidecar) about a material, laid over those of the sources
-/// below it.
+/// Describes the statements of one source (name, extension or sidecar) about a material, laid over those of
+/// the sources below it.
 struct RadioSources {
   std::optional<RadioMaterial> radio;
   std::optional<float> reflectance_905nm, reflectance_1550nm;

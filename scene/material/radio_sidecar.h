@@ -10,7 +10,7 @@
 
 namespace greatx::scene {
 
-/// The YAML file that maps material names or globs to radio fields (docs/materials.md).
+/// Represents the YAML file that maps material names or globs to radio fields (docs/materials.md).
 class RadioSidecar {
  public:
   /// Makes a sidecar without entries.
