@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The antennas of a scenario.
+// Defines the antennas of a scenario.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace greatx::sim {
 
-/// An array of equal elements, as in rf::AntennaArray. Lengths are in wavelengths at the carrier.
+/// Describes an array of equal elements, as in rf::AntennaArray. Lengths are in wavelengths at the carrier.
 struct AntennaConfig {
   rf::ElementPattern pattern;
   rf::Polarization polarization = rf::Polarization::v;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integer clock. A tick is 1/tick_rate. Seconds are computed from the tick and never accumulated.
+// Defines the integer clock. A tick is 1/tick_rate. Seconds are computed from the tick and never accumulated.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class Clock {
   Rational rate_;
 };
 
-/// The ticks at which a sensor of rational rate fires: sample k at tick round(k * tick_rate / rate), half up,
-/// in exact integers.
+/// Represents the ticks at which a sensor of rational rate fires: sample k at tick round(k * tick_rate /
+/// rate), half up, in exact integers.
 class SampleTimes {
  public:
   SampleTimes(Rational tick_rate_hz, Rational rate_hz);

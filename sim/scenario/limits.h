@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds on the values that users give, wherever they give them: scenarios, tables, the command line.
+// Defines bounds on the values that users give, wherever they give them: scenarios, tables, the command line.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The part of a scenario about light, weather and the sensors that see light.
+// Defines the part of a scenario about light, weather and the sensors that see light.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace greatx::sim {
 
-/// The place of the scene's origin on the Earth, and the time. Sun and moon follow from them
+/// Holds the place of the scene's origin on the Earth, and the time. Sun and moon follow from them
 /// (renderer/daylight/almanac.h).
 struct PlaceAndTime {
   double latitude = 0.0, longitude = 0.0;  ///< rad, north and east positive (WGS 84)
@@ -25,17 +25,17 @@ struct PlaceAndTime {
   double unix_s = 0.0;                     ///< the same instant, UTC seconds since 1970
 };
 
-/// The moon, if it does not follow from place and time.
+/// Describes the moon, if it does not follow from place and time.
 struct MoonConfig {
   double azimuth = 0.0, elevation = 0.0;  ///< rad, as the sun's
   std::optional<double> phase_angle;      ///< rad, 0 full, pi new; none: from the angle between sun and moon
   std::optional<double> illuminance_lux;  ///< on a surface facing the moon; none: from phase and elevation
 };
 
-/// The state of the sky above the scene.
+/// Names the state of the sky above the scene.
 enum class SkyKind { automatic, clear, overcast };
 
-/// The light from outside and the air between. sim/plan/light_plan.h derives the rest from it.
+/// Describes the light from outside and the air between. sim/plan/light_plan.h derives the rest from it.
 struct Environment {
   std::optional<PlaceAndTime> place;  ///< given instead of the positions below
   double sun_azimuth = -0.25 * pi;    ///< rad, from x (east) towards y (north): the direction to the sun
@@ -58,8 +58,8 @@ struct Environment {
 /// These types describe a lens (docs/film.md).
 using render::Distortion, render::Vignetting;
 
-/// The exposure of a picture. `automatic` meters each picture by itself, so that no picture depends on
-/// another.
+/// Describes the exposure of a picture. `automatic` meters each picture by itself, so that no picture depends
+/// on another.
 struct Exposure {
   bool automatic = false;
   double ev100 = 15.0;           ///< EV at ISO 100; ignored if `automatic`
@@ -68,14 +68,14 @@ struct Exposure {
   std::optional<double> shutter_s;
 };
 
-/// The noise of a sensor of light: electrons and digital numbers.
+/// Describes the noise of a sensor of light: electrons and digital numbers.
 struct SensorNoise {
   double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
   uint32_t bits = 12;            ///< of the converter
 };
 
-/// The intrinsics that cameras and event cameras share, in pixels.
+/// Holds the intrinsics that cameras and event cameras share, in pixels.
 struct PinholeConfig {
   uint32_t width = 640, height = 480;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if the user gave that
@@ -101,7 +101,7 @@ struct CameraConfig : PinholeConfig {
   bool see_own_body = false;
 };
 
-/// An event camera (docs/events.md), which measures changes of brightness instead of pictures.
+/// Describes an event camera (docs/events.md), which measures changes of brightness instead of pictures.
 struct EventCameraConfig : PinholeConfig {
   /// The name of the camera of the same node that has the same pixels, as in a DAVIS sensor. At its samples
   /// the pictures are that camera's, and PinholeConfig, mount and see_own_body are too. Empty: none.

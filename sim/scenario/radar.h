@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sensor of type radar in nodes[].sensors[], as the user wrote it (docs/scenario.md).
+// Defines a sensor of type radar in nodes[].sensors[], as the user wrote it (docs/scenario.md).
 #pragma once
 
 #include <string>

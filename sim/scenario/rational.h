@@ -9,8 +9,8 @@
 
 namespace greatx::sim {
 
-/// A positive rational number in lowest terms, e.g. 30000/1001 Hz. Arithmetic is exact, and overflow is
-/// checked.
+/// Describes a positive rational number in lowest terms, e.g. 30000/1001 Hz. Arithmetic is exact, and
+/// overflow is checked.
 struct Rational {
   int64_t numerator = 1;
   int64_t denominator = 1;

@@ -7,15 +7,15 @@
 
 namespace greatx::sim {
 
-/// A constant rate of turning.
+/// Describes a constant rate of turning.
 struct TurnRate {
   Rational hz;            ///< the size of the rate
   bool negative = false;  ///< clockwise as seen from the axis' tip
   double value_hz() const { return negative ? -hz.value() : hz.value(); }
 };
 
-/// A constant turn about an axis, without drift. Whole turns between ticks are taken off in integers before
-/// anything is rounded. From the nearest tick on, the time is a small number.
+/// Represents a constant turn about an axis, without drift. Whole turns between ticks are taken off in
+/// integers before anything is rounded. From the nearest tick on, the time is a small number.
 class Rotation {
  public:
   /// `start_turns` is the share at tick 0. The ratio of both rates must fit 64-bit integers (ContractError).

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario as the user wrote it: the things in the world, their motion, and the sensors with their rates.
-// It is plain data without behaviour. docs/scenario.md documents every field, and docs/scenario.schema.json
-// checks it in an editor.
+// Defines a scenario as the user wrote it: the things in the world, their motion, and the sensors with their
+// rates. It is plain data without behaviour. docs/scenario.md documents every field, and
+// docs/scenario.schema.json checks it in an editor.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace greatx::sim {
 
 // --------------------------------------------------------------------------------------- things in the world
 
-/// A scene or model that the generator (scene/generator) makes, instead of one read from a file.
+/// Describes a scene or model that the generator (scene/generator) makes, instead of one read from a file.
 struct Generated {
   std::string kind;  ///< city, country, canyon, room, mast, car, quadrotor
   uint64_t seed = 1;
@@ -40,13 +40,13 @@ struct Generated {
   std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
 };
 
-/// The source of a mesh.
+/// Names the source of a mesh.
 struct ModelSource {
   std::variant<std::filesystem::path, Generated> source;  ///< path: absolute after parsing
   SourceLocation where;
 };
 
-/// A model that never moves.
+/// Describes a model that never moves.
 struct StaticObject {
   std::string name;
   ModelSource model;
@@ -76,15 +76,15 @@ struct WayPoint {
   std::optional<dquat> orientation;
 };
 
-/// Way-points with times, in the scenario or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]). Positions
-/// follow a C1 cubic Hermite curve (Catmull-Rom tangents for uneven times) or straight lines. The attitude is
-/// interpolated by slerp, or follows the velocity if none is given.
+/// Holds way-points with times, in the scenario or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]).
+/// Positions follow a C1 cubic Hermite curve (Catmull-Rom tangents for uneven times) or straight lines. The
+/// attitude is interpolated by slerp, or follows the velocity if none is given.
 struct WayPointTrajectory {
   std::vector<WayPoint> points;  ///< at least one, times ascending
   bool smooth = true;
 };
 
-/// A cubic Bezier curve in a box. Start and end are drawn from the seed within `min`..`max` and at
+/// Describes a cubic Bezier curve in a box. Start and end are drawn from the seed within `min`..`max` and at
 /// d_min..d_max from a node. P1 and P2 are the thirds of the chord plus offsets drawn within +-offset. B(u)
 /// is sampled uniformly over the duration.
 struct BezierTrajectory {
@@ -96,8 +96,8 @@ struct BezierTrajectory {
   std::optional<std::array<dvec3, 4>> control_points;
 };
 
-/// Spatially constrained random linear interpolation: straight legs at a constant speed, between points drawn
-/// within `width_m`, `height_m` of a centre line.
+/// Describes spatially constrained random linear interpolation: straight legs at a constant speed, between
+/// points drawn within `width_m`, `height_m` of a centre line.
 struct CorridorTrajectory {
   std::vector<dvec3> center_line_m;  ///< at least two points
   double width_m = 0.0, height_m = 0.0;
@@ -108,7 +108,7 @@ using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTraj
 
 // --------------------------------------------------------------------------------------------------- sensors
 
-/// The 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
+/// Holds the 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
 struct Mount {
   dvec3 position_m{0.0};
   dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
@@ -137,7 +137,7 @@ struct SensorConfig {
   SourceLocation where;
 };
 
-/// Parts of a node's model that turn on it at a constant rate: rotors, wheels.
+/// Describes parts of a node's model that turn on it at a constant rate: rotors, wheels.
 struct PartConfig {
   std::vector<std::string> nodes;  ///< the model's glTF nodes by name, '*', '?' and [] as in file names
   dvec3 axis{0.0, 0.0, 1.0};    ///< through the glTF node's origin, in its own frame, z up; any length but 0
@@ -158,7 +158,7 @@ struct NodeConfig {
   SourceLocation where;
 };
 
-/// Channel state information from transmit antennas to receive antennas.
+/// Describes channel state information from transmit antennas to receive antennas.
 struct ChannelConfig {
   std::string name;
   std::vector<std::string> transmitters;  ///< "node/sensor"
@@ -184,7 +184,7 @@ struct ChannelConfig {
   std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
   uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
   std::string search = "auto";       ///< auto, once (from a static end), every_tick
-  /// The arrays that are written besides those of every link.
+  /// Selects the arrays that are written besides those of every link.
   struct Outputs {
     bool cfr = true, paths = true;
     bool cfr_parts = false;  ///< the line of sight, and all other paths, separately
@@ -226,7 +226,7 @@ struct Scenario {
   double tolerance_db = 0.01;             ///< an effect whose influence cannot exceed this stays off
 };
 
-/// The indices of a sensor called "node/sensor".
+/// Holds the indices of a sensor called "node/sensor".
 struct SensorPlace {
   uint32_t node = 0, sensor = 0;  ///< indices into Scenario::nodes, NodeConfig::sensors
 };

@@ -72,7 +72,7 @@ std::unique_ptr<Path> make_path(const WayPointTrajectory& trajectory) {
   return std::make_unique<CurvePath>(std::move(segments), std::move(attitudes), Beyond::hold);
 }
 
-/// The conditions on an end of a Bezier trajectory.
+/// Holds the conditions on an end of a Bezier trajectory.
 struct EndLimits {
   const NodeConfig& node;
   const BezierTrajectory& trajectory;
@@ -143,8 +143,8 @@ std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   return legs;
 }
 
-/// The axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical line), and
-/// up is perpendicular to both.
+/// Holds the axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical
+/// line), and up is perpendicular to both.
 struct CrossSection {
   dvec3 across, up;
   explicit CrossSection(const dvec3& along) {

@@ -10,8 +10,8 @@
 
 namespace greatx::sim {
 
-/// A node's path through the world as a function of time. Pose, velocity and acceleration come from the
-/// curve's derivatives.
+/// Represents a node's path through the world as a function of time. Pose, velocity and acceleration come
+/// from the curve's derivatives.
 class Path {
  public:
   virtual ~Path() = default;

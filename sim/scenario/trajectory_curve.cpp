@@ -11,7 +11,7 @@
 namespace greatx::sim {
 namespace {
 
-/// A direction and its derivative by u, up to a common positive factor.
+/// Describes a direction and its derivative by u, up to a common positive factor.
 template <typename Vector>
 struct Direction {
   Vector value, derivative;

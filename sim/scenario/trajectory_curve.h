@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one curve behind every moving trajectory: cubic Bezier segments, each over its own span of time.
+// Defines the one curve behind every moving trajectory: cubic Bezier segments, each over its own span of
+// time.
 #pragma once
 
 #include <array>
@@ -12,9 +13,9 @@
 
 namespace greatx::sim {
 
-/// A segment: B(u) is the sum of Bernstein polynomials times P0..P3, u = (t - begin) / duration. The control
-/// points are held as P0 and the edges P1 - P0, P2 - P1, P3 - P2, so that derivatives do not suffer from
-/// large coordinates.
+/// Describes a segment: B(u) is the sum of Bernstein polynomials times P0..P3, u = (t - begin) / duration.
+/// The control points are held as P0 and the edges P1 - P0, P2 - P1, P3 - P2, so that derivatives do not
+/// suffer from large coordinates.
 struct CurveSegment {
   double begin_s = 0.0;
   double duration_s = 0.0;  ///< 0: a curve of a single instant, at rest at P0
@@ -32,7 +33,7 @@ struct CurveSegment {
   dvec3 third() const;           ///< d3B/du3
 };
 
-/// The motion before the first and after the last instant.
+/// Names the motion before the first and after the last instant.
 enum class Beyond {
   hold,      ///< rests at the end, velocity zero
   straight,  ///< goes on with the end's velocity (a sweep that outlasts the last tick keeps its motion)

@@ -13,7 +13,7 @@
 
 namespace greatx::sim {
 
-/// The motion of everything in one sequence.
+/// Describes the motion of everything in one sequence.
 struct Courses {
   std::vector<std::unique_ptr<Path>> paths;  ///< [nodes]
   std::vector<Rotation> rotations;           ///< [World::parts]
@@ -31,7 +31,8 @@ Motion body_motion(const World& world, const Courses& courses, uint32_t body, do
 /// Returns the poses of all bodies: local coordinates, index = body, [0] the identity.
 std::vector<Pose> body_poses(const World& world, const Courses& courses, double time_s);
 
-/// The places of everything at a tick. It owns the data to which the context points, also after it is moved.
+/// Holds the places of everything at a tick. It owns the data to which the context points, also after it is
+/// moved.
 struct Moment {
   Moment() = default;
   Moment(Moment&&) = default;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The places of everything at the tick that is being recorded, and at any other time.
+// Defines the places of everything at the tick that is being recorded, and at any other time.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace greatx::sim {
 
-/// Everything that a sensor may know of the tick that is being recorded.
+/// Holds everything that a sensor may know of the tick that is being recorded.
 struct TickContext {
   int64_t tick = 0;
   uint32_t sequence = 0;  ///< of the run

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scenario's models, loaded and put together: the scene that every sequence shares.
+// Defines the scenario's models, loaded and put together: the scene that every sequence shares.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace greatx::sim {
 
-/// A body that turns on its node's body: a rotor, a wheel.
+/// Describes a body that turns on its node's body: a rotor, a wheel.
 struct Part {
   std::string name;  ///< the name of its body, NODE/PART, by which its start is drawn
   uint32_t body = 0;

@@ -15,7 +15,7 @@
 
 namespace greatx::sim {
 
-/// A cell of a line, without the blanks around it.
+/// Describes a cell of a line, without the blanks around it.
 struct CsvCell {
   std::string_view text;
   size_t column = 1;  ///< 1-based, in bytes

@@ -13,7 +13,8 @@
 namespace greatx::sim {
 namespace {
 
-/// A key of the scenario's top level that gets a value. The key `instead_of` gives way to it, if it is there.
+/// Describes a key of the scenario's top level that gets a value. The key `instead_of` gives way to it, if it
+/// is there.
 struct NewValue {
   std::string key, value, instead_of;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parts of the scenario's parser that its files share. No other code needs them.
+// Defines the parts of the scenario's parser that its files share. No other code needs them.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace greatx::sim {
 
-/// The `distance.node` of a Bezier trajectory. It is looked up when every node is known.
+/// Holds the `distance.node` of a Bezier trajectory. It is looked up when every node is known.
 struct NodeReference {
   size_t node = 0;
   Field field;

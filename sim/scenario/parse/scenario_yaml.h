@@ -24,8 +24,8 @@
 
 namespace greatx::sim {
 
-/// One value of the document. Numbers follow YAML 1.2's core schema: they are plain (unquoted) scalars, and
-/// are 0 or of a magnitude from least_number to most_number.
+/// Represents one value of the document. Numbers follow YAML 1.2's core schema: they are plain (unquoted)
+/// scalars, and are 0 or of a magnitude from least_number to most_number.
 class Field {
  public:
   /// Returns the root of the one document in `text`. Throws UserError with the line if it is not well-formed
@@ -91,7 +91,7 @@ inline Keys operator+(Keys a, const Keys& b) {
   return a;
 }
 
-/// A map whose keys are known beforehand. Unknown and duplicate keys throw.
+/// Represents a map whose keys are known beforehand. Unknown and duplicate keys throw.
 class FieldMap {
  public:
   FieldMap(const Field& field, const Keys& keys);
