@@ -67,7 +67,7 @@ Plane ycxcz(const Array& picture) {
   return plane;
 }
 
-/// Weights at offsets -radius..radius in both directions, one per channel.
+/// Holds weights at offsets -radius..radius in both directions, one per channel.
 struct Kernel {
   int64_t radius = 0;
   std::vector<dvec3> weights;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes of a few triangles, written in the test that needs them, without a loader or a file.
+// Makes scenes of a few triangles, written in the test that needs them, without a loader or a file.
 #pragma once
 
 #include <algorithm>
