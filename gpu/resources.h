@@ -81,7 +81,7 @@ struct ImageDesc {
   VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
   uint32_t width = 1, height = 1;
   uint32_t mip_levels = 1;
-  uint32_t layers = 0;  ///< 0: a plain image; else an array of so many
+  uint32_t layers = 0;  ///< 0: a plain image; else an array of this many layers
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };

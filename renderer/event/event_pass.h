@@ -42,7 +42,7 @@ struct EventDesc {
   double cutoff_hz = 0.0;       ///< 0: unlimited bandwidth
   double dark_cd_m2 = 1e-3;     ///< added before the logarithm
   double bright_cd_m2 = 1e3;    ///< of relative intensity 1: bandwidth and shot noise
-  uint32_t capacity = 1 << 20;  ///< events an interval that there is room for
+  uint32_t capacity = 1 << 20;  ///< room for this many events, an interval
   bool events = true, instance = false, differences = false;
   double difference_on_cd_m2 = 1.0, difference_off_cd_m2 = 1.0;
   uint64_t seed = 0;

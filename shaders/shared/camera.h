@@ -166,13 +166,15 @@ struct GpuLighting {
   float moving_map_size;
   float pad1;
   float pad2;
-  vec3 haze_ambient;  ///< radiance of endless haze: haze_ambient + haze_directed (1 + g^2 - 2 g cos)^-1.5,
+  /// Radiance of endless haze: haze_ambient + haze_directed (1 + g^2 - 2 g cos)^-1.5, with the cosine of the
+  /// angle from the key light.
+  vec3 haze_ambient;
   float haze_extinction;  ///< 1/m
-  vec3 haze_directed;     ///< cos of the angle from the key light
-  float haze_asymmetry;   ///< g
-  vec3 moon_direction;    ///< unit
-  float moon_radius;      ///< rad
-  vec3 moon_bright;       ///< unit, across moon_direction: from the disc's middle to its bright limb
+  vec3 haze_directed;
+  float haze_asymmetry;  ///< g
+  vec3 moon_direction;   ///< unit
+  float moon_radius;     ///< rad
+  vec3 moon_bright;      ///< unit, across moon_direction: from the disc's middle to its bright limb
   float moon_cos_phase;
   vec3 moon_disc;  ///< radiance of its bright part
   float pad3;
