@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// scene: the main file or generator, objects, radio materials.
+// Parses scene: the main file or generator, objects, radio materials.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -11,7 +11,7 @@
 namespace greatx::sim {
 namespace {
 
-/// scene::semantic_class_names, which this library does not link; a test compares the two.
+/// The names of scene::semantic_class_names, which this library does not link. A test compares the two.
 constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pavement",   "lane_marking",
                                          "building",    "roof",   "window",  "vegetation", "pole",
                                          "street_lamp", "mast",   "vehicle", "uav",        "water",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: what all have.
+// Parses the common part of nodes[].sensors[].
 #include <array>
 #include <cmath>
 #include <set>
@@ -20,12 +20,12 @@ Mount parse_mount(const Field& field) {
   return mount;
 }
 
-/// Of every sensor that fires by itself, then what pictures share.
+/// The keys of every sensor that fires by itself, and the keys that pictures share.
 const Keys fired{"name", "type", "mount", "rate_hz", "see_own_body"};
 const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "cx",
                    "cy",    "near_m", "antialiasing", "distortion", "outputs"};
 
-/// The keys of each kind, in the order of parse_sensor's.
+/// Returns the keys of each kind, in the order of parse_sensor's.
 std::array<Keys, 5> keys_of_kind() {
   return {fired + pinhole +
               Keys{"exposure_ev100", "exposure", "motion_blur_samples", "vignetting", "noise", "box_classes"},
