@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +27,11 @@ struct NodeReference {
 using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
 
 /// The index of `key`'s text in `choices`, before the map's other keys are known.
-size_t kind_of(const Field& field, std::string_view key, std::initializer_list<std::string_view> choices);
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices);
+inline size_t kind_of(const Field& field, std::string_view key,
+                      std::initializer_list<std::string_view> choices) {
+  return kind_of(field, key, std::span(choices.begin(), choices.size()));
+}
 /// A positive rational rate not above the tick rate.
 Rational rate_of(const Field& field, const Rational& tick_rate_hz);
 /// `file` or `generate` of `map`, exactly one of them.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,7 +60,10 @@ class Field {
   dvec3 position() const;                          ///< of something in the world, or a way or extent in it, m
   dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
   /// The index of the text in `choices`.
-  size_t choice(std::initializer_list<std::string_view> choices) const;
+  size_t choice(std::initializer_list<std::string_view> choices) const {
+    return choice(std::span(choices.begin(), choices.size()));
+  }
+  size_t choice(std::span<const std::string_view> choices) const;
   /// Items with at least `least` of them; `of_what` names them in messages, e.g. "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
   /// An existing regular file, absolute; relative ones are looked for in the scenario's folder, then among the assets.
