@@ -38,7 +38,7 @@ struct TickContext {
   }
 };
 
-/// World pose of a sensor: the node's pose times its mount.
+/// A mount as a pose: from the sensor's frame to that of the node that carries it.
 inline Pose mount_pose(const Mount& mount) {
   return {mount.position_m,
           orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
