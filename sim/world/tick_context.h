@@ -39,7 +39,7 @@ struct TickContext {
   }
 };
 
-/// Returns the pose of a sensor in its node's frame. A sensor's world pose is the node's pose times this.
+/// A mount as a pose: from the sensor's frame to that of the node that carries it.
 inline Pose mount_pose(const Mount& mount) {
   return {mount.position_m,
           orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};

@@ -8,6 +8,7 @@
 
 #include "rf/config/subcarriers.h"
 #include "sim/scenario/parse/scenario_parse.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::sim {
 namespace {
@@ -131,12 +132,8 @@ std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>
     field.fail(expected, fmt::format("unknown '{}'{}", name, suggestion(name, antennas)));
   }
   const SensorConfig& sensor = nodes[place->node].sensors[place->sensor];
-  if (std::holds_alternative<CameraConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a camera", name));
-  if (std::holds_alternative<LidarConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a LiDAR", name));
-  if (std::holds_alternative<RadarConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a radar", name));
+  if (!std::holds_alternative<AntennaConfig>(sensor.config))
+    field.fail(expected, fmt::format("'{}', {}", name, with_article(sensor_kind(sensor))));
   return name;
 }
 

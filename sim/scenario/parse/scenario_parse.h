@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,9 +26,13 @@ struct NodeReference {
 /// The antenna patterns that a scenario names. Each is read once.
 using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
 
-/// Returns the index of `key`'s text in `choices`, before the map's other keys are known.
-size_t kind_of(const Field& field, std::string_view key, std::initializer_list<std::string_view> choices);
-/// Returns a positive rational rate that is not above the tick rate.
+/// The index of `key`'s text in `choices`, before the map's other keys are known.
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices);
+inline size_t kind_of(const Field& field, std::string_view key,
+                      std::initializer_list<std::string_view> choices) {
+  return kind_of(field, key, std::span(choices.begin(), choices.size()));
+}
+/// A positive rational rate not above the tick rate.
 Rational rate_of(const Field& field, const Rational& tick_rate_hz);
 /// Parses `file` or `generate` of `map`, exactly one of them.
 ModelSource parse_model_source(const FieldMap& map);

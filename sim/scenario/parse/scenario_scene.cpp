@@ -61,10 +61,10 @@ StaticObject parse_object(const Field& field) {
 
 }  // namespace
 
-size_t kind_of(const Field& field, std::string_view key, std::initializer_list<std::string_view> choices) {
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices) {
   std::string expected = "one of";
   for (const std::string_view choice : choices)
-    expected += fmt::format("{} {}", choice == *choices.begin() ? "" : ",", choice);
+    expected += fmt::format("{} {}", choice == choices.front() ? "" : ",", choice);
   for (const auto& [name, value] : entries_of(field))
     if (name == key) return value.choice(choices);
   throw_user_error_at(field.where(), "{}.{}: expected {}, found nothing", field.path(), key, expected);

@@ -184,7 +184,7 @@ dvec3 Field::angles_deg() const {
   return {radians(angles.x), radians(angles.y), radians(angles.z)};
 }
 
-size_t Field::choice(std::initializer_list<std::string_view> choices) const {
+size_t Field::choice(std::span<const std::string_view> choices) const {
   if (node_.IsScalar()) {
     const auto found = std::find(choices.begin(), choices.end(), node_.Scalar());
     if (found != choices.end()) return static_cast<size_t>(found - choices.begin());

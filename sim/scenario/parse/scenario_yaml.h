@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,9 +60,11 @@ class Field {
   dvec3 position() const;                          ///< of a thing in the world, or a way or extent in it, m
   dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
   /// Returns the index of the text in `choices`.
-  size_t choice(std::initializer_list<std::string_view> choices) const;
-  /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g.
-  /// "sensors".
+  size_t choice(std::initializer_list<std::string_view> choices) const {
+    return choice(std::span(choices.begin(), choices.size()));
+  }
+  size_t choice(std::span<const std::string_view> choices) const;
+  /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g. "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
   /// Returns an existing regular file as an absolute path. A relative one is looked for in the scenario's
   /// folder, then among the assets.
