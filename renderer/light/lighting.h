@@ -57,8 +57,9 @@ struct KeyLight {
 };
 KeyLight key_light(const Lighting& lighting);
 
-/// Holds the effects that the effect plan switches on. An effect that is off is not in the pipelines, not
-/// rendered and not uploaded. Textures, normal maps and alpha masks need GpuSceneOptions::textures.
+/// Holds the effects that the effect plan switches on; names that the plan has, too, are the same
+/// (sim/plan/effect_list.h). An effect that is off is not in the pipelines, not rendered and not uploaded.
+/// Textures, normal maps and alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;             ///< the key light: sun or moon
   bool sky = true;             ///< as background, ambient light and reflection

@@ -16,17 +16,16 @@
 #include "sim/channel/channel_paths.h"
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
 class ChannelSensor : public Sensor {
  public:
   /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the receivers differ in their number of ports.
-  ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                const Scenario& scenario, const World& world, uint32_t channel);
+  ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+                uint32_t channel);
 
   const SensorSpec& spec() const override { return spec_; }
   void start(const TickContext& context) override;
@@ -63,9 +62,7 @@ class ChannelSensor : public Sensor {
 
   scene::GpuScene& gpu_scene_;
   rf::CrossingPass& crossings_;
-  const EffectPlan& plan_;
-  const Scenario& scenario_;
-  const World& world_;
+  const Experiment& experiment_;
   uint32_t channel_;
   const ChannelConfig& config_;
   bool doppler_;

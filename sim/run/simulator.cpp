@@ -48,18 +48,17 @@ class Simulator::HostScope {
   std::chrono::steady_clock::time_point begin_;
 };
 
-Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World& world,
-                     const EffectPlan& plan)
-    : scenario_(scenario),
-      world_(world),
+Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
+    : scenario_(experiment.scenario),
+      world_(*experiment.world),
       device_(device),
-      gpu_scene_(device, world.scene, gpu_scene_options(plan)),
+      gpu_scene_(device, world_.scene, gpu_scene_options(experiment.plan)),
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
-      clock_(scenario.tick_rate_hz),
-      schedule_(scenario.tick_rate_hz),
-      passes_(gpu_scene_, scenario, world, plan),
-      sensors_(make_sensors({gpu_scene_, passes_, scenario, world, plan})),
-      comparer_(world, plan.consistency.on) {
+      clock_(scenario_.tick_rate_hz),
+      schedule_(scenario_.tick_rate_hz),
+      passes_(gpu_scene_, experiment),
+      sensors_(make_sensors({gpu_scene_, passes_, experiment})),
+      comparer_(world_, experiment.plan.consistency.on) {
   for (const RunSensor& run : sensors_) {
     schedule_.add(run.rate_hz);
     specs_.push_back(run.sensor->spec());

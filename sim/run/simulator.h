@@ -15,13 +15,12 @@
 #include "gpu/tick_ring.h"
 #include "scene/device/gpu_scene.h"
 #include "sim/compare/comparisons.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/run/schedule.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
 #include "sim/sensors/registry/registry.h"
 #include "sim/world/moment.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
@@ -52,8 +51,8 @@ struct RunStatistics {
 
 class Simulator {
  public:
-  /// Uploads the scene and builds the pipelines of the plan. All arguments outlive the simulator.
-  Simulator(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan);
+  /// Uploads the scene and builds the pipelines of the plan. Both arguments outlive the simulator.
+  Simulator(gpu::Device& device, const Experiment& experiment);
   ~Simulator();
 
   /// What the packets will hold; index = Record::sensor.

@@ -55,17 +55,16 @@ std::string hover(const std::string& watching, const std::string& carried = "") 
 
 struct Ran {
   explicit Ran(const std::string& yaml)
-      : scenario(parse_scenario(yaml, "test.yaml", ".")),
-        world(load_world(scenario)),
-        courses(make_courses(scenario, world, 0)),
-        run(keep_run(scenario, world)) {}
+      : experiment(make_experiment(parse_scenario(yaml, "test.yaml", "."))),
+        courses(make_courses(experiment.scenario, world, 0)),
+        run(keep_run(experiment)) {}
   bool is_rotor(uint32_t id) const { return id > 0 && world.scene.bodies[body(id)].joint.has_value(); }
   uint32_t body(uint32_t id) const { return world.scene.instances[id - 1].body; }
   Pose pose(uint32_t body, size_t tick) const {
     return body_motion(world, courses, body, 0.1 * double(tick)).pose;
   }
-  Scenario scenario;
-  World world;
+  Experiment experiment;
+  const World& world = *experiment.world;
   Courses courses;
   KeptRun run;
 };

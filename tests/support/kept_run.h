@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/experiment/experiment.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
@@ -101,19 +102,18 @@ inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
   return after;
 }
 
-/// Runs a sequence. Ticks before `first_tick` are left out, as by a resume.
-inline KeptRun keep_run(const sim::Scenario& scenario, const sim::World& world, uint32_t sequence = 0,
-                        int64_t first_tick = 0) {
+/// Ticks before `first_tick` are left out, as by a resume.
+inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0, int64_t first_tick = 0) {
   struct Keep : RecordSink {
     std::vector<Packet> packets;
     void write(Packet packet) override { packets.push_back(std::move(packet)); }
   } keep;
   KeptRun run;
-  run.plan = sim::make_effect_plan(scenario, world.scene);
-  run.instances = world.scene.instances;
+  run.plan = experiment.plan;
+  run.instances = experiment.scene().instances;
   const gpu::Counters before = device().counters();
   {
-    sim::Simulator simulator(device(), scenario, world, run.plan);
+    sim::Simulator simulator(device(), experiment);
     run.sensors = simulator.sensors();
     simulator.start(sequence, first_tick);
     while (simulator.step(keep)) {
@@ -125,8 +125,7 @@ inline KeptRun keep_run(const sim::Scenario& scenario, const sim::World& world, 
   return run;
 }
 inline KeptRun keep_run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0) {
-  const sim::Scenario scenario = sim::parse_scenario(yaml, "test.yaml", ".");
-  return keep_run(scenario, sim::load_world(scenario), sequence, first_tick);
+  return keep_run(sim::make_experiment(sim::parse_scenario(yaml, "test.yaml", ".")), sequence, first_tick);
 }
 
 /// Compares every record of two packets with the same sensors.

@@ -28,8 +28,8 @@ struct Workshop {
 
 std::unique_ptr<Sensor> make_camera(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  auto camera =
-      std::make_unique<CameraSensor>(*p.passes.stage, p.passes.probe.get(), p.scenario, at.node, at.sensor);
+  auto camera = std::make_unique<CameraSensor>(*p.passes.stage, p.passes.probe.get(), p.experiment.scenario,
+                                               at.node, at.sensor);
   shop.cameras[camera->spec().name] = camera.get();
   return camera;
 }
@@ -38,7 +38,7 @@ std::unique_ptr<Sensor> make_camera(Workshop& shop, SensorPlace at) {
 /// before it.
 std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  const NodeConfig& node = p.scenario.nodes[at.node];
+  const NodeConfig& node = p.experiment.scenario.nodes[at.node];
   const std::string& camera = std::get<EventCameraConfig>(node.sensors[at.sensor].config).camera;
   const CameraSensor* shared = nullptr;
   if (!camera.empty()) {
@@ -46,22 +46,23 @@ std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
     GREATX_CHECK(found != shop.cameras.end(), "{}: no camera '{}'", node.name, camera);
     shared = found->second;
   }
-  return std::make_unique<EventSensor>(*p.passes.stage, shared, p.scenario, at.node, at.sensor);
+  return std::make_unique<EventSensor>(*p.passes.stage, shared, p.experiment.scenario, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_lidar(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  return std::make_unique<LidarSensor>(p.gpu_scene, p.plan, p.scenario, p.world, at.node, at.sensor);
+  return std::make_unique<LidarSensor>(p.gpu_scene, p.experiment.plan, p.experiment.scenario,
+                                       *p.experiment.world, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_radar(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  return std::make_unique<RadarSensor>(p.gpu_scene, p.plan, p.scenario, p.world, at.node, at.sensor);
+  return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment.plan, p.experiment.scenario,
+                                       *p.experiment.world, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_channel(const SensorParts& p, uint32_t channel) {
-  return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.plan, p.scenario, p.world,
-                                         channel);
+  return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.experiment, channel);
 }
 
 /// A row of the table.
@@ -96,9 +97,10 @@ static_assert(every_kind_that_fires_has_a_maker());
 
 std::vector<RunSensor> make_sensors(const SensorParts& parts) {
   std::vector<RunSensor> sensors;
-  sensors.push_back({std::make_unique<PoseSensor>(parts.scenario, parts.world.scene.origin), {}, {}});
+  sensors.push_back(
+      {std::make_unique<PoseSensor>(parts.experiment.scenario, parts.experiment.scene().origin), {}, {}});
   Workshop shop{parts, {}};
-  const std::vector<NodeConfig>& nodes = parts.scenario.nodes;
+  const std::vector<NodeConfig>& nodes = parts.experiment.scenario.nodes;
   for (uint32_t node = 0; node < nodes.size(); ++node)
     for (uint32_t i = 0; i < nodes[node].sensors.size(); ++i) {
       const SensorConfig& config = nodes[node].sensors[i];
@@ -107,8 +109,8 @@ std::vector<RunSensor> make_sensors(const SensorParts& parts) {
       auto sensor = located(config.where, [&] { return maker->make(shop, {node, i}); });
       sensors.push_back({std::move(sensor), config.rate_hz, config.where});
     }
-  for (uint32_t i = 0; i < parts.scenario.channels.size(); ++i) {
-    const ChannelConfig& config = parts.scenario.channels[i];
+  for (uint32_t i = 0; i < parts.experiment.scenario.channels.size(); ++i) {
+    const ChannelConfig& config = parts.experiment.scenario.channels[i];
     auto sensor = located(config.where, [&] { return make_channel(parts, i); });
     sensors.push_back({std::move(sensor), config.rate_hz, config.where});
   }

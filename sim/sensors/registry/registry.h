@@ -11,11 +11,9 @@
 
 #include "core/error.h"
 #include "scene/device/gpu_scene.h"
-#include "sim/plan/effect_plan.h"
-#include "sim/scenario/scenario.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/registry/shared_passes.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
@@ -30,9 +28,7 @@ struct RunSensor {
 struct SensorParts {
   scene::GpuScene& gpu_scene;
   SharedPasses& passes;
-  const Scenario& scenario;
-  const World& world;
-  const EffectPlan& plan;
+  const Experiment& experiment;
 };
 
 /// All sensors of a scenario in the order of their records: the poses, the sensors of the nodes as the

@@ -8,16 +8,16 @@
 
 namespace greatx::sim {
 
-SharedPasses::SharedPasses(scene::GpuScene& gpu_scene, const Scenario& scenario, const World& world,
-                           const EffectPlan& plan) {
+SharedPasses::SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experiment) {
+  const EffectPlan& plan = experiment.plan;
   if (plan.camera.on)
-    lighting = std::make_unique<render::SceneLighting>(gpu_scene, lighting_of(scenario.environment),
-                                                       camera_effects(plan));
-  if (lighting) stage = std::make_unique<Stage>(gpu_scene, *lighting, world);
+    lighting = std::make_unique<render::SceneLighting>(
+        gpu_scene, lighting_of(experiment.scenario.environment), camera_effects(plan));
+  if (lighting) stage = std::make_unique<Stage>(gpu_scene, *lighting, *experiment.world);
   if (plan.consistency.on) probe = std::make_unique<render::ProbePass>(gpu_scene);
   if (plan.channel.on)
     crossings = std::make_unique<rf::CrossingPass>(
-        gpu_scene, rf::facet_kinds(world.scene, radio_effects(plan, scenario)));
+        gpu_scene, rf::facet_kinds(experiment.scene(), radio_effects(experiment)));
 }
 
 }  // namespace greatx::sim

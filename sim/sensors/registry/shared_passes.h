@@ -8,18 +8,15 @@
 #include "renderer/probe/probe.h"
 #include "rf/paths/crossings.h"
 #include "scene/device/gpu_scene.h"
-#include "sim/plan/effect_plan.h"
-#include "sim/scenario/scenario.h"
+#include "sim/experiment/experiment.h"
 #include "sim/world/stage.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
 /// Passes that several sensors use. Only those of the plan exist; the others are null.
 struct SharedPasses {
-  /// The scene and the world outlive the passes.
-  SharedPasses(scene::GpuScene& gpu_scene, const Scenario& scenario, const World& world,
-               const EffectPlan& plan);
+  /// The scene and the experiment outlive the passes.
+  SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experiment);
 
   std::unique_ptr<render::SceneLighting> lighting;  ///< for cameras of any kind
   std::unique_ptr<Stage> stage;                     ///< exists if `lighting` does
