@@ -12,6 +12,7 @@
 #include "io/dataset/dataset_writer.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::apps {
 
@@ -70,17 +71,6 @@ class Row {
   std::vector<double> wall_, cpu_;
 };
 
-/// Antennas fire with their channel: they cost nothing by themselves, and radars may look at them.
-bool fires(const sim::SensorConfig& sensor) {
-  return !std::holds_alternative<sim::AntennaConfig>(sensor.config);
-}
-
-const char* kind_of(const sim::SensorConfig& sensor) {
-  constexpr const char* kinds[] = {"camera", "event camera", "LiDAR", "radar", "antenna"};
-  static_assert(std::variant_size_v<decltype(sensor.config)> == std::size(kinds));
-  return kinds[sensor.config.index()];
-}
-
 class Bench {
  public:
   Bench(const ScenarioOptions& options, const RunOptions& run, const RigBenchOptions& bench)
@@ -103,14 +93,15 @@ class Bench {
     for (size_t n = 0; n < scenario_.nodes.size(); ++n)
       for (size_t s = 0; s < scenario_.nodes[n].sensors.size(); ++s) {
         const sim::SensorConfig& sensor = scenario_.nodes[n].sensors[s];
-        if (!fires(sensor)) continue;
+        if (!sim::sensor_kind(sensor).fires) continue;  // it costs nothing by itself, and radars may use it
         sim::Scenario without = scenario_;
         without.nodes[n].sensors.erase(without.nodes[n].sensors.begin() + static_cast<std::ptrdiff_t>(s));
         for (sim::SensorConfig& other :
              without.nodes[n].sensors)  // that had its pixels: they render themselves
           if (auto* events = std::get_if<sim::EventCameraConfig>(&other.config))
             if (events->camera == sensor.name) events->camera.clear();
-        add(fmt::format("without {} {}/{}", kind_of(sensor), scenario_.nodes[n].name, sensor.name),
+        add(fmt::format("without {} {}/{}", sim::sensor_kind(sensor).words, scenario_.nodes[n].name,
+                        sensor.name),
             std::move(without), true);
       }
     for (size_t c = 0; c < scenario_.channels.size(); ++c) {

@@ -15,6 +15,7 @@
 #include "sim/plan/antennas.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/override.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::python {
 
@@ -29,12 +30,6 @@ std::vector<std::string> antennas_of(const sim::Scenario& scenario) {
       if (std::holds_alternative<sim::AntennaConfig>(sensor.config))
         names.push_back(node.name + "/" + sensor.name);
   return names;
-}
-
-const char* kind_of(const sim::SensorConfig& sensor) {
-  constexpr const char* kinds[] = {"camera", "event_camera", "lidar", "radar", "antenna"};
-  static_assert(std::size(kinds) == std::variant_size_v<decltype(sensor.config)>);
-  return kinds[sensor.config.index()];
 }
 
 void check_name_is_free(const sim::Scenario& scenario, const std::string& name, const SourceLocation& where) {
@@ -156,7 +151,7 @@ std::string Session::facts() const {
   for (const sim::NodeConfig& node : scenario_.nodes) {
     json["nodes"][node.name] = Json::object();
     for (const sim::SensorConfig& sensor : node.sensors)
-      json["nodes"][node.name][sensor.name] = kind_of(sensor);
+      json["nodes"][node.name][sensor.name] = sim::sensor_kind(sensor).type;
   }
   for (const sim::ChannelConfig& channel : scenario_.channels)
     json["channels"][channel.name] = {{"transmitters", channel.transmitters},

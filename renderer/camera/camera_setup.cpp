@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a camera builds before its first picture: checks, pipelines, images and buffers.
+// Sets up a camera before its first picture: checks, pipelines, images and buffers.
 #include <algorithm>
 #include <cmath>
 

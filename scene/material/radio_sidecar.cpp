@@ -20,7 +20,7 @@ SourceLocation location_of(const YAML::Node& node, const std::string& file) {
   return {file, node.Mark().line >= 0 ? node.Mark().line + 1 : 0};
 }
 
-/// A plain scalar by YAML's core schema; a quoted one is text.
+/// Reads a plain scalar by YAML's core schema. A quoted scalar is text.
 void set_scalar(Field& field, const YAML::Node& node) {
   field.text = node.Scalar();
   field.kind = Kind::text;
@@ -97,7 +97,7 @@ RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   std::set<std::string_view> keys;
   for (const auto& [key, fields] : sidecar.entries_) {
     if (!keys.insert(key).second) throw_user_error_at(fields.where, "materials.{}: given twice", key);
-    // Entries that this scene does not use are checked too: as if laid over some medium.
+    // Entries that this scene does not use are checked too, as if laid over some medium.
     RadioSources any_medium;
     any_medium.radio.emplace().layers.push_back({*itu_medium("vacuum"), 0.0});
     read_radio_fields(fields, any_medium);

@@ -140,7 +140,12 @@ void ChannelSensor::check_sights(const Results& results) {
       for (const rf::Path& path : link.paths)
         if (path.interactions.empty())
           sights_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
-  line_of_sight_errors_.add(sights_);
+}
+
+Evidence ChannelSensor::evidence() const {
+  Evidence evidence;
+  evidence.delays_against_distances = &sights_;
+  return evidence;
 }
 
 void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {

@@ -33,11 +33,7 @@ class ChannelSensor : public Sensor {
   bool looks_ahead() const override { return paths_[0]->looks_ahead(); }
   void record_ahead(gpu::TickSlot& slot, const TickContext& next) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
-  void report(Consistency& consistency) const override {
-    consistency.line_of_sight.add(line_of_sight_errors_);
-  }
-  /// Of the record collected last.
-  const ErrorStatistics& sights() const { return sights_; }
+  Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
@@ -84,7 +80,8 @@ class ChannelSensor : public Sensor {
   std::vector<LinkColumn> link_columns_;
   std::vector<PathColumn> path_columns_;
   SensorSpec spec_;
-  ErrorStatistics line_of_sight_errors_, sights_;
+  /// Of the record collected last: c times the delay of direct paths against the distance.
+  ErrorStatistics sights_;
 };
 
 }  // namespace greatx::sim

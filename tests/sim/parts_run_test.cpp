@@ -90,7 +90,7 @@ void expect_on_rotor(const dvec3& in_rotor, double slack) {
 TEST(PartsRun, PicturesAndSweepsMeetTheBladesWhereTheyAre) {
   const Ran r(hover(looks_down("camera", "depth, ids, flow", 0.0) + scans_down("lidar", 0.0)));
   EXPECT_EQ(r.run.counters.submits, r.run.statistics.ticks);
-  EXPECT_LT(r.run.statistics.consistency.depth.max(), 1e-4);
+  EXPECT_LT(r.run.statistics.consistency.at(depth_figure).max(), 1e-4);
   const dvec3 eye = dvec3(0, 0, 10) - r.world.scene.origin;
   size_t seen = 0, flows = 0;
   std::set<uint32_t> rotors;
@@ -130,9 +130,9 @@ TEST(PartsRun, ASensorSeesNoPartOfItsOwnNode) {
   EXPECT_GT(hits(seen, "uav/camera"), 100u);
   for (const uint16_t id : hidden.run.array<uint16_t>(1, "uav/camera", "instance")) EXPECT_EQ(id, 0);
   // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing else.
-  EXPECT_EQ(hidden.run.statistics.consistency.lidar.count(), 0u);
-  EXPECT_GT(seen.run.statistics.consistency.lidar.count(), 10u);
-  EXPECT_LT(seen.run.statistics.consistency.lidar.max(), 1e-4);
+  EXPECT_EQ(hidden.run.statistics.consistency.at(lidar_figure).count(), 0u);
+  EXPECT_GT(seen.run.statistics.consistency.at(lidar_figure).count(), 10u);
+  EXPECT_LT(seen.run.statistics.consistency.at(lidar_figure).max(), 1e-4);
 }
 
 TEST(PartsRun, TheBoxHoldsThePartsAndKeepsItsSize) {
