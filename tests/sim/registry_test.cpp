@@ -40,12 +40,10 @@ channels:
 )";
 
 TEST(Registry, EverySensorIsMadeInTheScenariosOrderByTheMakerOfItsKind) {
-  const Scenario scenario = parse_scenario(all_kinds, "kinds.yaml", ".");
-  const World world = load_world(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
-  scene::GpuScene gpu_scene(test::device(), world.scene, gpu_scene_options(plan));
-  SharedPasses passes(gpu_scene, scenario, world, plan);
-  const std::vector<RunSensor> sensors = make_sensors({gpu_scene, passes, scenario, world, plan});
+  const Experiment experiment = make_experiment(parse_scenario(all_kinds, "kinds.yaml", "."));
+  scene::GpuScene gpu_scene(test::device(), experiment.world->scene, gpu_scene_options(experiment.plan));
+  SharedPasses passes(gpu_scene, experiment);
+  const std::vector<RunSensor> sensors = make_sensors({gpu_scene, passes, experiment});
   std::vector<std::string> made;
   for (const RunSensor& run : sensors) {
     const SensorSpec& spec = run.sensor->spec();
