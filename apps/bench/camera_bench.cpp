@@ -34,7 +34,8 @@ constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 25
 class CameraRow {
  public:
   CameraRow(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
-      const render::Lighting& lighting, const render::CameraEffects& effects, const render::CameraDesc& desc)
+            const render::Lighting& lighting, const render::CameraEffects& effects,
+            const render::CameraDesc& desc)
       : name_(std::move(name)),
         scene_(std::make_unique<scene::Scene>(std::move(scene))),
         gpu_(device, *scene_,
@@ -125,7 +126,7 @@ std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, con
     std::vector<Instant> instants;
     for (uint32_t step = 0; step <= EventRow::substeps; ++step) {
       const double time_s = begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps;
-      instants.push_back({world.scene.to_local(courses.paths[camera.node]->at(time_s).pose) * mount,
+      instants.push_back({world.scene.to_local(courses.nodes[camera.node]->at(time_s).pose) * mount,
                           sim::body_poses(world, courses, time_s)});
     }
     intervals.push_back(std::move(instants));
@@ -209,7 +210,8 @@ class CameraBench {
     render::CameraDesc large = enlarged(desc_);
     large.msaa = 1;
     large.smooth_edges = false;
-    reference_ = std::make_unique<CameraRow>(device_, "reference", world_.scene, plan_, day_, effects_, large);
+    reference_ =
+        std::make_unique<CameraRow>(device_, "reference", world_.scene, plan_, day_, effects_, large);
   }
 
   nlohmann::json measure(const CameraBenchOptions& options) {
@@ -226,7 +228,8 @@ class CameraBench {
  private:
   void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
            const render::CameraEffects& effects, const render::CameraDesc& desc) {
-    rows_.push_back(std::make_unique<CameraRow>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+    rows_.push_back(
+        std::make_unique<CameraRow>(device_, name, std::move(scene), plan_, lighting, effects, desc));
   }
 
   /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.

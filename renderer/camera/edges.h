@@ -20,9 +20,9 @@ class EdgePass {
   EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
   /// A picture, what its pixels see (CameraPass::seen), and where its smooth version goes.
   struct Pictures {
-    const Picture& from;
+    const PictureBuffers& from;
     const gpu::Buffer& seen;
-    const Picture& to;
+    const PictureBuffers& to;
   };
   void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
               const Pictures& pictures);

@@ -18,14 +18,14 @@ class TriangleTree {
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
  private:
-  struct Node {
+  struct TreeNode {
     Bounds bounds;
     uint32_t first = 0,
              count = 0;  ///< of order_; count 0: an inner node, its children at `first` and `first` + 1
   };
   void split(uint32_t node, std::vector<Bounds>& boxes);
 
-  std::vector<Node> nodes_;
+  std::vector<TreeNode> nodes_;
   std::vector<uint32_t> order_;
 };
 

@@ -10,11 +10,11 @@
 
 namespace greatx::sim {
 
-/// A node's path through the world as a function of time: pose, velocity, acceleration from the curve's
+/// A node's way through the world as a function of time: pose, velocity, acceleration from the curve's
 /// derivatives.
-class Path {
+class Course {
  public:
-  virtual ~Path() = default;
+  virtual ~Course() = default;
   virtual Motion at(double time_s) const = 0;
   virtual bool is_static() const { return false; }
 };
@@ -24,11 +24,11 @@ class Path {
 /// acceleration.
 std::vector<dvec3> way_point_velocities(const std::vector<WayPoint>& points);
 
-/// Paths of every node of one sequence, index = node. Random ones are drawn from (seed, node's name,
+/// Courses of every node of one sequence, index = node. Random ones are drawn from (seed, node's name,
 /// sequence): other nodes change nothing. Bezier curves and corridors last from tick 0 to the last tick, T =
 /// (curve_ticks - 1) / tick_rate: u = t / T; beyond that they go straight on. Way-points have their own times and
 /// hold before and after. Throws UserError naming the node if the limits cannot be met (e.g. no point of the
 /// box within d_min..d_max).
-std::vector<std::unique_ptr<Path>> make_paths(const Scenario& scenario, uint32_t sequence);
+std::vector<std::unique_ptr<Course>> make_node_courses(const Scenario& scenario, uint32_t sequence);
 
 }  // namespace greatx::sim

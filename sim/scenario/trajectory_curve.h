@@ -46,10 +46,10 @@ enum class Beyond {
 /// does not move keeps the attitude likewise. Angular velocity is analytic: constant per segment for slerp,
 /// d(yaw)/dt and d(pitch)/dt for the velocity's direction; zero where the yaw is a held one and where the
 /// curve is not defined (beyond the ends).
-class CurvePath : public Path {
+class CurveCourse : public Course {
  public:
   /// Precondition: one segment or more; `attitudes` empty or segments + 1.
-  CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
+  CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
   Motion at(double time_s) const override;
   bool is_static() const override { return static_; }
 

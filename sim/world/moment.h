@@ -15,12 +15,12 @@ namespace greatx::sim {
 
 /// How everything moves in one sequence.
 struct Courses {
-  std::vector<std::unique_ptr<Path>> paths;  ///< [nodes]
-  std::vector<Rotation> rotations;           ///< [World::parts]
+  std::vector<std::unique_ptr<Course>> nodes;
+  std::vector<Rotation> rotations;  ///< [World::parts]
 };
 
 /// Starts of parts that the scenario does not give are drawn from (seed, the part's name, sequence). Throws like
-/// make_paths.
+/// make_node_courses.
 Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence);
 
 /// How `body` moves: pose in local coordinates; 0 stands still. Of a part, from its node's motion and its turn: angular
