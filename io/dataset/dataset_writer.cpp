@@ -157,7 +157,7 @@ class DatasetWriter::State {
   std::optional<WorkerPool> workers_;  ///< last, so that its threads end before what they use
 };
 
-// The folder: a new one, or one to go on with.
+// These functions open the folder: a new one, or that of an unfinished run.
 
 DatasetWriter::State::State(const fs::path& folder, DatasetInfo info, WriterOptions options)
     : folder_(folder), info_(std::move(info)), description_(dataset_json(info_)), options_(options) {
@@ -261,7 +261,8 @@ void DatasetWriter::State::recover() {
     manifest_.files.insert(manifest_.files.end(), closed.files.begin(), closed.files.end());
 }
 
-// The journey of a packet: checked, queued, its files encoded and written by the workers, committed in order.
+// These functions take a packet on its way: it is checked and queued, the workers encode and write its files,
+// and it is committed in its order.
 
 void DatasetWriter::State::check_packet(const Packet& packet) const {
   GREATX_CHECK(files_, "no sequence was begun");
@@ -418,7 +419,7 @@ void DatasetWriter::State::append_journal(const std::string& line) {
   journal_bytes_ += line.size();
 }
 
-// Sequences and the end of the data set.
+// These functions begin and end sequences, and finish the data set.
 
 void DatasetWriter::State::begin_sequence(uint32_t sequence) {
   GREATX_CHECK(!finished_ && !files_ && sequence == next_sequence_ && sequence < info_.sequences,
@@ -507,7 +508,7 @@ void DatasetWriter::State::check_frames(size_t first) const {
   }
 }
 
-// Errors, and what callers see.
+// These functions report errors and figures to the caller.
 
 WriterStats DatasetWriter::State::stats() const {
   const std::lock_guard lock(mutex_);

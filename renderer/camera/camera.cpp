@@ -62,7 +62,7 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
 
 CameraPass::~CameraPass() = default;
 
-// Before the first picture: checks, pipelines, images and buffers.
+// These functions check the camera and build its pipelines, images and buffers before the first picture.
 
 void CameraPass::check() const {
   const auto require = [&](bool holds, const char* field, const char* expected, double found) {
@@ -248,7 +248,7 @@ void CameraPass::upload_lens() {
   gpu::upload_image(device, lens_, std::span(&texels, 1));
 }
 
-// A picture.
+// These functions record one picture.
 
 std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {
   const scene::Scene& scene = scene_->scene();

@@ -82,7 +82,7 @@ class Country {
   int tree_count_ = 0;
 };
 
-// Sites, fields and the ground.
+// These functions choose the sites and the fields, and lay the ground.
 
 bool Country::near_site(const dvec2& point, double margin) const {
   for (const Site& farm : farms_)
@@ -223,7 +223,7 @@ void Country::add_ground() {
   add("pond", water, SemanticClass::water);
 }
 
-// What stands there: hedges, trees, farms, poles and lamps.
+// These functions add hedges, trees, farms, poles and lamps.
 
 /// A closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
 MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
