@@ -23,7 +23,7 @@ dvec3 micro(const vec3& v) { return {micro(v.x), micro(v.y), micro(v.z)}; }
 float largest(const vec3& color) { return std::max({color.x, color.y, color.z}); }
 
 /// A turn about z, of which the last bit of a sine does not show.
-dquat turn(double yaw) {
+dquat turn_about_z(double yaw) {
   const auto narrow = [](double value) { return static_cast<double>(static_cast<float>(value)); };
   return {narrow(std::cos(yaw / 2)), 0.0, 0.0, narrow(std::sin(yaw / 2))};
 }
@@ -54,7 +54,7 @@ int SceneWriter::add_node(const NodeSpec& node) {
   out.name = node.name;
   out.mesh = node.mesh;
   out.parent = node.parent;
-  out.pose = {snap(node.position), node.yaw != 0.0 ? turn(node.yaw) : Pose{}.orientation};
+  out.pose = {snap(node.position), node.yaw != 0.0 ? turn_about_z(node.yaw) : Pose{}.orientation};
   if (node.scale != 1.0) out.scale = snap(node.scale);
   out.light = node.light;
   out.aim = node.shine;
