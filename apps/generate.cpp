@@ -16,6 +16,7 @@
 #include "apps/console/watch.h"
 #include "apps/files/consistency_files.h"
 #include "io/dataset/dataset_writer.h"
+#include "sim/experiment/experiment.h"
 #include "sim/run/simulator.h"
 #include "sim/scenario/parse/load_scenario.h"
 
@@ -60,12 +61,10 @@ bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const s
 
 void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
-  const sim::Scenario scenario = load_scenario(options.scenario);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
   gpu::Device device(options.run.device_options());
-  sim::Simulator simulator(device, scenario, world, plan);
-  io::DatasetWriter writer(options.output, dataset_info(scenario, world, plan, device, simulator.sensors()),
+  sim::Simulator simulator(device, experiment);
+  io::DatasetWriter writer(options.output, dataset_info(experiment, device, simulator.sensors()),
                            {options.threads, options.resume});
   if (writer.resume_position().finished) {
     if (options.json)
@@ -80,7 +79,7 @@ void run_generate(const GenerateOptions& options) {
   bool complete = false;
   try {
     const TerminalWatch watch(options.quiet);
-    complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
+    complete = run_sequences(simulator, writer, experiment.scenario, options.quiet, begin, first_packet_s);
   } catch (const Interrupted&) {
     writer.flush();  // in the midst of a tick: the packets before are whole
   }

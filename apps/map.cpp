@@ -20,6 +20,7 @@
 #include "draw/map/background.h"
 #include "draw/paths/render.h"
 #include "sim/channel/radio_map_values.h"
+#include "sim/experiment/experiment.h"
 #include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/parse/load_scenario.h"
@@ -70,11 +71,12 @@ MapRequest map_request(const MapOptions& options, const sim::Scenario& scenario)
 }
 
 /// What needs the moment: where transmitters are, how the receiver is turned.
-void add_ends(MapRequest& request, const MapOptions& options, const sim::Scenario& scenario,
-              const sim::World& world, const sim::Moment& moment) {
+void add_ends(MapRequest& request, const MapOptions& options, const sim::Experiment& experiment,
+              const sim::Moment& moment) {
+  const sim::Scenario& scenario = experiment.scenario;
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   for (const std::string& name : channel.transmitters) {
-    const dvec3 at = sim::world_position(sim::antenna_end(scenario, world, name), moment.context);
+    const dvec3 at = sim::world_position(sim::antenna_end(experiment, name), moment.context);
     request.transmitters.push_back({name, dvec2(at)});
     request.ends.push_back(at);
   }
@@ -92,7 +94,8 @@ void add_ends(MapRequest& request, const MapOptions& options, const sim::Scenari
   }
   request.receiver.array = sim::antenna_array(scenario, options.receiver, channel.carrier_hz);
   request.receiver.orientation =
-      sim::state_of(sim::antenna_end(scenario, world, options.receiver), world, moment.context).orientation;
+      sim::state_of(sim::antenna_end(experiment, options.receiver), *experiment.world, moment.context)
+          .orientation;
 }
 
 /// Everything that decides the map's bytes.
@@ -107,9 +110,9 @@ std::string hash_of(std::span<const Pose> bodies) {
   return hash.hex();
 }
 
-Json json_of(const MapOptions& options, const MapRequest& request, const sim::Scenario& scenario,
-             const sim::World& world, const sim::EffectPlan& plan, const sim::MapCells& cells,
-             const gpu::Device& device, const sim::Moment& moment) {
+Json json_of(const MapOptions& options, const MapRequest& request, const sim::Experiment& experiment,
+             const sim::MapCells& cells, const gpu::Device& device, const sim::Moment& moment) {
+  const auto& [scenario, world, plan] = experiment;
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   const sim::MapGrid& grid = request.grid;
   const dvec2 max = grid.max_m();
@@ -117,7 +120,7 @@ Json json_of(const MapOptions& options, const MapRequest& request, const sim::Sc
   Json json{{"greatx", GREATX_VERSION},
             {"scenario", scenario.name},
             {"scenario_sha256", Sha256().update(scenario.text).hex()},
-            {"scene_sha256", world.scene.hash},
+            {"scene_sha256", world->scene.hash},
             {"bodies_sha256", hash_of(moment.bodies)},
             {"device", device.info().name},
             {"driver", device.info().driver},
@@ -208,25 +211,26 @@ void run_map(const MapOptions& given) {
   const auto seconds_since = [](auto start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  const sim::Scenario scenario = load_scenario(options.scenario);
-  MapRequest request = map_request(options, scenario);
-  const sim::World world = sim::load_world(scenario);
+  sim::Scenario as_written = load_scenario(options.scenario);
+  MapRequest request = map_request(options, as_written);
+  auto world = std::make_shared<const sim::World>(sim::load_world(as_written));
   const auto corner = [](const std::vector<double>& xy) {
     return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
   };
-  request.grid = sim::map_grid_of(corner(options.min), corner(options.max), options.cell, world.scene,
-                                  scenario.channels[request.channel].transmitters.size());
-  const sim::EffectPlan plan = sim::make_effect_plan(
-      scenario, world.scene, sim::bounds_of_cells(request.grid, request.height, world.scene));
-  const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(scenario, world.scene) : plan;
+  request.grid = sim::map_grid_of(corner(options.min), corner(options.max), options.cell, world->scene,
+                                  as_written.channels[request.channel].transmitters.size());
+  const sim::Experiment experiment = sim::make_experiment(
+      std::move(as_written), world, sim::bounds_of_cells(request.grid, request.height, world->scene));
+  const sim::Scenario& scenario = experiment.scenario;
+  const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(experiment) : experiment.plan;
   gpu::Device device(options.run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
-                                request.channel, options.instant);
-  add_ends(request, options, scenario, world, snapshot.moment());
-  sim::MapCells cells = sim::place_cells(request.grid, request.height, world.scene, snapshot.model().kinds,
+  sim::ChannelSnapshot snapshot(device, experiment, request.channel, options.instant,
+                                sim::gpu_scene_options(view_plan));
+  add_ends(request, options, experiment, snapshot.moment());
+  sim::MapCells cells = sim::place_cells(request.grid, request.height, world->scene, snapshot.model().kinds,
                                          snapshot.moment().bodies, request.ends, options.beyond_scene);
   cells.solve_inside = options.inside;
-  const Json asked = json_of(options, request, scenario, world, plan, cells, device, snapshot.moment());
+  const Json asked = json_of(options, request, experiment, cells, device, snapshot.moment());
 
   MapJournal journal(options.output, asked, options.resume);
   if (journal.finished()) {
@@ -242,9 +246,7 @@ void run_map(const MapOptions& given) {
 
   const sim::RadioMap map{&cells, journal.links(), request.power};
   MapStage stage = stage_of(options, request, scenario, cells, snapshot.moment());
-  if (options.files.pictures)
-    stage.background =
-        map_background(cells, world.scene, scenario.environment, view_plan, snapshot, options.side);
+  if (options.files.pictures) stage.background = map_background(cells, view_plan, snapshot, options.side);
   const MapTotals totals = map_totals(map);
   Json description{{"request", asked}, {"totals", totals.json()}};
   for (const auto& [name, text] : snapshot.notes()) description["candidates"][name] = text;

@@ -19,6 +19,7 @@
 #include "draw/paths/draw.h"
 #include "draw/paths/render.h"
 #include "io/formats/png.h"
+#include "sim/experiment/experiment.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/parse/receiver_list.h"
@@ -102,12 +103,13 @@ constexpr const char* gain_note =
 constexpr const char* phase_note =
     "arg of (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: vertical to vertical, at the carrier";
 
-Json head_of(const PathsOptions& options, const PathsRequest& request, const sim::Scenario& scenario,
-             const sim::World& world, const sim::EffectPlan& plan, const sim::Moment& moment) {
+Json head_of(const PathsOptions& options, const PathsRequest& request, const sim::Experiment& experiment,
+             const sim::Moment& moment) {
+  const auto& [scenario, world, plan] = experiment;
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   Json head{{"greatx", GREATX_VERSION},
             {"scenario", scenario.name},
-            {"scene_sha256", world.scene.hash},
+            {"scene_sha256", world->scene.hash},
             {"seed", scenario.seed},
             {"sequence", options.instant.sequence},
             {"tick", moment.context.tick},
@@ -150,14 +152,15 @@ std::string closing_text(const PathTotals& totals, const Json& head, const Json&
   return text;
 }
 
-void write_picture(const PathsOptions& options, const PathsRequest& request, const sim::Scenario& scenario,
-                   const sim::World& world, const sim::EffectPlan& plan, const Json& head,
-                   std::span<const PathLink> links, const PathScene& scene, sim::ChannelSnapshot& snapshot) {
-  PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, scenario.environment,
+void write_picture(const PathsOptions& options, const PathsRequest& request, const sim::EffectPlan& plan,
+                   const Json& head, std::span<const PathLink> links, const PathScene& scene,
+                   sim::ChannelSnapshot& snapshot) {
+  const sim::Experiment& experiment = snapshot.experiment();
+  PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, experiment.scenario.environment,
                            snapshot.moment());
   ScenarioView chosen;
   if (request.camera)
-    chosen = scenario_view(*request.camera, scenario, world, snapshot.moment(), options.width);
+    chosen = scenario_view(*request.camera, experiment, snapshot.moment(), options.width);
   else
     chosen.view = choose_view(links, scene, options.width, options.height - picture_bars,
                               [&](const PictureView& view) { return renderer.depth(view); });
@@ -224,18 +227,19 @@ std::vector<PathLink> solve(const PathsOptions& options, const PathsRequest& req
 
 void run_paths(const PathsOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const sim::Scenario scenario = load_scenario(options.scenario);
+  sim::Scenario scenario = load_scenario(options.scenario);
   const PathsRequest request = paths_request(options, scenario);
-  const sim::World world = sim::load_world(scenario);
+  auto world = std::make_shared<const sim::World>(sim::load_world(scenario));
   scene::Bounds points;
   for (const dvec3& point : request.points) points.add(point);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene, points);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), points);
   // Only a picture needs what cameras need.
-  const sim::EffectPlan view_plan = options.png.empty() ? plan : picture_plan(scenario, world.scene);
+  const sim::EffectPlan view_plan = options.png.empty() ? experiment.plan : picture_plan(experiment);
   gpu::Device device(options.run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
-                                request.channel, request.instant);
-  const PathScene scene{&world.scene, snapshot.model().wedges, scenario.channels[request.channel].carrier_hz};
+  sim::ChannelSnapshot snapshot(device, experiment, request.channel, request.instant,
+                                sim::gpu_scene_options(view_plan));
+  const PathScene scene{&experiment.scene(), snapshot.model().wedges,
+                        experiment.scenario.channels[request.channel].carrier_hz};
 
   std::vector<std::unique_ptr<PathsOutput>> outputs;
   if (options.json)
@@ -248,13 +252,12 @@ void run_paths(const PathsOptions& options) {
 
   install_interrupt_handler();
   const TerminalWatch watch(options.quiet);
-  const Json head = head_of(options, request, scenario, world, plan, snapshot.moment());
+  const Json head = head_of(options, request, experiment, snapshot.moment());
   for (const auto& output : outputs) output->begin(head);
   std::optional<CfrFile> cfr;
   if (!options.cfr.empty())
-    cfr.emplace(options.cfr, scenario, world, plan, request.channel, *request.instant.transmitter,
-                request.points.empty() ? std::nullopt : std::optional(request.points.size()),
-                snapshot.model());
+    cfr.emplace(options.cfr, snapshot, *request.instant.transmitter,
+                request.points.empty() ? std::nullopt : std::optional(request.points.size()));
   PathTotals totals;
   std::vector<PathLink> links =
       solve(options, request, scene, snapshot, outputs, cfr ? &*cfr : nullptr, totals);
@@ -263,8 +266,7 @@ void run_paths(const PathsOptions& options) {
   for (const auto& output : outputs) output->end(tail);
 
   if (options.within_db) links = strong_paths(links, scene.carrier_hz, *options.within_db);
-  if (!options.png.empty())
-    write_picture(options, request, scenario, world, view_plan, head, links, scene, snapshot);
+  if (!options.png.empty()) write_picture(options, request, view_plan, head, links, scene, snapshot);
   if (!options.glb.empty()) write_glb(options, head, links, scene, snapshot);
   device.wait_idle();
   check_validation(device);

@@ -68,17 +68,16 @@ void print(const nlohmann::json& result) {
 
 void run(const Options& options) {
   const Clock::time_point begin = Clock::now();
-  sim::Scenario scenario = load_scenario(options.scenario);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
+  const sim::Scenario& scenario = experiment.scenario;
   gpu::Device device(options.run.device_options());
-  sim::Simulator simulator(device, scenario, world, plan);
+  sim::Simulator simulator(device, experiment);
   ScratchFolder scratch;
   Discard discard;
   std::unique_ptr<io::DatasetWriter> writer;
   if (!options.discard) {
-    writer = std::make_unique<io::DatasetWriter>(
-        scratch.path(), dataset_info(scenario, world, plan, device, simulator.sensors()));
+    writer = std::make_unique<io::DatasetWriter>(scratch.path(),
+                                                 dataset_info(experiment, device, simulator.sensors()));
     writer->begin_sequence(0);
   }
   RecordSink& sink = writer ? static_cast<RecordSink&>(*writer) : discard;

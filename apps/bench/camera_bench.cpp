@@ -164,9 +164,7 @@ render::CameraDesc enlarged(render::CameraDesc desc) {
 class CameraBench {
  public:
   CameraBench(const ScenarioOptions& options, const RunOptions& run)
-      : scenario_(load_scenario(options)),
-        world_(sim::load_world(scenario_)),
-        plan_(sim::make_effect_plan(scenario_, world_.scene)),
+      : experiment_(sim::make_experiment(load_scenario(options))),
         device_(run.device_options()),
         camera_(first_sensor<sim::CameraConfig>(scenario_, "--camera", "a camera")) {
     const sim::NodeConfig& node = scenario_.nodes[camera_.node];
@@ -245,7 +243,7 @@ class CameraBench {
     desc.exposure_ev100 = fog_ev100;
     desc.automatic_exposure = false;
     add("fog", world_.scene, sim::lighting_of(environment),
-        sim::camera_effects(sim::make_effect_plan(scenario, world_.scene)), desc);
+        sim::camera_effects(sim::make_effect_plan(scenario, experiment_.scene())), desc);
   }
 
   /// The same view by night: the scene's own lamps, then lamps over the whole scene.
@@ -253,7 +251,7 @@ class CameraBench {
     sim::Scenario scenario = scenario_;
     scenario.environment = {};
     scenario.environment.sun_elevation = radians(night_elevation_deg);
-    const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
+    const sim::EffectPlan plan = sim::make_effect_plan(scenario, experiment_.scene());
     const render::Lighting night = sim::lighting_of(scenario.environment);
     render::CameraDesc desc = desc_;
     desc.exposure_ev100 = night_ev100;
@@ -319,9 +317,10 @@ class CameraBench {
     return result;
   }
 
-  sim::Scenario scenario_;
-  sim::World world_;
-  sim::EffectPlan plan_;
+  sim::Experiment experiment_;
+  const sim::Scenario& scenario_ = experiment_.scenario;
+  const sim::World& world_ = *experiment_.world;
+  const sim::EffectPlan& plan_ = experiment_.plan;
   gpu::Device device_;
   sim::SensorPlace camera_;
   render::CameraDesc desc_;

@@ -114,9 +114,8 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
 /// One way to sweep, with everything it needs.
 class LidarRow {
  public:
-  LidarRow(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
-      const sim::SensorPlace& place)
-      : name_(std::move(name)), lidar_(device, std::move(scenario), world, place) {
+  LidarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
+      : name_(std::move(name)), lidar_(device, std::move(experiment), place) {
     const auto& config =
         std::get<sim::LidarConfig>(lidar_.scenario().nodes[place.node].sensors[place.sensor].config);
     shots_ = render::scan_pattern(config.scan).size();
@@ -161,27 +160,26 @@ class LidarBench {
   LidarBench(const ScenarioOptions& options, const RunOptions& run)
       : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), lidar_option, "a LiDAR")),
         place_(first_sensor<sim::LidarConfig>(scenario_, lidar_option, "a LiDAR")),
-        world_(sim::load_world(scenario_)),
+        world_(std::make_shared<const sim::World>(sim::load_world(scenario_))),
         device_(run.device_options()) {}
 
   void add_rows(const LidarBenchOptions& options) {
     for (const LidarChange& change : changes(own(), options)) {
-      sim::Scenario scenario = changed(scenario_, place_, change, options);
+      sim::Experiment experiment = sim::make_experiment(changed(scenario_, place_, change, options), world_);
       if (!change.effects.empty()) {
-        const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
-        for (const sim::Effect* effect : plan.all())
+        for (const sim::Effect* effect : experiment.plan.all())
           if (effect->name == change.effects[0] && !effect->on) left_out_[change.name] = effect->reason;
         if (left_out_.contains(change.name)) continue;
       }
-      add(rows_.empty() ? change.name : "+ " + change.name, std::move(scenario));
+      add(rows_.empty() ? change.name : "+ " + change.name, std::move(experiment));
     }
-    add("as in the scenario", scenario_);
+    add("as in the scenario", sim::make_experiment(scenario_, world_));
   }
 
   nlohmann::json measure(const LidarBenchOptions& options) {
     const auto warm = static_cast<uint32_t>(options.warm_up);
-    const sim::Courses courses = sim::make_courses(scenario_, world_, 0);
-    const std::vector<sim::Moment> moments = moments_of(scenario_, world_, courses, options.sweeps + warm);
+    const sim::Courses courses = sim::make_courses(scenario_, *world_, 0);
+    const std::vector<sim::Moment> moments = moments_of(scenario_, *world_, courses, options.sweeps + warm);
     for (uint32_t i = 0; i < moments.size(); ++i)
       for (const auto& row : rows_) row->shoot(moments[i], i >= warm);
     return result();
@@ -192,8 +190,8 @@ class LidarBench {
   const sim::LidarConfig& own() const {
     return std::get<sim::LidarConfig>(scenario_.nodes[place_.node].sensors[place_.sensor].config);
   }
-  void add(const std::string& name, sim::Scenario scenario) {
-    rows_.push_back(std::make_unique<LidarRow>(device_, name, std::move(scenario), world_, place_));
+  void add(const std::string& name, sim::Experiment experiment) {
+    rows_.push_back(std::make_unique<LidarRow>(device_, name, std::move(experiment), place_));
   }
 
   nlohmann::json result() const {
@@ -202,7 +200,7 @@ class LidarBench {
                           {"device", device_.info().name},
                           {"driver", device_.info().driver},
                           {"lidar", node.name + "/" + node.sensors[place_.sensor].name},
-                          {"triangles", world_.scene.triangle_count()},
+                          {"triangles", world_->scene.triangle_count()},
                           {"rows", nlohmann::json::array()},
                           {"left_out", left_out_}};
     for (const auto& row : rows_) result["rows"].push_back(row->result());
@@ -213,7 +211,7 @@ class LidarBench {
 
   sim::Scenario scenario_;
   sim::SensorPlace place_;
-  sim::World world_;
+  std::shared_ptr<const sim::World> world_;
   gpu::Device device_;
   std::vector<std::unique_ptr<LidarRow>> rows_;
   std::map<std::string, std::string> left_out_;

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The row of radio maps: a square about the scene's middle, 1.5 m above the ground.
+#include <memory>
+#include <utility>
+
 #include "apps/bench/radio_rows.h"
 #include "sim/channel/radio_map.h"
-#include "sim/plan/plan_options.h"
+#include "sim/experiment/experiment.h"
 
 namespace greatx::apps {
 
@@ -17,18 +20,18 @@ constexpr double cell_m = 1.0, above_ground_m = 1.5;
 }  // namespace
 
 nlohmann::json map_row(const ScenarioOptions& scenario_options, const RunOptions& run, uint32_t side_cells) {
-  const sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
-  const sim::World world = sim::load_world(scenario);
-  const scene::Scene& scene = world.scene;
+  sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
+  auto world = std::make_shared<const sim::World>(sim::load_world(scenario));
+  const scene::Scene& scene = world->scene;
   const dvec2 middle(scene.bounds.center() + scene.origin), half(0.5 * side_cells * cell_m);
   const sim::MapGrid grid = sim::make_map_grid(middle - half, middle + half, cell_m, 1);
   const sim::MapHeight height{std::nullopt, above_ground_m, sim::MapOver::ground};
-  const sim::EffectPlan plan =
-      sim::make_effect_plan(scenario, scene, sim::bounds_of_cells(grid, height, scene));
+  const sim::Experiment experiment =
+      sim::make_experiment(std::move(scenario), world, sim::bounds_of_cells(grid, height, scene));
   gpu::Device device(run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {0, 0, 0});
+  sim::ChannelSnapshot snapshot(device, experiment, 0, {0, 0, 0});
   const dvec3 above = scene.bounds.center() + scene.origin;
-  sim::RadioMapSolver solver(snapshot, scenario, 0, {});
+  sim::RadioMapSolver solver(snapshot, experiment.scenario, 0, {});
   const dvec3 point(middle, above.z);
   snapshot.solve(std::span(&point, 1), 0, [](sim::ChannelSnapshot::Link) { return false; });  // the search
 

@@ -33,9 +33,8 @@ sim::RadarConfig& radar_of(sim::Scenario& scenario, const sim::SensorPlace& plac
 /// One radar, with everything it needs.
 class RadarRow {
  public:
-  RadarRow(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
-      const sim::SensorPlace& place)
-      : name_(std::move(name)), radar_(device, std::move(scenario), world, place) {}
+  RadarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
+      : name_(std::move(name)), radar_(device, std::move(experiment), place) {}
 
   void shoot(const sim::Moment& moment, bool counts) {
     const double cpu_before = cpu_milliseconds();
@@ -117,11 +116,13 @@ class RadarBench {
   RadarBench(const ScenarioOptions& options, const RunOptions& run)
       : scenario_(first_sensor_alone<sim::RadarConfig>(load_scenario(options), radar_option, "a radar")),
         place_(first_sensor<sim::RadarConfig>(scenario_, radar_option, "a radar")),
-        world_(sim::load_world(scenario_)),
+        world_(std::make_shared<const sim::World>(sim::load_world(scenario_))),
         device_(run.device_options()) {}
 
   void add_rows() {
-    const auto frame = [&](const char* name, const RadarChange& change) { frames_.push_back(row(name, change)); };
+    const auto frame = [&](const char* name, const RadarChange& change) {
+      frames_.push_back(row(name, change));
+    };
     frame("as in the scenario", [](auto&, auto&) {});
     frame("1 bounce", [](auto& r, auto&) { r.echoes.max_bounces = 1; });
     frame("4 tracings a frame", [](auto& r, auto&) { r.updates = std::min(4u, r.signal.waveform.chirps()); });
@@ -144,8 +145,8 @@ class RadarBench {
 
   nlohmann::json measure(const RadarBenchOptions& options) {
     const auto warm = static_cast<uint32_t>(options.warm_up);
-    const sim::Courses courses = sim::make_courses(scenario_, world_, 0);
-    const std::vector<sim::Moment> moments = moments_of(scenario_, world_, courses, options.frames + warm);
+    const sim::Courses courses = sim::make_courses(scenario_, *world_, 0);
+    const std::vector<sim::Moment> moments = moments_of(scenario_, *world_, courses, options.frames + warm);
     for (uint32_t i = 0; i < moments.size(); ++i) {
       for (const auto& row : frames_) row->shoot(moments[i], i >= warm);
       for (const auto& row : echoes_) row->shoot(moments[i], i >= warm);
@@ -159,7 +160,8 @@ class RadarBench {
   std::unique_ptr<RadarRow> row(const char* name, const RadarChange& change) {
     sim::Scenario scenario = scenario_;
     change(radar_of(scenario, place_), scenario);
-    return std::make_unique<RadarRow>(device_, name, std::move(scenario), world_, place_);
+    return std::make_unique<RadarRow>(device_, name, sim::make_experiment(std::move(scenario), world_),
+                                      place_);
   }
 
   void compare(const sim::Moment& moment) {
@@ -183,7 +185,7 @@ class RadarBench {
                           {"device", device_.info().name},
                           {"driver", device_.info().driver},
                           {"radar", node.name + "/" + node.sensors[place_.sensor].name},
-                          {"triangles", world_.scene.triangle_count()},
+                          {"triangles", world_->scene.triangle_count()},
                           {"transmitters", signal.waveform.transmitters},
                           {"receivers", signal.arrays.receive_m.size()},
                           {"chirps", signal.waveform.chirps()},
@@ -214,7 +216,7 @@ class RadarBench {
 
   sim::Scenario scenario_;
   sim::SensorPlace place_;
-  sim::World world_;
+  std::shared_ptr<const sim::World> world_;
   gpu::Device device_;
   std::vector<std::unique_ptr<RadarRow>> frames_, echoes_;
   std::unique_ptr<RadarRow> reference_;

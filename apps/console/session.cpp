@@ -84,10 +84,10 @@ void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenari
     throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1, sequence);
 }
 
-io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,
-                             const sim::EffectPlan& plan, const gpu::Device& device,
+io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
                              const std::vector<SensorSpec>& sensors) {
-  const scene::Scene& scene = world.scene;
+  const sim::Scenario& scenario = experiment.scenario;
+  const scene::Scene& scene = experiment.scene();
   nlohmann::json run;
   run["greatx"] = GREATX_VERSION;
   run["scenario"] = scenario.name;
@@ -100,7 +100,7 @@ io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& wo
   run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
   run["semantic_classes"] = scene::semantic_class_names();
   run["instances"] = nlohmann::json::array();
-  const std::vector<sim::InstanceBox> boxes = sim::instance_boxes(world);
+  const std::vector<sim::InstanceBox> boxes = sim::instance_boxes(*experiment.world);
   for (size_t i = 0; i < boxes.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     run["instances"].push_back({{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
@@ -113,7 +113,7 @@ io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& wo
   run["materials"] = nlohmann::json::array();
   for (const scene::Material& material : scene.materials) run["materials"].push_back(material.name);
   run["effects"] = nlohmann::json::object();
-  for (const sim::Effect* effect : plan.all()) run["effects"][effect->name] = effect->on;
+  for (const sim::Effect* effect : experiment.plan.all()) run["effects"][effect->name] = effect->on;
 
   io::DatasetInfo info;
   info.run_json = run.dump();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What generate, explain and bench have in common: from the command line to a scenario, its world and its plan.
+// The commands share this: from the command line to a scenario and a device, and from an experiment to a data set.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,9 @@
 
 #include "gpu/device.h"
 #include "io/dataset/dataset_format.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world/world.h"
 
 namespace greatx::apps {
 
@@ -47,8 +46,7 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario);
 
 /// What a data set says of its run: everything that decides its bytes, and the tables that ids refer to.
-io::DatasetInfo dataset_info(const sim::Scenario& scenario, const sim::World& world,
-                             const sim::EffectPlan& plan, const gpu::Device& device,
+io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
                              const std::vector<SensorSpec>& sensors);
 
 /// Throws if the validation layer had anything to say.

@@ -46,10 +46,8 @@ nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Devic
     return nlohmann::json{
         {"compared", e.count()}, {"max_relative_error", e.max()}, {"q99_relative_error", e.quantile(0.99)}};
   };
-  summary["consistency"] = {{"depth_vs_ray", errors(statistics.consistency.depth)},
-                            {sim::lidar_figure, errors(statistics.consistency.lidar)},
-                            {sim::sight_figure, errors(statistics.consistency.line_of_sight)},
-                            {sim::radar_figure, errors(statistics.consistency.radar)}};
+  summary["consistency"] = nlohmann::json::object();
+  for (const auto& [figure, total] : statistics.consistency) summary["consistency"][figure] = errors(total);
   return summary;
 }
 

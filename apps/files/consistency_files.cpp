@@ -43,8 +43,8 @@ bool parse(const std::string& text, T& value) {
 }
 
 /// Which of the arrays no file keeps as it was; empty: all are there.
-std::string unwritten(const SensorSpec& sensor, std::initializer_list<const char*> arrays) {
-  for (const std::string name : arrays) {
+std::string unwritten(const SensorSpec& sensor, const std::vector<std::string>& arrays) {
+  for (const std::string& name : arrays) {
     const bool kept = std::ranges::any_of(sensor.outputs, [&](const OutputSpec& output) {
       return output.format != FileFormat::png_depth24 && !io::is_export(output.format) &&
              std::ranges::find(output.arrays, name) != output.arrays.end();
@@ -52,6 +52,19 @@ std::string unwritten(const SensorSpec& sensor, std::initializer_list<const char
     if (!kept) return fmt::format("{} of {}", name, sensor.name);
   }
   return {};
+}
+
+/// Null: no figure of this name has rows.
+const sim::Comparison* comparison_with_rows(const std::string& figure) {
+  const sim::Comparison* const comparison = sim::comparison_called(figure);
+  return comparison != nullptr && comparison->recompute != nullptr ? comparison : nullptr;
+}
+
+/// Of a row that parse_consistency_csv() let pass.
+const sim::Comparison& comparison_of(const sim::ConsistencyRow& row) {
+  const sim::Comparison* const comparison = comparison_with_rows(row.figure);
+  GREATX_CHECK(comparison != nullptr, "no figure '{}'", row.figure);
+  return *comparison;
 }
 
 class Recomputer {
@@ -72,28 +85,15 @@ class Recomputer {
   /// Of the arrays that a row needs the first that is not on disk.
   std::string missing(const sim::ConsistencyRow& row) const {
     const SensorSpec &a = *sensor(row.sensor), &b = *sensor(row.other);
-    std::string absent;
-    if (row.figure == sim::lidar_figure) {
-      absent = unwritten(a, {"points", "instance", "material"});
-      if (absent.empty()) absent = unwritten(b, {"depth"});
-      // Boxes alone make a run look at instances, too, which are not kept then.
-      const bool boxes =
-          std::ranges::any_of(b.arrays, [](const ArraySpec& s) { return s.name.starts_with("box_"); });
-      if (absent.empty() && boxes) absent = unwritten(b, {"instance"});
-    } else if (row.figure == sim::sight_figure) {
-      absent = unwritten(a, {"delay", "interaction", "rx", "tx"});
-    } else {
-      absent = unwritten(a, {"range", "power", "instance"});
-      if (absent.empty() && boxes_.empty()) absent = "box_m of instances";
-    }
+    const sim::Comparison::Needs needs = comparison_of(row).needs(b);
+    std::string absent = unwritten(a, needs.arrays);
+    if (absent.empty()) absent = unwritten(b, needs.of_other);
+    if (absent.empty() && needs.boxes && boxes_.empty()) absent = "box_m of instances";
     return absent;
   }
 
   sim::ErrorStatistics recompute(const sim::ConsistencyRow& row) const {
-    const sim::RecordView a = view(row, row.sensor), b = view(row, row.other);
-    if (row.figure == sim::lidar_figure) return sim::compare_lidar(a, b);
-    if (row.figure == sim::sight_figure) return sim::compare_sights(a, b);
-    return sim::compare_radar(a, b, boxes_);
+    return comparison_of(row).recompute(view(row, row.sensor), view(row, row.other), boxes_);
   }
 
  private:
@@ -181,9 +181,7 @@ std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, 
     sim::ConsistencyRow row;
     const bool whole = fields.size() == 7 && parse(fields[1], row.sequence) && parse(fields[2], row.tick) &&
                        parse(fields[5], row.compared) && parse(fields[6], row.largest);
-    const bool known = whole && (fields[0] == sim::lidar_figure || fields[0] == sim::sight_figure ||
-                                 fields[0] == sim::radar_figure);
-    if (!known)
+    if (!whole || comparison_with_rows(fields[0]) == nullptr)
       throw_user_error("{}:{}: expected a figure's line ({}), found '{}'", name, number, header,
                        line.substr(0, 200));
     row.figure = fields[0];
@@ -235,26 +233,28 @@ ConsistencyReport verify_consistency(const fs::path& folder, uint32_t threads) {
           io::Problem{place_of(row), fmt::format("{} against {}, recomputed", row.figure, row.other),
                       words(row.compared, row.largest), words(result.errors.count(), result.errors.max())};
   });
-  for (const char* name : {sim::lidar_figure, sim::sight_figure, sim::radar_figure}) {
-    ConsistencyReport::Figure figure;
-    figure.name = name;
-    for (size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].figure != name) continue;
-      if (!results[i].missing.empty()) {
-        ++figure.unwritten;
-        figure.missing = results[i].missing;
-        continue;
-      }
-      ++figure.records;
-      figure.compared += results[i].errors.count();
-      figure.largest = std::max(figure.largest, results[i].errors.max());
+  std::map<std::string, ConsistencyReport::Figure> figures;  // reported in the order of their names
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ConsistencyReport::Figure& figure = figures[rows[i].figure];
+    if (!results[i].missing.empty()) {
+      ++figure.unwritten;
+      figure.missing = results[i].missing;
+      continue;
     }
-    if (figure.records + figure.unwritten > 0) report.figures.push_back(figure);
+    ++figure.records;
+    figure.compared += results[i].errors.count();
+    figure.largest = std::max(figure.largest, results[i].errors.max());
+  }
+  for (auto& [name, figure] : figures) {
+    figure.name = name;
+    report.figures.push_back(figure);
     if (figure.unwritten > 0)
       report.notes.push_back(fmt::format("{}: not recomputed for {} records: {} is not written", name,
                                          figure.unwritten, figure.missing));
   }
-  report.notes.push_back("depth_vs_ray: not recomputed: the rays are not written");
+  for (const sim::Comparison& comparison : sim::comparisons())
+    if (comparison.recompute == nullptr)
+      report.notes.push_back(fmt::format("{}: not recomputed: {}", comparison.figure, comparison.obstacle));
   for (const Result& result : results)
     if (result.problem) report.problems.push_back(*result.problem);
   return report;

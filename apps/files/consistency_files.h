@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/dataset/verify.h"
-#include "sim/compare/record_consistency.h"
+#include "sim/compare/comparisons.h"
 
 namespace greatx::apps {
 

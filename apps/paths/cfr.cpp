@@ -9,11 +9,12 @@
 
 namespace greatx::apps {
 
-CfrFile::CfrFile(const std::filesystem::path& file, const sim::Scenario& scenario, const sim::World& world,
-                 const sim::EffectPlan& plan, uint32_t channel, uint32_t transmitter,
-                 std::optional<size_t> points, const rf::RadioModel& model)
+CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot,
+                 uint32_t transmitter, std::optional<size_t> points)
     : path_(file) {
-  const sim::ChannelConfig& config = scenario.channels[channel];
+  const auto& [scenario, world, plan] = snapshot.experiment();
+  const rf::RadioModel& model = snapshot.model();
+  const sim::ChannelConfig& config = scenario.channels[snapshot.channel()];
   transmitter_ = sim::antenna_array(scenario, config.transmitters[transmitter], config.carrier_hz);
   if (points)
     receivers_.emplace_back();
@@ -27,7 +28,8 @@ CfrFile::CfrFile(const std::filesystem::path& file, const sim::Scenario& scenari
   count_ = points.value_or(receivers_.size());
   grid_ = {config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers, config.time_samples,
            plan.doppler.on ? config.time_spacing_s : 0.0};
-  if (plan.dispersion.on) dispersion_.emplace(world.scene, model.field_model(), model.effects.weather, grid_);
+  if (plan.dispersion.on)
+    dispersion_.emplace(world->scene, model.field_model(), model.effects.weather, grid_);
 
   io::create_folder_of(path_);
   file_ = io::File::open_for_writing(io::part_name(path_));

@@ -18,10 +18,9 @@ namespace greatx::apps {
 class CfrFile {
  public:
   /// `points`: how many points at rest take the place of the channel's receivers, each with one vertical isotropic antenna;
-  /// none: its own. All but `file` outlive this. The file is `file` + ".part" until finish().
-  CfrFile(const std::filesystem::path& file, const sim::Scenario& scenario, const sim::World& world,
-          const sim::EffectPlan& plan, uint32_t channel, uint32_t transmitter, std::optional<size_t> points,
-          const rf::RadioModel& model);
+  /// none: its own. `snapshot` outlives this. The file is `file` + ".part" until finish().
+  CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot, uint32_t transmitter,
+          std::optional<size_t> points);
   ~CfrFile();
   CfrFile(const CfrFile&) = delete;
   CfrFile& operator=(const CfrFile&) = delete;

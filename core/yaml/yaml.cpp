@@ -15,15 +15,15 @@ namespace {
 
 bool is_plain(const YAML::Node& node) { return node.IsScalar() && node.Tag() != "!"; }
 
-/// How many values a document has when its aliases are written out, each node visited once.
+/// Counts the values of a document as if its aliases were written out. It visits each node once.
 class Counter {
  public:
   explicit Counter(const std::string& name) : name_(name) {}
 
   uint64_t count(const YAML::Node& node) {
     if (!node.IsSequence() && !node.IsMap()) return 1;
-    // An alias is the node that it names. The library does not say which nodes are one; where they begin does, since a
-    // map begins with its first key, but not with a map.
+    // An alias is the node that it names. The library does not say which nodes are the same, but the place
+    // where a node begins does. A map begins at the same place as its first key, but that key is not a map.
     const auto [entry, is_new] = counts_.try_emplace({node.Mark().pos, node.Type()}, open);
     if (!is_new && entry->second == open)
       throw_user_error_at({name_, line_of(node)},
@@ -36,7 +36,7 @@ class Counter {
       else
         total = saturating_sum(total, saturating_sum(count(item.first), count(item.second)));
     }
-    // Saturated is not open.
+    // A saturated sum must differ from `open`.
     total = std::min(total, open - 1);
     require_within(SourceLocation{name_, line_of(node)}.str(), total, budget::yaml_values);
     entry->second = total;

@@ -9,10 +9,10 @@
 
 namespace greatx::apps {
 
-MapBackground map_background(const sim::MapCells& cells, const scene::Scene& scene,
-                             const sim::Environment& environment, const sim::EffectPlan& plan,
+MapBackground map_background(const sim::MapCells& cells, const sim::EffectPlan& plan,
                              sim::ChannelSnapshot& snapshot, uint32_t side) {
-  sim::Environment clear = environment;
+  const scene::Scene& scene = snapshot.experiment().scene();
+  sim::Environment clear = snapshot.experiment().scenario.environment;
   clear.fog_g_m3 = clear.rain_mm_h = 0.0;  // seen from tens of kilometres
   double low = INFINITY, high = -INFINITY;
   for (const double z : cells.z_m)

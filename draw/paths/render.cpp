@@ -31,18 +31,18 @@ render::CameraDesc camera_desc(const PictureView& view, const std::string& name)
 
 }  // namespace
 
-sim::EffectPlan picture_plan(const sim::Scenario& scenario, const scene::Scene& scene) {
-  sim::Scenario with_camera = scenario;
+sim::EffectPlan picture_plan(const sim::Experiment& experiment) {
+  sim::Scenario with_camera = experiment.scenario;
   sim::SensorConfig sensor;
   sensor.name = "paths";
-  sensor.rate_hz = scenario.tick_rate_hz;
+  sensor.rate_hz = with_camera.tick_rate_hz;
   sensor.config = sim::CameraConfig{};
   sim::NodeConfig node;
   node.name = "paths";
   node.trajectory = sim::StaticTrajectory{};
   node.sensors.push_back(std::move(sensor));
   with_camera.nodes.push_back(std::move(node));
-  return sim::make_effect_plan(with_camera, scene);
+  return sim::make_effect_plan(with_camera, experiment.scene());
 }
 
 PictureRenderer::PictureRenderer(scene::GpuScene& gpu_scene, gpu::TickRing& ring, const sim::EffectPlan& plan,
@@ -108,18 +108,19 @@ CameraName find_camera(const std::string& name, const sim::Scenario& scenario) {
                    cameras.empty() ? "it has none" : fmt::format("{}", fmt::join(cameras, ", ")), name);
 }
 
-ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
+ScenarioView scenario_view(const CameraName& camera, const sim::Experiment& experiment,
                            const sim::Moment& moment, uint32_t width) {
+  const sim::Scenario& scenario = experiment.scenario;
   const sim::SensorConfig& sensor = scenario.nodes[camera.node].sensors[camera.sensor];
   const sim::PinholeConfig& config = *sim::pinhole_config(sensor);
   PictureView view;
   sim::set_intrinsics(view, config);
   view.near_m = config.near_m;
   view.local_from_sensor =
-      world.scene.to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);
+      experiment.scene().to_local(moment.motions[camera.node].pose) * sim::mount_pose(sensor.mount);
   ScenarioView result{view.scaled(width), {}};
   result.view.set_lens(config.distortion, scenario.nodes[camera.node].name + "/" + sensor.name);
-  const uint32_t body = world.body_of_node[camera.node];
+  const uint32_t body = experiment.world->body_of_node[camera.node];
   if (body != 0 && !sees_own_body(sensor)) result.excluded_body = body;
   return result;
 }

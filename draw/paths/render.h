@@ -10,13 +10,14 @@
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
 #include "renderer/light/lighting.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/world/moment.h"
 
 namespace greatx::apps {
 
-/// The plan of a scenario that has a camera of RGB and depth as well: what a picture of its scene needs.
-sim::EffectPlan picture_plan(const sim::Scenario& scenario, const scene::Scene& scene);
+/// The plan of an experiment whose scenario has a camera of RGB and depth as well: it has all that a picture of the scene
+/// needs.
+sim::EffectPlan picture_plan(const sim::Experiment& experiment);
 
 /// Pictures of the scene at one moment, from anywhere.
 class PictureRenderer {
@@ -50,7 +51,7 @@ struct ScenarioView {
   PictureView view;
   std::optional<uint32_t> excluded_body;
 };
-ScenarioView scenario_view(const CameraName& camera, const sim::Scenario& scenario, const sim::World& world,
+ScenarioView scenario_view(const CameraName& camera, const sim::Experiment& experiment,
                            const sim::Moment& moment, uint32_t width);
 
 }  // namespace greatx::apps

@@ -10,17 +10,25 @@ namespace greatx::io {
 
 namespace {
 
+/// How a kind of sensor gets onto the sheet.
 struct Maker {
-  std::string_view kind;
-  bool
-      frames;  ///< a picture per moment, drawn for every sensor of the kind; else over time, for the first one only
+  std::string_view kind;  ///< SensorSpec::kind
   void (*add)(const PanelSource&, Panels&);
+  /// A picture per moment, drawn for every sensor of the kind; else over time, for the first one only.
+  bool frames;
+  bool intervals = false;  ///< see is_about_intervals()
 };
 constexpr Maker makers[] = {
-    {"camera", true, add_camera_panels}, {"event_camera", true, add_event_panels},
-    {"lidar", true, add_lidar_panels},   {"radar", true, add_radar_panels},
-    {"csi", false, add_csi_panels},      {"pose", false, add_pose_panels},
+    {"camera", add_camera_panels, true}, {"event_camera", add_event_panels, true, true},
+    {"lidar", add_lidar_panels, true},   {"radar", add_radar_panels, true},
+    {"csi", add_csi_panels, false},      {"pose", add_pose_panels, false},
 };
+
+/// Null: nothing is known about the kind.
+const Maker* maker_of(std::string_view kind) {
+  const auto* const found = std::ranges::find(makers, kind, &Maker::kind);
+  return found == std::end(makers) ? nullptr : found;
+}
 
 constexpr double farthest_m = 1e12;
 constexpr size_t most_nodes = 1'000'000;
@@ -100,13 +108,19 @@ void expect_same_rows(const PanelSource& source, std::initializer_list<const Arr
 }
 
 void add_panels(const PanelSource& source, Panels& panels) {
-  for (const Maker& maker : makers)
-    if (maker.kind == source.spec().kind) maker.add(source, panels);
+  if (const Maker* const maker = maker_of(source.spec().kind)) maker->add(source, panels);
 }
 
+bool has_panels(std::string_view kind) { return maker_of(kind) != nullptr; }
+
 bool has_frame_panels(std::string_view kind) {
-  return std::any_of(std::begin(makers), std::end(makers),
-                     [&](const Maker& maker) { return maker.kind == kind && maker.frames; });
+  const Maker* const maker = maker_of(kind);
+  return maker != nullptr && maker->frames;
+}
+
+bool is_about_intervals(std::string_view kind) {
+  const Maker* const maker = maker_of(kind);
+  return maker != nullptr && maker->intervals;
 }
 
 std::vector<std::string> node_names(const PanelSource& pose) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a contact sheet is made of. A FramePanel is one picture per chosen moment (a column of the sheet), a
-// SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one line in panels.cpp.
+// SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one row in
+// panels.cpp.
 #pragma once
 
 #include <initializer_list>
@@ -20,7 +21,8 @@
 
 namespace greatx::io {
 
-/// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest in time).
+/// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest
+/// in time).
 struct PanelSource {
   const DatasetReader& reader;
   uint32_t sequence;
@@ -30,8 +32,8 @@ struct PanelSource {
   bool has(std::string_view array) const;
   /// "DIR/sequence_0000/SENSOR", as messages begin.
   std::string place() const;
-  /// An array as panels need it, whatever the data set makes of its name: of one of these types and this shape (-1: any
-  /// extent, 0: any from 1 on), without numbers that must not be there. Throws UserError.
+  /// An array as panels need it, whatever the data set makes of its name: of one of these types and this
+  /// shape (-1: any extent, 0: any from 1 on), without numbers that must not be there. Throws UserError.
   Array load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
              const std::vector<int64_t>& shape) const;
 };
@@ -61,8 +63,13 @@ struct Panels {
 
 /// Adds the panels of one sensor; kinds that nothing is known about add none.
 void add_panels(const PanelSource& source, Panels& panels);
+/// Whether sensors of the kind have panels at all.
+bool has_panels(std::string_view kind);
 /// Whether sensors of the kind are drawn moment by moment.
 bool has_frame_panels(std::string_view kind);
+/// Whether a record of the kind is about the time since the record before, so that the first one of a
+/// sequence is empty.
+bool is_about_intervals(std::string_view kind);
 
 // The makers, one for each kind (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp, radar_panels.cpp,
 // csi_panels.cpp, pose_panel.cpp).
@@ -76,11 +83,11 @@ void add_pose_panels(const PanelSource& source, Panels& panels);
 /// Of a camera: normals, optical flow, boxes (truth_panels.cpp); add_camera_panels calls it.
 void add_truth_panels(const PanelSource& source, Panels& panels);
 
-/// A motion as a colour: direction as hue (right: red, down: yellow-green), length as saturation: white 0, full 1,
-/// darker beyond. NaN: black.
+/// A motion as a colour: direction as hue (right: red, down: yellow-green), length as saturation: white 0,
+/// full 1, darker beyond. NaN: black.
 Color flow_color(double u, double v);
-/// Events summed by pixel on neutral grey, ON red, OFF blue, both violet: u8 [height, width, 3]. Throws UserError if one
-/// lies outside.
+/// Events summed by pixel on neutral grey, ON red, OFF blue, both violet: u8 [height, width, 3]. Throws
+/// UserError if one lies outside.
 Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
                     int64_t width, int64_t height);
 

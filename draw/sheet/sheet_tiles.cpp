@@ -31,14 +31,14 @@ Rect fit(const Rect& tile, double aspect) {
 
 std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count) {
   GREATX_CHECK(count > 0, "{} moments", count);
-  const bool events = std::any_of(reader.sensors().begin(), reader.sensors().end(),
-                                  [](const SensorSpec& sensor) { return sensor.kind == "event_camera"; });
+  const bool intervals = std::ranges::any_of(
+      reader.sensors(), [](const SensorSpec& sensor) { return is_about_intervals(sensor.kind); });
   for (const bool frames_only : {true, false}) {
     for (size_t s = 0; s < reader.sensors().size(); ++s) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
       if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s].kind))) continue;
       std::vector<SheetMoment> moments;
-      const size_t first = events && rows.size() > 1 ? 1 : 0;
+      const size_t first = intervals && rows.size() > 1 ? 1 : 0;
       const size_t most = std::min(count, rows.size() - first);
       for (size_t k = 0; k < most; ++k) {
         const size_t i = most == 1 ? first : first + k * (rows.size() - 1 - first) / (most - 1);

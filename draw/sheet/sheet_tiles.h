@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the contact sheet and the animation have in common: which moments they show, the panels of all sensors at them,
-// and the tiles that the panels are drawn into.
+// What the contact sheet and the animation have in common: which moments they show, the panels of all sensors
+// at them, and the tiles that the panels are drawn into.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,13 @@ struct SheetMoment {
   int64_t tick, time_ns;
 };
 
-/// At most `count` (1 or more) moments evenly from the first record to the last of the sensor that rows follow: the
-/// first one drawn moment by moment, else the first one with records. With an event camera the second record stands for
-/// the first, at which there are no events yet.
+/// At most `count` (1 or more) moments evenly from the first record to the last of the sensor that rows
+/// follow: the first one drawn moment by moment, else the first one with records. With a sensor that
+/// is_about_intervals() the second record stands for the first, which is empty.
 std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count);
 
-/// The panels of each sensor, row i of them its record nearest to moments[i]; of the kinds that are drawn over time only
-/// the first sensor gets some.
+/// The panels of each sensor, row i of them its record nearest to moments[i]; of the kinds that are drawn
+/// over time only the first sensor gets some.
 std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t sequence,
                                      const std::vector<SheetMoment>& moments);
 
@@ -44,7 +44,8 @@ std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& pan
 
 /// Of a tile for pictures up to this aspect, kept within reason.
 int tile_height(double tallest_aspect);
-/// The panel's record `row` in the middle of the tile, framed, and its legend below: sheet::legend_height more.
+/// The panel's record `row` in the middle of the tile, framed, and its legend below: sheet::legend_height
+/// more.
 void draw_tile(Canvas& canvas, FramePanel& panel, const Rect& tile, size_t row);
 /// A panel's title above its tile; takes sheet::title_height.
 void draw_title(Canvas& canvas, int x, int y, const std::string& title);

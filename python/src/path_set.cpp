@@ -68,31 +68,31 @@ rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig
 
 }  // namespace
 
-PathSet::PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
+PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
                  std::vector<rf::AntennaArray> receiver_arrays)
-    : stage_(std::move(stage)),
+    : experiment_(std::move(experiment)),
       channel_(channel),
-      config_(stage_->scenario.channels[channel]),
+      config_(experiment_->scenario.channels[channel]),
       receivers_(std::move(receiver_arrays)) {
   for (const std::string& name : config_.transmitters)
-    transmitters_.push_back(sim::antenna_array(stage_->scenario, name, config_.carrier_hz));
+    transmitters_.push_back(sim::antenna_array(experiment_->scenario, name, config_.carrier_hz));
   one_number_of_ports(transmitters_, "transmitters", config_.name);
   one_number_of_ports(receivers_, "receivers", config_.name);
 }
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  const auto wish = stage_->scenario.effects.find("every_element");
+  const auto wish = experiment_->scenario.effects.find("every_element");
   // As sim/plan/array_plan.h.
   const double far_m =
       rf::far_field_distance_m(transmitter(link).array, receiver(link).array, config_.carrier_hz);
   link.near = link.solved.distance_m < far_m &&
-              (wish == stage_->scenario.effects.end() || wish->second != sim::Switch::off);
+              (wish == experiment_->scenario.effects.end() || wish->second != sim::Switch::off);
   links_.push_back(std::move(link));
 }
 
 void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before) {
-  if (stage_->plan.dispersion.on) radio_ = snapshot.radio();
+  if (experiment_->plan.dispersion.on) radio_ = snapshot.radio();
   fill_arrays(snapshot);
   describe(snapshot, before);
 }
@@ -114,7 +114,7 @@ void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
   sim::ChannelConfig config;  // what scenarios may ask for beyond a path's own has functions here
   config.max_depth = config_.max_depth;
   const int64_t rx_ports = receivers_[0].port_count(), tx_ports = transmitters_[0].port_count();
-  const sim::ColumnContext context{&stage_->world.scene, &snapshot.model(), &config, rx_ports, tx_ports};
+  const sim::ColumnContext context{&experiment_->scene(), &snapshot.model(), &config, rx_ports, tx_ports};
   const std::vector<sim::PathColumn> columns = sim::path_columns(context);
 
   std::vector<int64_t> offsets{0};
@@ -162,7 +162,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
                   Array(DType::f64, {static_cast<int64_t>(transmitters()), 3})};
   NamedArray to{"receiver_position", "m", "[rx, xyz] world",
                 Array(DType::f64, {static_cast<int64_t>(receivers()), 3})};
-  const dvec3& origin = stage_->world.scene.origin;
+  const dvec3& origin = experiment_->scene().origin;
   uint64_t near = 0;
   sim::LinkLeftOut left_out;
   for (size_t i = 0; i < links_.size(); ++i) {
@@ -239,10 +239,11 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
 }
 
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = grid_of(request, config_, stage_->plan.doppler.on);
+  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
-    dispersion.emplace(stage_->world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid);
+    dispersion.emplace(experiment_->scene(), radio_->model.field_model(), radio_->model.effects.weather,
+                       grid);
   return blocks({grid.time_samples, grid.subcarriers}, go_on,
                 [&](const Link& link, std::span<Complex64> out) {
                   const std::vector<rf::Path>& paths = link.solved.paths;
@@ -278,7 +279,7 @@ NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {
 
 NamedArrays PathSet::statistics() const {
   const sim::ChannelConfig config;
-  const sim::ColumnContext context{&stage_->world.scene, nullptr, &config, receivers_[0].port_count(),
+  const sim::ColumnContext context{&experiment_->scene(), nullptr, &config, receivers_[0].port_count(),
                                    transmitters_[0].port_count()};
   const std::vector<sim::LinkColumn> columns = sim::link_columns(context);
   NamedArrays arrays;

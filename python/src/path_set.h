@@ -39,7 +39,7 @@ struct ReceivedRequest {
 class PathSet {
  public:
   /// `receiver_arrays`: one for each receiver, or one for all.
-  PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
+  PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
           std::vector<rf::AntennaArray> receiver_arrays);
 
   void add(sim::ChannelSnapshot::Link link);
@@ -83,7 +83,7 @@ class PathSet {
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
   void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
 
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const sim::Experiment> experiment_;
   uint32_t channel_;
   sim::ChannelConfig config_;
   std::vector<rf::AntennaArray> transmitters_, receivers_;

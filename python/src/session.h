@@ -19,9 +19,8 @@
 #include "gpu/device.h"
 #include "sim/channel/channel_snapshot.h"
 #include "sim/channel/radio_map.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world/world.h"
 
 namespace greatx::python {
 
@@ -46,13 +45,6 @@ class SessionMutex {
  private:
   std::mutex mutex_;
   std::atomic<std::thread::id> owner_;
-};
-
-/// What was asked at one time, and never changes: what is computed of it may outlive the next change of the session.
-struct Stage {
-  sim::Scenario scenario;
-  sim::World world;
-  sim::EffectPlan plan;
 };
 
 /// The device of a session. One call at a time has it.
@@ -123,7 +115,7 @@ class Session {
 
  private:
   struct Kept;
-  std::shared_ptr<const Stage> stage();
+  std::shared_ptr<const sim::Experiment> experiment();
   std::shared_ptr<Gpu> gpu();
   void drop_snapshot();
   void changed();
@@ -131,15 +123,17 @@ class Session {
   void check_instant(uint32_t sequence, int64_t tick) const;
   sim::Scenario parse(const std::string& text, const std::string& where) const;
   sim::MapReceiver antenna_at_points(const std::string& text, double carrier_hz) const;
-  sim::ChannelSnapshot& snapshot(const std::shared_ptr<const Stage>& stage, const std::shared_ptr<Gpu>& gpu,
-                                 uint32_t channel, const sim::ChannelSnapshot::Instant& instant,
+  sim::ChannelSnapshot& snapshot(const std::shared_ptr<const sim::Experiment>& experiment,
+                                 const std::shared_ptr<Gpu>& gpu, uint32_t channel,
+                                 const sim::ChannelSnapshot::Instant& instant,
                                  const std::optional<scene::Bounds>& points);
 
   mutable SessionMutex mutex_;
   sim::Scenario scenario_;
   std::string assets_;
   gpu::DeviceOptions device_options_;
-  std::shared_ptr<const Stage> stage_;  ///< null: to be made of scenario_
+  std::shared_ptr<const sim::Experiment>
+      experiment_;  ///< null: to be made of scenario_; results may outlive a change
   std::shared_ptr<Gpu> gpu_;
   std::unique_ptr<Kept> kept_;  ///< the last snapshot: other points of it need no search
 };

@@ -14,7 +14,8 @@ namespace greatx::python {
 
 class Stream {
  public:
-  Stream(std::shared_ptr<const Stage> stage, std::shared_ptr<Gpu> gpu, uint32_t sequence, int64_t first_tick);
+  Stream(std::shared_ptr<const sim::Experiment> experiment, std::shared_ptr<Gpu> gpu, uint32_t sequence,
+         int64_t first_tick);
   ~Stream();
 
   /// Name, kind, arrays and metadata of each sensor, as JSON; index = Record::sensor.
@@ -31,7 +32,7 @@ class Stream {
     void write(Packet packet) override { packets.push_back(std::move(packet)); }
   };
 
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const sim::Experiment> experiment_;
   std::shared_ptr<Gpu> gpu_;
   Queue queue_;
   bool broken_ = false;

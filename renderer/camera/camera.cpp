@@ -266,8 +266,8 @@ std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, 
   }
   culled_ += static_cast<uint32_t>(primitives.size() - drawn.size());
   drawn_ += static_cast<uint32_t>(drawn.size());
-  // Front to back: what is hidden costs a depth test only. The order is total, so ties come out the same
-  // every time.
+  // The order is front to back, so that hidden triangles cost only a depth test. It is total, so that ties
+  // come out the same every time.
   std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) {
     return a.nearest != b.nearest ? a.nearest < b.nearest : a.primitive < b.primitive;
   });
@@ -334,7 +334,7 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
-  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // who reads the picture before
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // for the readers of the picture before
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);

@@ -14,7 +14,7 @@ namespace greatx::render {
 
 namespace {
 
-/// Where a lamp is and how far it reaches, in the view: right, down, forward from the eye.
+/// Holds the place and the reach of a lamp in the view: right, down, forward from the eye.
 struct Ball {
   dvec3 center{0.0};
   double radius = 0.0;
@@ -29,7 +29,7 @@ struct Grid {
   size_t size() const { return size_t{columns} * rows * shared::lamp_slices; }
 };
 
-/// Planar depths that a slice lies between; the first begins at the eye, the last has no end.
+/// The planar depths between which a slice lies. The first begins at the eye, and the last has no end.
 double slice_begin(uint32_t slice) {
   if (slice == 0) return 0.0;
   return std::exp2((slice - double(shared::lamp_slice_of_1m)) / double(shared::lamp_slices_per_octave));
@@ -38,7 +38,8 @@ double slice_end(uint32_t slice) {
   return slice + 1 == shared::lamp_slices ? std::numeric_limits<double>::infinity() : slice_begin(slice + 1);
 }
 
-/// The smallest ball around what a lamp lights: around the cone if it is narrow, else around its cap.
+/// Returns the smallest ball around the part that a lamp lights: around the cone if it is narrow, else around
+/// its cap.
 Ball ball_of(const scene::PunctualLight& light, const dvec3& position, const dvec3& direction) {
   const double reach = lamp_reach(light), half = light.outer_cone;
   if (light.type != scene::PunctualLight::Type::spot || half >= 0.5 * 3.14159265358979323846)
@@ -49,13 +50,15 @@ Ball ball_of(const scene::PunctualLight& light, const dvec3& position, const dve
   return {position + direction * (reach * cosine), reach * std::sin(half)};
 }
 
-/// First and last tile along one axis of what lies within `reach` of `offset` between two depths; empty if last < first.
+/// Holds the first and last tile along one axis of the points within `reach` of `offset` between two depths.
+/// It is empty if last < first.
 struct Span {
   int64_t first = 0, last = -1;
 };
 Span tiles_of(double offset, double reach, double near, double far, double scale, double shift, double tiles,
               uint32_t count) {
-  // (offset / depth) scale + shift is the place over the picture's width; extremes are at the slice's ends.
+  // (offset / depth) scale + shift is the place over the picture's width. The extremes are at the ends of the
+  // slice.
   const auto place = [&](double side, double depth) {
     const double quotient = depth > 0.0 ? side / depth : side * std::numeric_limits<double>::infinity();
     return std::isnan(quotient) ? 0.0 : quotient;
@@ -80,7 +83,7 @@ class Clusters {
   const Grid& grid() const { return grid_; }
   const std::vector<std::vector<uint32_t>>& lists() const { return lists_; }
 
-  /// Adds a lamp to the clusters that a ball around the eye's axes meets; false if there is none.
+  /// Adds a lamp to the clusters that a ball around the eye's axes meets. Returns false if there is none.
   bool add(uint32_t lamp, const Ball& ball) {
     bool any = false;
     const PinholeView& pinhole = view_.pinhole;
@@ -89,7 +92,7 @@ class Clusters {
       const double far = std::min(slice_end(slice), ball.center.z + ball.radius);
       if (near > far || far <= 0.0) continue;
       const double away = std::max({near - ball.center.z, ball.center.z - far, 0.0});
-      // A little more, for the shader's rounding.
+      // The reach is taken a little larger, for the rounding of the shader.
       const double reach = std::sqrt(std::max(ball.radius * ball.radius - away * away, 0.0)) + 1e-3;
       const Span columns =
           tiles_of(ball.center.x, reach, std::max(near, 0.0), far, pinhole.fx / pinhole.width,
@@ -120,12 +123,13 @@ void put_lamp(std::vector<uint32_t>& words, const scene::PunctualLight& light, c
   const bool directional = light.type == scene::PunctualLight::Type::directional;
   float scale = 0.0f, offset = 1.0f;
   if (light.type == scene::PunctualLight::Type::spot) {
-    // KHR_lights_punctual, "Inner and Outer Cone Angles".
+    // The angles are those of KHR_lights_punctual, "Inner and Outer Cone Angles".
     const double inner = std::cos(double(light.inner_cone)), outer = std::cos(double(light.outer_cone));
     scale = float(1.0 / std::max(0.001, inner - outer));
     offset = float(-outer) * scale;
   }
-  // A lamp without a range gets the window of its reach, so that nothing jumps at the rim of its clusters.
+  // A lamp without a range gets the window of its reach, so that the light does not jump at the rim of its
+  // clusters.
   const double reach = lamp_reach(light);
   const float window = directional ? -1.0f : float(1.0 / std::max(reach * reach, 1e-12));
   for (const vec4& quad : {vec4(directional ? -direction : position, window), vec4(direction, scale),
@@ -145,7 +149,7 @@ double lamp_reach(const scene::PunctualLight& light) {
 std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
                                     std::span<const Pose> body_poses, LampCounts& counts) {
   Clusters clusters(view);
-  std::vector<uint32_t> lamps;  // records of those that are seen, which clusters know by number
+  std::vector<uint32_t> lamps;  // records of the seen lamps; clusters name them by number
   counts = {};
   for (const scene::PunctualLight& light : lights) {
     const Pose& pose = body_poses[light.body];

@@ -21,7 +21,7 @@ double centuries(double jde) { return (jde - 2451545.0) / 36525.0; }
 
 double turn(double angle_deg) { return radians(std::remainder(angle_deg, 360.0)); }
 
-/// Ch. 22, the main terms: within 0.5" in longitude and 0.1" in obliquity.
+/// Holds the main terms of ch. 22: within 0.5" in longitude and 0.1" in obliquity.
 struct Nutation {
   double longitude, obliquity;  ///< rad; the obliquity is the true one, mean plus nutation
 };
@@ -37,7 +37,7 @@ Nutation nutation(double t) {
   return {radians(longitude / 3600.0), radians((mean + shift) / 3600.0)};
 }
 
-/// Ch. 13, eq. 13.3 and 13.4.
+/// Applies ch. 13, eq. 13.3 and 13.4.
 void to_equator(GeocentricPlace& place, double longitude, double obliquity) {
   const double l = longitude, b = place.latitude;
   place.right_ascension =
@@ -46,7 +46,7 @@ void to_equator(GeocentricPlace& place, double longitude, double obliquity) {
       std::asin(std::sin(b) * std::cos(obliquity) + std::cos(b) * std::sin(obliquity) * std::sin(l));
 }
 
-/// Apparent sidereal time at Greenwich, rad (ch. 12, eq. 12.4), for a Julian day of UT.
+/// Returns the apparent sidereal time at Greenwich, rad (ch. 12, eq. 12.4), for a Julian day of UT.
 double sidereal_time(double jd, const Nutation& nutation) {
   const double t = centuries(jd);
   const double mean =
@@ -55,7 +55,8 @@ double sidereal_time(double jd, const Nutation& nutation) {
 }
 
 Sighting sight(const GeocentricPlace& place, double sidereal, const Observer& observer, double radius_m) {
-  // Axes of the equator: x in the observer's meridian, y west, z north. The parallax is the difference of two points.
+  // The axes are those of the equator: x in the observer's meridian, y west, z north. The parallax is the
+  // difference of two points.
   const double hour_angle = sidereal + observer.longitude - place.right_ascension;
   const dvec3 body = place.distance_m * dvec3(std::cos(place.declination) * std::cos(hour_angle),
                                               std::cos(place.declination) * std::sin(hour_angle),
@@ -116,7 +117,7 @@ GeocentricPlace sun_from_earth(double jde) {
                         0.000289 * std::sin(3.0 * anomaly);
   const double node = turn(125.04 - 1934.136 * t);
   GeocentricPlace place;
-  // Aberration and nutation.
+  // The longitude gets aberration and nutation.
   place.longitude = turn(mean_longitude + center - 0.00569 - 0.00478 * std::sin(node));
   const double mean_obliquity = (84381.448 - 46.8150 * t - 0.00059 * t * t + 0.001813 * t * t * t) / 3600.0;
   to_equator(place, place.longitude, radians(mean_obliquity + 0.00256 * std::cos(node)));
@@ -176,7 +177,7 @@ double refraction(double true_elevation, double pressure_hpa, double temperature
   const double used = std::max(h, unseen);
   const double minutes = 1.02 / std::tan(radians(used + 10.3 / (used + 5.11)));
   const double fade = h < unseen ? (h - gone) / (unseen - gone) : 1.0;
-  // The formula passes below 0 within a tenth of a minute of the zenith.
+  // Within a tenth of a minute of the zenith the formula passes below 0.
   return std::max(0.0, radians(minutes / 60.0) * fade * pressure_hpa / 1010.0 * 283.0 / temperature_k);
 }
 

@@ -18,7 +18,7 @@ constexpr double air_at_550 = 1.3558e-5;  // Rayleigh's scattering at sea level,
 constexpr double disc_sine = 0.00465;     // half of the disc, for the edge of the Earth's shadow
 constexpr double lowest = -11.0;          // degrees
 
-/// Shares of the densities at sea level (ozone: at its peak).
+/// Holds shares of the densities at sea level (for ozone, of the density at its peak).
 struct Densities {
   double air = 0.0, aerosol = 0.0, ozone = 0.0;
   static Densities at(double height) {
@@ -37,7 +37,7 @@ double height_at(double height, double sine, double distance) {
   return std::sqrt(r * r + distance * distance + 2.0 * r * distance * sine) - earth_radius;
 }
 
-/// To the top of the air, or to the ground if the direction meets it.
+/// Returns the length to the top of the air, or to the ground if the direction meets it.
 double path_length(double height, double sine, bool* ground = nullptr) {
   const double r = earth_radius + height, b = r * sine;
   const double to_ground = b * b - r * r + earth_radius * earth_radius;
@@ -48,7 +48,7 @@ double path_length(double height, double sine, bool* ground = nullptr) {
   return -b + std::sqrt(b * b - r * r + top * top);
 }
 
-/// Visits `steps` points of a path, denser at its start: visit(distance, step length).
+/// Visits `steps` points of a path, which are denser at its start: visit(distance, step length).
 template <typename F>
 void along(double length, int steps, F&& visit) {
   double from = 0.0;
@@ -59,7 +59,7 @@ void along(double length, int steps, F&& visit) {
   }
 }
 
-/// Sine of the elevation at which the horizon lies, seen from a height.
+/// Returns the sine of the elevation at which the horizon lies, seen from a height.
 double horizon_sine(double height) {
   const double ratio = earth_radius / (earth_radius + height);
   return -std::sqrt(std::max(0.0, 1.0 - ratio * ratio));
@@ -72,17 +72,17 @@ struct Blend {
       : i(std::clamp(static_cast<int>(x), 0, count - 2)), share(std::clamp(x - i, 0.0, 1.0)) {}
 };
 
-/// The air, and how its light comes about.
+/// Represents the air, and the light that it scatters.
 class Air {
  public:
   Air(double turbidity, double elevation) : elevation_(elevation) {
     air_ = Spectrum::of_wavelength([](double nm) { return air_at_550 * std::pow(550.0 / nm, 4.0); });
-    // Angstrom's exponent 1.3: A. Angstrom, Geografiska Annaler 11 (1929).
+    // The exponent 1.3 is Angstrom's: A. Angstrom, Geografiska Annaler 11 (1929).
     aerosol_ = Spectrum::of_wavelength([&](double nm) {
       return (turbidity - 1.0) * air_at_550 * air_scale / aerosol_scale * std::pow(550.0 / nm, 1.3);
     });
-    // Ozone: 300 Dobson units, cross sections of K. Bogumil et al., J. Photochem. Photobiol. A 157 (2003), at 400, 440,
-    // ... 680 nm, as a density that peaks at 25 km: 1/m there.
+    // The ozone is 300 Dobson units, with the cross sections of K. Bogumil et al., J. Photochem. Photobiol. A
+    // 157 (2003), at 400, 440, ... 680 nm. The figures are 1/m at the peak of its density, at 25 km.
     ozone_.v = {8.2e-9, 8.5e-8, 4.16e-7, 1.149e-6, 2.291e-6, 2.695e-6, 1.430e-6, 6.49e-7};
     for (int i = 0; i < heights; ++i)
       for (int k = 0; k < sines; ++k) {
@@ -103,7 +103,8 @@ class Air {
     return air_ * d.air + aerosol_ * d.aerosol + ozone_ * d.ozone;
   }
 
-  /// What reaches a height of a light whose elevation there has the given sine; nothing in the Earth's shadow.
+  /// Returns the part that reaches a height of a light whose elevation there has the given sine. In the
+  /// Earth's shadow it is nothing.
   Spectrum light(double height, double sine) const {
     const double low = horizon_sine(height), visible = (sine - low) / (2.0 * disc_sine) + 0.5;
     if (visible <= 0.0) return {};
@@ -117,8 +118,9 @@ class Air {
     return exp_of(extinction(column) * -1.0) * std::min(visible, 1.0);
   }
 
-  /// Visits the air along a view from `height` above the axes' origin: visit(height, sine of the light's elevation
-  /// there, densities, what a unit of source per metre adds to the radiance); returns what the whole way lets through.
+  /// Visits the air along a view from `height` above the axes' origin: visit(height, sine of the light's
+  /// elevation there, densities, weight). The weight is the radiance that a unit of source per metre adds.
+  /// Returns the share of light that passes the whole way.
   template <typename F>
   Spectrum look(double height, const dvec3& direction, const dvec3& to_light, double length, int steps,
                 F&& visit) const {
@@ -136,7 +138,8 @@ class Air {
     return transmittance;
   }
 
-  /// Hillaire's second order and its series, averaged over the sphere, by height and by the light's elevation.
+  /// Sums Hillaire's second order and its series, averaged over the sphere, by height and by the light's
+  /// elevation.
   void scatter_many_times(double ground_albedo) {
     for (int i = 0; i < many_heights; ++i)
       for (int k = 0; k < many_sines; ++k) {
@@ -147,7 +150,7 @@ class Air {
       }
   }
 
-  /// Mean radiance of the light scattered twice and more.
+  /// Returns the mean radiance of the light scattered twice and more.
   Spectrum many(double height, double sine) const {
     const Blend h(std::sqrt(std::clamp(height / thickness, 0.0, 1.0)) * (many_heights - 1), many_heights);
     const double elevation = std::asin(std::clamp(sine, -1.0, 1.0));
@@ -159,15 +162,15 @@ class Air {
 
  private:
   static constexpr int heights = 32, sines = 48, many_heights = 9, many_sines = 7;
-  static constexpr double many_range =
-      radians(10.0);  ///< the light's elevation changes by that within a view
+  /// The light's elevation changes by at most this within a view.
+  static constexpr double many_range = radians(10.0);
   static double node_height(int i, int count) { return thickness * i * i / ((count - 1.0) * (count - 1.0)); }
   double many_elevation(int k) const {
     return std::clamp(elevation_ + many_range * (2.0 * k / (many_sines - 1) - 1.0), -0.5 * pi, 0.5 * pi);
   }
 
   Spectrum scattered_at(double height, const dvec3& to_light, double ground_albedo) const {
-    constexpr int rings = 8, sectors = 4;  // half of the sphere: the other is its mirror image
+    constexpr int rings = 8, sectors = 4;  // half of the sphere: the other half is its mirror image
     Spectrum second, share;
     for (int i = 0; i < rings; ++i)
       for (int k = 0; k < sectors; ++k) {
@@ -245,7 +248,7 @@ dvec3 Atmosphere::radiance(const dvec3& direction) const {
   const double cosine = glm::clamp(glm::dot(direction, light_), -1.0, 1.0), c2 = cosine * cosine,
                g2 = asymmetry * asymmetry;
   const double rayleigh = 3.0 / (16.0 * pi) * (1.0 + c2);
-  // Cornette and Shanks 1992.
+  // This is the phase function of Cornette and Shanks 1992.
   const double base = 1.0 + g2 - 2.0 * asymmetry * cosine;
   const double mie = 3.0 / (8.0 * pi) * (1.0 - g2) * (1.0 + c2) / ((2.0 + g2) * base * std::sqrt(base));
   return rayleigh * at(&Cell::air) + mie * at(&Cell::aerosol) + at(&Cell::rest);

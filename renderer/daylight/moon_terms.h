@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Periodic terms of the moon's longitude, distance and latitude: Meeus, "Astronomical Algorithms", 2nd edition,
-// tables 47.A and 47.B (after the ELP-2000/82 theory).
+// Defines periodic terms of the moon's longitude, distance and latitude: Meeus, "Astronomical Algorithms",
+// 2nd edition, tables 47.A and 47.B (after the ELP-2000/82 theory).
 #pragma once
 
 #include <cstdint>
 
 namespace greatx::render {
 
-/// Multiples of the moon's elongation, the sun's anomaly, the moon's anomaly and its argument of latitude; amplitudes
-/// in 1e-6 degrees (sine) and metres (cosine).
+/// Holds one term: multiples of the moon's elongation, the sun's anomaly, the moon's anomaly and its argument
+/// of latitude. The amplitudes are in 1e-6 degrees (sine) and metres (cosine).
 struct MoonTerm {
   int8_t d, m, m1, f;
   int32_t sine, cosine = 0;

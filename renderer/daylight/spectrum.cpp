@@ -18,7 +18,7 @@ dvec3 eye(double nm) {
           1.217 * bump(nm, 437.0, 11.8, 36.0) + 0.681 * bump(nm, 459.0, 26.0, 13.8)};
 }
 
-/// What a band of sunlight adds to each channel.
+/// Returns the colour that each band of sunlight adds.
 std::array<dvec3, bands> sunlight_colors() {
   constexpr std::array<double, bands> sun{1.50, 1.85, 1.98, 1.88, 1.85, 1.76, 1.62, 1.49};  // W/m^2/nm
   std::array<dvec3, bands> colors{};
@@ -27,7 +27,7 @@ std::array<dvec3, bands> sunlight_colors() {
     dvec3 xyz(0.0);
     for (int nm = 0; nm < 40; ++nm) xyz += eye(380.5 + 40.0 * i + nm) * sun[i];
     luminance += xyz.y;
-    // IEC 61966-2-1.
+    // The matrix is that of IEC 61966-2-1.
     colors[i] = {3.2406 * xyz.x - 1.5372 * xyz.y - 0.4986 * xyz.z,
                  -0.9689 * xyz.x + 1.8758 * xyz.y + 0.0415 * xyz.z,
                  0.0557 * xyz.x - 0.2040 * xyz.y + 1.0570 * xyz.z};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light in eight bands of 40 nm from 380 to 700 nm: enough for air, whose coefficients are smooth. Three bands would turn
-// a clear sky purple.
+// Defines light in eight bands of 40 nm from 380 to 700 nm. They are enough for air, whose coefficients are
+// smooth. Three bands would turn a clear sky purple.
 #pragma once
 
 #include <array>
@@ -50,10 +50,11 @@ inline Spectrum exp_of(Spectrum s) {
   return s;
 }
 
-/// Linear Rec. 709 of a spectrum that is given as a share of the sun's above the air, scaled so that all of the sun's
-/// light has luminance 1. Sun: ASTM G173-03, extraterrestrial, averaged over the bands. Eye: CIE 1931 by the fit of
-/// C. Wyman, P.-P. Sloan and P. Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions",
-/// JCGT 2(2), 2013. Saturated colours outside Rec. 709 come out with channels below 0.
+/// Returns the linear Rec. 709 colour of a spectrum that is given as a share of the sun's above the air,
+/// scaled so that all of the sun's light has luminance 1. The sun is ASTM G173-03, extraterrestrial, averaged
+/// over the bands. The eye is CIE 1931 by the fit of C. Wyman, P.-P. Sloan and P. Shirley, "Simple Analytic
+/// Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013. Saturated colours outside Rec.
+/// 709 have channels below 0.
 dvec3 color_of(const Spectrum& share_of_sun);
 
 }  // namespace greatx::render

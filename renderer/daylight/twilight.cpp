@@ -12,7 +12,8 @@ namespace greatx::render {
 
 namespace {
 
-/// log10(lux) = a + b x + c x^2 + d x^3 with x = elevation / 90 degrees, from `low` up to the next piece.
+/// Describes a piece of log10(lux) = a + b x + c x^2 + d x^3 with x = elevation / 90 degrees, from `low` up
+/// to the next piece.
 struct Piece {
   double low;  ///< degrees
   double a, b, c, d;
@@ -44,7 +45,8 @@ double lux_of(std::span<const Piece> pieces, double elevation_deg) {
 }  // namespace
 
 double sunlight_lux(double elevation) {
-  // At -18 degrees the cubics give natural_night_lux to its last digit: the larger of the two is continuous.
+  // At -18 degrees the cubics give natural_night_lux to its last digit, so the larger of the two is
+  // continuous.
   const double h = degrees(elevation);
   return h <= -18.0 ? natural_night_lux : std::max(natural_night_lux, lux_of(sun_pieces, h));
 }

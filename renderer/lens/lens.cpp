@@ -16,13 +16,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Distorted radius of a lens without tangential terms.
+/// Returns the distorted radius of a lens without tangential terms.
 double radial(const Distortion& d, double r) {
   const double s = r * r;
   return r * (1.0 + s * (d.k1 + s * (d.k2 + s * d.k3)));
 }
 
-/// Where radial() takes the value `target`, or the fold if that comes first: grows up to there, so bisection finds it.
+/// Returns where radial() takes the value `target`, or the fold if that comes first. radial() grows up to
+/// there, so bisection finds the place.
 double radial_inverse(const Distortion& d, double target) {
   const double fold = d.fold_radius();
   double low = 0.0, high = target;
@@ -35,8 +36,8 @@ double radial_inverse(const Distortion& d, double target) {
   return 0.5 * (low + high);
 }
 
-/// Newton's iteration for distort(u) = `distorted` from `u`, steps halved while they do not lead closer. Empty if it
-/// gets stuck (on a fold).
+/// Runs Newton's iteration for distort(u) = `distorted` from `u`. Steps are halved while they do not lead
+/// closer. The result is empty if the iteration gets stuck (on a fold).
 std::optional<dvec2> newton(const Distortion& d, const dvec2& distorted, dvec2 u) {
   dvec2 residual = d.distort(u) - distorted;
   for (int i = 0; i < 60; ++i) {
@@ -56,7 +57,7 @@ std::optional<dvec2> newton(const Distortion& d, const dvec2& distorted, dvec2 u
   return std::nullopt;
 }
 
-/// Whether the determinant of the Jacobian is positive all along from the axis to `u`.
+/// Returns whether the determinant of the Jacobian is positive all along from the axis to `u`.
 bool unfolded(const Distortion& d, const dvec2& u) {
   constexpr int steps = 64;
   for (int i = 1; i <= steps; ++i)
@@ -64,7 +65,8 @@ bool unfolded(const Distortion& d, const dvec2& u) {
   return true;
 }
 
-/// The smallest undistorted radius at which the determinant of the Jacobian is no longer positive, over all directions.
+/// Returns the smallest undistorted radius at which the determinant of the Jacobian is no longer positive,
+/// over all directions.
 double fold_radius_any_direction(const Distortion& d, double within) {
   double least = within;
   constexpr int directions = 720, steps = 512;
@@ -118,14 +120,15 @@ glm::dmat2 Distortion::jacobian(const dvec2& u) const {
 }
 
 double Distortion::fold_radius() const {
-  // In s = r^2 the slope is a cubic: between its extrema it is monotonic, so bisection finds every root.
+  // In s = r^2 the slope is a cubic. Between its extrema it is monotonic, so bisection finds every root.
   const auto slope = [&](double s) { return 1.0 + s * (3.0 * k1 + s * (5.0 * k2 + s * 7.0 * k3)); };
   const double a = 21.0 * k3, b = 10.0 * k2, c = 3.0 * k1;  // its derivative: a s^2 + b s + c
   std::vector<double> ends;
   if (a == 0.0) {
     if (b != 0.0) ends.push_back(-c / b);
   } else if (const double under = b * b - 4.0 * a * c; under > 0.0) {
-    // Without the cancellation of the school's formula (Numerical Recipes, 3rd ed., eq. 5.6.4 and 5.6.5).
+    // The formula avoids the cancellation of the school's one (Numerical Recipes, 3rd ed., eq. 5.6.4 and
+    // 5.6.5).
     const double q = -0.5 * (b + std::copysign(std::sqrt(under), b));
     ends.push_back(q / a);
     if (q != 0.0) ends.push_back(c / q);

@@ -17,7 +17,8 @@ namespace greatx::render {
 
 namespace {
 
-/// Of the ground's radiance, what hides the sky sends on: an albedo of 0.2, seen half in the shade.
+/// The share of the ground's radiance that the objects which hide the sky send on: an albedo of 0.2, seen
+/// half in the shade.
 constexpr float bounce_share = 0.1f;
 
 void check(const Lighting& lighting) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single rays through the scene, for checking pictures against.
+// Traces single rays through the scene, with which pictures are compared.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ class ProbePass {
  public:
   /// Throws ContractError if `scene` was uploaded without acceleration structures.
   explicit ProbePass(const scene::GpuScene& scene);
-  /// Records the rays (local coordinates). Hits of `excluded_body` are passed through.
-  /// Returns where shared::ProbeHit [rays] will stand when the slot's submission is done.
+  /// Records the rays (local coordinates). Hits of `excluded_body` are passed through. Returns the place of
+  /// shared::ProbeHit [rays] once the slot's submission is done.
   gpu::Slice record(gpu::TickSlot& slot, std::span<const shared::ProbeRay> rays,
                     std::optional<uint32_t> excluded_body) const;
 

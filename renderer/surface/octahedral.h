@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions on a square (Z. Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT
-// 3(2), 2014), z up. shaders/camera/octahedral.glsl has the same for shaders.
+// Maps directions to places on a square (Z. Cigolle et al., "A Survey of Efficient Representations for
+// Independent Unit Vectors", JCGT 3(2), 2014), z up. shaders/camera/octahedral.glsl does the same for
+// shaders.
 #pragma once
 
 #include <cmath>
@@ -19,14 +20,14 @@ glm::vec<2, T> octahedral_fold(const glm::vec<2, T>& p) {
           (T(1) - std::abs(p.x)) * (p.y >= T(0) ? T(1) : T(-1))};
 }
 
-/// Of a direction of any length but 0, in [-1, 1]^2.
+/// Returns the place in [-1, 1]^2 of a direction of any length but 0.
 template <typename T>
 glm::vec<2, T> octahedral_place(const glm::vec<3, T>& d) {
   const glm::vec<2, T> p = glm::vec<2, T>(d) / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
   return d.z < T(0) ? octahedral_fold(p) : p;
 }
 
-/// u, v in [0, 1] and unit directions, as the environment map and the map of stars have them.
+/// These functions map u, v in [0, 1] and unit directions, as in the environment map and the map of stars.
 inline dvec2 octahedral_uv(const dvec3& direction) { return octahedral_place(direction) * 0.5 + 0.5; }
 inline dvec3 octahedral_direction(double u, double v) {
   const dvec2 p = 2.0 * dvec2(u, v) - 1.0;
@@ -34,7 +35,7 @@ inline dvec3 octahedral_direction(double u, double v) {
   return glm::normalize(dvec3(z < 0.0 ? octahedral_fold(p) : p, z));
 }
 
-/// Two signed 16-bit fractions of a direction of any length, right to 5e-5 rad; zero stands for +z.
+/// Returns two signed 16-bit fractions of a direction of any length, right to 5e-5 rad. Zero stands for +z.
 inline uint32_t octahedral_word(const vec3& direction) {
   const vec2 p = direction == vec3(0.0f) ? vec2(0.0f) : octahedral_place(direction);
   const auto fraction = [](float x) {

@@ -99,7 +99,7 @@ SurfaceTables::SurfaceTables(const scene::GpuScene& gpu_scene) {
   }
   for (size_t i = 0; i < scene.materials.size(); ++i)
     put_material(materials, scene.materials[i].pbr, gpu_scene.textures().of_material(i));
-  // An empty scene still has something to bind.
+  // An empty scene must still have buffers to bind.
   if (triangles.empty()) triangles.resize(4 * shared::triangle_record_quads);
   if (materials.empty()) materials.resize(4 * shared::material_record_quads);
   triangles_ =

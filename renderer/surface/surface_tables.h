@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What shading a pixel needs of its triangle and material, packed for few wide fetches: on a CPU driver the gathers are
-// what a pixel costs (docs/camera.md has the figures).
+// Defines the data of triangles and materials that shading needs, packed for few wide fetches. On a CPU
+// driver most of a pixel's cost is the gathers (docs/camera.md has the figures).
 #pragma once
 
 #include <vector>
@@ -19,11 +19,12 @@ class SurfaceTables {
 
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;
-  /// Whether records of triangles are read by their address (shared::spec_triangle_address).
+  /// Returns whether records of triangles are read by their address (shared::spec_triangle_address).
   bool by_address() const { return static_cast<bool>(address_); }
-  /// uint [triangles]: the primitive of each.
+  /// uint [triangles]: the primitive of each triangle.
   const gpu::Buffer& triangle_primitives() const { return triangle_primitives_; }
-  /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]: nothing.
+  /// uvec2 [triangles + 1], by triangle + 1: instance + 1, semantic class | (material + 1) << 16; [0]:
+  /// nothing.
   const gpu::Buffer& triangle_ids() const { return triangle_ids_; }
 
  private:

@@ -246,7 +246,7 @@ void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t
   const size_t middle = chain.tree.depth(chain.prefix) + 1;
   if (!in_exterior(wedge, path.vertices[middle - 1]) || !in_exterior(wedge, path.vertices[middle + 1]))
     return;
-  if (!model_->effects.lit_region &&
+  if (!model_->effects.diffraction_lit_region &&
       !in_shadow(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix)))
     return;
   if (chain.tree.end() == Source::receiver) reverse(path);

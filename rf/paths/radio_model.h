@@ -15,12 +15,11 @@
 
 namespace greatx::rf {
 
-/// Which effects act; the effect plan decides (sim/plan/effect_plan.h).
+/// Which effects act. The effect plan decides; names that it has, too, are the same (sim/plan/effect_list.h).
 struct RadioEffects {
   bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
-  bool foliage = false;
-  bool lit_region = true;   ///< diffraction where the wedge does not shade, too
-  bool free_edges = false;  ///< borders of thin plates diffract
+  bool diffraction_lit_region = true;  ///< diffraction where the wedge does not shade, too
+  bool free_edges = false;             ///< borders of thin plates diffract
   /// Of all channels that share the kinds of facets: a wall that takes dark_wall_db there is opaque. 0: none is.
   double lowest_carrier_hz = 0.0;
   Weather weather;     ///< of gas, rain and fog, if they are on

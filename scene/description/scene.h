@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one scene that every modality sees: immutable after load, uploaded to the GPU once.
+// Defines the one scene that every modality sees. It is immutable after loading and uploaded to the GPU once.
 //
 //   Model  = one glTF file, as parsed (model.h)
 //   Scene  = models placed in the world (build.h): flat arrays, ready for upload
 //     body 0          everything that never moves, already in local coordinates (world - origin)
-//     body 1, 2, ...  one per moving object, in its own frame; a pose per tick places it; behind it one for each of its
-//                     parts that turn, whose owner it is
+//     body 1, 2, ...  one per moving object, in its own frame; a pose per tick places it; behind it one for
+//                     each of its parts that turn, whose owner it is
 //     instance        one object with a name, a semantic class and an id on every pixel and return
 //     primitive       a range of triangles of one instance with one material; one geometry of the body's BLAS
 //     facet           coplanar, connected triangles of one body with one material, merged (rf works on these)
 //
-// All static triangles share one acceleration structure, so that a ray cannot slip between two objects that share an
-// edge (Vulkan promises watertightness only within one).
+// All static triangles share one acceleration structure, so that a ray cannot slip between two objects that
+// share an edge (Vulkan promises watertightness only within one).
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@
 
 namespace greatx::scene {
 
-/// What an object is; values are stable, they go to disk.
+/// Names the kind of an object. The values are stable, since they go to disk.
 enum class SemanticClass : uint32_t {
   unlabeled = 0,
   ground = 1,
@@ -48,7 +48,7 @@ enum class SemanticClass : uint32_t {
   person = 16,
 };
 const char* name_of(SemanticClass semantic_class);
-/// Every class's name, index = value.
+/// Returns the name of every class; the index is the value.
 const std::vector<std::string>& semantic_class_names();
 
 struct Bounds {
@@ -66,7 +66,7 @@ struct Bounds {
   dvec3 size() const { return empty() ? dvec3(0.0) : max - min; }
 };
 
-/// RGBA8 image, top row first.
+/// Describes an RGBA8 image, top row first.
 struct Texture {
   std::string name;
   uint32_t width = 0, height = 0;
@@ -89,12 +89,13 @@ struct Instance {
   Bounds bounds;  ///< in the body's frame
 };
 
-/// How a part sits on the body that carries it: its frame has the carrier's axes, until it turns about `axis`.
+/// Describes the joint of a part on the body that carries it. The part's frame has the carrier's axes until
+/// it turns about `axis`.
 struct Joint {
-  uint32_t owner = 0;         ///< the carrier, a body before it that is no part itself
+  uint32_t owner = 0;         ///< the carrier: an earlier body that is not a part itself
   dvec3 position{0.0};        ///< of the part's origin in its owner's frame, metres
   dvec3 axis{0.0, 0.0, 1.0};  ///< unit, in both frames
-  /// owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
+  /// Returns owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
   Pose pose(double angle) const { return {position, glm::angleAxis(angle, axis)}; }
 };
 
@@ -103,10 +104,12 @@ struct Body {
   uint32_t first_primitive = 0, primitive_count = 0;
   Bounds bounds;               ///< in the body's frame
   std::optional<Joint> joint;  ///< of a part
-  Bounds reach;  ///< of a body with parts: its own and all of theirs, however they are turned; else empty
+  /// The bounds of a body with parts: its own and those of all parts, however they are turned. They are empty
+  /// for other bodies.
+  Bounds reach;
 };
 
-/// KHR_lights_punctual, in the body's frame.
+/// Describes a light of KHR_lights_punctual, in the body's frame.
 struct PunctualLight {
   enum class Type : uint32_t { point, spot, directional } type = Type::point;
   std::string name;
@@ -118,7 +121,8 @@ struct PunctualLight {
   uint32_t body = 0;
 };
 
-/// n . x = offset in the body's frame (body 0: local coordinates), fp64 from the file's own numbers.
+/// Holds the plane n . x = offset in the body's frame (body 0: local coordinates), in fp64 from the file's
+/// own numbers.
 struct Facet {
   dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the side that the triangles' winding faces
   double offset = 0.0;
@@ -128,7 +132,7 @@ struct Facet {
   uint32_t first_triangle = 0, triangle_count = 0;  ///< into Scene::facet_triangles
 };
 
-/// A triangle of a facet with exact corners in fp64.
+/// Describes a triangle of a facet, with exact corners in fp64.
 struct FacetTriangle {
   dvec3 corners[3];
 };
@@ -138,7 +142,7 @@ struct Scene {
   std::string hash;   ///< SHA-256 over everything below that reaches a sensor
   dvec3 origin{0.0};  ///< world position of the local origin: local = world - origin
 
-  // Geometry, indexed by Primitive. Body 0 in local coordinates.
+  // The geometry is indexed by Primitive. Body 0 is in local coordinates.
   std::vector<vec3> positions;
   std::vector<vec3> normals;   ///< unit
   std::vector<vec4> tangents;  ///< glTF: w = +-1; zero where no material of the primitive has a normal map
@@ -156,22 +160,22 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
   Bounds bounds;                   ///< of body 0
-  std::vector<std::string> notes;  ///< what the loader mended or chose, for `greatx scene info`
+  std::vector<std::string> notes;  ///< the repairs and choices of the loader, for `greatx scene info`
 
   dvec3 to_local(const dvec3& world) const { return world - origin; }
   Pose to_local(const Pose& world) const { return {world.position - origin, world.orientation}; }
   size_t triangle_count() const { return indices.size() / 3; }
-  /// The body that `body` is a part of; itself, if it is none. A sensor that does not see what carries it sees no body of
-  /// that owner.
+  /// Returns the body that `body` is a part of, or `body` itself if it is not a part. A sensor that does not
+  /// see its carrier sees no body of that owner.
   uint32_t owner_of(uint32_t body) const {
     const std::optional<Joint>& joint = bodies[body].joint;
     return joint ? joint->owner : body;
   }
-  /// Bounds of a body with all its parts however they are turned, in its frame.
+  /// Returns the bounds of a body with all its parts, however they are turned, in its frame.
   const Bounds& reach_of(uint32_t body) const {
     return bodies[body].reach.empty() ? bodies[body].bounds : bodies[body].reach;
   }
-  /// The body called `name`; throws ContractError if there is none.
+  /// Returns the body called `name`. Throws ContractError if there is none.
   uint32_t body_index(const std::string& name) const;
 };
 

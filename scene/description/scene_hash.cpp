@@ -9,7 +9,7 @@
 namespace greatx::scene {
 namespace {
 
-/// Feeds values without the padding that structs may have; lists and texts are preceded by their length.
+/// Feeds values without the padding that structs may have. Lists and texts are preceded by their length.
 class Feeder {
  public:
   template <typename... Values>
@@ -22,7 +22,7 @@ class Feeder {
     hash_.update(std::string_view(string));
     return *this;
   }
-  /// Elements without padding only.
+  /// The elements must have no padding.
   template <typename T>
   Feeder& list(const std::vector<T>& elements) {
     hash_.update_value(static_cast<uint64_t>(elements.size()));

@@ -8,8 +8,9 @@
 
 namespace greatx::scene {
 
-/// SHA-256 over origin, geometry, instances, bodies, facets, materials, textures and lights: everything that reaches a
-/// sensor. Names of materials and textures, notes and the scene's own name do not count.
+/// Returns the SHA-256 over everything that reaches a sensor: origin, geometry, instances, bodies, facets,
+/// materials, textures and lights. Names of materials and textures, notes and the scene's own name do not
+/// count.
 std::string hash_of(const Scene& scene);
 
 }  // namespace greatx::scene

@@ -20,8 +20,8 @@ struct NamePattern {
 
 using enum SemanticClass;
 
-// The first word of a name (split at punctuation, digits and changes of case) that stands here decides; words
-// are compared whole, so that "car" does not find "cardboard". docs/materials.md lists them.
+// The first word of a name that is in this table decides; names are split at punctuation, digits and changes
+// of case. Words are compared whole, so that "car" does not find "cardboard". docs/materials.md lists them.
 constexpr NamePattern patterns[] = {
     {"ground", ground},
     {"plane", ground},
@@ -91,7 +91,7 @@ constexpr NamePattern patterns[] = {
     {"human", person},
 };
 
-// Two words that together mean something else than the first alone.
+// Holds two words that together mean something else than the first word.
 struct PairPattern {
   std::string_view first, second;
   SemanticClass semantic_class;
@@ -161,8 +161,8 @@ std::optional<SemanticClass> semantic_class_from_name(const std::string& name) {
       if (matches(word, pattern.word)) return pattern.semantic_class;
     }
   }
-  // "Hotel_Belfast-itu_marble": the way in which Sionna RT's scenes are exported, one mesh per building and
-  // material.
+  // Sionna RT's scenes are exported with names like "Hotel_Belfast-itu_marble", with one mesh per building
+  // and material.
   if (name.find("-itu_") != std::string::npos) return SemanticClass::building;
   return std::nullopt;
 }

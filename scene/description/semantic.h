@@ -9,10 +9,11 @@
 
 namespace greatx::scene {
 
-/// The class called `name` (name_of's spelling); empty if there is none.
+/// Returns the class called `name` (in name_of's spelling), or nothing if there is none.
 std::optional<SemanticClass> semantic_class_called(const std::string& name);
 
-/// What a node's or mesh's name says about its class, by the patterns of docs/materials.md; empty if nothing.
+/// Returns the class that the name of a node or mesh indicates by the patterns of docs/materials.md, or
+/// nothing.
 std::optional<SemanticClass> semantic_class_from_name(const std::string& name);
 
 }  // namespace greatx::scene

@@ -10,7 +10,8 @@ namespace {
 
 constexpr uint32_t leaf_size = 4;
 
-/// Slabs: does the segment a + t (b - a), t in [0, 1], meet the box grown by `distance`?
+/// Returns whether the segment a + t (b - a), t in [0, 1], meets the box grown by `distance`, by the method
+/// of slabs.
 bool meets(const Bounds& box, const dvec3& a, const dvec3& along, double distance) {
   double enter = 0.0, leave = 1.0;
   for (int axis = 0; axis < 3; ++axis) {

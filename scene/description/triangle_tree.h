@@ -10,18 +10,19 @@
 
 namespace greatx::scene {
 
-/// Boxes around triangles, halved along their longest axis: which triangles may a segment touch?
+/// Represents a tree of boxes around triangles, halved along their longest axis. It finds the triangles that
+/// a segment may touch.
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);
-  /// Appends, ascending, the indices of triangles whose box comes within `distance_m` of the segment.
+  /// Appends, ascending, the indices of the triangles whose box comes within `distance_m` of the segment.
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
  private:
   struct TreeNode {
     Bounds bounds;
-    uint32_t first = 0,
-             count = 0;  ///< of order_; count 0: an inner node, its children at `first` and `first` + 1
+    /// Of order_. With count 0 it is an inner node, whose children are at `first` and `first` + 1.
+    uint32_t first = 0, count = 0;
   };
   void split(uint32_t node, std::vector<Bounds>& boxes);
 

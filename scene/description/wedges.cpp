@@ -16,15 +16,15 @@
 namespace greatx::scene {
 namespace {
 
-/// Facets whose directions around an edge differ by less are in the same place.
+/// Facets whose directions around an edge differ by less than this are in the same place.
 constexpr double same_direction_rad = 1e-4;
 
 auto key(const dvec3& point) { return std::tuple(point.x, point.y, point.z); }
 
-/// A side of a facet's triangle that no other triangle of the facet continues across.
+/// Describes a side of a facet's triangle across which no other triangle of the facet continues.
 struct Side {
   dvec3 a, b;  ///< key(a) < key(b)
-  bool left;   ///< of a to b, seen from the facet's front: where the triangle is
+  bool left;   ///< of a to b, seen from the facet's front: the side of the triangle
 };
 
 std::vector<Side> outline(const Scene& scene, const Facet& facet) {
@@ -50,7 +50,7 @@ std::vector<Side> outline(const Scene& scene, const Facet& facet) {
   return kept;
 }
 
-/// Where a triangle lies along an edge, and to which of its sides it goes off.
+/// Describes the part of an edge on which a triangle lies, and the sides of the edge to which it goes off.
 struct Contact {
   double from = 0.0, to = 0.0;  ///< metres from the edge's start
   uint32_t facet = 0;
@@ -58,7 +58,7 @@ struct Contact {
   bool along_tangent = false, against_tangent = false;
 };
 
-/// Between the edge's start and its end the triangle has it on its outline or inside.
+/// Returns the part between the edge's start and its end that the triangle has on its outline or inside.
 std::optional<Contact> contact_of(const FacetTriangle& triangle, uint32_t index, const Facet& facet,
                                   const dvec3& start, const dvec3& edge, double length, double weld) {
   const dvec3 across = glm::cross(facet.normal, edge);
@@ -84,21 +84,22 @@ std::optional<Contact> contact_of(const FacetTriangle& triangle, uint32_t index,
   contact.from = std::max(contact.from, 0.0);
   contact.to = std::min(contact.to, length);
   if (contact.to - contact.from <= weld) return std::nullopt;
-  for (const double at :
-       {contact.from, contact.to}) {  // in the facet's plane, which corners may be off by a weld
+  // Both ends must lie in the facet's plane; corners may be off it by a weld.
+  for (const double at : {contact.from, contact.to}) {
     if (std::abs(glm::dot(facet.normal, start + at * edge) - facet.offset) > 2.0 * weld) return std::nullopt;
   }
   return contact;
 }
 
-/// A facet that goes off from the edge.
+/// Describes a facet that goes off from the edge.
 struct Direction {
   double angle;  ///< about the edge, by the right hand
   uint32_t facet;
   dvec3 tangent;
 };
 
-/// A piece of an edge with the same facets from end to end. From facet_0 the exterior opens by the right hand about a to b.
+/// Describes a piece of an edge with the same facets from end to end. The exterior opens from facet_0 by the
+/// right hand about a to b.
 struct Piece {
   dvec3 a, b;
   uint32_t facet_0 = no_facet, facet_n = no_facet;
@@ -106,7 +107,7 @@ struct Piece {
   double length() const { return glm::distance(a, b); }
 };
 
-/// The gap that is wider than pi, if there is one, with the facets beside it.
+/// Returns the gap that is wider than pi, if there is one, with the facets beside it.
 std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, const dvec3& b, double flat) {
   std::sort(around.begin(), around.end(), [](const Direction& x, const Direction& y) {
     return std::tuple(x.angle, x.facet) < std::tuple(y.angle, y.facet);
@@ -122,7 +123,7 @@ std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, 
   const size_t first = (last + 1) % count;
   const double gap = turn(last, first);
   if (gap <= pi + flat) return std::nullopt;
-  // Of the directions that are one within rounding, the lowest facet.
+  // Of the directions that are equal within rounding, the lowest facet counts.
   const Direction *before = &around[last], *after = &around[first];
   for (size_t i = 0; i < count; ++i) {
     const Direction& other = around[(first + i) % count];
@@ -138,7 +139,7 @@ std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, 
   return Piece{b, a, after->facet, before->facet, after->tangent, before->tangent};
 }
 
-/// One body's edges.
+/// Finds the edges of one body.
 class EdgeFinder {
  public:
   EdgeFinder(const Scene& scene, const WedgeOptions& options, const std::vector<uint32_t>& facets)
@@ -155,8 +156,9 @@ class EdgeFinder {
   }
 
  private:
-  /// The sides of all outlines. Facets that share one have it once: what lies along it is the same for each of
-  /// them, and around an edge of very many facets asking for each would take the square of the time.
+  /// Returns the sides of all outlines. If facets share a side, it is there once: the facets along it are the
+  /// same for each of them, and around an edge of very many facets asking for each would take the square of
+  /// the time.
   std::vector<Side> sides() const {
     std::vector<Side> all;
     for (const uint32_t facet : facets_)
@@ -245,7 +247,7 @@ class EdgeFinder {
   std::vector<Direction> around_;
 };
 
-/// `direction` turned into the facet's plane, perpendicular to the edge.
+/// Returns `direction` turned into the facet's plane, perpendicular to the edge.
 dvec3 tangent_in(const Facet& facet, const dvec3& edge, const dvec3& direction) {
   const dvec3 tangent = glm::normalize(glm::cross(facet.normal, edge));
   return glm::dot(tangent, direction) < 0.0 ? -tangent : tangent;
@@ -257,7 +259,7 @@ Wedge make_wedge(const Scene& scene, const Piece& piece, dvec3 a, dvec3 b) {
   Wedge wedge;
   wedge.tangent_0 = tangent_in(facet_0, edge, piece.tangent_0);
   if (piece.facet_n == no_facet) {
-    // Face 0 is the front: the exterior begins where the facet's normal points to.
+    // Face 0 is the front: the exterior begins on the side to which the facet's normal points.
     if (glm::dot(glm::cross(edge, wedge.tangent_0), facet_0.normal) < 0.0) {
       std::swap(a, b);
       edge = -edge;
@@ -277,13 +279,13 @@ Wedge make_wedge(const Scene& scene, const Piece& piece, dvec3 a, dvec3 b) {
   return wedge;
 }
 
-/// Pieces between the same facets, joined into straight runs.
+/// Joins pieces between the same facets into straight runs.
 class Joiner {
  public:
   Joiner(const Scene& scene, const WedgeOptions& options) : scene_(scene), options_(options) {}
 
   void join(std::vector<Piece> pieces, std::vector<Wedge>& wedges) {
-    // The longest knows its line best.
+    // The longest piece has the most exact line.
     std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
       return std::tuple(-x.length(), key(x.a), key(x.b)) < std::tuple(-y.length(), key(y.a), key(y.b));
     });
@@ -299,7 +301,8 @@ class Joiner {
   uint64_t too_short() const { return too_short_; }
 
  private:
-  /// Two planes have one line in common, which they know better than a short piece does; none if they are almost parallel.
+  /// Returns the line that both planes have in common. It is more exact than the line of a short piece. The
+  /// result is empty if the planes are almost parallel.
   std::optional<dvec3> common_line(const Piece& piece) const {
     const dvec3 line = glm::cross(scene_.facets[piece.facet_0].normal, scene_.facets[piece.facet_n].normal);
     if (glm::length(line) < 1e-2) return std::nullopt;
@@ -313,7 +316,7 @@ class Joiner {
   bool on_line(const Piece& piece, const Piece& lead, const dvec3& line) const {
     if (glm::dot(piece.b - piece.a, line) < 0.5 * piece.length()) return false;
     if (glm::dot(piece.tangent_0, lead.tangent_0) < 0.5) return false;
-    if (lead.facet_n != no_facet && common_line(lead)) return true;  // the planes have no other
+    if (lead.facet_n != no_facet && common_line(lead)) return true;  // the planes have no other line
     const auto near = [&](const dvec3& point) {
       return glm::length(glm::cross(point - lead.a, line)) <= 2.0 * options_.weld_distance_m;
     };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene on the GPU: uploaded once, then only the bodies' poses change.
+// Defines the scene on the GPU. It is uploaded once; then only the bodies' poses change.
 #pragma once
 
 #include <span>
@@ -16,20 +16,20 @@
 
 namespace greatx::scene {
 
-/// What traces rays through the static world, in the passes that can do either.
+/// Selects the tracer of the static world, in the passes that can use either.
 enum class Tracer : uint32_t {
-  automatic,  ///< the tree on a CPU's driver, else the driver's
+  automatic,  ///< the tree on a CPU driver, else the driver's tracer
   driver,     ///< ray queries
-  tree,       ///< scene/device/static_tree.h; bodies that move are the driver's all the same
+  tree,       ///< scene/device/static_tree.h; the driver still traces moving bodies
 };
 
-/// What the plan asks the upload to make.
+/// Selects the parts that the plan asks the upload to make.
 struct GpuSceneOptions {
   bool acceleration_structure = true;  ///< some pass traces rays
   bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)
   Tracer tracer = Tracer::automatic;
-  /// Tables that grow with the triangles and are larger are read by their address, as those are that the device does not let
-  /// a shader see at once. Tests lower it.
+  /// Tables that grow with the triangles and are larger than this are read by their address. So are tables
+  /// that the device does not let a shader see at once. Tests lower it.
   uint64_t most_table_bytes = ~uint64_t{0};
 };
 
@@ -37,12 +37,13 @@ class GpuScene {
  public:
   GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options);
 
-  /// Uploads the bodies' poses (local coordinates; [0] is ignored) into the slot, and builds the top-level
-  /// structure the first time, refits it when a body moved since, and leaves it alone otherwise. Must be
+  /// Uploads the bodies' poses (local coordinates; [0] is ignored) into the slot. It builds the top-level
+  /// structure the first time, refits it if a body has moved since, and leaves it alone otherwise. It must be
   /// recorded before any pass of the tick that uses the scene.
   void record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses);
 
-  /// The poses alone, for raster passes that look at another instant than the tick's; the acceleration structure stays.
+  /// Uploads only the poses, for raster passes that look at another instant than the tick's. The acceleration
+  /// structure stays.
   void record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses);
 
   const Scene& scene() const { return *scene_; }
@@ -51,17 +52,19 @@ class GpuScene {
   const gpu::Tlas& tlas() const { return tlas_; }
   const GpuTextures& textures() const { return textures_; }
   const gpu::Buffer& indices() const { return indices_; }
-  /// Descriptors of set 0 shared by all passes: scene addresses, TLAS (if there is one), this tick's bodies.
+  /// Returns the descriptors of set 0 that all passes share: scene addresses, TLAS (if there is one), and
+  /// this tick's bodies.
   std::vector<gpu::Descriptor> descriptors() const;
-  /// Their bindings, for building pipelines. `trace`: with the TLAS.
+  /// Returns their bindings, for building pipelines. If `trace`, they include the TLAS.
   static std::vector<gpu::Binding> bindings(bool trace);
-  /// Says in a pipeline's specialization constants which tracer it uses; a shader's own have lower numbers and stand in there
-  /// already. Builds the tree when the first pass is to use it; `descriptors` has it from then on. A tree that would not fit into
-  /// a storage buffer is not built, and the driver's tracer is used.
+  /// Adds the tracer of a pipeline to its specialization constants. The shader's own constants have lower
+  /// numbers and are already there. The tree is built when the first pass is to use it, and from then on
+  /// `descriptors` has it. If the tree would not fit into a storage buffer, it is not built, and the driver's
+  /// tracer is used.
   void specialize_tracer(std::vector<uint32_t>& specialization);
-  /// Whether a pass traces through the tree.
+  /// Returns whether a pass traces through the tree.
   bool has_tree() const { return has_tree_; }
-  /// The same without the TLAS, for raster passes.
+  /// Returns the same without the TLAS, for raster passes.
   std::vector<gpu::Descriptor> raster_descriptors() const;
 
  private:

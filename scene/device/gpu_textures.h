@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures on the GPU, as scene/device/texture_layers.h lays them out: layers of few array images, which a CPU driver
-// calls its sampling code for one by one.
+// Defines the scene's textures on the GPU, as scene/device/texture_layers.h lays them out: layers of few
+// array images. A CPU driver calls its sampling code for each of these images in turn.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,16 @@ namespace greatx::scene {
 class GpuTextures {
  public:
   GpuTextures() = default;
-  /// Those that `materials` name.
+  /// Uploads the textures that `materials` name.
   GpuTextures(gpu::Device& device, std::span<const Texture> textures, std::span<const Material> materials);
 
   /// The arrays: sampler2DArray [arrays] in set 1, binding 0.
   const gpu::TextureTable& table() const { return table_; }
-  /// Those of a material (index into Scene::materials).
+  /// Returns the textures of a material (index into Scene::materials).
   const MaterialTextures& of_material(size_t material) const { return materials_[material]; }
-  /// The arrays that textures of one use are in, a bit each, for a specialization constant (shaders/lib/textures.glsl):
-  /// the shader asks for them one by one. 0: it picks one by a number that differs between its lanes.
+  /// Returns the arrays that hold the textures of one use, a bit each, for a specialization constant
+  /// (shaders/lib/textures.glsl). The shader asks for them one by one. With 0 the shader picks an array by a
+  /// number that differs between its lanes.
   uint32_t arrays_of(TextureReference MaterialTextures::*use) const;
 
  private:

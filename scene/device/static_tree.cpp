@@ -18,7 +18,8 @@ namespace greatx::scene {
 namespace {
 
 constexpr int bin_count = 16;
-/// A leaf with more is split in any case; one with fewer where that is cheaper than testing all of them.
+/// A leaf with more triangles is split in any case. One with fewer is split where that is cheaper than
+/// testing all of them.
 constexpr uint32_t most_in_leaf = 4;
 static_assert(most_in_leaf <= shared::tree_most_in_leaf);
 
@@ -33,7 +34,7 @@ struct Box {
     max = glm::max(max, other.max);
   }
   vec3 center() const { return 0.5f * min + 0.5f * max; }
-  /// Half of the surface, in fp64 so that no scene overflows it.
+  /// Returns half of the surface, in fp64 so that no scene overflows it.
   double area() const {
     if (min.x > max.x) return 0.0;
     const dvec3 size = dvec3(max) - dvec3(min);
@@ -120,7 +121,7 @@ class Builder {
     return me;
   }
 
-  /// Bins along an axis on which not all centres are one.
+  /// Holds the bins along an axis on which the centres are not all equal.
   struct Bins {
     double low, per_length;
     Bins(const Box& centers, int axis)
@@ -130,7 +131,8 @@ class Builder {
     }
   };
 
-  /// Sum over both sides of area times triangles; no axis if all centres are one point.
+  /// Minimises the sum over both sides of area times triangles. There is no axis if all centres are one
+  /// point.
   Split best_split(uint32_t first, uint32_t count, const Box& centers) const {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -163,8 +165,8 @@ class Builder {
     return best;
   }
 
-  /// Puts those of the left side first and says how many they are. In the middle where there is nothing to choose by, and
-  /// as soon as halving alone would still keep the tree's depth.
+  /// Puts the triangles of the left side first and returns their number. It divides in the middle if the
+  /// split gives no axis, or as soon as halving alone would only just keep the tree's depth.
   uint32_t divide(uint32_t first, uint32_t count, uint32_t level, const Box& centers, const Split& split) {
     const auto begin = order_.begin() + first, end = begin + count;
     if (split.axis >= 0 && level + static_cast<uint32_t>(std::bit_width(count)) < shared::tree_most_depth) {
@@ -188,7 +190,7 @@ class Builder {
   uint32_t depth_ = 0;
 };
 
-/// The grid of the boxes' corners, with the shader's own numbers.
+/// Holds the grid of the boxes' corners, with the shader's own numbers.
 struct Frame {
   vec3 low{0.0f}, step{1.0f};
 
@@ -197,7 +199,8 @@ struct Frame {
     const vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
     const float least = std::max({reach.x, reach.y, reach.z, 1.0f}) * 0x1p-20f;  // flat worlds
     low = box.min;
-    // A little more than needed, so that the last step lies beyond whatever way the division was rounded.
+    // The step is a little larger than needed, so that the last step lies beyond the box however the division
+    // was rounded.
     step = glm::max(box.max - box.min, vec3(least)) * (1.0001f / static_cast<float>(shared::tree_steps));
   }
   uint32_t below(const vec3& point, int axis) const { return whole(std::floor(steps(point, axis))); }
@@ -244,7 +247,7 @@ std::vector<Sphere> moving_spheres(const Scene& scene) {
       for (const vec3& corner : corners) bounds.add(dvec3(corner));
     });
     if (bounds.empty()) continue;
-    // The centre is rounded: as much is added to the radius, and its own rounding.
+    // The centre is rounded. The radius grows by that error and by its own rounding.
     const vec3 center(bounds.center());
     const double radius = 0.5 * glm::length(bounds.size()) + glm::length(dvec3(center) - bounds.center());
     spheres.push_back({body, center, static_cast<float>(radius * (1.0 + 0x1p-22))});

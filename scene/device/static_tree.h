@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tree of boxes around the triangles of the static world, for tracing without the driver (shaders/lib/tree.glsl): where
-// the driver is a CPU's, its own structure costs a gather for every word of a node.
+// Defines a tree of boxes around the triangles of the static world, for tracing without the driver
+// (shaders/lib/tree.glsl). The driver's own structure on a CPU costs a gather for every word of a node.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace greatx::scene {
 
-/// What shaders/shared/tree.h lays out. The same scene gives the same words.
+/// Holds the words that shaders/shared/tree.h lays out. The same scene gives the same words.
 struct StaticTree {
   std::vector<uint32_t> words;  ///< quadruples, never empty
   uint32_t inner_nodes = 0, leaves = 0;
@@ -20,9 +20,10 @@ struct StaticTree {
   uint32_t depth = 0;      ///< inner nodes on the longest way down; at most shared::tree_most_depth
 };
 
-/// Binary, split where the surface area heuristic says (sixteen bins an axis: I. Wald, "On fast construction of SAH-based
-/// bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing 2007). Boxes are rounded outwards to 1/65535 of
-/// the scene's extent. Serial; 150,000 triangles take a quarter of a second.
+/// Makes a binary tree, split by the surface area heuristic (sixteen bins an axis: I. Wald, "On fast
+/// construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing 2007).
+/// Boxes are rounded outwards to 1/65535 of the scene's extent. The code is serial; 150,000 triangles take a
+/// quarter of a second.
 StaticTree make_static_tree(const Scene& scene);
 
 }  // namespace greatx::scene

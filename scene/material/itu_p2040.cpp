@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recommendation ITU-R P.2040-4 (2025), "Effects of building materials and structures on radiowave
+// Table of Recommendation ITU-R P.2040-4 (2025), "Effects of building materials and structures on radiowave
 // propagation above about 100 MHz", Table 3: eta' = a f^b (eq. 28), sigma = c f^d S/m (eq. 29), f in GHz.
 #include <algorithm>
 #include <array>
@@ -66,7 +66,8 @@ constexpr TableMaterial table3[] = {
 };
 // clang-format on
 
-/// Lower case without '_', '-', ' ' and without a leading "itu": "ITU_Ceiling-Board" -> "ceilingboard".
+/// Returns the name in lower case without '_', '-', ' ' and without a leading "itu": "ITU_Ceiling-Board" ->
+/// "ceilingboard".
 std::string comparison_key(const std::string& name) {
   std::string key;
   for (const char character : name) {

@@ -22,7 +22,7 @@ std::string ranges_of(const RadioMedium& medium) {
   return text;
 }
 
-/// How far outside the row's range the frequency lies, in octaves (ranges span decades); 0 inside.
+/// Returns how far outside the row's range the frequency lies, in octaves (ranges span decades); 0 inside.
 double octaves_outside(const RadioRow& row, double frequency_hz) {
   if (frequency_hz < row.min_hz) return std::log2(row.min_hz / frequency_hz);
   if (frequency_hz > row.max_hz) return std::log2(frequency_hz / row.max_hz);

@@ -38,7 +38,8 @@ std::string description_of(const RadioField& field) {
   throw_user_error_at(field.where, "{}: expected {}, found {}", field.path, expected, description_of(field));
 }
 
-/// The members of a map, each of which has to be asked for: what nobody asks for is an unknown key.
+/// Represents the members of a map. The reader asks for each one, and a member that it does not ask for is an
+/// unknown key.
 class Members {
  public:
   explicit Members(const RadioField& map) : map_(map) {
@@ -72,7 +73,7 @@ class Members {
     if (value && *value != std::floor(*value)) refuse(*find(key), "a whole number from 1 to 100");
     return value;
   }
-  /// Strictly positive metres.
+  /// Reads a thickness in metres above 0.
   std::optional<double> thickness(std::string_view key) {
     const auto value = number(key, 0.0, 1e6, "a thickness in metres above 0 (leave it out for a half-space)");
     if (value && *value <= 0.0)
@@ -85,7 +86,7 @@ class Members {
     if (field->kind != Kind::boolean) refuse(*field, "true or false");
     return field->boolean;
   }
-  /// Call last: throws for the first member that nobody asked for.
+  /// Must be called last. Throws for the first member that the reader did not ask for.
   void finish() const {
     for (const auto& [name, field] : map_.members) {
       if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
@@ -102,7 +103,7 @@ class Members {
 
 constexpr double any = std::numeric_limits<double>::max();
 
-/// a, b, c, d and the range of one row; `optional`: nothing if none of them is given.
+/// Reads a, b, c, d and the range of one row. If `optional`, the result is empty if none of them is given.
 std::optional<RadioRow> read_row(Members& members, bool optional) {
   static constexpr const char* keys[] = {"a", "b", "c", "d", "min_hz", "max_hz"};
   double values[6];
@@ -176,7 +177,7 @@ std::optional<RadioMedium> read_permittivity(Members& members) {
   return RadioMedium{"explicit permittivity", {row}, false};
 }
 
-/// The medium, by exactly one of its four ways; empty if by none.
+/// Reads the medium by exactly one of its four ways. The result is empty if none of them is used.
 std::optional<RadioMedium> read_medium(Members& members) {
   std::optional<RadioMedium> medium;
   for (auto* read : {read_itu, read_rows, read_flat_row, read_permittivity}) {
@@ -220,7 +221,7 @@ std::optional<std::vector<RadioLayer>> read_layers(Members& members) {
   return layers;
 }
 
-/// The wall itself: medium and thickness, or layers, or changes to what the sources below say.
+/// Reads the wall itself: medium and thickness, or layers, or changes to the statements of the sources below.
 void read_wall(Members& members, std::optional<RadioMaterial>& radio) {
   auto medium = read_medium(members);
   auto layers = read_layers(members);
@@ -264,7 +265,8 @@ std::optional<ScatteringPattern> read_pattern(Members& members) {
   refuse(*field, "lambertian, directive or backscattering");
 }
 
-/// Foliage is a volume: in one source it goes with nothing that describes a wall or its surface.
+/// Reads foliage. It is a volume, so one source cannot combine it with fields that describe a wall or its
+/// surface.
 std::optional<Foliage> read_foliage(Members& members) {
   const RadioField* field = members.find("foliage");
   if (!field) return std::nullopt;

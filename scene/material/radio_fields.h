@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The radio fields of docs/materials.md, read by one parser from JSON (the extension) and from YAML (the
-// sidecar).
+// Reads the radio fields of docs/materials.md. One parser reads them from JSON (the extension) and from YAML
+// (the sidecar).
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace greatx::scene {
 
-/// A value of a JSON or YAML document and the place where it stands.
+/// Describes a value of a JSON or YAML document, and its place.
 struct RadioField {
   enum class Kind { null, boolean, number, text, list, map } kind = Kind::null;
   bool boolean = false;
@@ -29,22 +29,23 @@ struct RadioField {
   std::string path;  ///< e.g. "materials.wall.layers[1].thickness_m"
 };
 
-/// A JSON value; `what` starts every message ("x.glb: material 'wall'").
+/// Returns a JSON value as a RadioField; `what` starts every message ("x.glb: material 'wall'").
 RadioField field_from_json(const nlohmann::json& value, const std::string& what, const std::string& path);
 
-/// What one source (name, extension or sidecar) says about a material, laid over what the sources below it
-/// say.
+/// Describes the statements of one source (name, extension or sidecar) about a material, laid over those of
+/// the sources below it.
 struct RadioSources {
   std::optional<RadioMaterial> radio;
   std::optional<float> reflectance_905nm, reflectance_1550nm;
 };
 
-/// Lays `fields` (a map) over `below`. Throws UserError naming place and field: unknown key, wrong type, out
-/// of range, unknown ITU name, no medium where one is needed.
+/// Lays `fields` (a map) over `below`. Throws UserError naming place and field for an unknown key, a wrong
+/// type, a value out of range, an unknown ITU name, or a missing medium where one is needed.
 RadioSources read_radio_fields(const RadioField& fields, const RadioSources& below);
 
-/// "itu_concrete", "ITU-Concrete.001", "mat-itu_concrete" -> "concrete" as written; empty if the name is none
-/// of ITU's form. It may still be unknown to the table.
+/// Returns the ITU part of a name as written: "itu_concrete", "ITU-Concrete.001", "mat-itu_concrete" ->
+/// "concrete". The result is empty if the name does not have ITU's form. The table may still not know the
+/// name.
 std::optional<std::string> itu_part_of_name(const std::string& material_name);
 
 }  // namespace greatx::scene

@@ -10,16 +10,17 @@
 
 namespace greatx::scene {
 
-/// The YAML file that maps material names or globs to radio fields (docs/materials.md).
+/// Represents the YAML file that maps material names or globs to radio fields (docs/materials.md).
 class RadioSidecar {
  public:
-  /// Empty: no entries.
+  /// Makes a sidecar without entries.
   RadioSidecar() = default;
-  /// Throws UserError with file:line: not YAML, no `materials` map, unknown or repeated key.
+  /// Throws UserError with file:line if the file is not YAML, has no `materials` map, or has an unknown or
+  /// repeated key.
   static RadioSidecar read(const std::filesystem::path& file);
 
-  /// The fields for `material_name`: the entry of that exact name, else the first glob that matches, else
-  /// null.
+  /// Returns the fields for `material_name`: the entry of that exact name, else the first glob that matches,
+  /// else null.
   const RadioField* find(const std::string& material_name) const;
 
  private:

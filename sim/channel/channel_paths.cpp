@@ -9,25 +9,14 @@
 
 #include "core/activity.h"
 #include "core/parallel.h"
+#include "sim/plan/plan_options.h"
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
 
-rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario) {
-  rf::RadioEffects effects;
-  effects.line_of_sight = plan.line_of_sight.on;
-  effects.reflection = plan.reflection.on;
-  effects.transmission = plan.transmission.on;
-  effects.diffraction = plan.diffraction.on;
-  effects.scattering = plan.scattering.on;
-  effects.lit_region = plan.diffraction_lit_region.on;
-  effects.free_edges = plan.free_edges.on;
-  effects.field.roughness = plan.roughness.on;
-  effects.field.scattering = plan.scattering.on;
-  effects.field.gas = plan.gas.on;
-  effects.field.rain = plan.rain.on;
-  effects.field.fog = plan.fog.on;
-  effects.field.foliage = plan.foliage.on;
+rf::RadioEffects radio_effects(const Experiment& experiment) {
+  const Scenario& scenario = experiment.scenario;
+  rf::RadioEffects effects = radio_switches(experiment.plan);
   effects.field.seed = scenario.seed;
   effects.weather = weather_of(scenario.environment);
   for (const ChannelConfig& channel : scenario.channels)
@@ -36,29 +25,28 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
   return effects;
 }
 
-RadioWorld::RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel)
-    : model(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
-      surroundings(world.scene, model.kinds) {}
+RadioWorld::RadioWorld(const Experiment& experiment, uint32_t channel)
+    : model(experiment.scene(), experiment.scenario.channels[channel].carrier_hz, radio_effects(experiment)),
+      surroundings(experiment.scene(), model.kinds) {}
 
-ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
-                           uint32_t channel, ChannelEnds ends)
-    : world_(world),
-      config_(scenario.channels[channel]),
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, std::shared_ptr<RadioWorld> radio, uint32_t channel,
+                           ChannelEnds ends)
+    : world_(*experiment.world),
+      config_(experiment.scenario.channels[channel]),
       ends_(std::move(ends)),
       radio_(std::move(radio)),
       crossings_(crossings) {
   const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
                                           [](const ChannelEnd& end) { return end.rests; });
-  search_.emplace(&gpu_scene, radio_->model, plan, config_,
+  search_.emplace(&gpu_scene, radio_->model, experiment.plan, config_,
                   ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
 }
 
-ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world, uint32_t channel)
-    : ChannelPaths(gpu_scene, crossings, plan, scenario, world,
-                   std::make_shared<RadioWorld>(plan, scenario, world, channel), channel,
-                   channel_ends(scenario, world, channel, 0)) {}
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, uint32_t channel)
+    : ChannelPaths(gpu_scene, crossings, experiment, std::make_shared<RadioWorld>(experiment, channel),
+                   channel, channel_ends(experiment, channel, 0)) {}
 
 void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
   ends_.receivers.clear();

@@ -20,18 +20,17 @@
 #include "rf/paths/path_solver.h"
 #include "sim/channel/channel_search.h"
 #include "sim/channel/ends.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
-/// The radio effects of a plan, for rf/.
-rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario);
+/// The radio effects of the plan, for rf/.
+rf::RadioEffects radio_effects(const Experiment& experiment);
 
 /// The scene as the waves of one channel meet it, bodies where they were moved to; all links of the channel share it.
 struct RadioWorld {
-  RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel);
+  RadioWorld(const Experiment& experiment, uint32_t channel);
   rf::RadioModel model;
   rf::Surroundings surroundings;
 };
@@ -62,13 +61,12 @@ class ChannelPaths {
 
   /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the channel
   /// stands still, or diffraction is on and candidates come from rays.
-  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
-               uint32_t channel, ChannelEnds ends);
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               std::shared_ptr<RadioWorld> radio, uint32_t channel, ChannelEnds ends);
 
   /// The channel's first transmitter and its receivers, alone.
-  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, uint32_t channel);
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               uint32_t channel);
 
   /// Points at rest, in the world, in place of the receivers; before start(). May be called again between
   /// ticks with other points: what was found for the transmitter stays.

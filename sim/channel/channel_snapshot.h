@@ -37,9 +37,10 @@ class ChannelSnapshot {
     LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
   };
-  /// All arguments but `options` and `instant` outlive this. Throws UserError like ChannelPaths.
-  ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan,
-                  const scene::GpuSceneOptions& options, uint32_t channel, const Instant& instant);
+  /// `device` and `experiment` outlive this. `options`: of the scene on the GPU, for whoever draws it as well; none: the
+  /// plan's. Throws UserError like ChannelPaths.
+  ChannelSnapshot(gpu::Device& device, const Experiment& experiment, uint32_t channel, const Instant& instant,
+                  const std::optional<scene::GpuSceneOptions>& options = {});
 
   /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again. Gives the same
   /// paths as a snapshot that is made there; counters go on. What shares radio() sees bodies move.
@@ -54,6 +55,8 @@ class ChannelSnapshot {
   void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 
+  const Experiment& experiment() const { return experiment_; }
+  uint32_t channel() const { return channel_; }
   const Moment& moment() const { return moment_; }
   const rf::RadioModel& model() const { return radio_->model; }
   /// The same for those whose results outlive the snapshot.
@@ -73,8 +76,8 @@ class ChannelSnapshot {
  private:
   bool solve_batch(size_t first, const Take& take);
 
-  const Scenario& scenario_;
-  const World& world_;
+  const Experiment& experiment_;
+  uint32_t channel_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
   Courses courses_;

@@ -32,15 +32,14 @@ rf::AntennaArray element_alone(rf::AntennaArray array) {
 
 }  // namespace
 
-ElementPaths::ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world,
-                           const std::shared_ptr<RadioWorld>& radio, uint32_t channel, ArrayEnd transmitter,
-                           ArrayEnd receiver)
+ElementPaths::ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, const std::shared_ptr<RadioWorld>& radio,
+                           uint32_t channel, ArrayEnd transmitter, ArrayEnd receiver)
     : transmitter_(std::move(transmitter)), receiver_(std::move(receiver)) {
   const std::vector<ChannelEnd> receivers = elements_of(receiver_);
   for (const ChannelEnd& element : elements_of(transmitter_))
-    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, plan, scenario, world, radio,
-                                                    channel, ChannelEnds{element, receivers, false, false}));
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio, channel,
+                                                    ChannelEnds{element, receivers, false, false}));
 }
 
 void ElementPaths::record(gpu::TickSlot& slot, const TickContext& context) {

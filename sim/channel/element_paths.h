@@ -24,9 +24,9 @@ struct ArrayEnd {
 class ElementPaths {
  public:
   /// Nothing is searched before the first record(). Arguments are as ChannelPaths', and outlive this.
-  ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, const std::shared_ptr<RadioWorld>& radio,
-               uint32_t channel, ArrayEnd transmitter, ArrayEnd receiver);
+  ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               const std::shared_ptr<RadioWorld>& radio, uint32_t channel, ArrayEnd transmitter,
+               ArrayEnd receiver);
 
   /// A new sequence.
   void start() { started_ = false; }

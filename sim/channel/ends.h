@@ -10,8 +10,8 @@
 
 #include "core/vec.h"
 #include "rf/paths/path_solver.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
@@ -32,12 +32,11 @@ struct ChannelEnds {
 };
 
 /// The antenna "node/sensor" of the scenario; it must exist.
-ChannelEnd antenna_end(const Scenario& scenario, const World& world, const std::string& name);
+ChannelEnd antenna_end(const Experiment& experiment, const std::string& name);
 /// At rest in the world.
 ChannelEnd point_end(const dvec3& point, size_t number);
 /// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked if it is 0.
-ChannelEnds channel_ends(const Scenario& scenario, const World& world, uint32_t channel,
-                         uint32_t transmitter);
+ChannelEnds channel_ends(const Experiment& experiment, uint32_t channel, uint32_t transmitter);
 
 /// Local coordinates, with the velocity that the node's turning gives to what is mounted off its origin.
 rf::EndState state_of(const ChannelEnd& end, const World& world, const TickContext& context);

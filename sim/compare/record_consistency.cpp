@@ -147,6 +147,14 @@ double outside(double range_m, const Span& span, double ambiguity_m, double bin_
 
 }  // namespace
 
+RecordView view_of(const SensorSpec& spec, const Record& record) {
+  return {spec, [&spec, &record](const std::string& name) {
+            const auto found = std::ranges::find(spec.arrays, name, &ArraySpec::name);
+            GREATX_CHECK(found != spec.arrays.end(), "{} has no array {}", spec.name, name);
+            return record.arrays[static_cast<size_t>(found - spec.arrays.begin())];
+          }};
+}
+
 ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera) {
   const Json about = metadata_of(camera);
   const render::CameraDesc desc = camera_of(about);

@@ -17,6 +17,7 @@
 namespace greatx::sim {
 
 /// Names of the figures, in summaries and files.
+inline constexpr const char* depth_figure = "depth_vs_ray";
 inline constexpr const char* lidar_figure = "lidar_vs_depth";
 inline constexpr const char* sight_figure = "line_of_sight_delay_vs_distance";
 inline constexpr const char* radar_figure = "radar_range_vs_box";
@@ -37,6 +38,8 @@ struct RecordView {
   const SensorSpec& spec;
   std::function<Array(const std::string& name)> array;
 };
+/// A record of a run. Spec and record outlive the view.
+RecordView view_of(const SensorSpec& spec, const Record& record);
 
 /// Returns of a LiDAR (all shots at the tick) against the depth picture of a pinhole camera on the same node:
 /// lidar_against_depth() for each.

@@ -69,8 +69,8 @@ void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scena
   const Nearest nearest = nearest_of(scenario);
   const bool rays = std::any_of(scenario.channels.begin(), scenario.channels.end(),
                                 [](const ChannelConfig& channel) { return channel.candidates == "rays"; });
-  plan.every_element = planner.decide(
-      "every_element", nearest.near(),
+  planner.decide(
+      plan.every_element, nearest.near(),
       scenario.channels.empty() ? "no channel"
       : nearest.far_m == 0.0    ? (rays ? "candidates from rays are for one point of an array"
                                         : "no antenna has more than one element")

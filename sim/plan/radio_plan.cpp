@@ -148,21 +148,19 @@ struct Radio {
 
 void plan_reflection(EffectPlan& plan, const Radio& radio) {
   const RadioAsks& asks = radio.asks;
-  plan.channel =
-      radio.planner.fixed("channel", radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
-  plan.line_of_sight =
-      radio.planner.decide("line_of_sight", radio.on(), radio.why("transmitters and receivers"));
+  radio.planner.decide(plan.channel, radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
+  radio.planner.decide(plan.line_of_sight, radio.on(), radio.why("transmitters and receivers"));
   const bool reflect = radio.on() && asks.max_depth > 0 && radio.surfaces.triangles;
-  plan.reflection = radio.planner.decide(
-      "reflection", reflect,
+  radio.planner.decide(
+      plan.reflection, reflect,
       radio.why(asks.max_depth == 0         ? "max_depth is 0"
                 : !radio.surfaces.triangles ? "the scene has no surface"
                                             : fmt::format("surfaces, up to {} reflections", asks.max_depth)),
       !reflect    ? ""
       : asks.rays ? "candidates from rays: what is narrower than their spacing may be missed"
                   : "candidates from beams: none is missed");
-  plan.moving_reflectors = radio.planner.decide(
-      "moving_reflectors", plan.reflection.on && radio.surfaces.moving && asks.every_tick,
+  radio.planner.decide(
+      plan.moving_reflectors, plan.reflection.on && radio.surfaces.moving && asks.every_tick,
       radio.why(!plan.reflection.on      ? "no reflection"
                 : !radio.surfaces.moving ? "no mesh moves"
                 : asks.every_tick        ? "candidates are searched at every tick"
@@ -174,8 +172,8 @@ void plan_reflection(EffectPlan& plan, const Radio& radio) {
 void plan_transmission(EffectPlan& plan, const Radio& radio) {
   const RadioSurfacesSeen& surfaces = radio.surfaces;
   const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
-  plan.transmission = radio.planner.decide(
-      "transmission", walls,
+  radio.planner.decide(
+      plan.transmission, walls,
       radio.why(
           radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
           : surfaces.walls == 0
@@ -199,26 +197,24 @@ void deny(Effect& effect) {
 void plan_on_request(EffectPlan& plan, const Radio& radio) {
   const bool deep = radio.on() && radio.asks.max_depth > 0;
   const bool edges = deep && radio.surfaces.edges;
-  plan.diffraction = radio.planner.decide(
-      "diffraction", false,
+  radio.planner.decide(
+      plan.diffraction, false,
       radio.why(edges ? "not asked for (effects: {diffraction: on})"
                       : (deep ? "the scene has no edge" : "max_depth is 0")),
       edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
             : "");
   if (plan.diffraction.on && !edges) deny(plan.diffraction);
-  plan.diffraction_lit_region = radio.planner.decide(
-      "diffraction_lit_region", plan.diffraction.on,
+  radio.planner.decide(
+      plan.diffraction_lit_region, plan.diffraction.on,
       plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
-  plan.free_edges =
-      radio.planner.decide("free_edges", false, "edges of one facet alone bound drawings, seldom plates");
+  radio.planner.decide(plan.free_edges, false, "edges of one facet alone bound drawings, seldom plates");
   const bool rough = deep && radio.surfaces.scattering;
-  plan.scattering = radio.planner.decide("scattering", false,
-                                         radio.why(rough ? "not asked for (effects: {scattering: on})"
-                                                         : "no material has a scattering coefficient"));
+  radio.planner.decide(plan.scattering, false,
+                       radio.why(rough ? "not asked for (effects: {scattering: on})"
+                                       : "no material has a scattering coefficient"));
   if (plan.scattering.on && !rough) deny(plan.scattering);
-  plan.dispersion = radio.planner.decide(
-      "dispersion", false,
-      radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
+  radio.planner.decide(plan.dispersion, false,
+                       radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
 }
 
 /// The most that the air does to any path of any channel.
@@ -244,15 +240,15 @@ Most most_of(const RadioAsks& asks, const rf::Weather& weather, double distance_
 }
 
 /// Gas, rain, fog. Outside its recommendation's range an effect has no bound: it stays off, and says so.
-Effect plan_air(const Radio& radio, const char* name, const Most& most, double longest_m, double tolerance,
-                const std::string& none, const char* source) {
+void plan_air(Effect& effect, const Radio& radio, const Most& most, double longest_m, double tolerance,
+              const std::string& none, const char* source) {
   const bool needed = radio.on() && most.db > tolerance;
   const bool no_bound = !radio.on() || most.db == 0.0;
   const std::string but = most.outside_hz > 0.0 ? fmt::format("; not at {:.4g} GHz, which {} does not cover",
                                                               most.outside_hz * 1e-9, source)
                                                 : std::string();
-  Effect effect = radio.planner.decide(
-      name, needed,
+  radio.planner.decide(
+      effect, needed,
       radio.why(needed ? "more than the tolerance" + but
                 : most.outside_hz > 0.0
                     ? fmt::format("{} does not cover {:.4g} GHz", source, most.outside_hz * 1e-9)
@@ -262,9 +258,8 @@ Effect plan_air(const Radio& radio, const char* name, const Most& most, double l
                : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most.db,
                              longest_m, most.carrier_hz * 1e-9, tolerance));
   if (effect.on && most.outside_hz > 0.0 && most.carrier_hz == 0.0)
-    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on", name,
-                     source, most.outside_hz * 1e-9);
-  return effect;
+    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on",
+                     effect.name, source, most.outside_hz * 1e-9);
 }
 
 /// Effects that a bound decides.
@@ -273,37 +268,36 @@ void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scen
   const rf::Weather weather = weather_of(scenario.environment);
   const RadioAsks& asks = radio.asks;
   const Most gas = most_of(asks, weather, longest_m, rf::gas_model_covers, rf::most_gas_db);
-  plan.gas = plan_air(radio, "gas", gas, longest_m, tolerance, "no air", "P.676-13");
+  plan_air(plan.gas, radio, gas, longest_m, tolerance, "no air", "P.676-13");
   Most rain, fog;
   if (weather.rain_mm_h > 0.0)
     rain = most_of(asks, weather, longest_m, rf::rain_model_covers, rf::most_rain_db);
-  plan.rain = plan_air(radio, "rain", rain, longest_m, tolerance, "no rain", "P.838-3");
+  plan_air(plan.rain, radio, rain, longest_m, tolerance, "no rain", "P.838-3");
   if (weather.fog_g_m3 > 0.0) fog = most_of(asks, weather, longest_m, rf::fog_model_covers, rf::most_fog_db);
-  plan.fog = plan_air(radio, "fog", fog, longest_m, tolerance, "no fog", "P.840");
+  plan_air(plan.fog, radio, fog, longest_m, tolerance, "no fog", "P.840");
   const bool leaves = radio.on() && radio.surfaces.foliage;
-  plan.foliage = radio.planner.decide(
-      "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
+  radio.planner.decide(plan.foliage, leaves,
+                       radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
   const double g = rf::roughness_parameter(radio.surfaces.roughness_m, 1.0,
                                            speed_of_light / std::max(asks.highest_hz, 1.0));
   const double rough_db =
       asks.max_depth * -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
   const bool rough = plan.reflection.on && rough_db > tolerance;
-  plan.roughness =
-      radio.planner.decide("roughness", rough,
-                           radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
-                                     : rough                           ? "more than the tolerance"
-                                                                       : "within the tolerance"),
-                           radio.surfaces.roughness_m == 0.0 || !radio.on()
-                               ? ""
-                               : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
-                                             rough_db, asks.max_depth, tolerance));
+  radio.planner.decide(plan.roughness, rough,
+                       radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
+                                 : rough                           ? "more than the tolerance"
+                                                                   : "within the tolerance"),
+                       radio.surfaces.roughness_m == 0.0 || !radio.on()
+                           ? ""
+                           : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
+                                         rough_db, asks.max_depth, tolerance));
 }
 
 /// Speeds are not known before the run: the Doppler bound is stated per m/s.
 void plan_doppler(EffectPlan& plan, const Radio& radio) {
   const bool doppler = radio.on() && radio.asks.time_samples > 1;
-  plan.doppler = radio.planner.decide(
-      "doppler", doppler,
+  radio.planner.decide(
+      plan.doppler, doppler,
       radio.why(doppler ? fmt::format("{} time samples a record", radio.asks.time_samples)
                         : "one time sample a record: shifts are reported with the paths, phases do not turn"),
       doppler ? fmt::format("{:.3g} turns per m/s within a record",

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/scenario/clock.h"
@@ -20,11 +21,12 @@ struct Due {
 class Schedule {
  public:
   explicit Schedule(Rational tick_rate_hz) : tick_rate_hz_(tick_rate_hz) {}
-  /// The next sensor index fires at `rate_hz`.
-  void add(Rational rate_hz) { times_.emplace_back(tick_rate_hz_, rate_hz); }
+  /// The next sensor index fires at `rate_hz`; none: whenever a sensor with a rate does.
+  void add(std::optional<Rational> rate_hz);
 
-  /// Sensors due at `tick`, by index.
-  std::vector<Due> due(int64_t tick) const;
+  /// Sensors due at `tick`, by index. `before`: the number of ticks of the sequence before this one at which
+  /// something was due, which is the sample of a sensor without a rate.
+  std::vector<Due> due(int64_t tick, int64_t before) const;
   /// The first tick at or after `tick` at which something is due; `end` if there is none before it.
   int64_t next(int64_t tick, int64_t end) const;
   /// The last tick before `tick` at which something was due; -1: none.
@@ -32,7 +34,7 @@ class Schedule {
 
  private:
   Rational tick_rate_hz_;
-  std::vector<SampleTimes> times_;
+  std::vector<std::optional<SampleTimes>> times_;  ///< none: it fires whenever another one does
 };
 
 }  // namespace greatx::sim

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One tick: poses ─► scene update ─► the due sensors' passes ─► ONE submission; meanwhile the tick before is collected
-// into a packet. Nothing but the simulator's own state changes in a tick.
+// One tick: poses ─► scene update ─► the due sensors' passes ─► ONE submission; meanwhile the tick before is
+// collected into a packet. Nothing but the simulator's own state changes in a tick.
 #pragma once
 
 #include <functional>
@@ -14,18 +14,15 @@
 #include "core/record.h"
 #include "gpu/tick_ring.h"
 #include "scene/device/gpu_scene.h"
-#include "sim/compare/record_consistency.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/compare/comparisons.h"
+#include "sim/experiment/experiment.h"
 #include "sim/run/schedule.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/trajectory.h"
-#include "sim/sensors/sensor.h"
+#include "sim/sensors/registry/registry.h"
 #include "sim/world/moment.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
-
-class CameraSensor;
 
 /// GPU time of one pass, or the host's of one of its doings, over the run so far.
 struct PassTotal {
@@ -39,22 +36,23 @@ struct RunStatistics {
   int64_t packets = 0;                      ///< complete, handed to the sink
   std::map<std::string, int64_t> records;   ///< by sensor
   std::map<std::string, PassTotal> passes;  ///< by scope name
-  /// Wall time of "record NAME" and "collect NAME" of each sensor (the latter while the GPU works on the tick after), of
-  /// "wait" for the GPU ("wait to look ahead" if a sensor does), of "compare" (the check of one world) and of "hand over" to the sink; only if samples are kept.
+  /// Wall time of "record NAME" and "collect NAME" of each sensor (the latter while the GPU works on the tick
+  /// after), of "wait" for the GPU ("wait to look ahead" if a sensor does), of "compare" (the check of one
+  /// world) and of "hand over" to the sink; only if samples are kept.
   std::map<std::string, PassTotal> host;
   std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
   std::vector<std::pair<std::string, std::string>>
       notes;  ///< (name, text): how candidates were found, what holds
   std::vector<std::string>
-      warnings;  ///< data that was lost; `greatx generate` prints them even when it is quiet
-  Consistency consistency;
+      warnings;             ///< data that was lost; `greatx generate` prints them even when it is quiet
+  Consistency consistency;  ///< of the run, by figure
   std::vector<ConsistencyRow> rows;  ///< the same by record, of what is written
 };
 
 class Simulator {
  public:
-  /// Uploads the scene and builds the pipelines of the plan. All arguments outlive the simulator.
-  Simulator(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan);
+  /// Uploads the scene and builds the pipelines of the plan. Both arguments outlive the simulator.
+  Simulator(gpu::Device& device, const Experiment& experiment);
   ~Simulator();
 
   /// What the packets will hold; index = Record::sensor.
@@ -75,35 +73,24 @@ class Simulator {
  private:
   struct InFlight;
   Moment moment_at(int64_t tick) const;
-  void add_sensors();
-  std::unique_ptr<Sensor> make_sensor(uint32_t node, uint32_t sensor);  ///< of any kind but antennas
-  void add(std::unique_ptr<Sensor> sensor, Rational rate_hz, const SourceLocation& where);
-  const CameraSensor* shared_camera(uint32_t node, uint32_t sensor) const;
   void replay(int64_t end);
   void record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due);
   void record_ahead(gpu::TickSlot& slot);
   void collect(const InFlight& in_flight, RecordSink& sink);
   void compare(const Packet& packet);
-  void compare_lidar_with_depth(const Packet& packet);
-  void compare_radars(const Packet& packet);
   class HostScope;
-  void keep(const char* figure, const Packet& packet, uint32_t sensor, uint32_t other,
-            const ErrorStatistics& errors, ErrorStatistics* total);
 
   const Scenario& scenario_;
   const World& world_;
-  const EffectPlan& plan_;
-  std::vector<InstanceBox> boxes_;  ///< of instances, if there is a radar
   gpu::Device& device_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
   Clock clock_;
   Schedule schedule_;
-  struct Passes;
-  std::unique_ptr<Passes> passes_;  ///< shared by sensors: lighting, crossings, probe
-  std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::vector<SourceLocation> places_;  ///< [sensor] in the scenario; the poses have none
-  std::vector<SensorSpec> specs_;
+  SharedPasses passes_;
+  std::vector<RunSensor> sensors_;
+  std::vector<SensorSpec> specs_;  ///< [sensor]
+  Comparer comparer_;
   Courses courses_;
   std::unique_ptr<InFlight> pending_;
   uint32_t sequence_ = 0;

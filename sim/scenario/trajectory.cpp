@@ -72,11 +72,11 @@ std::unique_ptr<Course> make_course(const WayPointTrajectory& trajectory) {
   return std::make_unique<CurveCourse>(std::move(segments), std::move(attitudes), Beyond::hold);
 }
 
-/// What a Bezier trajectory's end has to keep to.
+/// Holds the conditions on an end of a Bezier trajectory.
 struct EndLimits {
   const NodeConfig& node;
   const BezierTrajectory& trajectory;
-  const Course* reference;  ///< nullptr: the box alone
+  const Course* reference;  ///< nullptr: only the box
 };
 
 [[noreturn]] void no_end(const EndLimits& limits, const dvec3& center, const std::string& found) {
@@ -128,7 +128,8 @@ std::unique_ptr<Course> make_course(const EndLimits& limits, double duration_s, 
                                        std::vector<dquat>{}, Beyond::straight);
 }
 
-/// Legs of each section of the centre line: one at least, the others one by one to where they are longest.
+/// Returns the legs of each section of the centre line. Each section has one, and the others go one by one to
+/// where legs are longest.
 std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   std::vector<int> legs(line.size() - 1, 1);
@@ -142,7 +143,8 @@ std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   return legs;
 }
 
-/// Axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical line), up is the rest.
+/// Holds the axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical
+/// line), and up is perpendicular to both.
 struct CrossSection {
   dvec3 across, up;
   explicit CrossSection(const dvec3& along) {
@@ -152,14 +154,15 @@ struct CrossSection {
   }
 };
 
-/// An offset from the centre line, uniform in the cross-section.
+/// Returns an offset from the centre line, uniform in the cross-section.
 dvec3 draw_offset(const CrossSection& section, const CorridorTrajectory& corridor, RandomStream& random) {
   const double a = random.uniform(-0.5 * corridor.width_m, 0.5 * corridor.width_m);
   const double b = random.uniform(-0.5 * corridor.height_m, 0.5 * corridor.height_m);
   return a * section.across + b * section.up;
 }
 
-/// The part of `offset` that stays inside the corridor along `section` (a bend in both planes leans its cross-section).
+/// Returns the part of `offset` that stays inside the corridor along `section` (a bend in both planes leans
+/// its cross-section).
 double inside_part(const dvec3& offset, const CrossSection& section, const CorridorTrajectory& corridor) {
   const auto part = [](double value, double limit) {
     return std::abs(value) > limit ? limit / std::abs(value) : 1.0;
@@ -169,7 +172,8 @@ double inside_part(const dvec3& offset, const CrossSection& section, const Corri
                   part(glm::dot(offset, section.up), 0.5 * corridor.height_m + rounding));
 }
 
-/// At a bend the cross-section halves the angle and the offset fits both sections, so that no leg leaves the corridor.
+/// Draws the points of the legs. At a bend the cross-section halves the angle and the offset fits both
+/// sections, so that no leg leaves the corridor.
 std::vector<dvec3> draw_corridor(const CorridorTrajectory& corridor, RandomStream& random) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   const std::vector<int> legs = share_legs(corridor);

@@ -11,20 +11,20 @@
 namespace greatx::sim {
 namespace {
 
-/// A direction and its derivative by u, up to a common positive factor.
+/// Describes a direction and its derivative by u, up to a common positive factor.
 template <typename Vector>
 struct Direction {
   Vector value, derivative;
 };
 
-/// Below this part of the segment's size a derivative counts as zero.
+/// A derivative below this part of the segment's size counts as zero.
 constexpr double negligible = 1e-9;
-/// Below this part its sign is rounding.
+/// Below this part the sign of a derivative is only rounding.
 constexpr double noise = 1e-13;
 
-/// Where B'(u) points, from the first derivative that does not vanish (hard case 60). Close to a zero of B'
-/// at u0: B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2; the side is the one that B' itself shows, else
-/// before (e < 0), but after at the start.
+/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Close to a
+/// zero of B' at u0, B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. The side is the one that B' itself shows.
+/// Without one it is before (e < 0), but after at the start.
 template <typename Vector>
 std::optional<Direction<Vector>> direction_of(const Vector& first, const Vector& second, const Vector& third,
                                               double u, double size) {
@@ -42,7 +42,7 @@ double size_of(const CurveSegment& segment) {
       {glm::length(segment.edges[0]), glm::length(segment.edges[1]), glm::length(segment.edges[2])});
 }
 
-/// Rotation vector (axis times angle, at most pi) from `from` to `to`, in the world frame.
+/// Returns the rotation vector (axis times angle, at most pi) from `from` to `to`, in the world frame.
 dvec3 rotation_between(const dquat& from, const dquat& to) {
   dquat turn = to * glm::conjugate(from);
   if (turn.w < 0.0) turn = -turn;
@@ -120,7 +120,7 @@ CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
     return result;
   }
   result.pitch = v.z > 0.0 ? -0.5 * pi : 0.5 * pi;
-  // Vertical for an instant: the yaw that the horizontal motion shows beside it.
+  // If the motion is vertical for an instant, the yaw is the one that the horizontal motion beside it shows.
   if (const auto level = direction_of(dvec2(first), dvec2(second), dvec2(third), u, size))
     result.yaw = std::atan2(level->value.y, level->value.x);
   return result;
@@ -156,7 +156,7 @@ void CurveCourse::orient(size_t segment, double u, Motion& motion) const {
   Heading now = heading(segment, u);
   const bool starts_at_rest =
       u == 0.0 && glm::length(segments_[segment].first(0.0)) <= negligible * size_of(segments_[segment]);
-  if (segment > 0 && starts_at_rest) now = Heading{};  // a rest at a knot looks where it came from
+  if (segment > 0 && starts_at_rest) now = Heading{};  // a rest at a knot keeps the direction of arrival
   const double yaw = now.yaw ? *now.yaw : held_[segment].yaw.value_or(0.0);
   const double pitch = now.pitch ? *now.pitch : held_[segment].pitch.value_or(0.0);
   motion.pose.orientation = orientation_from_yaw_pitch_roll(yaw, pitch, 0.0);

@@ -8,7 +8,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// The box that a part sweeps about the origin of its joint: that of a ball.
+/// Returns the box that a part sweeps about the origin of its joint: that of a ball.
 scene::Bounds swept(const scene::Bounds& bounds, const dvec3& origin) {
   const double radius = glm::length(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
   scene::Bounds ball;

@@ -9,14 +9,14 @@
 
 namespace greatx::sim {
 
-/// A box about an instance of the scene, however its parts are turned: axes and origin of the node that carries it, or of the
-/// world.
+/// Describes a box about an instance of the scene, however its parts are turned. Axes and origin are those of
+/// the node that carries it, or of the world.
 struct InstanceBox {
   std::optional<uint32_t> node;  ///< none: it never moves
   scene::Bounds box;             ///< metres
 };
 
-/// [instances]
+/// Returns [instances] boxes.
 std::vector<InstanceBox> instance_boxes(const World& world);
 
 }  // namespace greatx::sim

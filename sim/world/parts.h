@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which of a model's nodes turn on it.
+// Finds the nodes of a model that turn on it.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,12 @@
 namespace greatx::sim {
 
 struct FoundPart {
-  scene::PartPlacement placement;      ///< with a name of its own among the node's parts
+  scene::PartPlacement placement;      ///< with a name that is unique among the node's parts
   const PartConfig* config = nullptr;  ///< of `node`, which outlives it
 };
 
-/// In the model's order. Throws UserError if a name is no node's of the model (it lists what there
-/// is), a node is named twice, or one hangs on another.
+/// Returns the parts in the model's order. Throws UserError if the model has no node of a given name (the
+/// message lists its nodes), if a node is named twice, or if one hangs on another.
 std::vector<FoundPart> find_parts(const NodeConfig& node, const scene::Model& model);
 
 }  // namespace greatx::sim

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What cameras look at, put where it is at any instant: sub-steps of event cameras, instants within an exposure.
+// Puts the bodies that cameras see where they are at any instant: sub-steps of event cameras, instants within
+// an exposure.
 #pragma once
 
 #include "renderer/light/lighting.h"
@@ -13,12 +14,12 @@ namespace greatx::sim {
 
 class Stage {
  public:
-  /// All outlive this.
+  /// All arguments outlive this.
   Stage(scene::GpuScene& scene, render::SceneLighting& lighting, const World& world)
       : scene_(scene), lighting_(lighting), world_(world) {}
 
-  /// Moves every body, and the shadows that go with it, to `time_s`, for the raster passes recorded next. Whoever does
-  /// so moves it back to context.time_s before leaving its record().
+  /// Moves every body and its shadows to `time_s`, for the raster passes that are recorded next. The caller
+  /// moves them back to context.time_s before it leaves its record().
   void move_to(gpu::TickSlot& slot, const TickContext& context, double time_s);
   const render::SceneLighting& lighting() const { return lighting_; }
   const World& world() const { return world_; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where everything is at the tick being recorded, and at any other time.
+// Defines the places of everything at the tick that is being recorded, and at any other time.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,23 @@
 
 namespace greatx::sim {
 
-/// Everything that a sensor may know of the tick being recorded.
+/// Holds everything that a sensor may know of the tick that is being recorded.
 struct TickContext {
   int64_t tick = 0;
   uint32_t sequence = 0;  ///< of the run
   double time_s = 0.0;
-  /// Time of the tick before at which something was due; NaN at the first one of a sequence.
+  /// The time of the previous tick at which something was due; NaN at the first one of a sequence.
   double previous_time_s = 0.0;
   std::span<const Motion> nodes;     ///< world frame, by node
   std::span<const Pose> body_poses;  ///< local coordinates, by body
-  /// Motion of any node at any other time (a sweep's shots).
+  /// Returns the motion of any node at any other time (for a sweep's shots).
   std::function<Motion(uint32_t node, double time_s)> motion_at;
-  /// Motion of any body at any other time: pose in local coordinates, its derivatives those of the body's origin (same
-  /// axes). Body 0 stands still at the identity. At time_s the poses are those of body_poses, to the bit.
+  /// Returns the motion of any body at any other time: the pose in local coordinates, and the derivatives of
+  /// the body's origin (same axes). Body 0 stands still at the identity. At time_s the poses are those of
+  /// body_poses, to the bit.
   std::function<Motion(uint32_t body, double time_s)> body_motion_at;
   Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
-  /// Of all bodies.
+  /// Returns the poses of all bodies.
   std::vector<Pose> body_poses_at(double at_s) const {
     if (at_s == time_s) return {body_poses.begin(), body_poses.end()};
     std::vector<Pose> poses;
@@ -38,7 +39,7 @@ struct TickContext {
   }
 };
 
-/// World pose of a sensor: the node's pose times its mount.
+/// A mount as a pose: from the sensor's frame to that of the node that carries it.
 inline Pose mount_pose(const Mount& mount) {
   return {mount.position_m,
           orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};

@@ -44,7 +44,7 @@ bool never_moves(const NodeConfig& node) {
   return std::holds_alternative<StaticTrajectory>(node.trajectory) && node.parts.empty();
 }
 
-/// A material without a row at a carrier is an error of the scenario, before anything runs.
+/// Checks materials before anything runs: one without a row at a carrier is an error of the scenario.
 void check_radio(const Scenario& scenario, const scene::Scene& scene) {
   const auto check = [&](double carrier_hz, const SourceLocation& where, const std::string& field,
                          const std::string& what) {
@@ -69,7 +69,7 @@ void check_radio(const Scenario& scenario, const scene::Scene& scene) {
     }
 }
 
-/// Who carries each body, and which part it is; `parts` have their names, and nodes their bodies.
+/// Finds the carrier and the part of each body. `parts` have their names, and nodes their bodies.
 void find_bodies(World& world) {
   const scene::Scene& scene = world.scene;
   world.node_of_body.resize(scene.bodies.size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scenario's models, loaded and put together: the scene that every sequence shares.
+// Defines the scenario's models, loaded and put together: the scene that every sequence shares.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace greatx::sim {
 
-/// A body that turns on its node's body: a rotor, a wheel.
+/// Describes a body that turns on its node's body: a rotor, a wheel.
 struct Part {
-  std::string name;  ///< its body's, NODE/PART: what its start is drawn by
+  std::string name;  ///< the name of its body, NODE/PART, by which its start is drawn
   uint32_t body = 0;
   TurnRate rate;
   std::optional<double> phase;  ///< rad at tick 0; none: drawn
@@ -23,18 +23,19 @@ struct Part {
 
 struct World {
   scene::Scene scene;
-  /// The body that follows each node; 0: the node has no mesh of its own, or never moves (then its mesh is part of the
-  /// static world). A node with parts has a body of its own even if it stands still.
+  /// The body that follows each node. 0: the node has no mesh of its own, or never moves (its mesh is then
+  /// part of the static world). A node with parts has a body of its own even if it stands still.
   std::vector<uint32_t> body_of_node;
-  /// The node that carries each body; [0] means nothing, since body 0 stands still.
+  /// The node that carries each body. [0] means nothing, since body 0 stands still.
   std::vector<uint32_t> node_of_body;
   std::vector<Part> parts;
   static constexpr uint32_t no_part = ~0u;
   std::vector<uint32_t> part_of_body;  ///< [bodies] into parts, or no_part
 };
 
-/// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material; parts that a model
-/// does not have, and radio materials that are unknown at a channel's carrier, are found here, not at the first tick.
+/// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material. Parts
+/// that a model does not have, and radio materials that are unknown at a channel's carrier, are found here
+/// and not at the first tick.
 World load_world(const Scenario& scenario);
 
 }  // namespace greatx::sim

@@ -4,8 +4,8 @@
 
 usage: check_arrows.py ROOT [--write]
 
-A room is a folder with a `greatx_room(ROOM … ROOMS …)` in the CMakeLists.txt of its top folder; a program or a module has a
-`greatx_links(TARGET ROOM…)`. The ROOMS are the arrows. It is a fault if
+A room is a folder with a `greatx_room(ROOM … ROOMS …)` in the CMakeLists.txt of its top folder; a program or
+a module has a `greatx_links(TARGET ROOM…)`. The ROOMS are the arrows. It is a fault if
 
 - a file includes a header of a room that its own room does not name,
 - a room names another one of which it includes nothing,
@@ -19,7 +19,8 @@ import sys
 import textwrap
 
 TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "assets", "apps", "python"]
-#: Leaves that every room may include: shaders/shared is read by C++ and GLSL alike, shaders/spirv.h finds what was compiled.
+#: Leaves that every room may include: shaders/shared is read by C++ and GLSL alike, shaders/spirv.h finds
+#: what was compiled.
 FREE = {"shaders", "shaders/shared"}
 #: Programs and modules: the folder of their files, by target.
 PROGRAMS = {"greatx": "apps", "greatx_python": "python/src"}

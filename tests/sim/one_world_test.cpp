@@ -110,9 +110,8 @@ std::string scenario(const Rates& rates) {
 }
 
 KeptRun run(const Rates& rates) {
-  const Scenario parsed = parse_scenario(scenario(rates), "test.yaml", ".");
-  World world{corner_scene(), {0, 1}, {0, 1}};
-  return keep_run(parsed, world);
+  auto world = std::make_shared<const World>(World{corner_scene(), {0, 1}, {0, 1}, {}, {}});
+  return keep_run(make_experiment(parse_scenario(scenario(rates), "test.yaml", "."), std::move(world)));
 }
 
 uint32_t id_of(const KeptRun& r, const std::string& name) {

@@ -12,13 +12,13 @@
 
 #include "core/units.h"
 #include "sim/channel/radio_map_values.h"
-#include "sim/plan/plan_options.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
 namespace {
 
+using sim::testing::experiment_in;
 using sim::testing::radio_material;
 using sim::testing::RadioRun;
 using sim::testing::run;
@@ -70,18 +70,15 @@ std::string two_stations(const std::vector<dvec3>& terminals) {
 class Site {
  public:
   Site(const std::string& yaml, const scene::Scene& scene)
-      : scenario_(parse_scenario(yaml, "test.yaml", ".")),
-        world_{scene, std::vector<uint32_t>(scenario_.nodes.size(), 0)},
-        plan_(make_effect_plan(scenario_, world_.scene)),
-        snapshot_(test::device(), scenario_, world_, plan_, gpu_scene_options(plan_), 0, {}) {}
+      : experiment_(experiment_in(yaml, scene)), snapshot_(test::device(), experiment_, 0, {}) {}
 
   MapCells cells(const MapGrid& grid, const MapHeight& height, bool beyond = false) const {
     const std::vector<dvec3> ends{{80, 1.1, 5.2}, {120.3, -2.4, 6.1}};
-    return place_cells(grid, height, world_.scene, snapshot_.model().kinds, snapshot_.moment().bodies, ends,
-                       beyond);
+    return place_cells(grid, height, experiment_.scene(), snapshot_.model().kinds, snapshot_.moment().bodies,
+                       ends, beyond);
   }
   std::vector<rf::LinkStatistics> solve(const MapCells& cells, size_t first = 0, size_t most = ~size_t{0}) {
-    RadioMapSolver solver(snapshot_, scenario_, 0, {});
+    RadioMapSolver solver(snapshot_, experiment_.scenario, 0, {});
     std::vector<rf::LinkStatistics> links;
     solver.solve(cells, first, [&](std::span<const rf::LinkStatistics> more) {
       links.insert(links.end(), more.begin(), more.end());
@@ -91,9 +88,7 @@ class Site {
   }
 
  private:
-  Scenario scenario_;
-  World world_;
-  EffectPlan plan_;
+  Experiment experiment_;
   ChannelSnapshot snapshot_;
 };
 

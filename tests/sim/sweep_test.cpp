@@ -74,18 +74,8 @@ class Sweep : public testing::TestWithParam<std::string> {
   const std::string text_ = read(folder / (GetParam() + ".yaml"));
 };
 
-struct Planned {
-  Scenario scenario;
-  World world;
-  EffectPlan plan;
-};
-
-Planned planned(const std::string& text) {
-  Planned result;
-  result.scenario = parse_scenario(text, "sweep.yaml", folder);
-  result.world = load_world(result.scenario);
-  result.plan = make_effect_plan(result.scenario, result.world.scene);
-  return result;
+Experiment planned(const std::string& text) {
+  return make_experiment(parse_scenario(text, "sweep.yaml", folder));
 }
 
 /// Whether an alternative of the schema has the value; true if it is no number.
@@ -141,10 +131,10 @@ struct Check : RecordSink {
   }
 };
 
-void run_a_tick(gpu::Device& device, Planned planned) {
-  planned.scenario.ticks = 1;
+void run_a_tick(gpu::Device& device, Experiment experiment) {
+  experiment.scenario.ticks = 1;
   Check sink;
-  Simulator simulator(device, planned.scenario, planned.world, planned.plan);
+  Simulator simulator(device, experiment);
   sink.sensors = simulator.sensors();
   simulator.start(0);
   while (simulator.step(sink)) {

@@ -15,7 +15,7 @@ std::vector<SubRay> sub_rays(double divergence, uint32_t rings) {
   GREATX_CHECK(rings <= most_rings, "{} rings", rings);
   GREATX_CHECK(rings == 0 || (divergence > 0.0 && divergence < 0.5), "divergence of {} rad", divergence);
   if (rings == 0) return {SubRay{}};
-  // u = 2 r^2/w^2 is distributed as exp(-u): a ring's energy and its mean of u in closed form.
+  // u = 2 r^2/w^2 is distributed as exp(-u), so a ring's energy and its mean of u have a closed form.
   const double step = 1.0 / rings;
   const auto u_of = [&](double radius) { return 2.0 * radius * radius; };
   const double center = u_of(0.5 * step);
@@ -25,7 +25,7 @@ std::vector<SubRay> sub_rays(double divergence, uint32_t rings) {
     const bool last = ring == rings;
     const double energy = std::exp(-inner) - (last ? 0.0 : std::exp(-outer));
     const double moment = (inner + 1.0) * std::exp(-inner) - (last ? 0.0 : (outer + 1.0) * std::exp(-outer));
-    // The disc's own moment is moved to the first ring, since its ray stands on the axis.
+    // The disc's own moment is moved to the first ring, since the disc's ray stands on the axis.
     const double extra = ring == 1 ? 1.0 - (center + 1.0) * std::exp(-center) : 0.0;
     const double radius = 0.5 * divergence * std::sqrt(0.5 * (moment + extra) / energy);
     const uint32_t count = 6 * ring;

@@ -34,7 +34,8 @@ double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); 
 
 double normal_quantile(double p) {
   GREATX_CHECK(p > 0.0 && p < 1.0, "quantile of {}", p);
-  // Bisection on the distribution itself: it is called a few times a run, and needs no table of coefficients.
+  // The function bisects the distribution itself. It is called a few times a run, and it needs no table of
+  // coefficients.
   double low = -40.0, high = 40.0;
   for (int i = 0; i < 200 && low < high; ++i) {
     const double middle = 0.5 * (low + high);
@@ -46,7 +47,7 @@ double normal_quantile(double p) {
 
 ShotNoise::ShotNoise(uint64_t seed, uint32_t stream, uint32_t sequence, int64_t tick)
     : tick_(static_cast<uint32_t>(tick), static_cast<uint32_t>(static_cast<uint64_t>(tick) >> 32)) {
-  // A key of its own for each sensor and sequence, so that the counter is left for ticks and shots.
+  // Each sensor and sequence has a key of its own, so that the counter is left for ticks and shots.
   const shared::uvec4 key =
       shared::philox4x32(shared::uvec4(stream, sequence, 0x6c696472u, 0u),
                          shared::uvec2(static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)));
@@ -63,7 +64,7 @@ double ShotNoise::uniform(uint32_t shot, Purpose purpose, uint32_t index) const 
   return static_cast<double>((uint64_t{words.x} << 32 | words.y) >> 11) * 0x1p-53;
 }
 
-/// Box and Muller.
+/// Draws a normal number by the method of Box and Muller.
 double ShotNoise::normal(uint32_t shot, Purpose purpose, uint32_t index) const {
   const glm::uvec4 words = bits(shot, purpose, index);
   const auto unit = [](uint32_t high, uint32_t low) {

@@ -19,7 +19,8 @@ using Purpose = ShotNoise::Purpose;
 
 constexpr uint32_t chunk_shots = 4096;
 
-/// The object with the most power among the echoes of a pulse; of equals the one with the smallest ids.
+/// Gives a pulse the ids of the object with the most power among its echoes. Of equal objects it takes the
+/// one with the smallest ids.
 void name_pulse(std::span<const WeightedEcho> echoes, const Receiver& receiver, Pulse& pulse) {
   struct Candidate {
     uint32_t instance, material;
@@ -55,7 +56,7 @@ Pulse pulse_of(std::span<const WeightedEcho> echoes, const Receiver& receiver) {
     pulse.intensity += echo.weight * echo.intensity * air_transmittance(receiver, echo.range_m);
     pulse.share += echo.weight * echo.share;
   }
-  // Black surfaces give nothing back: where they are is then a matter of the rays alone.
+  // Black surfaces give nothing back. The range is then the mean over the rays.
   double weights = 0.0;
   for (const WeightedEcho& echo : echoes) weights += echo.weight;
   pulse.range_m = echoes[0].range_m + (pulse.power > 0.0 ? moment / pulse.power : middle / weights);
@@ -63,8 +64,9 @@ Pulse pulse_of(std::span<const WeightedEcho> echoes, const Receiver& receiver) {
   return pulse;
 }
 
-/// What the air gives back before `end_m`: gate by gate of the range resolution, the first one in which signal and noise
-/// pass the threshold. pi beta times the gate's length is the reflectance of a surface that gave as much.
+/// Adds the echo of the air before `end_m`. It goes gate by gate of the range resolution to the first one in
+/// which signal and noise pass the threshold. pi beta times the gate's length is the reflectance of a surface
+/// that gives as much.
 void add_air(uint32_t shot, double end_m, const ReturnModel& model, const ShotNoise& noise,
              std::vector<Pulse>& pulses) {
   const Receiver& receiver = model.receiver;
@@ -104,7 +106,7 @@ double range_deviation(const Receiver& receiver, double power) {
   return std::hypot(receiver.range_std_m, jitter);
 }
 
-/// Indices of several pulses to deliver, ascending.
+/// Returns the indices of the pulses to deliver, ascending, for several pulses.
 std::vector<uint32_t> chosen(const std::vector<Pulse>& pulses, const ReturnChoice& choice) {
   const auto count = static_cast<uint32_t>(pulses.size());
   if (choice.mode == ReturnMode::last) return {count - 1};
@@ -143,7 +145,7 @@ void deliver(const ScanPattern& pattern, uint32_t shot, const std::vector<Pulse>
     scan.instance.push_back(pulse.instance);
     scan.material.push_back(pulse.material);
   };
-  if (pulses.size() == 1) return add(0);  // most of them: no list on the heap
+  if (pulses.size() == 1) return add(0);  // most shots have one pulse: no list on the heap
   if (pulses.empty()) return;
   for (const uint32_t i : chosen(pulses, model.choice)) add(i);
 }
@@ -162,7 +164,7 @@ void collect_shots(const ScanPattern& pattern, const EchoView& view, const Retur
             {echo.range, model.weights[ray], echo.intensity, echo.share, echo.instance, echo.material});
       }
     }
-    if (echoes.size() == 1) {  // most of them, and of single rays without glass all
+    if (echoes.size() == 1) {  // most shots; without glass all shots of single rays
       const WeightedEcho& e = echoes[0];
       pulses.assign(1, {e.range_m, e.weight * e.intensity * air_transmittance(model.receiver, e.range_m),
                         e.weight * received_power(model.receiver, e.range_m, e.intensity), e.weight * e.share,
@@ -175,7 +177,7 @@ void collect_shots(const ScanPattern& pattern, const EchoView& view, const Retur
   }
 }
 
-/// Calls `each` with every column of `scan` and its like of `other`.
+/// Calls `each` with every column of `scan` and the same column of `other`.
 template <typename Each>
 void each_column(LidarScan& scan, const LidarScan& other, const Each& each) {
   each(scan.points, other.points);

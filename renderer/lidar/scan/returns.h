@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the echoes of a beam's rays to what a LiDAR delivers. Numbers alone.
+// Turns the echoes of a beam's rays into the returns that a LiDAR delivers. The code is plain arithmetic.
 //
-//   echoes of a shot ─► pulses (what the receiver cannot tell apart) ─► detection, noise of the range ─► chosen returns
+//   echoes of a shot ─► pulses (echoes that the receiver cannot tell apart) ─► detection, noise of the range
+//     ─► chosen returns
 #pragma once
 
 #include <cstdint>
@@ -17,17 +18,17 @@
 
 namespace greatx::render {
 
-/// Which of a shot's returns are delivered. `dual`: the strongest and the last; where they are one, the second strongest
-/// as well (Velodyne VLP-16 User Manual, "Dual return mode").
+/// Selects the delivered returns of a shot. `dual` delivers the strongest and the last. Where they are the
+/// same return, it delivers the second strongest as well (Velodyne VLP-16 User Manual, "Dual return mode").
 enum class ReturnMode : uint32_t { strongest, last, dual, all };
 
 struct ReturnChoice {
   ReturnMode mode = ReturnMode::strongest;
-  uint32_t most = 15;         ///< of `all`: the nearest ones
+  uint32_t most = 15;         ///< for `all`: the nearest ones
   double resolution_m = 0.3;  ///< echoes whose ranges differ by less follow each other in one pulse
 };
 
-/// What the GPU delivers, where it lies: [slots][shots][sub-rays].
+/// Holds the echoes that the GPU delivers, where they lie: [slots][shots][sub-rays].
 struct EchoView {
   std::span<const shared::LidarEcho> echoes;
   uint32_t shots = 0, sub_rays = 1, slots = 1;
@@ -36,7 +37,8 @@ struct EchoView {
   }
 };
 
-/// One sweep: returns in the order the shots were fired, within a shot by range. All arrays have `size()` elements.
+/// Holds one sweep. Returns are in the order in which the shots were fired, and within a shot by range. All
+/// arrays have `size()` elements.
 struct LidarScan {
   std::vector<vec4> points;    ///< x, y, z: metres in the sensor frame AT THE SHOT'S OWN TIME; w: intensity
   std::vector<uint32_t> shot;  ///< index into the pattern
@@ -44,7 +46,7 @@ struct LidarScan {
   std::vector<float> time_offset_s;     ///< of the shot after the tick
   std::vector<float> range_m;           ///< along the beam's axis
   std::vector<float> power;             ///< received over transmitted power
-  std::vector<float> share;             ///< of the beam's energy that went no further
+  std::vector<float> share;             ///< of the beam's energy, the part that went no further
   std::vector<uint16_t> return_number;  ///< 1 for the shot's nearest detected return
   std::vector<uint16_t> return_count;   ///< detected returns of the shot, delivered or not
   std::vector<uint32_t> instance;       ///< index into Scene::instances + 1; 0: fog or rain
@@ -52,24 +54,25 @@ struct LidarScan {
   size_t size() const { return points.size(); }
 };
 
-/// A pulse: echoes in order of range, each less than resolution_m behind the one before. Its range is the mean of theirs
-/// by received power, its intensity the sum of weight times intensity times what the air leaves of it, its share that of
-/// weight times share, its ids those of the strongest object in it.
+/// A pulse is a series of echoes in order of range, each less than resolution_m behind the one before. Its
+/// range is the mean of theirs by received power. Its intensity is the sum of weight times intensity times
+/// the transmittance of the air. Its share is the sum of weight times share. Its ids are those of the
+/// strongest object in it.
 struct Pulse {
   double range_m = 0.0, intensity = 0.0, power = 0.0, share = 0.0;
   uint32_t instance = 0, material = 0;
 };
 
-/// One echo of one ray, weighted.
+/// Holds one weighted echo of one ray.
 struct WeightedEcho {
   double range_m, weight, intensity, share;
   uint32_t instance, material;
 };
-/// `echoes` in any order; they are sorted.
+/// `echoes` may be in any order; they are sorted.
 std::vector<Pulse> pulses_of(std::vector<WeightedEcho>& echoes, const Receiver& receiver,
                              double resolution_m);
 
-/// Everything that a sweep's echoes are read with.
+/// Holds the data with which the echoes of a sweep are read.
 struct ReturnModel {
   std::vector<float> weights;  ///< [sub-rays] sum 1
   Receiver receiver;
@@ -77,7 +80,7 @@ struct ReturnModel {
   double min_range_m = 0.5, max_range_m = 120.0;  ///< of the beam, for the air's own echoes
 };
 
-/// The sweep. The bytes depend on nothing but the arguments.
+/// Makes the sweep. The bytes depend on nothing but the arguments.
 LidarScan make_scan(const ScanPattern& pattern, const EchoView& echoes, const ReturnModel& model,
                     const ShotNoise& noise);
 

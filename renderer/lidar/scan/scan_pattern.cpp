@@ -23,7 +23,7 @@ ScanPattern empty_pattern(uint64_t columns, uint64_t rows) {
   return pattern;
 }
 
-/// The index of a time that is not before those added so far.
+/// Returns the index of a time that is not before those added so far.
 uint32_t instant_of(ScanPattern& pattern, double time_s) {
   if (pattern.times_s.empty() || time_s > pattern.times_s.back()) pattern.times_s.push_back(time_s);
   return static_cast<uint32_t>(pattern.times_s.size() - 1);
@@ -69,7 +69,7 @@ ScanPattern pattern_of(const RasterScan& scan) {
   return pattern;
 }
 
-/// 2 pi times the fraction of `turns`, which is exact however long a run is.
+/// Returns 2 pi times the fraction of `turns`, which is exact however long a run is.
 double angle_of(double turns) { return 2.0 * pi * (turns - std::floor(turns)); }
 
 ScanPattern pattern_of(const RosetteScan& scan, double start_s) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a LiDAR looks when: from the parameters of a scanner to a list of shots (docs/lidar.md).
+// Finds the directions and times of a LiDAR's shots: it turns the parameters of a scanner into a list of
+// shots (docs/lidar.md).
 //
 //   SpinningScan | RasterScan | RosetteScan | ShotTable ─► ScanPattern ─► LidarPass
 #pragma once
@@ -17,8 +18,9 @@
 
 namespace greatx::render {
 
-/// Sensor frame: x forward, y left, z up; azimuth from x towards y, elevation above the x-y plane. The shots of a sweep,
-/// in the order fired; those of one column stand beside those of the next on the sphere, which makes tracing quick.
+/// Holds the shots of a sweep, in the order fired. The sensor frame has x forward, y left, z up; azimuth
+/// counts from x towards y, elevation above the x-y plane. The shots of one column stand beside those of the
+/// next on the sphere, which makes tracing quick.
 struct ScanPattern {
   uint32_t columns = 0, rows = 1;
   std::vector<dvec3> directions;   ///< [columns * rows] unit, row by row within a column
@@ -32,8 +34,8 @@ inline constexpr uint32_t most_shots = 1u << 22;   ///< of a sweep
 inline constexpr uint32_t most_columns = 500'000;  ///< fits the groups of a dispatch that every device takes
 inline constexpr uint32_t most_channels = 65'535;
 
-/// All channels fire together; step k looks at azimuth_start + k * azimuth_span / azimuth_steps, k * sweep_s /
-/// azimuth_steps after the tick (sweep_s 0: all at the tick).
+/// Describes a spinning scanner. All channels fire together. Step k looks at azimuth_start + k * azimuth_span
+/// / azimuth_steps, k * sweep_s / azimuth_steps after the tick (sweep_s 0: all at the tick).
 struct SpinningScan {
   std::vector<double> elevations;  ///< rad, one a channel; the ring number is the index
   uint32_t azimuth_steps = 1024;
@@ -41,8 +43,9 @@ struct SpinningScan {
   double sweep_s = 0.0;
 };
 
-/// Line by line (rings), each shot by itself, evenly in angle, both ends included; shot i fires i * sweep_s / (columns *
-/// rows) after the tick. `alternate`: every second line backwards, as a mirror that swings to and fro.
+/// Describes a scanner that fires line by line (rings), each shot by itself, evenly in angle, both ends
+/// included. Shot i fires i * sweep_s / (columns * rows) after the tick. If `alternate`, every second line
+/// goes backwards, as with a mirror that swings to and fro.
 struct RasterScan {
   uint32_t columns = 1, rows = 1;
   double azimuth_first = 0.0, azimuth_last = 0.0;      ///< rad
@@ -51,12 +54,13 @@ struct RasterScan {
   double sweep_s = 0.0;
 };
 
-/// Two prisms one behind the other that turn at rates of their own (a Risley pair), each of which deflects the beam by a
-/// constant angle: to first order in the angles the deflections add as vectors, v(t) = sum of d_i (cos, sin)(2 pi f_i t +
-/// phase_i), and the beam leaves |v| off the x axis, towards (y, z) = v / |v| (G. F. Marshall, "Risley prism scan
-/// patterns", Proc. SPIE 3787 (1999), pp. 74-86; the exact refraction at the four faces and the figures of a device: R.
-/// G. Brazeal, B. E. Wilkinson, H. H. Hochmair, Sensors 21 (2021), 4722). Rates of opposite sign give rosettes; t is
-/// the time since the sequence began, so that the pattern does not repeat from sweep to sweep.
+/// Describes a Risley pair: two prisms one behind the other that turn at rates of their own, each of which
+/// deflects the beam by a constant angle. To first order in the angles the deflections add as vectors, v(t) =
+/// sum of d_i (cos, sin)(2 pi f_i t + phase_i). The beam leaves |v| off the x axis, towards (y, z) = v / |v|
+/// (G. F. Marshall, "Risley prism scan patterns", Proc. SPIE 3787 (1999), pp. 74-86; the exact refraction at
+/// the four faces and the figures of a device: R. G. Brazeal, B. E. Wilkinson, H. H. Hochmair, Sensors 21
+/// (2021), 4722). Rates of opposite sign give rosettes. t is the time since the sequence began, so that the
+/// pattern does not repeat from sweep to sweep.
 struct RosetteScan {
   uint32_t shots = 10'000;                               ///< of a sweep, evenly over sweep_s
   double deflections[2] = {radians(9.6), radians(9.6)};  ///< rad
@@ -65,9 +69,9 @@ struct RosetteScan {
   double sweep_s = 0.0;
 };
 
-/// Any shots, in the order fired.
+/// Describes a shot of a table. The shots may be any, in the order fired.
 struct TableShot {
-  double time_s = 0.0;                    ///< after the tick, not before the shot before
+  double time_s = 0.0;                    ///< after the tick; not before that of the shot before
   double azimuth = 0.0, elevation = 0.0;  ///< rad
   uint16_t channel = 0;
 };
@@ -79,15 +83,15 @@ struct ShotTable {
 
 using Scan = std::variant<SpinningScan, RasterScan, RosetteScan, ShotTable>;
 
-/// The shots of a sweep that begins `start_s` after the sequence (which matters to rosettes alone). Throws ContractError
-/// for scans that are empty or beyond the limits above.
+/// Returns the shots of a sweep that begins `start_s` after the start of the sequence (which matters only
+/// to rosettes). Throws ContractError for scans that are empty or beyond the limits above.
 ScanPattern scan_pattern(const Scan& scan, double start_s = 0.0);
-/// Whether every sweep has the same shots.
+/// Returns whether every sweep has the same shots.
 bool repeats(const Scan& scan);
-/// The last shot's time after the tick.
+/// Returns the last shot's time after the tick.
 double duration_s(const Scan& scan);
 
-/// Unit vector of an azimuth and an elevation.
+/// Returns the unit vector of an azimuth and an elevation.
 dvec3 beam_direction(double azimuth, double elevation);
 
 }  // namespace greatx::render

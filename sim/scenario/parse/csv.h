@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lines and cells of the CSV files that users write by hand. Empty lines and lines that begin with '#' are skipped; a
-// byte order mark and the line ends of Windows are fine.
+// Reads lines and cells of the CSV files that users write by hand. Empty lines and lines that begin with '#'
+// are skipped. A byte order mark and the line ends of Windows are allowed.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace greatx::sim {
 
-/// A cell of a line without the blanks around it.
+/// Describes a cell of a line, without the blanks around it.
 struct CsvCell {
   std::string_view text;
   size_t column = 1;  ///< 1-based, in bytes
@@ -26,16 +26,16 @@ struct CsvLine {
   int number = 0;  ///< 1-based
   std::vector<CsvCell> cells;
 
-  /// UserError "file:line:column: " and `what`; the column is that of a cell.
+  /// Throws UserError "file:line:column: " and `what`; the column is that of a cell.
   [[noreturn]] void fail(size_t cell, const std::string& what) const;
 };
 
-/// Reads line by line; the text outlives it.
+/// Reads line by line. The text outlives it.
 class CsvReader {
  public:
   /// `name` stands for the file in messages.
   CsvReader(std::string_view text, std::string_view name);
-  /// The next line that has something to say; empty at the end.
+  /// Returns the next line with content, or nothing at the end.
   std::optional<CsvLine> next();
 
  private:
@@ -43,12 +43,14 @@ class CsvReader {
   int number_ = 0;
 };
 
-/// A number as a whole cell: "12", "-.5e3", "+1", "inf", "nan"; empty if it is none.
+/// Returns a number that fills a whole cell: "12", "-.5e3", "+1", "inf", "nan". The result is empty if the
+/// text is not a number.
 std::optional<double> csv_number(std::string_view text);
-/// In small letters (ASCII).
+/// Returns the text in small letters (ASCII).
 std::string lower_case(std::string_view text);
 
-/// The whole file; `what` says what it should hold, for the message. Throws UserError if it cannot be read.
+/// Returns the whole file; `what` says in the message what it should hold. Throws UserError if it cannot be
+/// read.
 std::string read_csv_file(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace greatx::sim

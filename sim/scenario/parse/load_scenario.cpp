@@ -13,7 +13,7 @@
 namespace greatx::sim {
 namespace {
 
-/// Ticks whose time lies in [0, duration).
+/// Returns the number of ticks whose time lies in [0, duration).
 int64_t ticks_of_duration(const Field& field, const Rational& tick_rate_hz) {
   const Rational duration = field.rational("a duration greater than 0 in seconds");
   const auto ticks = product(duration, tick_rate_hz);
@@ -45,7 +45,7 @@ std::map<std::string, Switch> parse_effects(const Field& field) {
   return effects;
 }
 
-/// Names that would share a folder or a body.
+/// Refuses names that would share a folder or a body.
 void check_names(const Field& root, const Scenario& scenario) {
   for (const auto& [key, field] : entries_of(root)) {
     if (key != "channels") continue;

@@ -13,7 +13,8 @@
 namespace greatx::sim {
 namespace {
 
-/// A key of the scenario's top level that gets a value; `instead_of` is the key that gives way to it, if it is there.
+/// Describes a key of the scenario's top level that gets a value. The key `instead_of` gives way to it, if it
+/// is there.
 struct NewValue {
   std::string key, value, instead_of;
 };
@@ -23,7 +24,8 @@ struct Edit {
   std::string text;
 };
 
-/// Where the text has `what` as yaml-cpp's mark says; none: an anchor, an alias or quotes are there instead.
+/// Returns the place of a node in the text by yaml-cpp's mark. The result is empty if an anchor, an alias or
+/// quotes stand there instead.
 std::optional<size_t> place_of(const std::string& text, const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
   if (mark.is_null() || mark.pos < 0) return std::nullopt;
@@ -33,7 +35,7 @@ std::optional<size_t> place_of(const std::string& text, const YAML::Node& node) 
   return at;
 }
 
-/// Replaces or inserts one value; false if that cannot be done in the text.
+/// Replaces or inserts one value. Returns false if the text does not allow that.
 bool plan_edit(const std::string& text, const YAML::Node& root, const NewValue& value,
                std::vector<Edit>& edits) {
   for (const auto& entry : root) {
@@ -45,7 +47,8 @@ bool plan_edit(const std::string& text, const YAML::Node& root, const NewValue& 
     if (key != value.key) edits.push_back({*key_at, key.size(), value.key});
     return true;
   }
-  // Before the second key (the first is most often the format's version), where a comment above it may stay.
+  // The value goes before the second key (the first is most often the format's version), where a comment
+  // above it may stay.
   auto before = root.begin();
   if (root.size() > 1) ++before;
   const auto at = place_of(text, before->first);
@@ -73,11 +76,12 @@ bool says(const std::string& text, const std::vector<NewValue>& values) {
   }
 }
 
-/// What text edits cannot do (anchors, quotes): the same document as yaml-cpp writes it, without its comments.
+/// Handles the cases that text edits cannot (anchors, quotes). It returns the same document as yaml-cpp
+/// writes it, without its comments.
 std::string rewritten(const YAML::Node& document, const std::vector<NewValue>& values) {
   YAML::Node root = YAML::Clone(document);
   for (const NewValue& value : values) {
-    // Removed first: an assignment would go to all aliases of what stood there.
+    // The key is removed first, since an assignment would go to all aliases of the old value.
     root.remove(value.key);
     if (!value.instead_of.empty()) root.remove(value.instead_of);
     root.force_insert(value.key, value.value);
@@ -94,7 +98,7 @@ std::string text_with(const std::string& text, const std::vector<NewValue>& valu
     return plan_edit(text, root, value, edits);
   });
   std::string edited = text;
-  // From the back, so that places hold; what goes to one place comes to stand in the order given.
+  // The edits go from the back, so that places hold. Edits of one place end up in the order given.
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at < b.at; });
   for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
     edited.replace(edit->at, edit->length, edit->text);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values given from outside (the command line) in place of a scenario's own.
+// Replaces a scenario's own values by values given from outside (the command line).
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ struct ScenarioOverrides {
   std::optional<uint32_t> sequences;
 };
 
-/// Puts them into the scenario and into its text, which says everything then: parsed again it gives the same run. The
-/// text keeps its comments, and stays as it is where a value is what the scenario has anyway. Whatever moves keeps its
-/// course (override_ticks). The text has been parsed before.
+/// Puts the values into the scenario and into its text, which is then complete: parsed again it gives the
+/// same run. The text keeps its comments, and stays as it is where the scenario already has the value.
+/// Everything that moves keeps its course (override_ticks). The text has been parsed before.
 void override_scenario(Scenario& scenario, const ScenarioOverrides& overrides);
 
-/// Another length of the run alone: Bezier curves and corridors last as long as before, so that ticks that both runs
-/// have are the same.
+/// Changes only the length of the run. Bezier curves and corridors last as long as before, so that ticks that
+/// both runs have are the same.
 void override_ticks(Scenario& scenario, int64_t ticks);
 
 }  // namespace greatx::sim

@@ -46,13 +46,13 @@ class Parser {
   void read_header(const CsvLine& line);
   double number(const CsvLine& line, size_t column) const;
   Sample sample(const CsvLine& line) const;
-  /// The samples' values of one angle, ascending, in even steps.
+  /// Returns the samples' values of one angle, ascending, in even steps.
   std::vector<double> steps(double Sample::*angle, const char* column) const;
   void check_zeniths(const std::vector<double>& zeniths) const;
-  /// Whether the last azimuth is the first one again.
+  /// Returns whether the last azimuth is the first one again.
   bool closed(const std::vector<double>& azimuths) const;
   int line_of(double Sample::*angle, double value) const;
-  /// Samples in the order of the grid, [zeniths, azimuths], the double meridian included.
+  /// Returns the samples in the order of the grid, [zeniths, azimuths], the double meridian included.
   std::vector<const Sample*> gridded(const std::vector<double>& zeniths,
                                      const std::vector<double>& azimuths) const;
   void check_poles(std::span<const Sample* const> grid, size_t azimuths, double largest) const;
@@ -125,7 +125,7 @@ std::vector<double> Parser::steps(double Sample::*angle, const char* column) con
   for (size_t i = 1; i < values.size(); ++i) gaps.push_back(values[i] - values[i - 1]);
   std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
   for (size_t i = 1; i < values.size(); ++i) {
-    const double step = gaps[gaps.size() / 2];  // the median: the odd one out is the one that is named
+    const double step = gaps[gaps.size() / 2];  // the median, so that the message names the odd step
     if (std::abs(values[i] - values[i - 1] - step) > step * step_tolerance)
       fail(line_of(angle, values[i]), "{}: expected even steps, {:.6g} after {:.6g}, found {:.6g}", column,
            values[i - 1] + step, values[i - 1], values[i]);
@@ -162,15 +162,15 @@ std::vector<const Sample*> Parser::gridded(const std::vector<double>& zeniths,
     const auto at = std::lower_bound(values.begin(), values.end(), value - 2.0 * angle_tolerance_deg);
     return static_cast<size_t>(at - values.begin());
   };
-  // Sorted by their places, not put into them: a list of lines each with its own angles has as many places as lines
-  // squared.
+  // The samples are sorted by their places and not put into them: a list of lines that each have their own
+  // angles has as many places as the square of the lines.
   std::vector<std::pair<uint64_t, const Sample*>> places;
   places.reserve(samples_.size());
   for (const Sample& sample : samples_)
     places.emplace_back(
         uint64_t{index(zeniths, sample.theta_deg)} * azimuths.size() + index(azimuths, sample.phi_deg),
         &sample);
-  std::sort(places.begin(), places.end());  // lines with one place in the order of the file
+  std::sort(places.begin(), places.end());  // lines with one place stay in the order of the file
   const Sample *second = nullptr, *first = nullptr;
   for (size_t i = 1; i < places.size(); ++i)
     if (places[i].first == places[i - 1].first && (second == nullptr || places[i].second < second)) {

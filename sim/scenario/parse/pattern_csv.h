@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Field patterns of antenna elements from CSV (docs/scenario.md, "Imported patterns").
+// Reads field patterns of antenna elements from CSV (docs/scenario.md, "Imported patterns").
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,18 @@
 
 namespace greatx::sim {
 
-/// A pattern in one of two forms, told apart by the header line, which must be there:
-///     theta_deg,phi_deg,gain_dbi                                     F_theta = sqrt of the gain, F_phi = 0; -inf: none
-///     theta_deg,phi_deg,f_theta_re,f_theta_im,f_phi_re,f_phi_im     amplitude gains, |F|^2 = power gain
-/// One line a sample, in any order: zeniths from 0 to 180 and azimuths once around, each in even steps, every pair of
-/// them once. The azimuth 360 degrees after the first may be there as well, with the same values.
-/// Throws UserError "file:line:column: expected ..., found ..." for everything else: gaps, doubles, numbers that are not
-/// finite, uneven steps, less than the whole sphere, and poles with several strengths (beyond a tenth of the largest
-/// amplitude, and so much more than measurements scatter: columns are mixed up, or zenith is taken for elevation).
+/// Reads a pattern in one of two forms. The header line, which must be there, tells them apart:
+///   theta_deg,phi_deg,gain_dbi                                 F_theta = sqrt of the gain, F_phi = 0;
+///                                                              -inf: none
+///   theta_deg,phi_deg,f_theta_re,f_theta_im,f_phi_re,f_phi_im  amplitude gains, |F|^2 = power gain
+/// Each line is a sample, in any order: zeniths from 0 to 180 and azimuths once around, each in even steps,
+/// with every pair of them once. The azimuth 360 degrees after the first may be there as well, with the same
+/// values. Throws UserError "file:line:column: expected ..., found ..." for everything else: gaps, doubles,
+/// numbers that are not finite, uneven steps, less than the whole sphere, and poles with several strengths.
+/// Strengths at a pole differ if they are more than a tenth of the largest amplitude apart. That is far more
+/// than measurements scatter, and means that columns are mixed up, or that zenith is taken for elevation.
 rf::PatternTable load_pattern_csv(const std::filesystem::path& file);
-/// The same from text; `name` stands for the file in messages, and in the table without its folder.
+/// Does the same from text; `name` stands for the file in messages, and in the table without its folder.
 rf::PatternTable parse_pattern_csv(std::string_view text, const std::string& name);
 
 }  // namespace greatx::sim

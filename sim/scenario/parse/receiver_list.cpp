@@ -18,7 +18,7 @@ void check_count(const CsvLine& line) {
     line.fail(line.cells.size() - 1, fmt::format("expected 3 values (x, y, z), found {}", line.cells.size()));
 }
 
-/// A header in another order would swap coordinates in silence: its names are checked.
+/// Checks the names of a header, since one in another order would swap coordinates in silence.
 void check_receiver_header(const CsvLine& line) {
   check_count(line);
   for (size_t i = 0; i < names.size(); ++i) {

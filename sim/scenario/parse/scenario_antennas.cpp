@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[] of type antenna.
+// Parses nodes[].sensors[] of type antenna.
 #include <algorithm>
 #include <tuple>
 
@@ -16,7 +16,7 @@ constexpr uint32_t most_rows = 1024;
 constexpr size_t most_elements = 4096;
 constexpr double least_spacing_wl = 1e-6, most_spacing_wl = 1e6;
 
-/// Antennas with the same file share one table.
+/// Loads a pattern. Antennas with the same file share one table.
 std::shared_ptr<const rf::PatternTable> load_pattern(const Field& field, PatternFiles& loaded) {
   std::shared_ptr<const rf::PatternTable>& table = loaded[field.file()];
   if (!table) table = std::make_shared<const rf::PatternTable>(load_pattern_csv(field.file()));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: cameras, and what event cameras share with them.
+// Parses the cameras of nodes[].sensors[], and the part that event cameras share with them.
 #include <cmath>
 
 #include "core/units.h"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr uint32_t largest_image_edge = 16384;
 
-/// fov_deg (horizontal, square pixels), or fx and, if it differs, fy; the principal point is the centre by
-/// default.
+/// Parses fov_deg (horizontal, square pixels), or fx and, if it differs, fy. The principal point is the
+/// centre by default.
 void parse_intrinsics(const FieldMap& map, PinholeConfig& camera) {
   map.exclude("fov_deg", "fx");
   map.exclude("fov_deg", "fy");
@@ -45,7 +45,8 @@ Distortion parse_distortion(const Field& field) {
   return distortion;
 }
 
-/// auto, or {auto: true, compensation_ev}, or {ev100}, or {f_number, shutter_s, iso}; shutter_s goes with all of them.
+/// Parses auto, or {auto: true, compensation_ev}, or {ev100}, or {f_number, shutter_s, iso}. shutter_s goes
+/// with all of them.
 Exposure parse_exposure(const Field& field) {
   Exposure exposure;
   if (field.is_scalar()) {
@@ -152,7 +153,7 @@ CameraConfig parse_camera(const FieldMap& map) {
   if (const auto f = map.find("exposure")) camera.exposure = parse_exposure(*f);
   if (const auto f = map.find("motion_blur_samples")) {
     camera.motion_blur_samples = f->integer32(3, 63);
-    // The middle one is the tick: its depth and ids are the picture's.
+    // The middle instant is the tick: its depth and ids are those of the picture.
     if (camera.motion_blur_samples % 2 == 0) f->fail("an odd number from 3 to 63", f->text());
     if (!camera.exposure.shutter_s) f->fail("exposure.shutter_s, over which things move");
   }

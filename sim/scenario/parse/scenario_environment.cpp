@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// environment: sun, moon and sky, the air and what falls from it.
+// Parses environment: sun, moon and sky, the air, rain and fog.
 #include "core/units.h"
 #include "sim/scenario/date_time.h"
 #include "sim/scenario/parse/scenario_parse.h"

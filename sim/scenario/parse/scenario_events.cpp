@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: event cameras.
+// Parses the event cameras of nodes[].sensors[].
 #include <algorithm>
 
 #include "sim/scenario/parse/scenario_parse.h"
@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t most_steps = 64;
 constexpr double slowest_rate_hz = 0.5;  ///< times within an interval are 31-bit nanoseconds
 
-/// A number of even instants, or {by: flow, max_px, most}, or {by: brightness, max_change, most}.
+/// Parses a number of even instants, or {by: flow, max_px, most}, or {by: brightness, max_change, most}.
 void parse_steps(const Field& field, EventCameraConfig& camera) {
   if (field.is_scalar()) {
     camera.substeps = field.integer32(1, most_steps);
@@ -28,7 +28,7 @@ void parse_steps(const Field& field, EventCameraConfig& camera) {
   if (const auto f = map.find("most")) camera.substeps = f->integer32(2, most_steps);
 }
 
-/// One number for both polarities, or {on, off, sigma}.
+/// Parses one number for both polarities, or {on, off, sigma}.
 void parse_threshold(const Field& field, EventCameraConfig& camera) {
   constexpr double least = 0.01, most = 1.0;
   if (field.is_scalar()) {
@@ -75,12 +75,12 @@ void parse_difference(const Field& field, EventCameraConfig& camera) {
   if (const auto f = map.find("ev100")) camera.difference_ev100 = f->between(-20.0, 24.0);
 }
 
-/// What a shared camera says.
+/// The keys that belong to the shared camera.
 constexpr std::string_view of_the_camera[] = {"mount",   "see_own_body", "width",        "height",
                                               "fov_deg", "fx",           "fy",           "cx",
                                               "cy",      "near_m",       "antialiasing", "distortion"};
 
-/// The camera whose pixels the node's event camera `s` shares.
+/// Returns the camera whose pixels the node's event camera `s` shares.
 const SensorConfig& camera_of(const NodeConfig& node, size_t s, const std::string& path) {
   const SensorConfig& sensor = node.sensors[s];
   const std::string& name = std::get<EventCameraConfig>(sensor.config).camera;

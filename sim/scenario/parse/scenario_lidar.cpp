@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: LiDARs.
+// Parses the LiDARs of nodes[].sensors[].
 #include <cmath>
 
 #include "core/units.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t most_table_channels = 4096;
 
-/// Elevations of a spinning scanner: a table, or evenly spaced.
+/// Parses the elevations of a spinning scanner: a table, or evenly spaced ones.
 std::vector<double> parse_elevations(const FieldMap& map) {
   for (const char* even : {"elevation_min_deg", "elevation_max_deg"}) map.exclude("elevations_deg", even);
   std::vector<double> elevations;
@@ -59,7 +59,7 @@ render::SpinningScan parse_spinning(const FieldMap& map) {
   return scan;
 }
 
-/// [first, last] in degrees, each from -limit to limit.
+/// Parses [first, last] in degrees, each from -limit to limit.
 void parse_range_deg(const Field& field, double limit, double& first, double& last) {
   const std::vector<Field> ends = field.list("angles", 2);
   if (ends.size() != 2) field.fail("2 angles, the first and the last");
@@ -80,7 +80,7 @@ render::RasterScan parse_raster(const Field& field) {
   return scan;
 }
 
-/// Two numbers, one a prism.
+/// Parses two numbers, one for each prism.
 template <typename Read>
 void parse_pair(const Field& field, double (&values)[2], const Read& read) {
   const std::vector<Field> items = field.list("numbers", 2);
@@ -110,7 +110,7 @@ double parse_sweep(const FieldMap& map, const Rational& rate_hz) {
   return sweep_s;
 }
 
-/// Exactly one of the four patterns.
+/// Parses exactly one of the four patterns.
 render::Scan parse_scan(const FieldMap& map, const Rational& rate_hz) {
   constexpr std::array spinning = {"channels",        "elevation_min_deg", "elevation_max_deg",
                                    "elevations_deg",  "azimuth_steps",     "azimuth_start_deg",
@@ -193,7 +193,8 @@ void parse_receiver(const Field& field, render::Receiver& receiver) {
   }
 }
 
-/// A noise, or what a data sheet says: how far off a surface is detected how surely.
+/// Parses a noise, or the rating of a data sheet: the distance at which a surface is detected, and its
+/// probability.
 void parse_detection(const Field& field, render::Receiver& receiver) {
   const FieldMap map(field, {"noise_equivalent_power", "threshold", "range_m", "reflectance", "probability"});
   for (const char* rating : {"range_m", "reflectance", "probability"})

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[] and channels[], and the references between them.
+// Parses nodes[] and channels[], and the references between them.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "rf/config/subcarriers.h"
 #include "sim/scenario/parse/scenario_parse.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::sim {
 namespace {
 
-/// `rate_hz` or `rpm`; any ratio to the tick rate, as long as it can be reckoned with in integers.
+/// Parses `rate_hz` or `rpm`. Its ratio to the tick rate may be any that integers can hold.
 TurnRate parse_turn_rate(const FieldMap& map, const Rational& tick_rate_hz) {
   map.exclude("rate_hz", "rpm");
   const bool per_minute = map.has("rpm");
@@ -45,8 +46,8 @@ PartConfig parse_part(const Field& field, const Rational& tick_rate_hz) {
   return part;
 }
 
-/// A name that becomes a folder in each sequence of a data set, beside the files that are there already
-/// (docs/dataset.md).
+/// Returns a name that becomes a folder in each sequence of a data set, beside the files that are there
+/// already (docs/dataset.md).
 std::string folder_name(const Field& field) {
   for (const char* taken : {"poses", "index.csv", "index.npy", "index.csv.part", "index.npy.part"})
     if (field.name() == taken)
@@ -94,7 +95,7 @@ std::vector<std::string> names_of(const std::vector<NodeConfig>& nodes) {
   return names;
 }
 
-/// Every reference names another node, and none leads back to where it came from.
+/// Checks that every reference names another node, and that none leads back to its start.
 void check_references(const std::vector<NodeReference>& references, const std::vector<NodeConfig>& nodes) {
   const std::vector<std::string> names = names_of(nodes);
   std::vector<size_t> target(nodes.size(), nodes.size());
@@ -117,7 +118,7 @@ void check_references(const std::vector<NodeReference>& references, const std::v
   }
 }
 
-/// The name, "node/sensor", of an antenna.
+/// Returns the name, "node/sensor", of an antenna.
 std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>& nodes) {
   const std::string name = field.text();
   const std::string expected = "an antenna as node/sensor";
@@ -131,16 +132,12 @@ std::string parse_antenna_name(const Field& field, const std::vector<NodeConfig>
     field.fail(expected, fmt::format("unknown '{}'{}", name, suggestion(name, antennas)));
   }
   const SensorConfig& sensor = nodes[place->node].sensors[place->sensor];
-  if (std::holds_alternative<CameraConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a camera", name));
-  if (std::holds_alternative<LidarConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a LiDAR", name));
-  if (std::holds_alternative<RadarConfig>(sensor.config))
-    field.fail(expected, fmt::format("'{}', a radar", name));
+  if (!std::holds_alternative<AntennaConfig>(sensor.config))
+    field.fail(expected, fmt::format("'{}', {}", name, with_article(sensor_kind(sensor))));
   return name;
 }
 
-/// One antenna, or a list of them, each once.
+/// Parses one antenna, or a list of antennas, each once.
 std::vector<std::string> parse_antenna_names(const Field& field, const std::vector<NodeConfig>& nodes) {
   if (field.is_scalar()) return {parse_antenna_name(field, nodes)};
   std::vector<std::string> names;
@@ -152,7 +149,8 @@ std::vector<std::string> parse_antenna_names(const Field& field, const std::vect
   return names;
 }
 
-/// Of carrier, subcarriers, spacing and bandwidth: spacing x subcarriers = bandwidth, any two of the three.
+/// Parses the band from carrier, subcarriers, spacing and bandwidth: spacing x subcarriers = bandwidth, and
+/// any two of the three are enough.
 void parse_band(const FieldMap& map, ChannelConfig& channel) {
   if (const auto f = map.find("carrier_hz"))
     channel.carrier_hz = f->positive(least_carrier_hz, most_carrier_hz);
@@ -180,7 +178,7 @@ void parse_band(const FieldMap& map, ChannelConfig& channel) {
     map.field().fail("every subcarrier above 0 Hz", fmt::format("the lowest at {} Hz", lowest_hz));
 }
 
-/// What is written of the channel; its band is known.
+/// Parses the outputs of the channel; its band is known.
 void parse_outputs(const FieldMap& map, ChannelConfig& channel) {
   if (const auto f = map.find("outputs")) {
     channel.outputs = {false, false, false, false};

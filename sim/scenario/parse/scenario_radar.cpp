@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[] of type radar.
+// Parses nodes[].sensors[] of type radar.
 #include <cmath>
 #include <set>
 
@@ -28,7 +28,7 @@ void parse_waveform(const Field& field, rf::RadarWaveform& waveform, uint32_t& c
   if (const auto f = map.find("bandwidth_hz")) waveform.slope_hz_per_s = f->positive() / waveform.sampled_s();
 }
 
-/// One port an element: a radar's channels are told apart by where they are.
+/// Parses an array. Each element is one port, since positions tell a radar's channels apart.
 AntennaConfig parse_radar_array(const Field& field, PatternFiles& patterns) {
   const AntennaConfig antenna = parse_antenna(FieldMap(field, antenna_keys), patterns);
   if (array_of(antenna, 1e9).polarization_count() != 1)
@@ -136,7 +136,8 @@ void parse_outputs(const Field& field, RadarConfig& radar) {
   radar.signal.processing.detections = radar.outputs.detections;
 }
 
-/// Says where the user wrote what a fault is about: "waveform.chirp_s" in the block "waveform" of `map`.
+/// Reports a fault at the place where the user wrote its field: "waveform.chirp_s" in the block "waveform" of
+/// `map`.
 [[noreturn]] void fail_at(const FieldMap& map, const rf::RadarFault& fault) {
   const size_t dot = std::min(fault.field.find('.'), fault.field.size());
   std::string block = fault.field.substr(0, dot), rest = fault.field.substr(dot);
@@ -147,7 +148,7 @@ void parse_outputs(const Field& field, RadarConfig& radar) {
                       fault.message);
 }
 
-/// Elements of the arrays at the carrier, and slots for all transmitters.
+/// Places the elements of the arrays at the carrier, and the slots for all transmitters.
 void place_arrays(RadarConfig& radar, uint32_t chirps) {
   rf::RadarSignalConfig& signal = radar.signal;
   const auto positions = [&](const AntennaConfig& config) {
@@ -161,7 +162,7 @@ void place_arrays(RadarConfig& radar, uint32_t chirps) {
   signal.waveform.slots = chirps * signal.waveform.transmitters;
 }
 
-/// The antenna that a bistatic radar names.
+/// Returns the antenna that a bistatic radar names.
 const AntennaConfig& illuminator_of(const std::vector<NodeConfig>& nodes, const RadarConfig& radar,
                                     const std::string& field) {
   const auto fail = [&](const std::string& found) {
@@ -200,8 +201,8 @@ RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns) {
   uint32_t chirps = 128;
   radar.receive.columns = 4;
   radar.transmit.columns = 4;
-  radar.transmit.column_spacing_wl =
-      2.0;  // with four receivers half a wavelength apart: a full row of sixteen
+  // With four receivers half a wavelength apart this makes a full row of sixteen.
+  radar.transmit.column_spacing_wl = 2.0;
   map.exclude("illuminator", "transmit");
   if (const auto f = map.find("waveform")) parse_waveform(*f, signal.waveform, chirps);
   if (const auto f = map.find("transmit")) radar.transmit = parse_radar_array(*f, patterns);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// scene: the main file or generator, objects, radio materials.
+// Parses scene: the main file or generator, objects, radio materials.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -11,7 +11,7 @@
 namespace greatx::sim {
 namespace {
 
-/// scene::semantic_class_names, which this library does not link; a test compares the two.
+/// The names of scene::semantic_class_names, which this library does not link. A test compares the two.
 constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pavement",   "lane_marking",
                                          "building",    "roof",   "window",  "vegetation", "pole",
                                          "street_lamp", "mast",   "vehicle", "uav",        "water",
@@ -61,10 +61,10 @@ StaticObject parse_object(const Field& field) {
 
 }  // namespace
 
-size_t kind_of(const Field& field, std::string_view key, std::initializer_list<std::string_view> choices) {
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices) {
   std::string expected = "one of";
   for (const std::string_view choice : choices)
-    expected += fmt::format("{} {}", choice == *choices.begin() ? "" : ",", choice);
+    expected += fmt::format("{} {}", choice == choices.front() ? "" : ",", choice);
   for (const auto& [name, value] : entries_of(field))
     if (name == key) return value.choice(choices);
   throw_user_error_at(field.where(), "{}.{}: expected {}, found nothing", field.path(), key, expected);

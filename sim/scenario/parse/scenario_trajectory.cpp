@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].trajectory: who moves how.
+// Parses nodes[].trajectory.
 #include <algorithm>
 
 #include "sim/scenario/parse/scenario_parse.h"
@@ -106,7 +106,8 @@ CorridorTrajectory parse_corridor(const Field& field) {
   }
   if (const auto f = map.find("width_m")) trajectory.width_m = f->non_negative(most_position_m);
   if (const auto f = map.find("height_m")) trajectory.height_m = f->non_negative(most_position_m);
-  // A leg that spanned a bend of the centre line would leave the corridor: one leg or more a section.
+  // A leg that spanned a bend of the centre line would leave the corridor, so each section has at least one
+  // leg.
   const auto sections = static_cast<uint32_t>(trajectory.center_line_m.size() - 1);
   trajectory.legs = static_cast<int>(std::max(4u, sections));
   if (const auto f = map.find("legs")) trajectory.legs = static_cast<int>(f->integer32(sections, 1'000'000));

@@ -21,11 +21,12 @@ namespace {
 std::string quoted(const std::string& text) {
   constexpr size_t longest = 60;
   std::string shown = text.substr(0, longest);
-  if (const auto cut = find_bad_utf8(shown)) shown.resize(*cut);  // in the middle of a character
+  if (const auto cut = find_bad_utf8(shown)) shown.resize(*cut);  // the cut was in the middle of a character
   return fmt::format("'{}'{}", printable(shown), text.size() > longest ? " ..." : "");
 }
 
-/// A null value has the place of whatever follows it: prefer `fallback` then.
+/// Returns a node's line. A null value has the place of the text that follows it, and `fallback` is then
+/// better.
 int line_of_value(const YAML::Node& node, int fallback) {
   return node.IsNull() ? fallback : line_of(node, fallback);
 }
@@ -140,7 +141,7 @@ uint64_t Field::integer(uint64_t low, uint64_t high) const {
   uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) {
-    // "1e6" and "256.0" are integers as well, as JSON Schema has it.
+    // "1e6" and "256.0" are integers as well, as in JSON Schema.
     const auto real = parse_number(text);
     if (!real || *real < 0.0 || *real > 0x1p53 || *real != std::floor(*real)) fail(expected);
     value = static_cast<uint64_t>(*real);
@@ -178,7 +179,7 @@ dvec3 Field::angles_deg() const {
   return {radians(angles.x), radians(angles.y), radians(angles.z)};
 }
 
-size_t Field::choice(std::initializer_list<std::string_view> choices) const {
+size_t Field::choice(std::span<const std::string_view> choices) const {
   if (node_.IsScalar()) {
     const auto found = std::find(choices.begin(), choices.end(), node_.Scalar());
     if (found != choices.end()) return static_cast<size_t>(found - choices.begin());
@@ -220,7 +221,7 @@ std::vector<std::pair<std::string, Field>> entries_of(const Field& field) {
     // yaml-cpp keeps every pair and would answer with the first.
     if (!seen.insert(text).second) key.fail("every key once", fmt::format("a second {}", quoted(text)));
     const std::string path = field.path_.empty() ? text : field.path_ + "." + text;
-    // The key's line: a value's own may be the next one, or an anchor's.
+    // The line is the key's: a value's own may be the next line, or an anchor's.
     entries.emplace_back(text, Field(field.source_, entry.second, path, line));
   }
   return entries;
@@ -256,7 +257,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   const std::string* best = nullptr;
   size_t best_distance = std::max<size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    // A forgotten unit ("rate" for "rate_hz") is nearer than its letters tell.
+    // A forgotten unit ("rate" for "rate_hz") is nearer than the distance of the letters says.
     const bool prefix = candidate.starts_with(std::string(word) + "_");
     const size_t distance = prefix ? 1 : edit_distance(word, candidate);
     if (distance >= best_distance || distance >= candidate.size()) continue;

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading YAML strictly: every value knows its place in the file and its path
-// ("nodes[1].sensors[0].rate_hz"), every wrong one throws UserError "file:line: path: expected ..., found
-// ...".
+// Reads YAML strictly. Every value knows its place in the file and its path ("nodes[1].sensors[0].rate_hz"),
+// and every wrong one throws UserError "file:line: path: expected ..., found ...".
 #pragma once
 
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +25,12 @@
 
 namespace greatx::sim {
 
-/// One value of the document. Numbers follow YAML 1.2's core schema: plain (unquoted) scalars; 0, or of a magnitude from
-/// least_number to most_number.
+/// Represents one value of the document. Numbers follow YAML 1.2's core schema: they are plain (unquoted)
+/// scalars, and are 0 or of a magnitude from least_number to most_number.
 class Field {
  public:
-  /// The root of the one document in `text`. Throws UserError with the line if it is not well-formed YAML.
+  /// Returns the root of the one document in `text`. Throws UserError with the line if it is not well-formed
+  /// YAML.
   static Field parse(const std::string& text, const std::string& file_name,
                      const std::filesystem::path& folder, const std::filesystem::path& assets = {});
 
@@ -42,8 +43,8 @@ class Field {
   bool is_scalar() const { return node_.IsScalar(); }
   bool boolean() const;
   std::string text() const;  ///< not empty
-  /// A name that is also a folder's or file's: letters, digits, '_', '-', '.'; does not begin with '.' or
-  /// '-'.
+  /// Returns a name that is also a folder's or file's: it has letters, digits, '_', '-', '.', and does not
+  /// begin with '.' or '-'.
   std::string name() const;
   double number(double most = most_number) const;  ///< from -most
   double positive(double least = least_number, double most = most_number) const;
@@ -51,18 +52,22 @@ class Field {
   double between(double low, double high) const;  ///< inclusive
   uint64_t integer(uint64_t low, uint64_t high = std::numeric_limits<uint64_t>::max()) const;
   uint32_t integer32(uint32_t low, uint32_t high) const { return static_cast<uint32_t>(integer(low, high)); }
-  /// A positive rational number, from a number or a text such as 30000/1001; `expected` describes it.
+  /// Returns a positive rational number, from a number or a text such as 30000/1001; `expected` describes it.
   Rational rational(const std::string& expected) const;
-  /// The same with a sign, '-' or none.
+  /// Returns the same with a sign, '-' or none.
   TurnRate turn_rate(const std::string& expected) const;
   dvec3 vector3(double most = most_number) const;  ///< each from -most
-  dvec3 position() const;                          ///< of something in the world, or a way or extent in it, m
+  dvec3 position() const;                          ///< of a thing in the world, or a way or extent in it, m
   dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
-  /// The index of the text in `choices`.
-  size_t choice(std::initializer_list<std::string_view> choices) const;
-  /// Items with at least `least` of them; `of_what` names them in messages, e.g. "sensors".
+  /// Returns the index of the text in `choices`.
+  size_t choice(std::initializer_list<std::string_view> choices) const {
+    return choice(std::span(choices.begin(), choices.size()));
+  }
+  size_t choice(std::span<const std::string_view> choices) const;
+  /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g. "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
-  /// An existing regular file, absolute; relative ones are looked for in the scenario's folder, then among the assets.
+  /// Returns an existing regular file as an absolute path. A relative one is looked for in the scenario's
+  /// folder, then among the assets.
   std::filesystem::path file() const;
 
  private:
@@ -89,7 +94,7 @@ inline Keys operator+(Keys a, const Keys& b) {
   return a;
 }
 
-/// A map whose keys are known beforehand. Unknown and duplicate keys throw.
+/// Represents a map whose keys are known beforehand. Unknown and duplicate keys throw.
 class FieldMap {
  public:
   FieldMap(const Field& field, const Keys& keys);
@@ -106,10 +111,10 @@ class FieldMap {
   std::vector<std::pair<std::string, Field>> entries_;
 };
 
-/// The entries of a map with free keys, in the file's order. Duplicate keys throw.
+/// Returns the entries of a map with free keys, in the file's order. Duplicate keys throw.
 std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
 
-/// " (did you mean 'x'?)" for the candidate nearest to `word`, empty if none is near.
+/// Returns " (did you mean 'x'?)" for the candidate nearest to `word`, or an empty text if none is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace greatx::sim

@@ -13,13 +13,15 @@
 namespace greatx::sim {
 namespace {
 
-constexpr std::array<const char*, 7> trajectory_columns = {"t", "x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg"};
+constexpr std::array<const char*, 7> trajectory_columns = {"t",       "x",         "y",       "z",
+                                                           "yaw_deg", "pitch_deg", "roll_deg"};
 
 [[noreturn]] void fail(const CsvLine& line, size_t cell, const std::string& expected,
                        const std::string& found) {
-  line.fail(cell, fmt::format("{}expected {}, found {}",
-                              cell < trajectory_columns.size() ? std::string(trajectory_columns[cell]) + ": " : "",
-                              expected, found));
+  line.fail(cell,
+            fmt::format("{}expected {}, found {}",
+                        cell < trajectory_columns.size() ? std::string(trajectory_columns[cell]) + ": " : "",
+                        expected, found));
 }
 
 void check_count(const CsvLine& line) {
@@ -30,7 +32,7 @@ void check_count(const CsvLine& line) {
         fmt::format("expected 4 or 7 values (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]), found {}", count));
 }
 
-/// A header in another order would be read as garbage: its names are checked.
+/// Checks the names of a header, since one in another order would be read as garbage.
 void check_trajectory_header(const CsvLine& line) {
   check_count(line);
   constexpr std::array<std::array<const char*, 4>, 7> spellings = {{{"t", "t_s", "time", "time_s"},

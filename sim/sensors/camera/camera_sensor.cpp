@@ -199,6 +199,7 @@ std::vector<Array> CameraSensor::collect(const gpu::TickSlot& slot) {
 }
 
 void CameraSensor::check(const gpu::TickSlot& slot) {
+  depth_errors_ = {};
   const std::span<const shared::ProbeHit> hits = probe_hits_[slot.index].as<shared::ProbeHit>();
   for (size_t i = 0; i < probe_pixels_.size(); ++i) {
     const glm::uvec2 pixel = probe_pixels_[i];
@@ -209,6 +210,12 @@ void CameraSensor::check(const gpu::TickSlot& slot) {
   }
 }
 
-void CameraSensor::report(Consistency& consistency) const { consistency.depth.add(depth_errors_); }
+Evidence CameraSensor::evidence() const {
+  Evidence evidence;
+  if (probe_ != nullptr) evidence.pixels_against_rays = &depth_errors_;
+  const bool pinhole = !pass_.desc().distortion.any();
+  if (pinhole && !images_.depth.empty()) evidence.depth = {node_, mount_, &pass_.desc(), &images_};
+  return evidence;
+}
 
 }  // namespace greatx::sim

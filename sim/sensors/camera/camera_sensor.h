@@ -32,17 +32,13 @@ class CameraSensor : public Sensor {
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
-  void report(Consistency& consistency) const override;
+  Evidence evidence() const override;
+  bool draws_pictures() const override { return true; }
   /// An event camera that shares its pixels looks at the pictures before a resume, too.
   bool remembers() const override { return pass_.desc().outputs.luminance; }
 
-  uint32_t node() const { return node_; }
-  const Pose& mount() const { return mount_; }
-  const render::CameraDesc& desc() const { return pass_.desc(); }
   /// With the picture recorded last.
   const render::CameraPass& pass() const { return pass_; }
-  /// The picture collected last, for comparing with other sensors of the same tick.
-  const render::CameraImages& images() const { return images_; }
 
  private:
   void expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor);
@@ -68,7 +64,7 @@ class CameraSensor : public Sensor {
   std::vector<glm::uvec2> probe_pixels_;
   std::array<gpu::Slice, slots_in_flight> probe_hits_;
   render::CameraImages images_;
-  ErrorStatistics depth_errors_;
+  ErrorStatistics depth_errors_;  ///< of the picture collected last
 };
 
 }  // namespace greatx::sim

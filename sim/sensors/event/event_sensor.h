@@ -26,6 +26,7 @@ class EventSensor : public Sensor {
 
   const SensorSpec& spec() const override { return spec_; }
   bool remembers() const override { return true; }
+  bool draws_pictures() const override { return true; }
   void start(const TickContext& context) override;
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;

@@ -80,6 +80,14 @@ bool LidarSensor::exact() const {
          pass_.desc().receiver.range_std_m == 0.0 && pass_.desc().receiver.rise_m == 0.0;
 }
 
+Evidence LidarSensor::evidence() const {
+  Evidence evidence;
+  if (!exact()) return evidence;
+  const std::span<const float> xyzi(scan_.size() > 0 ? &scan_.points[0].x : nullptr, 4 * scan_.size());
+  evidence.returns = {node_, mount_, xyzi, scan_.instance, scan_.material};
+  return evidence;
+}
+
 std::vector<Pose> LidarSensor::poses(const TickContext& context, const render::ScanPattern& pattern) const {
   std::vector<Pose> poses;
   if (!per_shot_) return {world_.scene.to_local(context.nodes[node_].pose) * mount_};

@@ -21,13 +21,7 @@ class LidarSensor : public Sensor {
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
-
-  uint32_t node() const { return node_; }
-  const Pose& mount() const { return mount_; }
-  /// Whether returns may be compared with pictures of the tick: all shots at the tick, along the axis, without noise.
-  bool exact() const;
-  /// The sweep collected last.
-  const render::LidarScan& scan() const { return scan_; }
+  Evidence evidence() const override;
 
  private:
   struct Sweep {
@@ -35,6 +29,9 @@ class LidarSensor : public Sensor {
     render::ShotNoise noise;
   };
   void describe(const SensorConfig& sensor);
+  /// Whether returns may be compared with pictures of the tick: all shots at the tick, along the axis,
+  /// without noise.
+  bool exact() const;
   std::vector<Pose> poses(const TickContext& context, const render::ScanPattern& pattern) const;
   render::ShotNoise noise_of(const TickContext& context) const;
 
@@ -48,7 +45,7 @@ class LidarSensor : public Sensor {
   render::LidarPass pass_;
   SensorSpec spec_;
   std::array<Sweep, slots_in_flight> sweeps_;
-  render::LidarScan scan_;
+  render::LidarScan scan_;  ///< collected last
 };
 
 }  // namespace greatx::sim

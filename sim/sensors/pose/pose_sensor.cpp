@@ -62,4 +62,10 @@ void PoseSensor::record(gpu::TickSlot& slot, const TickContext& context) {
 
 std::vector<Array> PoseSensor::collect(const gpu::TickSlot& slot) { return std::move(arrays_[slot.index]); }
 
+Evidence PoseSensor::evidence() const {
+  Evidence evidence;
+  evidence.poses = true;
+  return evidence;
+}
+
 }  // namespace greatx::sim

@@ -15,6 +15,7 @@ class PoseSensor : public Sensor {
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  Evidence evidence() const override;
 
  private:
   SensorSpec spec_;

@@ -205,6 +205,12 @@ std::vector<Array> RadarSensor::process(const Echoes& echoes) {
   return radar_arrays(config_, processor_, frame_);
 }
 
+Evidence RadarSensor::evidence() const {
+  Evidence evidence;
+  evidence.detections = config_.outputs.detections;
+  return evidence;
+}
+
 void RadarSensor::count(std::map<std::string, uint64_t>& counters) const {
   counters[name_ + " frames"] = frames_done_;
   counters[name_ + " ray tubes"] = tubes_;

@@ -24,6 +24,7 @@ class RadarSensor : public Sensor {
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
 
   /// What the scene sends back in a frame, and when; what collect() makes a record of.
@@ -37,9 +38,6 @@ class RadarSensor : public Sensor {
   Echoes find_echoes(const gpu::TickSlot& slot);
   std::vector<Array> process(const Echoes& echoes);
 
-  uint32_t node() const { return node_; }
-  const Pose& mount() const { return mount_; }
-  const RadarConfig& config() const { return config_; }
   /// The frame collected last.
   const rf::RadarFrame& frame() const { return frame_; }
 
