@@ -126,7 +126,7 @@ std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, con
     std::vector<Instant> instants;
     for (uint32_t step = 0; step <= EventRow::substeps; ++step) {
       const double time_s = begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps;
-      instants.push_back({world.scene.to_local(courses.paths[camera.node]->at(time_s).pose) * mount,
+      instants.push_back({world.scene.to_local(courses.nodes[camera.node]->at(time_s).pose) * mount,
                           sim::body_poses(world, courses, time_s)});
     }
     intervals.push_back(std::move(instants));

@@ -69,7 +69,7 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
   channel.max_depth = max_depth;
   channel.max_transmissions = max_transmissions;
   channel.search = "auto";
-  const auto paths = sim::make_paths(scenario, 0);
+  const auto paths = sim::make_node_courses(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
     sim::NodeConfig& node = scenario.nodes[i];
     node.parts.clear();

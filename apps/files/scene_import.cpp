@@ -14,7 +14,7 @@ io::Bytes imported_glb(const scene::ImportedScene& scene, const std::string& nam
   for (const scene::ImportedMaterial& material : scene.materials) {
     io::GlbMaterial out;
     out.name = material.name;
-    out.base_color = material.base_color;
+    out.base_color = dvec3(material.base_color);
     out.metallic = material.metallic;
     out.roughness = 0.8f;
     out.double_sided = true;  // walls are drawn as sheets, and often wound either way

@@ -145,7 +145,7 @@ int Exporter::scene_material(uint32_t material) {
   if (found != scene_materials_.end()) return found->second;
   const scene::Material& source = scene_.scene->materials[material];
   const int index = writer_.add_material({.name = source.name,
-                                          .base_color = vec3(source.pbr.base_color),
+                                          .base_color = dvec3(source.pbr.base_color),
                                           .metallic = source.pbr.metallic,
                                           .roughness = source.pbr.roughness,
                                           .double_sided = source.pbr.double_sided});

@@ -13,7 +13,7 @@
 namespace greatx {
 namespace {
 
-int line_of(const YAML::Node& node) { return node.Mark().is_null() ? 0 : node.Mark().line + 1; }
+bool is_plain(const YAML::Node& node) { return node.IsScalar() && node.Tag() != "!"; }
 
 /// Counts the values of a document as if its aliases were written out. It visits each node once.
 class Counter {
@@ -63,6 +63,24 @@ std::vector<YAML::Node> load_yaml(const std::string& text, const std::string& na
   for (const YAML::Node& document : documents) total = saturating_sum(total, counter.count(document));
   require_within(name, total, budget::yaml_values);
   return documents;
+}
+
+int line_of(const YAML::Node& node, int fallback) {
+  return node.Mark().is_null() ? fallback : node.Mark().line + 1;
+}
+
+int line_of(const YAML::Exception& error) { return error.mark.is_null() ? 0 : error.mark.line + 1; }
+
+std::optional<double> plain_number(const YAML::Node& node) {
+  return is_plain(node) ? parse_number(node.Scalar()) : std::nullopt;
+}
+
+std::optional<bool> plain_boolean(const YAML::Node& node) {
+  if (!is_plain(node)) return std::nullopt;
+  const std::string& text = node.Scalar();
+  if (text == "true" || text == "True" || text == "TRUE") return true;
+  if (text == "false" || text == "False" || text == "FALSE") return false;
+  return std::nullopt;
 }
 
 }  // namespace greatx

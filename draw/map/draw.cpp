@@ -101,7 +101,7 @@ void draw_markers(Canvas& canvas, const Rect& area, const MapStage& stage) {
     const dvec2 p =
         pixels.at(marker.position_m) / dvec2(pixels.width, pixels.height) * dvec2(area.width, area.height);
     if (p.x < 0.0 || p.y < 0.0 || p.x > area.width || p.y > area.height) continue;
-    Coverage coverage(area.width, area.height);
+    ShapeCoverage coverage(area.width, area.height);
     for (const double grown : {3.0, 0.0}) {
       const double reach = 20.0;
       coverage.shape(p - reach, p + reach, [&](const dvec2& q) {

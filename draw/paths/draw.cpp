@@ -73,7 +73,7 @@ class Painter {
   std::span<const float> depth_;
   dvec3 origin_;
   double finer_;
-  Coverage coverage_;
+  ShapeCoverage coverage_;
 };
 
 void Painter::lines(const DrawnPath& path, bool hidden, double width, Color color, double opacity) {
@@ -247,7 +247,7 @@ void draw_marker_legend(Canvas& canvas, int right, int y, std::span<const PathLi
     x -= Canvas::text_width(name, theme::text_scale);
     canvas.text(x, y + 3, name, theme::text_scale, theme::dim);
     x -= 14;
-    Coverage coverage(24, 24);
+    ShapeCoverage coverage(24, 24);
     coverage.shape({0, 0}, {24, 24},
                    [&](const dvec2& p) { return marker_distance(path_kinds[i], p - dvec2(12.0), 5.0); });
     coverage.paint(canvas, {x - 12, y - 2}, paper, 1.0);

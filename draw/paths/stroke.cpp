@@ -61,11 +61,11 @@ std::vector<Run> runs_of(const std::vector<bool>& hidden) {
 
 }  // namespace
 
-Coverage::Coverage(int width, int height)
+ShapeCoverage::ShapeCoverage(int width, int height)
     : width_(width), height_(height), share_(static_cast<size_t>(width) * static_cast<size_t>(height)) {}
 
-void Coverage::shape(const dvec2& low, const dvec2& high,
-                     const std::function<double(const dvec2&)>& distance) {
+void ShapeCoverage::shape(const dvec2& low, const dvec2& high,
+                          const std::function<double(const dvec2&)>& distance) {
   const int left = std::max(0, static_cast<int>(std::floor(std::max(low.x, -1e6) - 1.0)));
   const int top = std::max(0, static_cast<int>(std::floor(std::max(low.y, -1e6) - 1.0)));
   const int right = std::min(width_ - 1, static_cast<int>(std::ceil(std::min(high.x, 1e6) + 1.0)));
@@ -81,7 +81,7 @@ void Coverage::shape(const dvec2& low, const dvec2& high,
     }
 }
 
-void Coverage::line(const dvec2& a, const dvec2& b, double width) {
+void ShapeCoverage::line(const dvec2& a, const dvec2& b, double width) {
   // Short pieces, so that a slanting line does not look at every pixel of its box.
   const int pieces = std::max(1, static_cast<int>(glm::distance(a, b) / 24.0));
   const double half = 0.5 * width;
@@ -96,7 +96,7 @@ void Coverage::line(const dvec2& a, const dvec2& b, double width) {
   }
 }
 
-void Coverage::paint(io::Canvas& canvas, const ivec2& offset, io::Color color, double opacity) {
+void ShapeCoverage::paint(io::Canvas& canvas, const ivec2& offset, io::Color color, double opacity) {
   for (const uint32_t pixel : touched_) {
     const int x = static_cast<int>(pixel % static_cast<uint32_t>(width_)),
               y = static_cast<int>(pixel / static_cast<uint32_t>(width_));

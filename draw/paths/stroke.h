@@ -15,9 +15,9 @@ namespace greatx::apps {
 
 /// How much of each pixel something covers. What is drawn before paint() is one shape: where its parts overlap it is
 /// not denser, so a bent line has no knots.
-class Coverage {
+class ShapeCoverage {
  public:
-  Coverage(int width, int height);
+  ShapeCoverage(int width, int height);
 
   /// A line with round ends.
   void line(const dvec2& a, const dvec2& b, double width);

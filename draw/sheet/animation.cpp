@@ -24,7 +24,7 @@ std::string speed_text(double speed) {
 
 }  // namespace
 
-Playback playback_of(const std::vector<Moment>& moments) {
+Playback playback_of(const std::vector<SheetMoment>& moments) {
   GREATX_CHECK(!moments.empty(), "no moments");
   if (moments.size() == 1) return {{0}, step_otherwise_ms, 1.0};
   const double total_ms = 1e-6 * static_cast<double>(moments.back().time_ns - moments.front().time_ns);
@@ -104,7 +104,7 @@ void Animation::draw_background(const std::string& title) {
 }
 
 Array Animation::frame(size_t i) const {
-  const Moment& moment = moments_.at(i);
+  const SheetMoment& moment = moments_.at(i);
   Canvas canvas = background_;
   const std::string line =
       fmt::format("{:.3f} s   tick {}   frame {} of {}   {}", 1e-9 * static_cast<double>(moment.time_ns),

@@ -19,7 +19,7 @@ struct Playback {
   double speed = 1.0;         ///< of the data set's time: 1 is its own, 2 twice as fast
 };
 /// One moment or more, in order.
-Playback playback_of(const std::vector<Moment>& moments);
+Playback playback_of(const std::vector<SheetMoment>& moments);
 
 /// Three tiles a row, four panels as two by two; the tiles that stay free in the last row show plots of the whole
 /// sequence, one a sensor.
@@ -41,7 +41,7 @@ class Animation {
   Rect tile(const Band& band, size_t column) const;
   void draw_background(const std::string& title);
 
-  std::vector<Moment> moments_;
+  std::vector<SheetMoment> moments_;
   Playback playback_;
   Panels panels_;  ///< frames, and the series that find a free tile
   std::vector<Band> bands_;

@@ -19,7 +19,7 @@ constexpr int gutter = 132, header_height = 74, plot_height = 400;
 constexpr size_t most_columns = 4, rows_of_sheet = 4;
 
 /// The panels of all sensors in one list.
-Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::vector<Moment>& moments) {
+Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::vector<SheetMoment>& moments) {
   Panels all;
   for (Panels& panels : panels_by_sensor(reader, sequence, moments)) {
     std::move(panels.frames.begin(), panels.frames.end(), std::back_inserter(all.frames));
@@ -41,7 +41,7 @@ void draw_header(Canvas& canvas, const DatasetReader& reader, uint32_t sequence)
 }
 
 int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
-              const std::vector<Moment>& moments) {
+              const std::vector<SheetMoment>& moments) {
   const auto column_x = [](size_t column) {
     return margin + gutter + static_cast<int>(column) * (tile_width + gap);
   };
@@ -79,7 +79,7 @@ struct Column {
 
 Array contact_sheet(const DatasetReader& reader, uint32_t sequence) {
   check_has_records(reader, sequence);
-  const std::vector<Moment> moments = choose_moments(reader, sequence, rows_of_sheet);
+  const std::vector<SheetMoment> moments = choose_moments(reader, sequence, rows_of_sheet);
   const Panels panels = make_panels(reader, sequence, moments);
   const size_t total = panels.frames.size();
   const std::vector<Band> bands =
@@ -115,7 +115,7 @@ Array comparison_sheet(std::span<const DatasetReader> readers, uint32_t sequence
   size_t rows = 0;
   for (const DatasetReader& reader : readers) {
     check_has_records(reader, sequence);
-    std::vector<Moment> moments = choose_moments(reader, sequence, rows_of_sheet);
+    std::vector<SheetMoment> moments = choose_moments(reader, sequence, rows_of_sheet);
     if (!moments.empty()) moments = {moments[moments.size() / 2]};
     columns.push_back({summarize(reader).title, make_panels(reader, sequence, moments)});
     rows = std::max(rows, columns.back().panels.frames.size());

@@ -10,9 +10,9 @@ namespace greatx::io {
 
 namespace {
 
-std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vector<Moment>& moments) {
+std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vector<SheetMoment>& moments) {
   std::vector<IndexRow> chosen;
-  for (const Moment& moment : moments) {
+  for (const SheetMoment& moment : moments) {
     chosen.push_back(*std::min_element(rows.begin(), rows.end(), [&](const IndexRow& a, const IndexRow& b) {
       return std::abs(a.tick - moment.tick) < std::abs(b.tick - moment.tick);
     }));
@@ -29,7 +29,7 @@ Rect fit(const Rect& tile, double aspect) {
 
 }  // namespace
 
-std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count) {
+std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count) {
   GREATX_CHECK(count > 0, "{} moments", count);
   const bool intervals = std::ranges::any_of(
       reader.sensors(), [](const SensorSpec& sensor) { return is_about_intervals(sensor.kind); });
@@ -37,7 +37,7 @@ std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequenc
     for (size_t s = 0; s < reader.sensors().size(); ++s) {
       const std::vector<IndexRow> rows = reader.records_of(sequence, s);
       if (rows.empty() || (frames_only && !has_frame_panels(reader.sensors()[s].kind))) continue;
-      std::vector<Moment> moments;
+      std::vector<SheetMoment> moments;
       const size_t first = intervals && rows.size() > 1 ? 1 : 0;
       const size_t most = std::min(count, rows.size() - first);
       for (size_t k = 0; k < most; ++k) {
@@ -51,7 +51,7 @@ std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequenc
 }
 
 std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t sequence,
-                                     const std::vector<Moment>& moments) {
+                                     const std::vector<SheetMoment>& moments) {
   std::vector<Panels> panels(reader.sensors().size());
   std::set<std::string> drawn;
   for (size_t s = 0; s < reader.sensors().size(); ++s) {

@@ -18,19 +18,19 @@ inline constexpr int margin = 28, gap = 14;
 inline constexpr int tile_width = 400, legend_height = 24, title_height = 30, row_gap = 10;
 }  // namespace sheet
 
-struct Moment {
+struct SheetMoment {
   int64_t tick, time_ns;
 };
 
 /// At most `count` (1 or more) moments evenly from the first record to the last of the sensor that rows
 /// follow: the first one drawn moment by moment, else the first one with records. With a sensor that
 /// is_about_intervals() the second record stands for the first, which is empty.
-std::vector<Moment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count);
+std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count);
 
 /// The panels of each sensor, row i of them its record nearest to moments[i]; of the kinds that are drawn
 /// over time only the first sensor gets some.
 std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t sequence,
-                                     const std::vector<Moment>& moments);
+                                     const std::vector<SheetMoment>& moments);
 
 /// Throws UserError if the sequence is not there or has no records.
 void check_has_records(const DatasetReader& reader, uint32_t sequence);

@@ -88,19 +88,17 @@ Bytes encode_pcd(const std::vector<std::string>& names, const std::vector<const 
 
 std::map<std::string, Array> decode_pcd(std::span<const std::byte> file, const std::string& name) {
   constexpr std::string_view end_mark = "\nDATA binary\n";
-  const std::string_view text(reinterpret_cast<const char*>(file.data()),
-                              std::min<size_t>(file.size(), 65536));
-  const size_t end = text.find(end_mark);
-  if (end == text.npos) throw_user_error("{}: expected a PCD file with binary data", name);
+  const std::optional<std::string_view> text = text_header(file, end_mark);
+  if (!text) throw_user_error("{}: expected a PCD file with binary data", name);
   PcdHeader header;
-  std::istringstream lines{std::string(text.substr(0, end))};
+  std::istringstream lines{std::string(*text)};
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::string> words = words_of(line);
     if (words.empty() || words[0].starts_with('#')) continue;
     header[words[0]] = {words.begin() + 1, words.end()};
   }
   const std::vector<VertexProperty> properties = properties_of(header, name);
-  const std::span<const std::byte> data = file.subspan(end + end_mark.size());
+  const std::span<const std::byte> data = file.subspan(text->size() + end_mark.size());
   const size_t stride = row_bytes(properties);
   const std::string& points = values_of(header, "POINTS", 1, name)[0];
   if (data.size() % stride != 0 || points != std::to_string(data.size() / stride))

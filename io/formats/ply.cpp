@@ -78,12 +78,10 @@ Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const 
 
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name) {
   constexpr std::string_view end_mark = "end_header\n";
-  const std::string_view text(reinterpret_cast<const char*>(file.data()),
-                              std::min<size_t>(file.size(), 65536));
-  const size_t end = text.find(end_mark);
-  if (end == text.npos) throw_user_error("{}: expected a PLY file", name);
-  const PlyHeader header = parse_header(text.substr(0, end), name);
-  const std::span<const std::byte> data = file.subspan(end + end_mark.size());
+  const std::optional<std::string_view> text = text_header(file, end_mark);
+  if (!text) throw_user_error("{}: expected a PLY file", name);
+  const PlyHeader header = parse_header(*text, name);
+  const std::span<const std::byte> data = file.subspan(text->size() + end_mark.size());
   const auto count = static_cast<size_t>(header.vertices);
   const size_t stride = row_bytes(header.properties);
   if (stride == 0 || data.size() / stride != count || data.size() % stride != 0)

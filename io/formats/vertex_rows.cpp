@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/formats/vertex_rows.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace greatx::io {
@@ -61,6 +62,13 @@ std::map<std::string, Array> vertex_columns(const std::vector<VertexProperty>& p
     arrays.emplace(property.name, std::move(array));
   }
   return arrays;
+}
+
+std::optional<std::string_view> text_header(std::span<const std::byte> file, std::string_view end_mark) {
+  constexpr size_t longest = 65536;
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), std::min(file.size(), longest));
+  const size_t end = text.find(end_mark);
+  return end == text.npos ? std::nullopt : std::optional(text.substr(0, end));
 }
 
 }  // namespace greatx::io

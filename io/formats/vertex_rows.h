@@ -5,8 +5,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/record.h"
@@ -29,5 +31,8 @@ Bytes with_vertex_rows(const std::string& header, const std::vector<const Array*
 std::map<std::string, Array> vertex_columns(const std::vector<VertexProperty>& properties, size_t count,
                                             std::span<const std::byte> data);
 size_t row_bytes(const std::vector<VertexProperty>& properties);
+
+/// The text of a file before `end_mark`, which stands within the first 64 KiB; empty if it does not.
+std::optional<std::string_view> text_header(std::span<const std::byte> file, std::string_view end_mark);
 
 }  // namespace greatx::io

@@ -187,9 +187,9 @@ class CameraPass {
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
   std::unique_ptr<PinholeView> pinhole_;
-  gpu::Image lens_;  ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
-  Picture shaded_;   ///< before its edges are smoothed; nothing if they are not
-  Picture picture_;
+  gpu::Image lens_;        ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
+  PictureBuffers shaded_;  ///< before its edges are smoothed; nothing if they are not
+  PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted

@@ -23,7 +23,7 @@ class DevelopPass {
   /// Builds the pipelines for the outputs and effects of `desc`. `lighting` outlives this. Throws UserError
   /// naming the camera if the vignetting, the noise or the compensation is not sensible.
   DevelopPass(const SceneLighting& lighting, const CameraDesc& desc);
-  /// `color` and `seen` are the buffers of CameraPass (Picture::color, CameraPass::seen).
+  /// `color` and `seen` are the buffers of CameraPass (PictureBuffers::color, CameraPass::seen).
   void record(gpu::TickSlot& slot, const gpu::Buffer& color, const gpu::Buffer& seen,
               const FrameNumber& frame);
   /// Returns the arrays that were recorded into `slot`, once its submission is done.

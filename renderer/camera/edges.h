@@ -20,9 +20,9 @@ class EdgePass {
   EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
   /// Names a picture, the view of its pixels (CameraPass::seen), and the buffers of its smooth version.
   struct Pictures {
-    const Picture& from;
+    const PictureBuffers& from;
     const gpu::Buffer& seen;
-    const Picture& to;
+    const PictureBuffers& to;
   };
   void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
               const Pictures& pictures);

@@ -33,7 +33,7 @@ class MeterPass {
  public:
   /// `stored_luminance` is the cd/m^2 of a stored 1.
   MeterPass(gpu::Device& device, const CameraDesc& desc, double stored_luminance);
-  /// `color` is Picture::color; alpha is the fraction of a pixel that shows the scene. The result (a
+  /// `color` is PictureBuffers::color; alpha is the fraction of a pixel that shows the scene. The result (a
   /// shared::MeterResult) lies in the slot's readback arena and is ready for compute shaders.
   gpu::Slice record(gpu::TickSlot& slot, const gpu::Buffer& color);
 

@@ -11,7 +11,7 @@ namespace greatx::render {
 
 /// Holds the pixels [height * width], and zeros up to a whole number of DevelopPass's invocations. An output
 /// that a camera does not deliver has no room.
-struct Picture {
+struct PictureBuffers {
   gpu::Buffer color;  ///< uvec2: red, green, blue over stored_luminance(), share that shows the scene; halves
   gpu::Buffer luminance;  ///< float, cd/m^2
 };

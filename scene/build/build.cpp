@@ -27,7 +27,7 @@ dmat4 linear_of(const dmat4& affine) {
 }
 
 /// The linear part of a placement.
-dmat4 scaled_axes(const Placement& placement) {
+dmat4 scaled_axes(const ModelPlacement& placement) {
   dmat4 scaled = glm::mat4_cast(placement.pose.orientation);
   for (int axis = 0; axis < 3; ++axis) scaled[axis] *= placement.scale[axis];
   return scaled;
@@ -38,11 +38,11 @@ class Frame {
  public:
   /// world_from_model about `reference`, a point of the world, or body_from_model for a moving body. The large numbers of
   /// a position in UTM cancel here, in fp64, before anything is multiplied by them.
-  Frame(const Placement& placement, const dvec3& reference)
+  Frame(const ModelPlacement& placement, const dvec3& reference)
       : scaled_(scaled_axes(placement)),
         offset_(placement.moving ? placement.pose.position : placement.pose.position - reference) {}
   /// part_from_model: the axes stay, the origin goes to that of `node`.
-  Frame(const Placement& placement, const ModelNode& node)
+  Frame(const ModelPlacement& placement, const ModelNode& node)
       : scaled_(scaled_axes(placement)), model_origin_(node.model_from_node[3]) {}
 
   dmat4 place(const dmat4& model_from_mesh) const {
@@ -57,7 +57,7 @@ class Frame {
 };
 
 /// The joint of a part in its owner's frame. Throws UserError if its transforms leave the axis no direction.
-Joint joint_of(const Placement& placement, const PartPlacement& part, uint32_t owner) {
+Joint joint_of(const ModelPlacement& placement, const PartPlacement& part, uint32_t owner) {
   const ModelNode& node = placement.model->nodes[part.node];
   const dmat4 body_from_node = Frame(placement, dvec3(0.0)).place(node.model_from_node);
   const dvec3 axis_y_up(part.axis.x, part.axis.z, -part.axis.y);
@@ -70,7 +70,7 @@ Joint joint_of(const Placement& placement, const PartPlacement& part, uint32_t o
   return {owner, dvec3(body_from_node[3]), axis / length};
 }
 
-void check_placement(const Placement& placement) {
+void check_placement(const ModelPlacement& placement) {
   GREATX_CHECK(placement.model != nullptr, "placement '{}' has no model", placement.name);
   const auto finite = [](const dvec3& vector) {
     return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
@@ -94,9 +94,9 @@ void check_placement(const Placement& placement) {
 
 /// The centre of the static bounds, rounded to whole metres. The halves are nudged so that a scene and its copy some
 /// 1e5 m away, whose centres differ in the last digit, round alike.
-dvec3 default_origin(const std::vector<Placement>& placements) {
+dvec3 default_origin(const std::vector<ModelPlacement>& placements) {
   Bounds bounds;
-  for (const Placement& placement : placements) {
+  for (const ModelPlacement& placement : placements) {
     if (placement.moving) continue;
     const Frame world(placement, dvec3(0.0));
     for (const ModelInstance& instance : placement.model->instances) {
@@ -127,9 +127,9 @@ Planned planned_of(const ModelMesh& mesh) {
   return planned;
 }
 
-Planned planned_of(const std::vector<Placement>& placements) {
+Planned planned_of(const std::vector<ModelPlacement>& placements) {
   Planned planned;
-  for (const Placement& placement : placements) {
+  for (const ModelPlacement& placement : placements) {
     const Model& model = *placement.model;
     std::vector<Planned> of_mesh;
     for (const ModelMesh& mesh : model.meshes) of_mesh.push_back(planned_of(mesh));
@@ -157,7 +157,7 @@ class Builder {
   }
 
   /// Into the body added last, without what belongs to the parts.
-  void add(const Placement& placement) {
+  void add(const ModelPlacement& placement) {
     add(placement, Frame(placement, scene_.origin), [&](uint32_t node) {
       return std::ranges::none_of(placement.parts, [&](const PartPlacement& part) {
         return node >= part.node && node < placement.model->nodes[part.node].end;
@@ -166,7 +166,7 @@ class Builder {
   }
 
   /// The parts of the placement whose own body is `owner`, each in a body of its own.
-  void add_parts(const Placement& placement, uint32_t owner) {
+  void add_parts(const ModelPlacement& placement, uint32_t owner) {
     for (const PartPlacement& part : placement.parts) {
       const ModelNode& node = placement.model->nodes[part.node];
       add_body(placement.name + "/" + part.name);
@@ -190,7 +190,7 @@ class Builder {
 
   /// What of a placement's model is on the nodes that `belongs` says.
   template <typename Belongs>
-  void add(const Placement& placement, const Frame& frame, const Belongs& belongs) {
+  void add(const ModelPlacement& placement, const Frame& frame, const Belongs& belongs) {
     const Model& model = *placement.model;
     for (const ModelInstance& instance : model.instances)
       if (belongs(instance.node)) add_instance(placement, frame, instance);
@@ -243,7 +243,7 @@ class Builder {
     }
   }
 
-  std::string unique_name(const Placement& placement, const ModelInstance& instance) {
+  std::string unique_name(const ModelPlacement& placement, const ModelInstance& instance) {
     const std::string wanted = placement.name.empty() ? instance.name : placement.name + "/" + instance.name;
     std::string name = wanted;
     // Starts where the last one of this name ended, so that a thousand copies cost a thousand steps.
@@ -253,7 +253,7 @@ class Builder {
     return name;
   }
 
-  void add_instance(const Placement& placement, const Frame& frame, const ModelInstance& instance) {
+  void add_instance(const ModelPlacement& placement, const Frame& frame, const ModelInstance& instance) {
     const Model& model = *placement.model;
     const ModelMesh& mesh = model.meshes[instance.mesh];
     // Kept for the whole scene: a mesh may be placed a thousand times.
@@ -382,9 +382,9 @@ class Builder {
 
 }  // namespace
 
-Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options) {
+Scene build_scene(const std::vector<ModelPlacement>& placements, const BuildOptions& options) {
   const Activity activity("building the scene");
-  for (const Placement& placement : placements) check_placement(placement);
+  for (const ModelPlacement& placement : placements) check_placement(placement);
   const Planned planned = planned_of(placements);
   Scene scene;
   scene.name = options.name;
@@ -398,10 +398,10 @@ Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& 
   scene.facet_of_triangle.reserve(planned.triangles);
   Builder builder(scene, options);
   builder.add_body("static");
-  for (const Placement& placement : placements) {
+  for (const ModelPlacement& placement : placements) {
     if (!placement.moving) builder.add(placement);
   }
-  for (const Placement& placement : placements) {
+  for (const ModelPlacement& placement : placements) {
     if (!placement.moving) continue;
     const auto same = [&](const Body& body) { return body.name == placement.name; };
     if (placement.name.empty() || std::any_of(scene.bodies.begin(), scene.bodies.end(), same)) {

@@ -18,7 +18,7 @@ struct PartPlacement {
 };
 
 /// A model put into the world.
-struct Placement {
+struct ModelPlacement {
   std::string name;  ///< prefix of its instances' names; may be empty
   const Model* model = nullptr;
   Pose pose;  ///< world_from_model; of a moving body: body_from_model
@@ -40,6 +40,6 @@ struct BuildOptions {
 
 /// Places the models, makes what is missing (normals, tangents), mends winding under negative scale, merges facets.
 /// Throws UserError naming model and mesh if a transformed vertex is not finite.
-Scene build_scene(const std::vector<Placement>& placements, const BuildOptions& options);
+Scene build_scene(const std::vector<ModelPlacement>& placements, const BuildOptions& options);
 
 }  // namespace greatx::scene

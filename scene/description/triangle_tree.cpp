@@ -67,7 +67,7 @@ void TriangleTree::near_segment(const dvec3& a, const dvec3& b, double distance_
   std::vector<uint32_t> pending;
   if (!nodes_.empty()) pending.push_back(0);
   while (!pending.empty()) {
-    const Node& node = nodes_[pending.back()];
+    const TreeNode& node = nodes_[pending.back()];
     pending.pop_back();
     if (!meets(node.bounds, a, b - a, distance_m)) continue;
     if (node.count == 0) {

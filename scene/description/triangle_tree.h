@@ -19,14 +19,14 @@ class TriangleTree {
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
  private:
-  struct Node {
+  struct TreeNode {
     Bounds bounds;
     /// Of order_. With count 0 it is an inner node, whose children are at `first` and `first` + 1.
     uint32_t first = 0, count = 0;
   };
   void split(uint32_t node, std::vector<Bounds>& boxes);
 
-  std::vector<Node> nodes_;
+  std::vector<TreeNode> nodes_;
   std::vector<uint32_t> order_;
 };
 

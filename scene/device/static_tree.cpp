@@ -47,7 +47,7 @@ struct Leaf {
   uint32_t triangle, primitive;
 };
 
-struct Node {
+struct TreeNode {
   Box box;
   uint32_t first = 0, count = 0;  ///< count 0: an inner node, its children at `left` and `right`
   uint32_t left = 0, right = 0;
@@ -91,14 +91,14 @@ class Builder {
     if (!order_.empty()) build(0, static_cast<uint32_t>(order_.size()), 0);
   }
 
-  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<TreeNode>& nodes() const { return nodes_; }
   const Leaf& leaf(uint32_t place) const { return leaves_[order_[place]]; }
   uint32_t depth() const { return depth_; }
 
  private:
   uint32_t build(uint32_t first, uint32_t count, uint32_t level) {
     const uint32_t me = static_cast<uint32_t>(nodes_.size());
-    Node node;
+    TreeNode node;
     Box centers;
     for (const uint32_t leaf : std::span(order_).subspan(first, count)) {
       node.box.add(boxes_[leaf]);
@@ -186,7 +186,7 @@ class Builder {
   std::vector<Box> boxes_;
   std::vector<vec3> centers_;
   std::vector<uint32_t> order_;
-  std::vector<Node> nodes_;
+  std::vector<TreeNode> nodes_;
   uint32_t depth_ = 0;
 };
 
@@ -267,11 +267,11 @@ StaticTree make_static_tree(const Scene& scene) {
   StaticTree tree;
   tree.triangles = static_cast<uint32_t>(leaves.size());
   const Builder builder(std::move(leaves));
-  const std::vector<Node>& nodes = builder.nodes();
+  const std::vector<TreeNode>& nodes = builder.nodes();
   const std::vector<Sphere> spheres = moving_spheres(scene);
 
   const size_t first_node = shared::tree_bodies + 2 * spheres.size();
-  for (const Node& node : nodes) ++(node.count == 0 ? tree.inner_nodes : tree.leaves);
+  for (const TreeNode& node : nodes) ++(node.count == 0 ? tree.inner_nodes : tree.leaves);
   const size_t first_triangle = first_node + 2 * size_t{tree.inner_nodes};
   const size_t quads = first_triangle + 3 * size_t{tree.triangles};
   GREATX_CHECK(quads < shared::tree_most_quads, "a tree of {} triangles", tree.triangles);
@@ -280,7 +280,7 @@ StaticTree make_static_tree(const Scene& scene) {
 
   std::vector<uint32_t> references;
   size_t next = first_node;
-  for (const Node& node : nodes) {
+  for (const TreeNode& node : nodes) {
     references.push_back(
         static_cast<uint32_t>(node.count == 0 ? next : first_triangle + 3 * size_t{node.first}) |
         (node.count == 0 ? 0u : shared::tree_leaf | node.count << shared::tree_count_shift));

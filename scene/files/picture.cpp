@@ -24,7 +24,8 @@ std::unique_ptr<PictureDecoder> decoder_of(std::span<const unsigned char> file) 
 
 }  // namespace
 
-Picture decode_picture(std::span<const unsigned char> file, const std::string& what, Spending& memory) {
+DecodedPicture decode_picture(std::span<const unsigned char> file, const std::string& what,
+                              Spending& memory) {
   const auto refuse = [&](const std::string& reason) {
     throw_user_error("{}: the image is no readable PNG or JPEG of {} pixels a side at most ({})", what,
                      most_picture_side, reason);
@@ -32,7 +33,7 @@ Picture decode_picture(std::span<const unsigned char> file, const std::string& w
   const std::unique_ptr<PictureDecoder> decoder = decoder_of(file);
   if (!decoder) refuse(fmt::format("its {} bytes begin like neither", file.size()));
   if (!decoder->read_header()) refuse(decoder->error());
-  Picture picture{decoder->width(), decoder->height(), {}};
+  DecodedPicture picture{decoder->width(), decoder->height(), {}};
   if (picture.width == 0 || picture.height == 0 || picture.width > most_picture_side ||
       picture.height > most_picture_side)
     refuse(fmt::format("{} x {} pixels", picture.width, picture.height));

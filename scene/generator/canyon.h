@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
-#include "scene/generator/mesh/glb_writer.h"
+#include "scene/generator/mesh/scene_writer.h"
 
 namespace greatx::scene::generator {
 
-void write_canyon(GlbWriter& writer, double size_m, uint64_t seed);
-void write_room(GlbWriter& writer);
+void write_canyon(SceneWriter& writer, double size_m, uint64_t seed);
+void write_room(SceneWriter& writer);
 
 }  // namespace greatx::scene::generator

@@ -48,7 +48,7 @@ int32_t TextureReader::read(int index, bool srgb, const std::string& what) {
   if (const auto found = done_.find(key); found != done_.end()) return found->second;
 
   const tinygltf::Image& image = images[static_cast<size_t>(source.source)];
-  Picture picture = decode_picture(image.image, what, memory_);
+  DecodedPicture picture = decode_picture(image.image, what, memory_);
   Texture texture;
   texture.name = image.name;
   texture.width = picture.width;

@@ -14,9 +14,9 @@
 namespace greatx::scene {
 namespace {
 
-using Kind = Field::Kind;
+using Kind = RadioField::Kind;
 
-std::string description_of(const Field& field) {
+std::string description_of(const RadioField& field) {
   switch (field.kind) {
     case Kind::null:
       return "nothing";
@@ -34,7 +34,7 @@ std::string description_of(const Field& field) {
   return "?";
 }
 
-[[noreturn]] void refuse(const Field& field, const std::string& expected) {
+[[noreturn]] void refuse(const RadioField& field, const std::string& expected) {
   throw_user_error_at(field.where, "{}: expected {}, found {}", field.path, expected, description_of(field));
 }
 
@@ -42,7 +42,7 @@ std::string description_of(const Field& field) {
 /// unknown key.
 class Members {
  public:
-  explicit Members(const Field& map) : map_(map) {
+  explicit Members(const RadioField& map) : map_(map) {
     if (map.kind != Kind::map) refuse(map, "a map of fields");
     for (auto member = map.members.begin(); member != map.members.end(); ++member) {
       for (auto other = map.members.begin(); other != member; ++other) {
@@ -51,7 +51,7 @@ class Members {
     }
   }
 
-  const Field* find(std::string_view key) {
+  const RadioField* find(std::string_view key) {
     known_.emplace_back(key);
     for (const auto& [name, field] : map_.members) {
       if (name == key) return &field;
@@ -59,7 +59,7 @@ class Members {
     return nullptr;
   }
   std::optional<double> number(std::string_view key, double min, double max, const std::string& expected) {
-    const Field* field = find(key);
+    const RadioField* field = find(key);
     if (!field) return std::nullopt;
     const bool in_range = field->kind == Kind::number && field->number >= min && field->number <= max;
     if (!in_range || !std::isfinite(field->number)) refuse(*field, expected);
@@ -81,7 +81,7 @@ class Members {
     return value;
   }
   std::optional<bool> boolean(std::string_view key) {
-    const Field* field = find(key);
+    const RadioField* field = find(key);
     if (!field) return std::nullopt;
     if (field->kind != Kind::boolean) refuse(*field, "true or false");
     return field->boolean;
@@ -94,10 +94,10 @@ class Members {
                           fmt::join(known_, ", "));
     }
   }
-  const Field& map() const { return map_; }
+  const RadioField& map() const { return map_; }
 
  private:
-  const Field& map_;
+  const RadioField& map_;
   std::vector<std::string> known_;
 };
 
@@ -133,7 +133,7 @@ std::optional<RadioRow> read_row(Members& members, bool optional) {
 }
 
 std::optional<RadioMedium> read_itu(Members& members) {
-  const Field* field = members.find("itu");
+  const RadioField* field = members.find("itu");
   if (!field) return std::nullopt;
   const std::string expected =
       fmt::format("a material of ITU-R P.2040-4, Table 3 ({})", fmt::join(itu_names(), ", "));
@@ -144,13 +144,13 @@ std::optional<RadioMedium> read_itu(Members& members) {
 }
 
 std::optional<RadioMedium> read_rows(Members& members) {
-  const Field* field = members.find("rows");
+  const RadioField* field = members.find("rows");
   if (!field) return std::nullopt;
   if (field->kind != Kind::list || field->items.empty())
     refuse(*field, "a list of rows {a, b, c, d, min_hz, max_hz}");
   RadioMedium medium;
   medium.source = "explicit a, b, c, d";
-  for (const Field& item : field->items) {
+  for (const RadioField& item : field->items) {
     Members row(item);
     medium.rows.push_back(*read_row(row, false));
     row.finish();
@@ -193,7 +193,7 @@ std::optional<RadioMedium> read_medium(Members& members) {
   return medium;
 }
 
-RadioLayer read_layer(const Field& field) {
+RadioLayer read_layer(const RadioField& field) {
   Members members(field);
   RadioLayer layer;
   auto medium = read_medium(members);
@@ -213,11 +213,11 @@ RadioLayer read_layer(const Field& field) {
 }
 
 std::optional<std::vector<RadioLayer>> read_layers(Members& members) {
-  const Field* field = members.find("layers");
+  const RadioField* field = members.find("layers");
   if (!field) return std::nullopt;
   if (field->kind != Kind::list || field->items.empty()) refuse(*field, "a list of layers");
   std::vector<RadioLayer> layers;
-  for (const Field& item : field->items) layers.push_back(read_layer(item));
+  for (const RadioField& item : field->items) layers.push_back(read_layer(item));
   return layers;
 }
 
@@ -227,7 +227,7 @@ void read_wall(Members& members, std::optional<RadioMaterial>& radio) {
   auto layers = read_layers(members);
   const auto thickness = members.thickness("thickness_m");
   const auto extrapolate = members.boolean("extrapolate");
-  const Field& map = members.map();
+  const RadioField& map = members.map();
   if (layers && (medium || thickness || extrapolate)) {
     throw_user_error_at(map.where, "{}: layers exclude a medium, thickness_m and extrapolate beside them",
                         map.path);
@@ -257,7 +257,7 @@ void read_wall(Members& members, std::optional<RadioMaterial>& radio) {
 }
 
 std::optional<ScatteringPattern> read_pattern(Members& members) {
-  const Field* field = members.find("pattern");
+  const RadioField* field = members.find("pattern");
   if (!field) return std::nullopt;
   if (field->kind == Kind::text && field->text == "lambertian") return ScatteringPattern::lambertian;
   if (field->kind == Kind::text && field->text == "directive") return ScatteringPattern::directive;
@@ -268,7 +268,7 @@ std::optional<ScatteringPattern> read_pattern(Members& members) {
 /// Reads foliage. It is a volume, so one source cannot combine it with fields that describe a wall or its
 /// surface.
 std::optional<Foliage> read_foliage(Members& members) {
-  const Field* field = members.find("foliage");
+  const RadioField* field = members.find("foliage");
   if (!field) return std::nullopt;
   for (const auto& [key, other] : members.map().members) {
     if (key == "foliage" || key.starts_with("reflectance_")) continue;
@@ -313,8 +313,8 @@ void read_surface(Members& members, std::optional<RadioMaterial>& radio) {
 
 }  // namespace
 
-Field field_from_json(const nlohmann::json& value, const std::string& what, const std::string& path) {
-  Field field;
+RadioField field_from_json(const nlohmann::json& value, const std::string& what, const std::string& path) {
+  RadioField field;
   field.where.file = what;
   field.path = path;
   if (value.is_boolean()) {
@@ -340,7 +340,7 @@ Field field_from_json(const nlohmann::json& value, const std::string& what, cons
   return field;
 }
 
-RadioSources read_radio_fields(const Field& fields, const RadioSources& below) {
+RadioSources read_radio_fields(const RadioField& fields, const RadioSources& below) {
   Members members(fields);
   RadioSources result = below;
   if (const auto foliage = read_foliage(members)) {

@@ -6,39 +6,31 @@
 #include <set>
 
 #include "core/input_file.h"
-#include "core/text.h"
 #include "core/yaml/yaml.h"
 
 namespace greatx::scene {
 namespace {
 
-using Kind = Field::Kind;
+using Kind = RadioField::Kind;
 
 constexpr int max_depth = 16;
 
-SourceLocation location_of(const YAML::Node& node, const std::string& file) {
-  return {file, node.Mark().line >= 0 ? node.Mark().line + 1 : 0};
-}
-
-/// Reads a plain scalar by YAML's core schema. A quoted scalar is text.
-void set_scalar(Field& field, const YAML::Node& node) {
+void set_scalar(RadioField& field, const YAML::Node& node) {
   field.text = node.Scalar();
   field.kind = Kind::text;
-  if (node.Tag() == "!" || field.text.empty()) return;
-  if (field.text == "true" || field.text == "false") {
+  if (const std::optional<bool> boolean = plain_boolean(node)) {
     field.kind = Kind::boolean;
-    field.boolean = field.text == "true";
-    return;
-  }
-  if (const std::optional<double> number = parse_number(field.text)) {
+    field.boolean = *boolean;
+  } else if (const std::optional<double> number = plain_number(node)) {
     field.kind = Kind::number;
     field.number = *number;
   }
 }
 
-Field field_from_yaml(const YAML::Node& node, const std::string& file, const std::string& path, int depth) {
-  Field field;
-  field.where = location_of(node, file);
+RadioField field_from_yaml(const YAML::Node& node, const std::string& file, const std::string& path,
+                           int depth) {
+  RadioField field;
+  field.where = {file, line_of(node)};
   field.path = path;
   if (depth > max_depth) throw_user_error_at(field.where, "{}: nested deeper than {}", path, max_depth);
   if (node.IsScalar()) {
@@ -53,11 +45,12 @@ Field field_from_yaml(const YAML::Node& node, const std::string& file, const std
     field.kind = Kind::map;
     for (const auto& member : node) {
       if (!member.first.IsScalar()) {
-        throw_user_error_at(location_of(member.first, file), "{}: expected a plain key", path);
+        throw_user_error_at({file, line_of(member.first)}, "{}: expected a plain key", path);
       }
       const std::string key = member.first.Scalar();
-      Field value = field_from_yaml(member.second, file, path.empty() ? key : path + "." + key, depth + 1);
-      value.where = location_of(member.first, file);
+      RadioField value =
+          field_from_yaml(member.second, file, path.empty() ? key : path + "." + key, depth + 1);
+      value.where = {file, line_of(member.first)};
       field.members.emplace_back(key, std::move(value));
     }
   }
@@ -71,8 +64,7 @@ YAML::Node parse_yaml(const std::filesystem::path& file) {
     const std::vector<YAML::Node> documents = load_yaml(text, name);
     return documents.empty() ? YAML::Node() : documents[0];
   } catch (const YAML::Exception& error) {
-    throw_user_error_at({name, error.mark.line >= 0 ? error.mark.line + 1 : 0}, "not valid YAML: {}",
-                        error.msg);
+    throw_user_error_at({name, line_of(error)}, "not valid YAML: {}", error.msg);
   }
 }
 
@@ -80,7 +72,7 @@ YAML::Node parse_yaml(const std::filesystem::path& file) {
 
 RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const Field root = field_from_yaml(parse_yaml(file), name, "", 0);
+  const RadioField root = field_from_yaml(parse_yaml(file), name, "", 0);
   if (root.kind != Kind::map) throw_user_error_at({name, 1}, "expected a map with the key 'materials'");
   RadioSidecar sidecar;
   bool found = false;
@@ -105,7 +97,7 @@ RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   return sidecar;
 }
 
-const Field* RadioSidecar::find(const std::string& material_name) const {
+const RadioField* RadioSidecar::find(const std::string& material_name) const {
   for (const auto& [key, fields] : entries_) {
     if (key == material_name) return &fields;
   }

@@ -91,7 +91,7 @@ dvec3 CurveSegment::second(double u) const {
 
 dvec3 CurveSegment::third() const { return 6.0 * ((edges[2] - edges[1]) - (edges[1] - edges[0])); }
 
-CurvePath::CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond)
+CurveCourse::CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond)
     : segments_(std::move(segments)), attitudes_(std::move(attitudes)), beyond_(beyond) {
   GREATX_CHECK(!segments_.empty() && (attitudes_.empty() || attitudes_.size() == segments_.size() + 1),
                "{} segments, {} attitudes", segments_.size(), attitudes_.size());
@@ -102,7 +102,7 @@ CurvePath::CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> atti
   find_held_headings();
 }
 
-CurvePath::Heading CurvePath::heading(size_t segment, double u) const {
+CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
   const CurveSegment& curve = segments_[segment];
   const double size = size_of(curve);
   const dvec3 first = curve.first(u), second = curve.second(u), third = curve.third();
@@ -126,7 +126,7 @@ CurvePath::Heading CurvePath::heading(size_t segment, double u) const {
   return result;
 }
 
-void CurvePath::find_held_headings() {
+void CurveCourse::find_held_headings() {
   held_.resize(segments_.size());
   Heading before;
   for (size_t i = 0; i < segments_.size(); ++i) {
@@ -145,7 +145,7 @@ void CurvePath::find_held_headings() {
   }
 }
 
-void CurvePath::orient(size_t segment, double u, Motion& motion) const {
+void CurveCourse::orient(size_t segment, double u, Motion& motion) const {
   const double duration_s = segments_[segment].duration_s;
   if (!attitudes_.empty()) {
     const dvec3 turn = rotation_between(attitudes_[segment], attitudes_[segment + 1]);
@@ -166,7 +166,7 @@ void CurvePath::orient(size_t segment, double u, Motion& motion) const {
   }
 }
 
-Motion CurvePath::inside(size_t segment, double time_s) const {
+Motion CurveCourse::inside(size_t segment, double time_s) const {
   const CurveSegment& curve = segments_[segment];
   const double h = curve.duration_s;
   const double u = h > 0.0 ? std::clamp((time_s - curve.begin_s) / h, 0.0, 1.0) : 0.0;
@@ -180,7 +180,7 @@ Motion CurvePath::inside(size_t segment, double time_s) const {
   return motion;
 }
 
-Motion CurvePath::at(double time_s) const {
+Motion CurveCourse::at(double time_s) const {
   GREATX_CHECK(std::isfinite(time_s), "time {} s", time_s);
   const CurveSegment& last = segments_.back();
   const double begin_s = segments_.front().begin_s, end_s = last.begin_s + last.duration_s;

@@ -48,10 +48,10 @@ enum class Beyond {
 /// segment that does not move keeps the attitude in the same way. Angular velocity is analytic: it is
 /// constant per segment for slerp, and d(yaw)/dt and d(pitch)/dt for the velocity's direction. It is zero
 /// where the yaw is a held one and where the curve is not defined (beyond the ends).
-class CurvePath : public Path {
+class CurveCourse : public Course {
  public:
   /// Needs one segment or more; `attitudes` is empty or has segments + 1 elements.
-  CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
+  CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
   Motion at(double time_s) const override;
   bool is_static() const override { return static_; }
 

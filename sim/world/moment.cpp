@@ -12,7 +12,7 @@ namespace greatx::sim {
 
 Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence) {
   Courses courses;
-  courses.paths = make_paths(scenario, sequence);
+  courses.nodes = make_node_courses(scenario, sequence);
   for (const Part& part : world.parts) {
     const double start_turns = part.phase
                                    ? *part.phase / (2.0 * pi)
@@ -25,7 +25,7 @@ Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequ
 Motion body_motion(const World& world, const Courses& courses, uint32_t body, double time_s) {
   if (body == 0) return {};
   GREATX_CHECK(body < world.node_of_body.size(), "body {} of {}", body, world.node_of_body.size());
-  Motion motion = courses.paths[world.node_of_body[body]]->at(time_s);
+  Motion motion = courses.nodes[world.node_of_body[body]]->at(time_s);
   motion.pose = world.scene.to_local(motion.pose);
   if (!world.scene.bodies[body].joint) return motion;
   const scene::Joint& joint = *world.scene.bodies[body].joint;
@@ -50,7 +50,7 @@ Moment moment_at(const World& world, const Courses& courses, const Clock& clock,
                  int64_t previous) {
   Moment moment;
   const double time_s = clock.seconds(tick);
-  for (const auto& path : courses.paths) moment.motions.push_back(path->at(time_s));
+  for (const auto& node : courses.nodes) moment.motions.push_back(node->at(time_s));
   moment.bodies = body_poses(world, courses, time_s);
   moment.context.tick = tick;
   moment.context.time_s = time_s;
@@ -58,7 +58,7 @@ Moment moment_at(const World& world, const Courses& courses, const Clock& clock,
       previous < 0 ? std::numeric_limits<double>::quiet_NaN() : clock.seconds(previous);
   moment.context.nodes = moment.motions;
   moment.context.body_poses = moment.bodies;
-  moment.context.motion_at = [&courses](uint32_t node, double time) { return courses.paths[node]->at(time); };
+  moment.context.motion_at = [&courses](uint32_t node, double time) { return courses.nodes[node]->at(time); };
   moment.context.body_motion_at = [&world, &courses](uint32_t body, double time) {
     return body_motion(world, courses, body, time);
   };

@@ -15,12 +15,12 @@ namespace greatx::sim {
 
 /// Describes the motion of everything in one sequence.
 struct Courses {
-  std::vector<std::unique_ptr<Path>> paths;  ///< [nodes]
-  std::vector<Rotation> rotations;           ///< [World::parts]
+  std::vector<std::unique_ptr<Course>> nodes;
+  std::vector<Rotation> rotations;  ///< [World::parts]
 };
 
 /// Makes the courses. Starts of parts that the scenario does not give are drawn from (seed, the part's name,
-/// sequence). Throws like make_paths.
+/// sequence). Throws like make_node_courses.
 Courses make_courses(const Scenario& scenario, const World& world, uint32_t sequence);
 
 /// Returns the motion of `body`: its pose is in local coordinates, and body 0 stands still. For a part it

@@ -102,7 +102,7 @@ World load_world(const Scenario& scenario) {
                               sensor.name);
   World world;
   std::deque<scene::Model> models;  // placements point at them
-  std::vector<scene::Placement> placements;
+  std::vector<scene::ModelPlacement> placements;
   for (const StaticObject& object : scenario.scene.objects) {
     models.push_back(load(object.model, scenario.scene));
     placements.push_back({object.name,

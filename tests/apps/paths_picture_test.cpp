@@ -200,9 +200,9 @@ TEST(Stretches, ALensBendsThem) {
   EXPECT_GT(chords.front().a.y, view.project({0, 0, 30}).y + 3.0);
 }
 
-TEST(Coverage, OverlapsAreNotDenser) {
+TEST(ShapeCoverage, OverlapsAreNotDenser) {
   io::Canvas canvas(40, 20, {0, 0, 0});
-  Coverage coverage(40, 20);
+  ShapeCoverage coverage(40, 20);
   coverage.line({5, 10}, {20, 10}, 4.0);
   coverage.line({20, 10}, {35, 10}, 4.0);
   coverage.paint(canvas, {0, 0}, {200, 200, 200}, 0.5);
@@ -215,9 +215,9 @@ TEST(Coverage, OverlapsAreNotDenser) {
   EXPECT_EQ(image.bytes, canvas.image().bytes) << "nothing is left over";
 }
 
-TEST(Coverage, ALineIsAsWideAsItSays) {
+TEST(ShapeCoverage, ALineIsAsWideAsItSays) {
   io::Canvas canvas(60, 60, {0, 0, 0});
-  Coverage coverage(60, 60);
+  ShapeCoverage coverage(60, 60);
   coverage.line({10, 10}, {50, 40}, 3.0);  // 50 pixels long
   coverage.paint(canvas, {0, 0}, {250, 250, 250}, 1.0);
   double area = 0.0;

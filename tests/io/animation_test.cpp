@@ -82,7 +82,7 @@ TEST(Webp, KeepsColoursAndTimes) {
 
 TEST(Animation, PlaysAtItsOwnSpeedOrTenASecond) {
   const auto every = [](int64_t ns, int64_t count) {
-    std::vector<Moment> moments;
+    std::vector<SheetMoment> moments;
     for (int64_t i = 0; i < count; ++i) moments.push_back({5 + i, 1'000'000'000 + i * ns});
     return playback_of(moments);
   };

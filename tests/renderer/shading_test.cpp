@@ -148,7 +148,7 @@ TEST(Shading, NegativeScaleIsLitLikeItsMirrorImage) {
   model.materials.push_back(optical_material("plaster", 0.6f, 0.0f, 0.4f));
   model.instances.push_back({"cube", 0, dmat4(1.0), {}});
   const auto shot = [&](const dvec3& scale) {
-    scene::Placement placement;
+    scene::ModelPlacement placement;
     placement.name = "it";
     placement.model = &model;
     placement.scale = scale;

@@ -153,7 +153,7 @@ TEST(RadioMaterial, FoliagesThatDifferStayApart) {
               hard = quad_with(with_extension({{"foliage", {{"attenuation_db_per_m", 0.5}}}})).load(),
               same = quad_with(with_extension({{"foliage", "weissberger"}})).load();
   const auto placed = [](const Model& model, const char* name) {
-    return Placement{name, &model, {}, dvec3(1.0), false, {}};
+    return ModelPlacement{name, &model, {}, dvec3(1.0), false, {}};
   };
   const Scene scene = build_scene({placed(soft, "a"), placed(hard, "b"), placed(same, "c")}, {.name = "s"});
   EXPECT_EQ(scene.materials.size(), 2u);

@@ -148,7 +148,7 @@ TEST(FindWedges, FromAFile) {
                         3, 7, 6, 3, 6, 2, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5},
                        writer.itu_material());
   const Model model = writer.load();
-  Placement still, turned;
+  ModelPlacement still, turned;
   still.model = turned.model = &model;
   still.name = "still", turned.name = "turned";
   turned.moving = true;

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/mesh/glb_writer.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,7 +26,7 @@ const dvec3 axle(4, -3, 5);
 /// A mill with one upright vane whose outer face is `face_m` off the axle, 4 m wide and 2 m high.
 std::filesystem::path write_mill(const std::filesystem::path& folder) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder vane, post;
   vane.box(material("motor_metal"), {face_m - 0.02, -2.0, -1.0}, {face_m, 2.0, 1.0});
   post.box(material("motor_metal"), {-0.05, -0.05, -5.0}, {0.05, 0.05, -1.5});

@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "scene/generator/mesh/glb_writer.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/world/moment.h"
 #include "tests/support/temporary_folder.h"
@@ -246,7 +246,7 @@ TEST(Parts, WhatTheModelDoesNotHaveIsSaid) {
 /// What hangs on a node turns with it; nodes without meshes are parts as well; equal names get numbers.
 TEST(Parts, AreWholeBranchesOfTheModel) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder cube;
   cube.box(material("motor_metal"), dvec3(-0.1), dvec3(0.1));
   const int mesh = writer.add_mesh("cube", cube);

@@ -19,8 +19,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/mesh/glb_writer.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -37,7 +37,7 @@ constexpr double blade_hz = blades * rpm / 60.0, span_s = samples / sample_hz;
 /// The bar's faces are +-y of itself, so that its phase is that of its length; the pole that carries it is out of sight.
 std::filesystem::path write_rotor(const std::filesystem::path& folder) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder bar, pole;
   bar.box(material("motor_metal"), {-half_length_m, -0.004, -0.05}, {half_length_m, 0.004, 0.05});
   pole.box(material("motor_metal"), {-0.05, -0.05, -5.0}, {0.05, 0.05, -1.5});

@@ -19,7 +19,7 @@
 #include "scene/generator/objects/street_furniture.h"
 #include "scene/generator/objects/trees.h"
 #include "scene/generator/objects/vehicles.h"
-#include "scene/generator/paint/canvas.h"
+#include "scene/generator/paint/texture_painter.h"
 
 namespace greatx::scene::generator {
 
@@ -28,7 +28,7 @@ namespace {
 /// Meshes that many nodes share, and running numbers for the nodes' names.
 class CityFurniture {
  public:
-  explicit CityFurniture(GlbWriter& writer) : writer_(writer) {}
+  explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
 
   /// `kind` of make_tree.
   void tree(const dvec2& where, double z, int kind, RandomStream& random) {
@@ -104,7 +104,7 @@ class CityFurniture {
                       .semantic_class = semantic_class});
   }
 
-  GlbWriter& writer_;
+  SceneWriter& writer_;
   std::map<std::string, int> meshes_, counts_;
   std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
 };
@@ -175,7 +175,7 @@ void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& ran
 }
 
 /// Lawn with paths, trees and benches around a small plaza with a fountain.
-void add_park(GlbWriter& writer, const Block& block, CityFurniture& furniture, RandomStream& random) {
+void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture, RandomStream& random) {
   const std::vector<dvec2> quad = inset(block.sharp, block.pavement_m);
   const auto at = [&](double u, double v) {
     return glm::mix(glm::mix(quad[0], quad[1], u), glm::mix(quad[3], quad[2], u), v);
@@ -234,7 +234,7 @@ void add_park(GlbWriter& writer, const Block& block, CityFurniture& furniture, R
 
 }  // namespace
 
-void write_city(GlbWriter& writer, double size_m, uint64_t seed) {
+void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
   const CityPlan plan = plan_city(size_m, seed);
   const auto add = [&](const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
     writer.add_node({.name = name, .mesh = writer.add_mesh(name, mesh), .semantic_class = semantic_class});

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "scene/generator/mesh/glb_writer.h"
+#include "scene/generator/mesh/scene_writer.h"
 
 namespace greatx::scene::generator {
 
-void write_city(GlbWriter& writer, double size_m, uint64_t seed);
+void write_city(SceneWriter& writer, double size_m, uint64_t seed);
 
 }  // namespace greatx::scene::generator

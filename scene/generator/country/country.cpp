@@ -3,12 +3,86 @@
 #include "scene/generator/country/country.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/random.h"
 #include "core/units.h"
+#include "scene/generator/country/terrain.h"
 #include "scene/generator/mesh/materials.h"
+#include "scene/generator/objects/farm.h"
+#include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/street_furniture.h"
+#include "scene/generator/objects/trees.h"
+#include "scene/generator/objects/vehicles.h"
 
 namespace greatx::scene::generator {
+
+namespace {
+
+/// Fields: on each side of the road two bands, each cut across at rows of its own.
+struct Field {
+  int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
+  int material;
+  double angle = 0.0;  ///< of its rows, rad
+  dvec2 offset{0.0};   ///< of its texture
+};
+
+class Country {
+ public:
+  Country(SceneWriter& writer, double size_m, uint64_t seed)
+      : writer_(writer), random_(seed, 5), terrain_(size_m, random_) {}
+
+  void write() {
+    choose_sites();
+    terrain_.build_grid();
+    choose_fields();
+    add_ground();
+    add_hedges();
+    add_farms();
+    add_woods();
+    add_poles();
+    add_lamps();
+  }
+
+ private:
+  dvec2 find_pond();
+  void choose_sites();
+  /// Fields of a band that are not for crops, by row.
+  std::vector<Field> reserved(const std::array<int, 2>& band) const;
+  double wood_radius() const { return std::min(0.2 * terrain_.half(), 26.0); }
+  void choose_fields();
+  void add_ground();
+  void add_hedges();
+  void add_farms();
+  void add_woods();
+  void add_poles();
+  void add_lamps();
+  void add_tree(const dvec2& where, bool conifer);
+  bool near_site(const dvec2& point, double margin) const;
+  int shared(const std::string& name, const std::function<MeshBuilder()>& make);
+  void add(const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
+    writer_.add_node({.name = name, .mesh = writer_.add_mesh(name, mesh), .semantic_class = semantic_class});
+  }
+
+  SceneWriter& writer_;
+  RandomStream random_;
+  Terrain terrain_;
+  std::vector<Site> farms_;
+  Site pond_;
+  std::vector<dvec2> woods_;
+  std::vector<Field> fields_;
+  std::map<std::string, int> meshes_;
+  int tree_count_ = 0;
+};
+
+// These functions choose the sites and the fields, and lay the ground.
 
 bool Country::near_site(const dvec2& point, double margin) const {
   for (const Site& farm : farms_)
@@ -149,6 +223,193 @@ void Country::add_ground() {
   add("pond", water, SemanticClass::water);
 }
 
-void write_country(GlbWriter& writer, double size_m, uint64_t seed) { Country(writer, size_m, seed).write(); }
+// These functions add hedges, trees, farms, poles and lamps.
+
+/// A closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
+MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
+  MeshBuilder mesh;
+  const int leaves = material("hedge");
+  const auto section = [&](size_t i) {
+    const dvec3 next = chain[std::min(i + 1, chain.size() - 1)], before = chain[i == 0 ? 0 : i - 1];
+    const dvec2 along = glm::normalize(dvec2(next - before)), right(along.y, -along.x);
+    const dvec3 r(right, 0.0), up(0, 0, 1);
+    return std::array<dvec3, 4>{snap(chain[i] + 0.65 * r - 0.5 * up), snap(chain[i] + 0.45 * r + 1.7 * up),
+                                snap(chain[i] - 0.45 * r + 1.7 * up), snap(chain[i] - 0.65 * r - 0.5 * up)};
+  };
+  for (size_t i = 0; i + 1 < chain.size(); ++i) {
+    const auto a = section(i), b = section(i + 1);
+    for (size_t k = 0; k < 4; ++k) mesh.quad(leaves, a[k], b[k], b[(k + 1) % 4], a[(k + 1) % 4]);
+  }
+  const auto first = section(0), last = section(chain.size() - 1);
+  mesh.quad(leaves, first[0], first[1], first[2], first[3]);
+  mesh.quad(leaves, last[3], last[2], last[1], last[0]);
+  return mesh;
+}
+
+int Country::shared(const std::string& name, const std::function<MeshBuilder()>& make) {
+  const auto found = meshes_.find(name);
+  if (found != meshes_.end()) return found->second;
+  return meshes_[name] = writer_.add_mesh(name, make());
+}
+
+void Country::add_hedges() {
+  int count = 0;
+  for (const Field& field : fields_) {
+    if (field.row0 == 0 || random_.uniform() < 0.15) continue;
+    std::vector<dvec3> chain;
+    const auto flush = [&] {
+      if (chain.size() > 2)
+        add(fmt::format("hedge_{:03}", count++), make_hedge(chain), SemanticClass::vegetation);
+      chain.clear();
+    };
+    const int from = std::max(field.column0, 1), to = std::min(field.column1, terrain_.columns() - 2);
+    for (int column = from; column <= to; ++column) {
+      const dvec3 p = terrain_.vertex(field.row0, column);
+      // Stations of one hedge end a metre and a half short of the next band's.
+      if (near_site(dvec2(p), 5.0)) {
+        flush();
+        continue;
+      }
+      chain.push_back(
+          column == to && to == field.column1 ? glm::mix(p, chain.empty() ? p : chain.back(), 0.25) : p);
+      if (column < to && random_.uniform() < 0.3)
+        add_tree(dvec2(p) + dvec2(2.4, random_.uniform(-3.0, 3.0)), false);
+    }
+    flush();
+  }
+}
+
+void Country::add_tree(const dvec2& where, bool conifer) {
+  const dvec2 at = snap(where);
+  if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
+  // Mostly oaks, maples and lindens; few poplars and copper beeches.
+  static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
+  const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
+  const int mesh =
+      conifer ? shared("conifer", make_conifer)
+              : shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
+  writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
+                    .mesh = mesh,
+                    .position = dvec3(at, terrain_.height(at) - 0.1),
+                    .yaw = random_.uniform(0.0, 2.0 * pi),
+                    .scale = random_.uniform(0.85, 1.5),
+                    .semantic_class = SemanticClass::vegetation});
+}
+
+void Country::add_farms() {
+  int building = 0;
+  for (size_t f = 0; f < farms_.size(); ++f) {
+    const Site& farm = farms_[f];
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    const double yaw = std::atan2(along.y, along.x) + random_.uniform(-0.08, 0.08);
+    const double scale = farm.inner_m / 24.0;
+    const auto place = [&](const MeshBuilder& mesh, const std::string& kind, const dvec2& where,
+                           double turn) {
+      const std::string name = fmt::format("{}_{:03}", kind, building++);
+      const dvec2 at = farm.center + scale * (where.x * along + where.y * across);
+      writer_.add_node({.name = name,
+                        .mesh = writer_.add_mesh(name, mesh),
+                        .position = dvec3(at, farm.level),
+                        .yaw = yaw + turn,
+                        .semantic_class = SemanticClass::building});
+    };
+    place(make_farmhouse(scale), "farmhouse", {-12.0, -9.0}, pi / 2);
+    place(make_barn(scale, random_.uniform() < 0.6), "barn", {10.0, 3.0}, 0.0);
+    if (random_.uniform() < 0.6) place(make_barn(0.72 * scale, false), "barn", {-9.0, 12.0}, pi / 2);
+    if (f == 0) place(make_silo(scale), "silo", {18.5, -8.0}, 0.0);
+    const dvec2 at = farm.center + scale * (-1.5 * along - 7.0 * across);
+    const bool van = f == 1;
+    const int mesh = shared(van ? "parked_van" : "parked_car", [&] {
+      return van ? make_car("van", "car_paint_white", false) : make_car("hatchback", "car_paint_blue", false);
+    });
+    writer_.add_node({.name = fmt::format("car_{:03}", f),
+                      .mesh = mesh,
+                      .position = dvec3(at, farm.level),
+                      .yaw = yaw + random_.uniform(-0.6, 0.6),
+                      .semantic_class = SemanticClass::vehicle});
+    // A few trees around the yard.
+    for (int i = 0; i < 5; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi);
+      add_tree(
+          farm.center + (farm.inner_m + random_.uniform(4.0, 9.0)) * dvec2(std::cos(angle), std::sin(angle)),
+          false);
+    }
+  }
+}
+
+void Country::add_woods() {
+  for (size_t wood = 0; wood < woods_.size(); ++wood) {
+    const dvec2 center = woods_[wood];
+    for (int i = 0; i < 34; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi), r = wood_radius() * std::sqrt(random_.uniform());
+      add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)),
+               (static_cast<size_t>(i) + wood) % 2 == 0);
+    }
+  }
+  for (int i = 0; i < 9; ++i) {  // around the pond
+    const double angle = 2.0 * pi * (i + random_.uniform(0.0, 0.7)) / 9;
+    add_tree(pond_.center + (pond_.outer_m + 4.0) * dvec2(std::cos(angle), std::sin(angle)), false);
+  }
+}
+
+void Country::add_poles() {
+  std::vector<dvec3> tops;  // where the wires hang, to the left and right of each pole
+  int count = 0;
+  for (double x = -terrain_.half() + 15.0; x < terrain_.half() - 5.0; x += 38.0) {
+    const dvec2 along = terrain_.road_direction(x), side(-along.y, along.x);
+    const dvec2 at = snap(dvec2(x, terrain_.road_y(x)) + (road_half_width_m + verge_m - 0.4) * side);
+    const double z = terrain_.height(at);
+    writer_.add_node({.name = fmt::format("pole_{:03}", count++),
+                      .mesh = shared("telegraph_pole", make_pole),
+                      .position = dvec3(at, z),
+                      .yaw = std::atan2(along.y, along.x),
+                      .semantic_class = SemanticClass::pole});
+    for (const double arm : {-0.8, 0.8}) tops.emplace_back(at + arm * side, snap(z) + 6.78);
+  }
+  for (size_t i = 2; i < tops.size(); i += 2) {
+    MeshBuilder wires;
+    for (const size_t arm : {size_t{0}, size_t{1}}) add_wire(wires, tops[i - 2 + arm], tops[i + arm], 0.7);
+    add(fmt::format("wires_{:03}", i / 2 - 1), wires, SemanticClass::pole);
+  }
+}
+
+void Country::add_lamps() {
+  int light = -1, count = 0;
+  const auto lamp = [&](LampKind kind, const dvec2& where, double z, double yaw) {
+    const Lamp made = make_lamp(kind);
+    if (light < 0) light = writer_.add_light(made.light);
+    const std::string name = fmt::format("lamp_{:03}", count++);
+    const int node = writer_.add_node(
+        {.name = name,
+         .mesh = shared(fmt::format("lamp_{}", static_cast<int>(kind)), [&] { return made.mesh; }),
+         .position = dvec3(snap(where), z),
+         .yaw = yaw,
+         .semantic_class = SemanticClass::street_lamp});
+    writer_.add_node({.name = name + "_light",
+                      .position = made.light_position,
+                      .parent = node,
+                      .light = light,
+                      .shine = {0.0, 0.0, -1.0}});
+  };
+  for (const Site& farm : farms_) {
+    const double scale = farm.inner_m / 24.0;
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    for (const dvec2& at : {dvec2(-2.0, 1.0), dvec2(4.0, -9.0)})
+      lamp(LampKind::yard, farm.center + scale * (at.x * along + at.y * across), farm.level, 0.7);
+    // Along the lane past the yard, on the side without poles.
+    for (const double shift : {-30.0, 0.0, 30.0}) {
+      const double x = farm.center.x + scale * shift;
+      const dvec2 direction = terrain_.road_direction(x), side(-direction.y, direction.x);
+      const dvec2 at = dvec2(x, terrain_.road_y(x)) - (road_half_width_m + 0.9) * side;
+      lamp(LampKind::yard, at, terrain_.height(snap(at)) - 0.05, std::atan2(side.y, side.x));
+    }
+  }
+}
+
+}  // namespace
+
+void write_country(SceneWriter& writer, double size_m, uint64_t seed) {
+  Country(writer, size_m, seed).write();
+}
 
 }  // namespace greatx::scene::generator

@@ -46,7 +46,7 @@ const char* const clay_tiles =
 
 std::vector<MaterialSpec> make_library() {
   const dvec2 facade(3.0 * facade_bays, 6.4);
-  // What a white texel of Picture::lit gives. A warm lit pane has 0.6 of a white one's luminance (docs/generator.md).
+  // What a white texel of TextureMaps::lit gives. A warm lit pane has 0.6 of a white one's luminance (docs/generator.md).
   const vec3 home_light(0.05f), office_light(0.05f), shop_light(0.12f);
   return {
       // name, texture, tile, bays, colour, roughness, metallic, emissive, radio

@@ -11,8 +11,8 @@
 
 namespace greatx::scene::generator {
 
-/// Linear Rec. 709 of Planckian radiators (3000, 4000 and 5500 K; Kim et al., US patent 7024034), each of luminance 1 (0.2126 R + 0.7152 G + 0.0722 B), so that
-/// a lamp's candelas are what they say.
+/// Linear Rec. 709 of Planckian radiators (3000, 4000 and 5500 K; Kim et al., US patent 7024034), each of
+/// luminance 1 (0.2126 R + 0.7152 G + 0.0722 B), so that a lamp's candelas are what they say.
 inline const vec3 lamp_color_3000k{1.767f, 0.846f, 0.273f}, lamp_color_4000k{1.414f, 0.924f, 0.534f},
     head_lamp_color{1.143f, 0.971f, 0.863f};
 
@@ -24,7 +24,7 @@ struct MaterialSpec {
   vec3 color{1.0f};     ///< linear base colour, times the texture
   float roughness = 0.9f;
   float metallic = 0.0f;
-  vec3 emissive{0.0f};  ///< 1.0 stands for 1000 cd/m^2; times Picture::lit[lit]
+  vec3 emissive{0.0f};  ///< 1.0 stands for 1000 cd/m^2; times TextureMaps::lit[lit]
   std::string radio;    ///< JSON of GREATX_radio_material (docs/materials.md)
   int lit = -1;         ///< which of the texture's evenings; -1: `emissive` alone
   bool relief = false;  ///< use the texture's normal picture

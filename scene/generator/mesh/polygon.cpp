@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "scene/generator/mesh/materials.h"
 #include "scene/generator/mesh/mesh_builder.h"
-#include "scene/generator/paint/canvas.h"
+#include "scene/generator/paint/texture_painter.h"
 
 namespace greatx::scene::generator {
 

@@ -4,7 +4,7 @@
 // What stands along streets: lamps with their photometry, signals, signs, shelters. Foot at the origin, z up.
 #pragma once
 
-#include "scene/generator/mesh/glb_writer.h"
+#include "scene/generator/mesh/scene_writer.h"
 
 namespace greatx::scene::generator {
 

@@ -138,7 +138,7 @@ LightSpec tail_glow() {
 
 }  // namespace
 
-void write_car(GlbWriter& writer, const std::string& variant) {
+void write_car(SceneWriter& writer, const std::string& variant) {
   const bool van = variant == "van";
   const int car = writer.add_node(
       {.name = "car",

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "scene/generator/mesh/glb_writer.h"
+#include "scene/generator/mesh/scene_writer.h"
 
 namespace greatx::scene::generator {
 
@@ -15,6 +15,6 @@ namespace greatx::scene::generator {
 MeshBuilder make_car(const std::string& variant, const std::string& paint, bool detailed);
 
 /// A car that drives: its mesh with low beams and tail lights (KHR_lights_punctual).
-void write_car(GlbWriter& writer, const std::string& variant);
+void write_car(SceneWriter& writer, const std::string& variant);
 
 }  // namespace greatx::scene::generator

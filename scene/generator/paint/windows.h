@@ -4,7 +4,7 @@
 // Windows painted into a façade, as they look by day and lit by night.
 #pragma once
 
-#include "scene/generator/paint/canvas.h"
+#include "scene/generator/paint/texture_painter.h"
 
 namespace greatx::scene::generator {
 
@@ -25,14 +25,14 @@ Rgb dimmed(const Rgb& color, int percent);
 Rgb night_light(Use use, int layer, int x, int y, uint32_t seed);
 
 /// A lit pane: brighter towards the lamp above, furniture dark against it.
-void light_pane(Canvas& canvas, int layer, int x0, int y0, int x1, int y1, const Rgb& light, Use use,
+void light_pane(TexturePainter& painter, int layer, int x0, int y0, int x1, int y1, const Rgb& light, Use use,
                 uint32_t seed);
 
 /// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the top,
 /// perhaps a curtain or a blind. By night some are lit.
-void window(Canvas& canvas, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed);
+void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed);
 
 /// Soot and rain under a sill.
-void streaks(Canvas& canvas, int x0, int x1, int y, uint32_t seed);
+void streaks(TexturePainter& painter, int x0, int x1, int y, uint32_t seed);
 
 }  // namespace greatx::scene::generator

@@ -27,9 +27,8 @@ std::string quoted(const std::string& text) {
 
 /// Returns a node's line. A null value has the place of the text that follows it, and `fallback` is then
 /// better.
-int line_of(const YAML::Node& node, int fallback) {
-  const YAML::Mark mark = node.Mark();
-  return node.IsNull() || mark.is_null() ? fallback : mark.line + 1;
+int line_of_value(const YAML::Node& node, int fallback) {
+  return node.IsNull() ? fallback : line_of(node, fallback);
 }
 
 size_t edit_distance(std::string_view a, std::string_view b) {
@@ -63,14 +62,14 @@ Field Field::parse(const std::string& text, const std::string& file_name, const 
   try {
     const std::vector<YAML::Node> documents = load_yaml(text, file_name);
     if (documents.size() > 1)
-      throw_user_error_at({file_name, line_of(documents[1], 0)}, "expected one YAML document, found {}",
+      throw_user_error_at({file_name, line_of_value(documents[1], 0)}, "expected one YAML document, found {}",
                           documents.size());
     const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
     return Field(std::make_shared<const Source>(Source{file_name, folder, assets}), root, "",
-                 line_of(root, 1));
+                 line_of_value(root, 1));
   } catch (const YAML::Exception& error) {
-    throw_user_error_at({file_name, error.mark.is_null() ? 0 : error.mark.line + 1},
-                        "expected well-formed YAML, found a fault: {}", error.msg);
+    throw_user_error_at({file_name, line_of(error)}, "expected well-formed YAML, found a fault: {}",
+                        error.msg);
   }
 }
 
@@ -88,11 +87,7 @@ void Field::fail(const std::string& expected, const std::string& found) const {
 }
 
 bool Field::boolean() const {
-  if (node_.IsScalar() && node_.Tag() != "!") {
-    const std::string& text = node_.Scalar();
-    if (text == "true" || text == "True" || text == "TRUE") return true;
-    if (text == "false" || text == "False" || text == "FALSE") return false;
-  }
+  if (const std::optional<bool> value = plain_boolean(node_)) return *value;
   fail("true or false");
 }
 
@@ -108,7 +103,7 @@ std::string Field::name() const {
 }
 
 double Field::finite() const {
-  const auto value = node_.IsScalar() && node_.Tag() != "!" ? parse_number(node_.Scalar()) : std::nullopt;
+  const std::optional<double> value = plain_number(node_);
   if (!value) fail("a finite number");
   return *value;
 }
@@ -197,7 +192,8 @@ std::vector<Field> Field::list(const std::string& of_what, size_t least) const {
     fail(fmt::format("a list of {}{}", least == 0 ? "" : fmt::format("{} or more ", least), of_what));
   std::vector<Field> items;
   for (const YAML::Node& item : node_)
-    items.push_back(Field(source_, item, fmt::format("{}[{}]", path_, items.size()), line_of(item, line_)));
+    items.push_back(
+        Field(source_, item, fmt::format("{}[{}]", path_, items.size()), line_of_value(item, line_)));
   return items;
 }
 
@@ -218,7 +214,7 @@ std::vector<std::pair<std::string, Field>> entries_of(const Field& field) {
   std::vector<std::pair<std::string, Field>> entries;
   std::set<std::string> seen;
   for (const auto& entry : field.node_) {
-    const int line = line_of(entry.first, field.line_);
+    const int line = line_of_value(entry.first, field.line_);
     const Field key(field.source_, entry.first, field.path_, line);
     if (!entry.first.IsScalar()) key.fail("a text as key");
     const std::string& text = entry.first.Scalar();

@@ -44,7 +44,7 @@ class CameraSensor : public Sensor {
   void expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor);
   void describe(const CameraConfig& config, size_t instances);
   void check(const gpu::TickSlot& slot);
-  /// When the camera fires next; after a sequence's last sample the trajectories go on as Path has it.
+  /// When the camera fires next; after a sequence's last sample the trajectories go on as Course has it.
   TruthMoment next_sample(const TickContext& context) const;
 
   Stage& stage_;

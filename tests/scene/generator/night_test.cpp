@@ -129,11 +129,11 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
   size_t seen = 0;
   for (const generator::MaterialSpec& spec : generator::material_library()) {
     if (spec.lit < 0 || spec.texture == "poster") continue;
-    const generator::Picture picture = generator::make_texture(spec.texture);
-    const generator::Raster &lit = picture.lit[static_cast<size_t>(spec.lit)],
-                            &surface = picture.metallic_roughness;
+    const generator::TextureMaps maps = generator::make_texture(spec.texture);
+    const generator::Raster &lit = maps.lit[static_cast<size_t>(spec.lit)],
+                            &surface = maps.metallic_roughness;
     ASSERT_EQ(4 * lit.rgb.size(), surface.rgb.size()) << spec.name;
-    ASSERT_EQ(2 * lit.width, picture.color.width) << spec.name;
+    ASSERT_EQ(2 * lit.width, maps.color.width) << spec.name;
     size_t panes = 0, lit_panes = 0, glowing_wall = 0;
     double sum = 0.0, peak = 0.0;
     for (size_t i = 0; i < lit.rgb.size(); i += 3) {
@@ -175,8 +175,8 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
 
 TEST(Night, EveningsAndWallsDiffer) {
   for (const char* name : {"facade_brick", "facade_glass", "facade_balcony", "shopfront"}) {
-    const generator::Picture picture = generator::make_texture(name);
-    EXPECT_NE(picture.lit[0].rgb, picture.lit[1].rgb) << name;
+    const generator::TextureMaps maps = generator::make_texture(name);
+    EXPECT_NE(maps.lit[0].rgb, maps.lit[1].rgb) << name;
   }
   // Walls start with different bays: more than a few of the eight occur, none is most of them.
   const Soup soup = load_soup({.kind = "city", .seed = 2, .size_m = 300});

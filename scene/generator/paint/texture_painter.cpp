@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/generator/paint/canvas.h"
+#include "scene/generator/paint/texture_painter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,38 +17,38 @@ uint32_t hash(int x, int y, uint32_t seed) {
   return h ^ (h >> 15);
 }
 
-Canvas::Canvas(int width, int height, const Rgb& color)
+TexturePainter::TexturePainter(int width, int height, const Rgb& color)
     : width_(width), height_(height), colors_(static_cast<size_t>(width * height), color) {}
 
-size_t Canvas::index(int x, int y) const {
+size_t TexturePainter::index(int x, int y) const {
   if (x < 0 || x >= width_) x = ((x % width_) + width_) % width_;
   if (y < 0 || y >= height_) y = ((y % height_) + height_) % height_;
   return static_cast<size_t>(y * width_ + x);
 }
 
-void Canvas::rect(int x0, int y0, int x1, int y1, const Rgb& color) {
+void TexturePainter::rect(int x0, int y0, int x1, int y1, const Rgb& color) {
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) colors_[index(x, y)] = color;
 }
 
-void Canvas::rect(int x0, int y0, int x1, int y1, const Rgb& color, int roughness) {
+void TexturePainter::rect(int x0, int y0, int x1, int y1, const Rgb& color, int roughness) {
   rect(x0, y0, x1, y1, color);
   if (surface_.empty()) return;
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) surface_[index(x, y)] = {0, roughness, 0};
 }
 
-void Canvas::add(int x, int y, const Rgb& change) {
+void TexturePainter::add(int x, int y, const Rgb& change) {
   Rgb& c = colors_[index(x, y)];
   c = {c.r + change.r, c.g + change.g, c.b + change.b};
 }
 
-void Canvas::shade(int x0, int y0, int x1, int y1, int change) {
+void TexturePainter::shade(int x0, int y0, int x1, int y1, int change) {
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) add(x, y, {change, change, change});
 }
 
-void Canvas::speckle(int amount, uint32_t seed) {
+void TexturePainter::speckle(int amount, uint32_t seed) {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const int change = (static_cast<int>(hash(x, y, seed) % 5) - 2) * amount / 2;
@@ -56,7 +56,7 @@ void Canvas::speckle(int amount, uint32_t seed) {
     }
 }
 
-void Canvas::blotches(int cell, int amount, uint32_t seed) {
+void TexturePainter::blotches(int cell, int amount, uint32_t seed) {
   const int columns = width_ / cell, rows = height_ / cell;
   const auto node = [&](int x, int y) {
     return static_cast<int>(hash(x % columns, y % rows, seed) % 257) - 128;
@@ -74,13 +74,13 @@ void Canvas::blotches(int cell, int amount, uint32_t seed) {
     }
 }
 
-void Canvas::use_roughness(int roughness) { surface_.assign(colors_.size(), {0, roughness, 0}); }
+void TexturePainter::use_roughness(int roughness) { surface_.assign(colors_.size(), {0, roughness, 0}); }
 
-void Canvas::metal_everywhere(int metallic) {
+void TexturePainter::metal_everywhere(int metallic) {
   for (Rgb& s : surface_) s.b = metallic;
 }
 
-void Canvas::crack(int x, int y, int length, int change, uint32_t seed) {
+void TexturePainter::crack(int x, int y, int length, int change, uint32_t seed) {
   for (int i = 0; i < length; ++i) {
     shade(x, y + i, x + 1, y + i + 1, change);
     const uint32_t step = hash(i, length, seed) % 5;
@@ -89,20 +89,20 @@ void Canvas::crack(int x, int y, int length, int change, uint32_t seed) {
   }
 }
 
-void Canvas::light(int layer, int x0, int y0, int x1, int y1, const Rgb& color) {
+void TexturePainter::light(int layer, int x0, int y0, int x1, int y1, const Rgb& color) {
   std::vector<Rgb>& lit = lit_[static_cast<size_t>(layer)];
   if (lit.empty()) lit.assign(colors_.size(), {});
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) lit[index(x, y)] = color;
 }
 
-void Canvas::raise(int x0, int y0, int x1, int y1, int height) {
+void TexturePainter::raise(int x0, int y0, int x1, int y1, int height) {
   if (relief_.empty()) relief_.assign(colors_.size(), 0);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) relief_[index(x, y)] = height;
 }
 
-Raster Canvas::halved(const std::vector<Rgb>& pixels) const {
+Raster TexturePainter::halved(const std::vector<Rgb>& pixels) const {
   if (pixels.empty()) return {};
   Raster result{static_cast<uint32_t>(width_ / 2), static_cast<uint32_t>(height_ / 2), {}};
   for (int y = 0; y + 1 < height_; y += 2)
@@ -115,7 +115,7 @@ Raster Canvas::halved(const std::vector<Rgb>& pixels) const {
   return result;
 }
 
-Raster Canvas::normals() const {
+Raster TexturePainter::normals() const {
   if (relief_.empty()) return {};
   Raster result{static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
   for (int y = 0; y < height_; ++y)
@@ -130,7 +130,7 @@ Raster Canvas::normals() const {
   return result;
 }
 
-Raster Canvas::whole(const std::vector<Rgb>& pixels) const {
+Raster TexturePainter::whole(const std::vector<Rgb>& pixels) const {
   if (pixels.empty()) return {};
   Raster result{static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), {}};
   result.rgb.reserve(3 * pixels.size());
@@ -139,8 +139,8 @@ Raster Canvas::whole(const std::vector<Rgb>& pixels) const {
   return result;
 }
 
-Picture Canvas::picture() const {
-  Picture result;
+TextureMaps TexturePainter::maps() const {
+  TextureMaps result;
   result.color = whole(colors_);
   result.metallic_roughness = whole(surface_);
   result.normal = normals();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// glTF 2.0 binary (Khronos glTF 2.0.1, chapter 4) from meshes with z up.
+// A generated scene as glTF: meshes with the materials that they name, nodes, lights.
 #pragma once
 
 #include <array>
@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "io/formats/glb_writer.h"
 #include "scene/description/scene.h"
 #include "scene/generator/mesh/mesh_builder.h"
 #include "scene/generator/paint/textures.h"
@@ -29,18 +28,20 @@ struct NodeSpec {
   dvec3 shine{0.0};  ///< where the light looks, in the parent's frame; 0: as `yaw` says
 };
 
-/// KHR_lights_punctual. Lights have no name of their own: readers take the node's.
 struct LightSpec {
   vec3 color{1.0f};  ///< linear, of luminance 1
   double intensity_cd = 0.0;
   double range_m = 0.0;
   double inner_cone = 0.0, outer_cone = 0.0;  ///< rad from the axis; 0: a point light
-  /// What it gives off, lm, by KHR_lights_punctual's fall-off between the cones, the square of a ramp in the cosine.
+  /// What it gives off, lm, by KHR_lights_punctual's fall-off between the cones, the square of a ramp in the
+  /// cosine.
   double flux_lm() const;
 };
 
-class GlbWriter {
+/// Numbers are rounded on their way into the file, so that its bytes do not depend on the last bit of a sine.
+class SceneWriter {
  public:
+  SceneWriter();
   /// Takes the mesh; the number to name it by.
   int add_mesh(const std::string& name, const MeshBuilder& mesh);
   int add_node(const NodeSpec& node);
@@ -49,23 +50,20 @@ class GlbWriter {
   std::vector<std::byte> finish(const std::string& scene_name);
 
  private:
-  int view(const void* data, size_t bytes, int target);
-  int accessor(int buffer_view, int component_type, size_t count, const char* type);
-  int gltf_material(int library_index);
-  /// glTF textures of one picture; -1 where it has none.
+  /// glTF textures of the maps of one surface; -1: not in the file, or none.
   struct Textures {
     int color = -1, surface = -1, normal = -1;
     std::array<int, lit_pictures> lit{-1, -1};
   };
-  Textures& textures_of(const std::string& name);
+  /// Writes the material, and the textures that no material before it had.
+  void add_material(int library_index);
   /// Adds the raster when it is first asked for; -1 if it is empty.
   int texture(int& index, const std::string& name, const Raster& raster, bool exact = false);
-  const Picture& picture(const std::string& name);
+  const TextureMaps& maps(const std::string& name);
 
-  nlohmann::ordered_json root_;
-  std::vector<std::byte> binary_;
+  io::GlbWriter file_;
   std::map<int, int> materials_;  ///< library index -> glTF material
-  std::map<std::string, Picture> pictures_;
+  std::map<std::string, TextureMaps> maps_;
   std::map<std::string, Textures> textures_;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture that repeats in both directions, painted in integers only, so that it is the same on every machine.
+// Paints the texture maps of a surface, which repeat in both directions. All of it is in integers, so that
+// the maps are the same on every machine.
 #pragma once
 
 #include <array>
@@ -19,9 +20,9 @@ struct Rgb {
 uint32_t hash(int x, int y, uint32_t seed);
 
 /// Every coordinate wraps around; rectangles are half-open, [x0, x1) x [y0, y1).
-class Canvas {
+class TexturePainter {
  public:
-  Canvas(int width, int height, const Rgb& color);
+  TexturePainter(int width, int height, const Rgb& color);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -45,9 +46,9 @@ class Canvas {
   void light(int layer, int x0, int y0, int x1, int y1, const Rgb& color);
   /// Height over the plane, in pixels/16; starts a normal picture.
   void raise(int x0, int y0, int x1, int y1, int height);
-  /// What is lit at half the resolution: nobody sees the difference. Roughness as large as the colour: a renderer may then
-  /// look both up at once.
-  Picture picture() const;
+  /// What is lit at half the resolution: nobody sees the difference. Roughness as large as the colour: a
+  /// renderer may then look both up at once.
+  TextureMaps maps() const;
 
  private:
   size_t index(int x, int y) const;
