@@ -47,7 +47,7 @@ void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
       receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation};
   response_.resize(rf::response_size(transmitter, receiver, grid_));
   std::vector<rf::TransferSpectrum> spectra;
-  if (dispersion_) spectra = dispersion_->spectra(link.paths);
+  if (dispersion_) spectra = dispersion_->spectra(link.paths, *link.world);
   rf::frequency_response_into(link.paths, spectra, transmitter, receiver, grid_, response_);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(response_));
   file_.write_at(io::npy_header_bytes + link.receiver * bytes.size(), bytes);

@@ -242,15 +242,16 @@ Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const
   const rf::ChannelGrid grid = grid_of(request, config_, stage_->plan.doppler.on);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
-    dispersion.emplace(stage_->world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid);
-  return blocks({grid.time_samples, grid.subcarriers}, go_on,
-                [&](const Link& link, std::span<Complex64> out) {
-                  const std::vector<rf::Path>& paths = link.solved.paths;
-                  const std::vector<rf::TransferSpectrum> spectra =
-                      dispersion ? dispersion->spectra(paths) : std::vector<rf::TransferSpectrum>{};
-                  rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
-                                              request.selection);
-                });
+    dispersion.emplace(stage_->world.scene, radio_->model().field_model(), radio_->model().effects.weather,
+                       grid);
+  return blocks(
+      {grid.time_samples, grid.subcarriers}, go_on, [&](const Link& link, std::span<Complex64> out) {
+        const std::vector<rf::Path>& paths = link.solved.paths;
+        const std::vector<rf::TransferSpectrum> spectra =
+            dispersion ? dispersion->spectra(paths, *link.solved.world) : std::vector<rf::TransferSpectrum>{};
+        rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
+                                    request.selection);
+      });
 }
 
 NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {

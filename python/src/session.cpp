@@ -259,14 +259,14 @@ sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stag
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
                                         const std::optional<scene::Bounds>& points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own. With dispersion results go on
-  // looking at the bodies (PathSet), which then stay where they are. Where the points are may decide effects.
+  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the points may
+  // decide effects.
   const sim::EffectPlan plan =
       points ? sim::make_effect_plan(stage->scenario, stage->world.scene, *points) : stage->plan;
   const bool same = kept_ != nullptr && kept_->stage == stage && kept_->channel == channel &&
                     kept_->points == points.has_value() && sim::same_effects(kept_->plan, plan);
   const bool there = same && kept_->sequence == instant.sequence && kept_->tick == instant.tick;
-  if (same && !there && !stage->plan.dispersion.on) {
+  if (same && !there) {
     kept_->snapshot->move(instant.sequence, instant.tick);
   } else if (!there) {
     kept_.reset();

@@ -204,7 +204,9 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
 
 std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
                                      std::span<const Crossing> crossings, const EndState& transmitter,
-                                     const EndState& receiver) const {
+                                     const EndState& receiver, const FacetWorld& world) const {
+  FieldModel field = field_;
+  field.world = &world;
   std::vector<GeometricPath> lit;
   size_t first = 0;
   for (const GeometricPath& path : paths) {
@@ -212,7 +214,7 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
     GREATX_CHECK(first + count <= crossings.size(), "{} answers for {} segments and more", crossings.size(),
                  first + count);
     GeometricPath full;
-    const bool clear = insert_walls(model_->facets, path, crossings.subspan(first, count), full);
+    const bool clear = insert_walls(world, path, crossings.subspan(first, count), full);
     first += count;
     if (!clear || full.interactions.size() > options_.max_depth) continue;
     if (full.interactions.size() - path.interactions.size() > options_.max_transmissions) continue;
@@ -224,7 +226,7 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
   fields.reserve(lit.size());
   for (const GeometricPath& path : lit) {
     checkpoint();
-    fields.push_back(path_field(path, field_, transmitter.velocity, receiver.velocity));
+    fields.push_back(path_field(path, field, transmitter.velocity, receiver.velocity));
   }
   return fields;
 }

@@ -70,9 +70,11 @@ class PathSolver {
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;
   /// Walls become interactions; blocked paths and those beyond the bounds go; fields of the rest, in canonical order.
-  /// `crossings`: the answers to the segments of these paths.
+  /// `crossings`: the answers to the segments of these paths. `world`: a copy of the model's facets as they stood when the
+  /// geometry was solved; those of the model may have moved on since.
   std::vector<Path> finish(std::span<const GeometricPath> paths, std::span<const Crossing> crossings,
-                           const EndState& transmitter, const EndState& receiver) const;
+                           const EndState& transmitter, const EndState& receiver,
+                           const FacetWorld& world) const;
 
   const PathOptions& options() const { return options_; }
 

@@ -3,6 +3,8 @@
 #include "sim/channel/channel_paths.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstring>
 #include <iterator>
 
 #include <spdlog/spdlog.h>
@@ -12,6 +14,15 @@
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
+
+namespace {
+
+bool same_bits(const Motion& a, const Motion& b) {
+  static_assert(sizeof(Motion) == 16 * sizeof(double));  // nothing between the members
+  return std::memcmp(&a, &b, sizeof(Motion)) == 0;
+}
+
+}  // namespace
 
 rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario) {
   rf::RadioEffects effects;
@@ -37,8 +48,30 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
 }
 
 RadioWorld::RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel)
-    : model(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
-      surroundings(world.scene, model.kinds) {}
+    : model_(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
+      surroundings_(world.scene, model_.kinds) {}
+
+void RadioWorld::move_on(const TickContext& context) {
+  for (uint32_t body = 1; body < context.body_poses.size(); ++body) {
+    const Motion motion = context.body_motion_at(body, context.time_s);
+    if (same_bits(motion, model_.facets.motion(body))) continue;
+    model_.facets.move(body, motion);
+    current_ = nullptr;
+  }
+}
+
+std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
+  if (current_) return current_;
+  for (const std::shared_ptr<rf::FacetWorld>& spare : snapshots_)
+    if (spare.use_count() == 1) {
+      // Whoever held it last may have done so on another thread.
+      std::atomic_thread_fence(std::memory_order_acquire);
+      spare->take_poses(model_.facets);
+      return current_ = spare;
+    }
+  snapshots_.push_back(std::make_shared<rf::FacetWorld>(model_.facets));
+  return current_ = snapshots_.back();
+}
 
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
                            const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
@@ -50,7 +83,7 @@ ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossin
       crossings_(crossings) {
   const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
                                           [](const ChannelEnd& end) { return end.rests; });
-  search_.emplace(&gpu_scene, radio_->model, plan, config_,
+  search_.emplace(&gpu_scene, radio_->model(), plan, config_,
                   ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
 }
 
@@ -79,7 +112,7 @@ void ChannelPaths::start(const TickContext& context) {
   ids_known_ = false;
   placed_.clear();
   placements_told_ = 0;
-  move_bodies(bodies_at(context));
+  radio_->move_on(context);
   search_->start(state(ends_.transmitter, context).position, receiver_positions(context), context.body_poses);
 }
 
@@ -87,22 +120,11 @@ void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
   search_->record_ahead(slot, state(ends_.transmitter, next).position);
 }
 
-ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
-  Bodies bodies;
-  for (uint32_t body = 1; body < world_.scene.bodies.size(); ++body)
-    bodies.emplace_back(body, context.body_motion_at(body, context.time_s));
-  return bodies;
-}
-
-void ChannelPaths::move_bodies(const Bodies& bodies) {
-  for (const auto& [body, motion] : bodies) radio_->model.facets.move(body, motion);
-}
-
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
   flight.transmitter = state(ends_.transmitter, context);
-  flight.bodies = bodies_at(context);
-  move_bodies(flight.bodies);
+  radio_->move_on(context);
+  flight.world = radio_->snapshot();
   check_placements(context);
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
@@ -135,8 +157,8 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
 ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   InFlight& flight = in_flight_[slot.index];
   const std::vector<rf::Crossing> crossings = crossings_.collect(flight.crossings, flight.segments);
-  move_bodies(flight.bodies);  // the tick after this one may have been recorded
   Result result;
+  result.world = std::move(flight.world);
   result.transmitter = flight.transmitter;
   result.links.resize(flight.links.size());
   parallel_for(flight.links.size(), 0, [&](size_t r) {
@@ -146,7 +168,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     result.links[r].left_out = link.left_out;
     result.links[r].paths = search_->solver().finish(
         link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
-        link.receiver);
+        link.receiver, *result.world);
   });
   if (!ids_known_) ids_.assign(result.links.size(), {});
   for (size_t r = 0; r < result.links.size(); ++r) {
@@ -183,7 +205,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
     if (i == 0 ? !ends_.check_transmitter : !ends_.check_receivers) continue;
     if (!placed.checked || !end.rests) {
       const rf::EndState at = state(end, context);
-      const rf::Placement placement = radio_->surroundings.of(at.position, context.body_poses, at.body);
+      const rf::Placement placement = radio_->surroundings().of(at.position, context.body_poses, at.body);
       placed.checked = true;
       placed.inside = placement.solid != rf::Placement::none;
       if (!placement.free() && !placed.told) {
@@ -193,7 +215,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
         if (++placements_told_ <= most_told)
           spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
                       config_.name, context.tick, end.name,
-                      rf::describe(placement, world_.scene, radio_->model.kinds));
+                      rf::describe(placement, world_.scene, radio_->model().kinds));
       }
     }
     ends_inside_ += placed.inside;

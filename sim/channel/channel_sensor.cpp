@@ -50,7 +50,7 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
   grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
            doppler_ ? config_.time_spacing_s : 0.0};
   if (plan.dispersion.on)
-    dispersion_.emplace(world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid_);
+    dispersion_.emplace(world.scene, radio_->model().field_model(), radio_->model().effects.weather, grid_);
   if (plan.every_element.on) find_near_links();
   describe();
 }

@@ -36,13 +36,15 @@ class ChannelSnapshot {
     double distance_m = 0.0;
     LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
+    /// The facets that the paths were solved among, which never move.
+    std::shared_ptr<const rf::FacetWorld> world;
   };
   /// All arguments but `options` and `instant` outlive this. Throws UserError like ChannelPaths.
   ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world, const EffectPlan& plan,
                   const scene::GpuSceneOptions& options, uint32_t channel, const Instant& instant);
 
   /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again. Gives the same
-  /// paths as a snapshot that is made there; counters go on. What shares radio() sees bodies move.
+  /// paths as a snapshot that is made there; counters go on.
   void move(uint32_t sequence, int64_t tick);
 
   /// Receivers one after the other in their order, each with all transmitters in theirs; false: enough.
@@ -55,7 +57,7 @@ class ChannelSnapshot {
   static constexpr size_t points_at_once = 256;
 
   const Moment& moment() const { return moment_; }
-  const rf::RadioModel& model() const { return radio_->model; }
+  const rf::RadioModel& model() const { return radio_->model(); }
   /// The same for those whose results outlive the snapshot.
   std::shared_ptr<const RadioWorld> radio() const { return radio_; }
   size_t transmitters() const { return paths_.size(); }

@@ -41,7 +41,7 @@ auto located(const SourceLocation& where, const Act& act) {
 /// Passes that several sensors share; only those of the plan exist.
 struct Simulator::Passes {
   std::unique_ptr<render::SceneLighting> lighting;
-  std::unique_ptr<Stage> stage;  ///< with the lighting
+  std::unique_ptr<PosedScene> posed;  ///< with the lighting
   std::unique_ptr<render::ProbePass> probe;
   std::unique_ptr<rf::CrossingPass> crossings;
 };
@@ -91,7 +91,7 @@ Simulator::Simulator(gpu::Device& device, const Scenario& scenario, const World&
   if (plan.camera.on)
     passes_->lighting = std::make_unique<render::SceneLighting>(gpu_scene_, lighting_of(scenario.environment),
                                                                 camera_effects(plan));
-  if (passes_->lighting) passes_->stage = std::make_unique<Stage>(gpu_scene_, *passes_->lighting, world);
+  if (passes_->lighting) passes_->posed = std::make_unique<PosedScene>(gpu_scene_, *passes_->lighting, world);
   if (plan.consistency.on) passes_->probe = std::make_unique<render::ProbePass>(gpu_scene_);
   if (plan.channel.on)
     passes_->crossings = std::make_unique<rf::CrossingPass>(
@@ -128,9 +128,9 @@ void Simulator::add_sensors() {
 std::unique_ptr<Sensor> Simulator::make_sensor(uint32_t node, uint32_t sensor) {
   const auto& config = scenario_.nodes[node].sensors[sensor].config;
   if (std::holds_alternative<CameraConfig>(config))
-    return std::make_unique<CameraSensor>(*passes_->stage, passes_->probe.get(), scenario_, node, sensor);
+    return std::make_unique<CameraSensor>(*passes_->posed, passes_->probe.get(), scenario_, node, sensor);
   if (std::holds_alternative<EventCameraConfig>(config))
-    return std::make_unique<EventSensor>(*passes_->stage, shared_camera(node, sensor), scenario_, node,
+    return std::make_unique<EventSensor>(*passes_->posed, shared_camera(node, sensor), scenario_, node,
                                          sensor);
   if (std::holds_alternative<LidarConfig>(config))
     return std::make_unique<LidarSensor>(gpu_scene_, plan_, scenario_, world_, node, sensor);

@@ -127,7 +127,7 @@ class Channel {
     const CrossingPass::Pending pending = crossings_.record(slot, segments);
     ring.submit(slot);
     ring.wait(slot);
-    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx);
+    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx, model_.facets);
   }
 
   CandidateList last;  ///< what moves, or everything
