@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "scene/description/scene.h"
+#include "scene/description/box_tree.h"
 
 namespace greatx::scene {
 
-/// Boxes around triangles, halved along their longest axis: which triangles may a segment touch?
+/// Boxes around triangles: which triangles may a segment touch?
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);
@@ -18,15 +18,7 @@ class TriangleTree {
   void near_segment(const dvec3& a, const dvec3& b, double distance_m, std::vector<uint32_t>& found) const;
 
  private:
-  struct Node {
-    Bounds bounds;
-    uint32_t first = 0,
-             count = 0;  ///< of order_; count 0: an inner node, its children at `first` and `first` + 1
-  };
-  void split(uint32_t node, std::vector<Bounds>& boxes);
-
-  std::vector<Node> nodes_;
-  std::vector<uint32_t> order_;
+  BoxTree boxes_;
 };
 
 }  // namespace greatx::scene
