@@ -3,6 +3,7 @@
 #include "python/src/path_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -16,6 +17,7 @@
 #include "rf/channel/taps.h"
 #include "sim/channel/columns.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 
 namespace greatx::python {
 
@@ -82,12 +84,9 @@ PathSet::PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  const auto wish = stage_->scenario.effects.find("every_element");
-  // As sim/plan/array_plan.h.
-  const double far_m =
-      rf::far_field_distance_m(transmitter(link).array, receiver(link).array, config_.carrier_hz);
-  link.near = link.solved.distance_m < far_m &&
-              (wish == stage_->scenario.effects.end() || wish->second != sim::Switch::off);
+  link.near =
+      link.solved.distance_m <
+      sim::every_element_within_m(stage_->scenario, config_, transmitter(link).array, receiver(link).array);
   links_.push_back(std::move(link));
 }
 
@@ -112,7 +111,7 @@ std::vector<double> PathSet::powers(const Link& link) const {
 
 void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
   sim::ChannelConfig config;  // what scenarios may ask for beyond a path's own has functions here
-  config.max_depth = config_.max_depth;
+  config.limits.max_depth = config_.limits.max_depth;
   const int64_t rx_ports = receivers_[0].port_count(), tx_ports = transmitters_[0].port_count();
   const sim::ColumnContext context{&stage_->world.scene, &snapshot.model(), &config, rx_ports, tx_ports};
   const std::vector<sim::PathColumn> columns = sim::path_columns(context);
@@ -180,18 +179,21 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
   for (NamedArray* more : {&distance, &from, &to}) arrays_.push_back(std::move(*more));
 
   const sim::TickContext& moment = snapshot.moment().context;
-  Json json{{"channel", config_.name},
-            {"tick", moment.tick},
-            {"time_s", moment.time_s},
-            {"carrier_hz", config_.carrier_hz},
-            {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
-            {"subcarriers", config_.subcarriers},
-            {"time_samples", config_.time_samples},
-            {"time_spacing_s", config_.time_spacing_s},
-            {"transmitters", config_.transmitters},
-            {"near_links", near},
-            {"counters", Json::object()},
-            {"notes", Json::object()}};
+  Json json{
+      {"channel", config_.name},
+      {"tick", moment.tick},
+      {"time_s", moment.time_s},
+      {"carrier_hz", config_.carrier_hz},
+      {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
+      {"subcarriers", config_.subcarriers},
+      {"time_samples", config_.time_samples},
+      {"time_spacing_s", config_.time_spacing_s},
+      {"transmitters", config_.transmitters},
+      {"every_element",
+       std::array{"auto", "on", "off"}[static_cast<size_t>(sim::every_element_asked(stage_->scenario))]},
+      {"near_links", near},
+      {"counters", Json::object()},
+      {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
   // Candidates are those that these paths were solved from, whenever they were searched; births and deaths are a run's.

@@ -168,7 +168,7 @@ std::string Session::facts() const {
                                       {"subcarriers", channel.subcarriers},
                                       {"time_samples", channel.time_samples},
                                       {"time_spacing_s", channel.time_spacing_s},
-                                      {"max_depth", channel.max_depth},
+                                      {"max_depth", channel.limits.max_depth},
                                       {"max_transmissions", channel.walls()},
                                       {"candidates", channel.candidates}};
   return json.dump();
@@ -259,8 +259,8 @@ sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stag
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
                                         const std::optional<scene::Bounds>& points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the points may
-  // decide effects.
+  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the
+  // points may decide effects.
   const sim::EffectPlan plan =
       points ? sim::make_effect_plan(stage->scenario, stage->world.scene, *points) : stage->plan;
   const bool same = kept_ != nullptr && kept_->stage == stage && kept_->channel == channel &&

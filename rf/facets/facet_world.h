@@ -35,8 +35,9 @@ struct PosedFacet {
   }
 };
 
-/// All facets of a scene, posed. Static ones are worked out once; move() re-poses those of one body. A copy is a snapshot:
-/// it shares the outlines and has poses of its own, which no later move() of the original changes.
+/// All facets of a scene, posed. Static ones are worked out once; move() re-poses those of one body. A copy
+/// is a snapshot: it shares the outlines and has poses of its own, which no later move() of the original
+/// changes.
 class FacetWorld {
  public:
   /// Every body at rest with the identity pose.

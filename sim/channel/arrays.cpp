@@ -114,7 +114,7 @@ std::string ChannelSensor::metadata() const {
   metadata["first_subcarrier"] = -static_cast<int64_t>(config_.subcarriers / 2);
   metadata["time_samples"] = config_.time_samples;
   metadata["time_spacing_s"] = config_.time_spacing_s;
-  metadata["max_depth"] = config_.max_depth;
+  metadata["max_depth"] = config_.limits.max_depth;
   metadata["non_finite"] = {"vertex"};
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);

@@ -144,7 +144,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     if (link.left_out.paths > 0 && left_out_.paths == 0)
       spdlog::warn(
           "channel '{}', {}: {} geometric paths beyond max_paths ({}) were left out; more in the counters",
-          config_.name, ends_.receivers[r].name, link.left_out.paths, config_.max_paths);
+          config_.name, ends_.receivers[r].name, link.left_out.paths, config_.limits.max_paths);
     left_out_.add(link.left_out);
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
@@ -231,7 +231,7 @@ std::vector<std::pair<std::string, std::string>> ChannelPaths::notes(const LinkL
     for (auto& [name, text] : notes)
       if (name == "guarantee")
         text += fmt::format("; {} geometric paths are left out, beyond the {} of a link (max_paths)",
-                            left_out.paths, config_.max_paths);
+                            left_out.paths, config_.limits.max_paths);
   return notes;
 }
 

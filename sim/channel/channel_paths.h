@@ -29,8 +29,9 @@ namespace greatx::sim {
 /// The radio effects of a plan, for rf/.
 rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario);
 
-/// The scene as the waves of one channel meet it; all links of the channel share it. Bodies only ever move on to the next
-/// tick that is searched and recorded: a tick in flight has a snapshot, which stays as it is while anybody holds it.
+/// The scene as the waves of one channel meet it; all links of the channel share it. Bodies only ever move on
+/// to the next tick that is searched and recorded: a tick in flight has a snapshot, which stays as it is
+/// while anybody holds it.
 class RadioWorld {
  public:
   RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel);

@@ -1,7 +1,7 @@
-// SPDX-FileCopyrightText: 2026 The greatx authors
-// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 The greatx authors SPDX-License-Identifier: Apache-2.0
 //
-// The scene that cameras look at, posed for any instant of a tick: sub-steps of event cameras, instants within an exposure.
+// The scene that cameras look at, posed for any instant of a tick: sub-steps of event cameras, instants
+// within an exposure.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ namespace greatx::sim {
 /// The instants that one sensor asks for within its record(): only PosedScene makes them, and it undoes them.
 class Instants {
  public:
-  /// Poses every body, and the shadows that go with it, as at `time_s`, for the raster passes recorded next. The last call of
-  /// a sensor must not stand in a gpu::Condition if it is for the tick itself.
+  /// Poses every body, and the shadows that go with it, as at `time_s`, for the raster passes recorded next.
+  /// The last call of a sensor must not stand in a gpu::Condition if it is for the tick itself.
   void move_to(double time_s);
 
  private:
@@ -40,8 +40,8 @@ class PosedScene {
   PosedScene(scene::GpuScene& scene, render::SceneLighting& lighting, const World& world)
       : scene_(scene), lighting_(lighting), world_(world) {}
 
-  /// Lets `record` move everything to as many instants as it likes. Afterwards everything stands as `context` has it again,
-  /// as it did before, whatever `record` did.
+  /// Lets `record` move everything to as many instants as it likes. Afterwards everything stands as `context`
+  /// has it again, as it did before, whatever `record` did.
   void at_instants(gpu::TickSlot& slot, const TickContext& context,
                    const std::function<void(Instants&)>& record);
   const render::SceneLighting& lighting() const { return lighting_; }

@@ -20,7 +20,8 @@ class CameraSensor;
 /// With EventCameraConfig::camera the pictures at the samples are that camera's, which recorded them just before.
 class EventSensor : public Sensor {
  public:
-  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the camera outlive this.
+  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the
+  /// camera outlive this.
   EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
               uint32_t sensor);
 
