@@ -84,6 +84,7 @@ PathSet::PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
+  if (!stage_->plan.dispersion.on) link.solved.world.reset();  // nothing asks for the facets again
   link.near =
       link.solved.distance_m <
       sim::every_element_within_m(stage_->scenario, config_, transmitter(link).array, receiver(link).array);

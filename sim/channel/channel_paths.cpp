@@ -62,15 +62,18 @@ void RadioWorld::move_on(const TickContext& context) {
 
 std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
   if (current_) return current_;
-  for (const std::shared_ptr<rf::FacetWorld>& spare : snapshots_)
-    if (spare.use_count() == 1) {
-      // Whoever held it last may have done so on another thread.
-      std::atomic_thread_fence(std::memory_order_acquire);
-      spare->take_poses(model_.facets);
-      return current_ = spare;
-    }
-  snapshots_.push_back(std::make_shared<rf::FacetWorld>(model_.facets));
-  return current_ = snapshots_.back();
+  const auto is_free = [](const std::shared_ptr<rf::FacetWorld>& one) { return one.use_count() == 1; };
+  const auto spare = std::find_if(snapshots_.begin(), snapshots_.end(), is_free);
+  if (spare != snapshots_.end()) {
+    // The last one who held it may have done so on another thread.
+    std::atomic_thread_fence(std::memory_order_acquire);
+    (*spare)->take_poses(model_.facets);
+    current_ = *spare;
+  } else {
+    current_ = snapshots_.emplace_back(std::make_shared<rf::FacetWorld>(model_.facets));
+  }
+  std::erase_if(snapshots_, is_free);  // one spare at a time is enough
+  return current_;
 }
 
 ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
