@@ -125,7 +125,7 @@ Json json_of(const MapOptions& options, const sim::ChannelSnapshot& snapshot, co
             {"time_s", moment.context.time_s},
             {"channel", channel.name},
             {"carrier_hz", channel.carrier_hz},
-            {"max_depth", channel.max_depth}};
+            {"max_depth", channel.limits.max_depth}};
   json["grid"] = {{"min_m", {grid.min_m.x, grid.min_m.y}},
                   {"max_m", {max.x, max.y}},
                   {"cell_m", grid.cell_m},

@@ -117,7 +117,7 @@ Json head_of(const PathsOptions& options, const PathsRequest& request, const sim
             {"channel", channel.name},
             {"transmitter", channel.transmitters[*request.instant.transmitter]},
             {"carrier_hz", channel.carrier_hz},
-            {"max_depth", channel.max_depth},
+            {"max_depth", channel.limits.max_depth},
             {"gain", gain_note},
             {"phase", phase_note},
             {"effects", Json::object()}};

@@ -155,7 +155,7 @@ nlohmann::json search_row(const ScenarioOptions& options) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const sim::Moment moment = sim::moment_at(world, courses, sim::Clock(scenario.tick_rate_hz), 0);
   rf::BeamSearchOptions search_options;
-  search_options.max_depth = channel.max_depth;
+  search_options.max_depth = channel.limits.max_depth;
   search_options.max_transmissions = experiment.plan.transmission.on ? channel.walls() : 0;
   const rf::BeamSearch search(model.facets, model.kinds, model.wedges, search_options);
   const dvec3 source = transmitter_position(scenario, world, moment);

@@ -83,7 +83,7 @@ Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
 }
 
 Comparison compare(const Case& c, const Answer& answer) {
-  Comparison comparison(c.experiment.scenario.channels[0].max_depth);
+  Comparison comparison(c.experiment.scenario.channels[0].limits.max_depth);
   for (uint32_t r = 0; r < answer.links.size(); ++r)
     comparison.add(r, rf::reference::polylines(c.reference.paths[r]),
                    rf::reference::polylines(answer.links[r].paths));

@@ -66,9 +66,9 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
         scenario.name);
   scenario.channels.resize(1);
   sim::ChannelConfig& channel = scenario.channels[0];
-  channel.max_depth = max_depth;
-  channel.max_transmissions = max_transmissions;
-  channel.search = "auto";
+  channel.limits.max_depth = max_depth;
+  channel.limits.max_transmissions = max_transmissions;
+  channel.search = sim::ChannelConfig::Search::automatic;
   const auto paths = sim::make_node_courses(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
     sim::NodeConfig& node = scenario.nodes[i];

@@ -6,6 +6,7 @@
 
 #include "io/formats/npy.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 
 namespace greatx::apps {
 
@@ -49,23 +50,24 @@ void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
       receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation};
   response_.resize(rf::response_size(transmitter, receiver, grid_));
   std::vector<rf::TransferSpectrum> spectra;
-  if (dispersion_) spectra = dispersion_->spectra(link.paths);
+  if (dispersion_) spectra = dispersion_->spectra(link.paths, *link.world);
   rf::frequency_response_into(link.paths, spectra, transmitter, receiver, grid_, response_);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(response_));
   file_.write_at(io::npy_header_bytes + link.receiver * bytes.size(), bytes);
   ++added_;
-  near_ += link.distance_m < rf::far_field_distance_m(transmitter_, receiver.array, grid_.carrier_hz);
+  near_ += link.distance_m < sim::every_element_within_m(scenario_, config_, transmitter_, receiver.array);
 }
 
 void CfrFile::finish() {
   if (added_ != count_)
     throw_user_error("{}: expected the responses of {} receivers, found {}", path_.string(), count_, added_);
+  const bool forced = sim::every_element_asked(scenario_) == sim::Switch::on;
   if (near_ > 0)
     spdlog::warn(
-        "{}: {} of {} receivers are nearer than the far field of the arrays, 2 D^2/lambda: a plane wave "
-        "passes "
-        "over each array here; a run solves every element",
-        path_.string(), near_, count_);
+        "{}: {} of {} receivers {}: a plane wave passes over each array here; a run solves every element",
+        path_.string(), near_, count_,
+        forced ? "have arrays and every_element is on"
+               : "are nearer than the far field of the arrays, 2 D^2/lambda");
   file_.close();
   io::rename_file(io::part_name(path_), path_);
   finished_ = true;

@@ -31,6 +31,8 @@ class CfrFile {
 
  private:
   std::filesystem::path path_;
+  const sim::Scenario& scenario_;
+  const sim::ChannelConfig& config_;
   io::File file_;
   rf::AntennaArray transmitter_;
   std::vector<rf::AntennaArray> receivers_;  ///< one for all points

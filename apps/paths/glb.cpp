@@ -98,8 +98,8 @@ void Exporter::link(const PathLink& link, int root) {
 }
 
 void Exporter::path(const rf::Path& path, size_t number, int parent) {
-  const double gain = gain_db(path_gain(path, scene_.carrier_hz));
-  const vec3 color = linear(options_.colors == PathColors::gain ? color_of_gain(scale_, gain)
+  const double path_gain_db = gain_db(path_gain(path, scene_.carrier_hz));
+  const vec3 color = linear(options_.colors == PathColors::gain ? color_of_gain(scale_, path_gain_db)
                                                                 : color_of_kind(kind_of(path)));
   io::GlbPrimitive lines, markers;
   lines.mode = io::GlbPrimitive::Mode::lines;
@@ -124,7 +124,7 @@ void Exporter::path(const rf::Path& path, size_t number, int parent) {
               {"length_m", path.length_m},
               {"delay_s", path.delay_s},
               {"doppler_hz", path.doppler_hz}};
-  if (std::isfinite(gain)) extras["gain_db"] = gain;
+  if (std::isfinite(path_gain_db)) extras["gain_db"] = path_gain_db;
   writer_.add_node({.name = name,
                     .mesh = writer_.add_mesh(name, primitives),
                     .parent = parent,

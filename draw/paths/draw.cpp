@@ -257,20 +257,22 @@ void draw_marker_legend(Canvas& canvas, int right, int y, std::span<const PathLi
 
 }  // namespace
 
-double GainScale::at(double gain) const { return std::clamp((gain - low_db) / (high_db - low_db), 0.0, 1.0); }
+double GainScale::at(double gain_db) const {
+  return std::clamp((gain_db - low_db) / (high_db - low_db), 0.0, 1.0);
+}
 
 GainScale gain_scale(std::span<const PathLink> links, double carrier_hz) {
   GainScale scale;
   double low = 1e300, high = -1e300;
   for (const PathLink& link : links)
     for (const rf::Path& path : link.paths) {
-      const double gain = gain_db(path_gain(path, carrier_hz));
-      if (!std::isfinite(gain)) {  // no power at all
+      const double path_gain_db = gain_db(path_gain(path, carrier_hz));
+      if (!std::isfinite(path_gain_db)) {  // no power at all
         scale.weaker = true;
         continue;
       }
-      low = std::min(low, gain);
-      high = std::max(high, gain);
+      low = std::min(low, path_gain_db);
+      high = std::max(high, path_gain_db);
     }
   if (low > high) return scale;
   scale.high_db = 10.0 * std::ceil(high / 10.0);
@@ -280,8 +282,8 @@ GainScale gain_scale(std::span<const PathLink> links, double carrier_hz) {
   return scale;
 }
 
-io::Color color_of_gain(const GainScale& scale, double gain) {
-  return io::turbo(0.12 + 0.8 * scale.at(gain));  // without the ends, which are nearly black
+io::Color color_of_gain(const GainScale& scale, double gain_db) {
+  return io::turbo(0.12 + 0.8 * scale.at(gain_db));  // without the ends, which are nearly black
 }
 
 io::Color color_of_kind(rf::InteractionType kind) {

@@ -108,15 +108,18 @@ class Paths:
         `bandwidth_hz` is all of it: the spacing is bandwidth_hz / subcarriers, unless subcarrier_spacing_hz
         is given instead. time_samples, time_spacing_s: samples about the tick, turned by each path's Doppler
         shift. `select`: "all" paths, the "line_of_sight" alone, or the "others".
-        A plane wave passes over each array; links nearer than the far field of their arrays are warned of.
+        A plane wave passes over each array; a warning counts the links that
+        Simulation.run() solves element by element (`every_element` of the scenario's effects).
         """
         if bandwidth_hz is not None:
             if subcarrier_spacing_hz is not None:
                 raise Error("subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, found both")
             subcarrier_spacing_hz = bandwidth_hz / (self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1))
         if self.facts["near_links"]:
-            warnings.warn(f"{self.facts['near_links']} links of {self.channel} are nearer than the far field of their arrays, "
-                          "2 D^2/lambda: cfr() takes a plane wave over each array, Simulation.run() solves every element",
+            why = ("have arrays and every_element is on" if self.facts["every_element"] == "on"
+                   else "are nearer than the far field of their arrays, 2 D^2/lambda")
+            warnings.warn(f"{self.facts['near_links']} links of {self.channel} {why}: "
+                          "cfr() takes a plane wave over each array, Simulation.run() solves every element",
                           stacklevel=2)
         response = self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)
         if not normalize_delays:

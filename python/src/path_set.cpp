@@ -3,6 +3,7 @@
 #include "python/src/path_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -16,6 +17,7 @@
 #include "rf/channel/taps.h"
 #include "sim/channel/columns.h"
 #include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 
 namespace greatx::python {
 
@@ -82,12 +84,10 @@ PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t cha
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  const auto wish = experiment_->scenario.effects.find("every_element");
-  // As sim/plan/array_plan.h.
-  const double far_m =
-      rf::far_field_distance_m(transmitter(link).array, receiver(link).array, config_.carrier_hz);
-  link.near = link.solved.distance_m < far_m &&
-              (wish == experiment_->scenario.effects.end() || wish->second != sim::Switch::off);
+  if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // nothing asks for the facets again
+  link.near =
+      link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
+                                                           transmitter(link).array, receiver(link).array);
   links_.push_back(std::move(link));
 }
 
@@ -112,7 +112,7 @@ std::vector<double> PathSet::powers(const Link& link) const {
 
 void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
   sim::ChannelConfig config;  // what scenarios may ask for beyond a path's own has functions here
-  config.max_depth = config_.max_depth;
+  config.limits.max_depth = config_.limits.max_depth;
   const int64_t rx_ports = receivers_[0].port_count(), tx_ports = transmitters_[0].port_count();
   const sim::ColumnContext context{&experiment_->scene(), &snapshot.model(), &config, rx_ports, tx_ports};
   const std::vector<sim::PathColumn> columns = sim::path_columns(context);
@@ -180,18 +180,21 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
   for (NamedArray* more : {&distance, &from, &to}) arrays_.push_back(std::move(*more));
 
   const sim::TickContext& moment = snapshot.moment().context;
-  Json json{{"channel", config_.name},
-            {"tick", moment.tick},
-            {"time_s", moment.time_s},
-            {"carrier_hz", config_.carrier_hz},
-            {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
-            {"subcarriers", config_.subcarriers},
-            {"time_samples", config_.time_samples},
-            {"time_spacing_s", config_.time_spacing_s},
-            {"transmitters", config_.transmitters},
-            {"near_links", near},
-            {"counters", Json::object()},
-            {"notes", Json::object()}};
+  Json json{
+      {"channel", config_.name},
+      {"tick", moment.tick},
+      {"time_s", moment.time_s},
+      {"carrier_hz", config_.carrier_hz},
+      {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
+      {"subcarriers", config_.subcarriers},
+      {"time_samples", config_.time_samples},
+      {"time_spacing_s", config_.time_spacing_s},
+      {"transmitters", config_.transmitters},
+      {"every_element",
+       std::array{"auto", "on", "off"}[static_cast<size_t>(sim::every_element_asked(stage_->scenario))]},
+      {"near_links", near},
+      {"counters", Json::object()},
+      {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
   // Candidates are those that these paths were solved from, whenever they were searched; births and deaths are a run's.
@@ -242,16 +245,16 @@ Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const
   const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
-    dispersion.emplace(experiment_->scene(), radio_->model.field_model(), radio_->model.effects.weather,
+    dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,
                        grid);
-  return blocks({grid.time_samples, grid.subcarriers}, go_on,
-                [&](const Link& link, std::span<Complex64> out) {
-                  const std::vector<rf::Path>& paths = link.solved.paths;
-                  const std::vector<rf::TransferSpectrum> spectra =
-                      dispersion ? dispersion->spectra(paths) : std::vector<rf::TransferSpectrum>{};
-                  rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
-                                              request.selection);
-                });
+  return blocks(
+      {grid.time_samples, grid.subcarriers}, go_on, [&](const Link& link, std::span<Complex64> out) {
+        const std::vector<rf::Path>& paths = link.solved.paths;
+        const std::vector<rf::TransferSpectrum> spectra =
+            dispersion ? dispersion->spectra(paths, *link.solved.world) : std::vector<rf::TransferSpectrum>{};
+        rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
+                                    request.selection);
+      });
 }
 
 NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {

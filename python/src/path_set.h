@@ -67,7 +67,7 @@ class PathSet {
  private:
   struct Link {
     sim::ChannelSnapshot::Link solved;
-    bool near = false;  ///< nearer than the far field of its arrays
+    bool near = false;  ///< a run solves every element
   };
   /// of(link, its number) for all of them, on all cores, some at a time; false: stopped.
   bool for_links(const GoOn& go_on, const std::function<void(const Link&, size_t)>& of) const;

@@ -162,7 +162,7 @@ std::string Session::facts() const {
                                       {"subcarriers", channel.subcarriers},
                                       {"time_samples", channel.time_samples},
                                       {"time_spacing_s", channel.time_spacing_s},
-                                      {"max_depth", channel.max_depth},
+                                      {"max_depth", channel.limits.max_depth},
                                       {"max_transmissions", channel.walls()},
                                       {"candidates", channel.candidates}};
   return json.dump();
@@ -247,8 +247,8 @@ sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const sim::Experim
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
                                         const std::optional<scene::Bounds>& points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own. With dispersion results go on
-  // looking at the bodies (PathSet), which then stay where they are. Where the points are may decide effects.
+  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the
+  // points may decide effects.
   const std::shared_ptr<const sim::Experiment> with_points =
       points ? std::make_shared<const sim::Experiment>(
                    sim::make_experiment(experiment->scenario, experiment->world, *points))
@@ -257,7 +257,7 @@ sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const sim::Experim
                     kept_->points == points.has_value() &&
                     sim::same_effects(kept_->experiment->plan, with_points->plan);
   const bool there = same && kept_->sequence == instant.sequence && kept_->tick == instant.tick;
-  if (same && !there && !experiment->plan.dispersion.on) {
+  if (same && !there) {
     kept_->snapshot->move(instant.sequence, instant.tick);
   } else if (!there) {
     kept_.reset();

@@ -24,16 +24,17 @@ namespace greatx::rf {
 /// of scattering patches. Delay and phase of the air are those of vacuum at every frequency.
 class Dispersion {
  public:
-  /// `carrier`: the model of the grid's carrier, of facets of `scene`; spectrum() reads the world and the wedges that it
-  /// names, which must outlive this. `weather`: what its attenuation is of. One set of surfaces per subcarrier is kept,
-  /// some 0.25 kB for each material. Throws UserError naming the material or the effect that a frequency of the band is
-  /// outside of.
+  /// `carrier`: the model of the grid's carrier, of facets of `scene`; spectrum() reads the wedges that it
+  /// names, which must outlive this. `weather`: its attenuation is of that. One set of surfaces per
+  /// subcarrier is kept, some 0.25 kB for each material. Throws UserError naming the material or the effect
+  /// that a frequency of the band is outside of.
   Dispersion(const scene::Scene& scene, const FieldModel& carrier, const Weather& weather,
              const ChannelGrid& grid);
 
-  /// For frequency_response(paths, spectra, ...); costs as much as path_field for each subcarrier. Thread-safe.
-  TransferSpectrum spectrum(const Path& path) const;
-  std::vector<TransferSpectrum> spectra(std::span<const Path> paths) const;
+  /// For frequency_response(paths, spectra, ...); costs as much as path_field for each subcarrier. `world`:
+  /// the facets as they stood when the paths were solved. Thread-safe.
+  TransferSpectrum spectrum(const Path& path, const FacetWorld& world) const;
+  std::vector<TransferSpectrum> spectra(std::span<const Path> paths, const FacetWorld& world) const;
 
  private:
   struct Subcarrier {

@@ -23,17 +23,19 @@ double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 }  // namespace
 
 FacetWorld::FacetWorld(const scene::Scene& scene) : motions_(std::max<size_t>(1, scene.bodies.size())) {
+  const auto outlines = std::make_shared<Outlines>();
   facets_.reserve(scene.facets.size());
-  body_facets_.reserve(scene.facets.size());
-  triangles_.reserve(scene.facet_triangles.size());
-  for (const scene::Facet& facet : scene.facets) add(scene, facet);
+  outlines->facets.reserve(scene.facets.size());
+  outlines->triangles.reserve(scene.facet_triangles.size());
+  for (const scene::Facet& facet : scene.facets) add(scene, facet, *outlines);
   for (uint32_t body = 0; body <= motions_.size(); ++body) {
     const auto first = std::ranges::lower_bound(facets_, body, {}, &PosedFacet::body);
-    first_facet_.push_back(static_cast<uint32_t>(first - facets_.begin()));
+    outlines->first_facet.push_back(static_cast<uint32_t>(first - facets_.begin()));
   }
+  outlines_ = outlines;
 }
 
-void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
+void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet, Outlines& outlines) {
   const size_t index = facets_.size();
   GREATX_CHECK(facets_.empty() || facets_.back().body <= facet.body,
                "facet {} of body {} after one of body {}", index, facet.body, facets_.back().body);
@@ -57,7 +59,7 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
   posed.body = facet.body;
   posed.owner = facet.body < scene.bodies.size() ? scene.owner_of(facet.body) : facet.body;
   posed.material = facet.material;
-  posed.first_triangle = static_cast<uint32_t>(triangles_.size());
+  posed.first_triangle = static_cast<uint32_t>(outlines.triangles.size());
   dvec2 low(1e300), high(-1e300), weighted(0.0);
   double area = 0.0;
   for (uint32_t t = 0; t < facet.triangle_count; ++t) {
@@ -80,24 +82,22 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet) {
       planar.normal_v[k] = along.x * scale;
       planar.offset[k] = -(planar.normal_u[k] * corner[k].x + planar.normal_v[k] * corner[k].y);
     }
-    triangles_.push_back(planar);
+    outlines.triangles.push_back(planar);
     const dvec3* corners = scene.facet_triangles[facet.first_triangle + t].corners;
-    corners_.push_back({corners[0], corners[1], corners[2]});
+    outlines.corners.push_back({corners[0], corners[1], corners[2]});
   }
-  posed.triangle_count = static_cast<uint32_t>(triangles_.size()) - posed.first_triangle;
+  posed.triangle_count = static_cast<uint32_t>(outlines.triangles.size()) - posed.first_triangle;
   posed.min_u = low.x, posed.max_u = high.x, posed.min_v = low.y, posed.max_v = high.y;
   base.extent = std::hypot(high.x - low.x, high.y - low.y);
   const dvec2 center = area > 0.0 ? weighted / area : 0.5 * (low + high);
   base.centroid = base.corner + center.x * base.axis_u + center.y * base.axis_v;
-  body_facets_.push_back(base);
+  outlines.facets.push_back(base);
   facets_.push_back(posed);
-  pose(static_cast<uint32_t>(index), Pose{});
+  pose(base, Pose{}, facets_.back());
   if (facet.body == 0) facets_.back().offset = facet.offset;  // the file's own number, not recomputed
 }
 
-void FacetWorld::pose(uint32_t index, const Pose& local_from_body) {
-  const BodyFacet& base = body_facets_[index];
-  PosedFacet& facet = facets_[index];
+void FacetWorld::pose(const BodyFacet& base, const Pose& local_from_body, PosedFacet& facet) {
   facet.normal = local_from_body.rotate(base.normal);
   facet.axis_u = local_from_body.rotate(base.axis_u);
   facet.axis_v = local_from_body.rotate(base.axis_v);
@@ -112,7 +112,17 @@ void FacetWorld::pose(uint32_t index, const Pose& local_from_body) {
 void FacetWorld::move(uint32_t body, const Motion& motion) {
   GREATX_CHECK(body > 0 && body < motions_.size(), "body {} of {} cannot move", body, motions_.size());
   motions_[body] = motion;
-  for (uint32_t index = first_facet_[body]; index < first_facet_[body + 1]; ++index) pose(index, motion.pose);
+  const std::vector<uint32_t>& first = outlines_->first_facet;
+  for (uint32_t index = first[body]; index < first[body + 1]; ++index)
+    pose(outlines_->facets[index], motion.pose, facets_[index]);
+}
+
+void FacetWorld::take_poses(const FacetWorld& other) {
+  GREATX_CHECK(outlines_ == other.outlines_, "poses of another scene's facets: {} here, {} there",
+               facets_.size(), other.facets_.size());
+  motions_ = other.motions_;
+  const auto moving = static_cast<std::ptrdiff_t>(outlines_->first_facet[1]);
+  std::copy(other.facets_.begin() + moving, other.facets_.end(), facets_.begin() + moving);
 }
 
 bool FacetWorld::contains(uint32_t index, const dvec2& at) const {
@@ -121,7 +131,7 @@ bool FacetWorld::contains(uint32_t index, const dvec2& at) const {
   if (at.x < facet.min_u + slack || at.x > facet.max_u - slack) return false;
   if (at.y < facet.min_v + slack || at.y > facet.max_v - slack) return false;
   for (uint32_t t = 0; t < facet.triangle_count; ++t) {
-    const PlanarTriangle& triangle = triangles_[facet.first_triangle + t];
+    const PlanarTriangle& triangle = outlines_->triangles[facet.first_triangle + t];
     bool inside = true;
     for (int k = 0; k < 3 && inside; ++k)
       inside = triangle.normal_u[k] * at.x + triangle.normal_v[k] * at.y + triangle.offset[k] >= slack;
@@ -134,7 +144,7 @@ std::array<dvec3, 3> FacetWorld::corners(uint32_t index, uint32_t triangle) cons
   const PosedFacet& facet = facets_[index];
   GREATX_CHECK(triangle < facet.triangle_count, "facet {}: triangle {} of {}", index, triangle,
                facet.triangle_count);
-  std::array<dvec3, 3> corners = corners_[facet.first_triangle + triangle];
+  std::array<dvec3, 3> corners = outlines_->corners[facet.first_triangle + triangle];
   if (facet.body == 0) return corners;  // the file's own numbers
   for (dvec3& corner : corners) corner = motions_[facet.body].pose.apply(corner);
   return corners;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/vec.h"
@@ -34,13 +35,17 @@ struct PosedFacet {
   }
 };
 
-/// All facets of a scene, posed. Static ones are worked out once; move() re-poses those of one body.
+/// All facets of a scene, posed. Static ones are worked out once; move() re-poses those of one body. A copy
+/// is a snapshot: it shares the outlines and has poses of its own, which no later move() of the original
+/// changes.
 class FacetWorld {
  public:
   /// Every body at rest with the identity pose.
   explicit FacetWorld(const scene::Scene& scene);
   /// Puts `body` where `motion` says: pose = local_from_body, velocities in local axes. Body 0 cannot move.
   void move(uint32_t body, const Motion& motion);
+  /// Puts every body where `other`, a world of the same scene, has it.
+  void take_poses(const FacetWorld& other);
 
   /// Where `body` was put: pose = local_from_body.
   const Motion& motion(uint32_t body) const { return motions_[body]; }
@@ -65,15 +70,19 @@ class FacetWorld {
     dvec3 normal, axis_u, axis_v, corner, centroid;
     double extent;
   };
-  void add(const scene::Scene& scene, const scene::Facet& facet);
-  void pose(uint32_t facet, const Pose& local_from_body);
+  /// What no motion changes; all copies of a world share it.
+  struct Outlines {
+    std::vector<BodyFacet> facets;
+    std::vector<PlanarTriangle> triangles;
+    std::vector<std::array<dvec3, 3>> corners;  ///< [triangles], in the body's frame
+    std::vector<uint32_t> first_facet;          ///< [bodies + 1]: each body's facets are a range
+  };
+  void add(const scene::Scene& scene, const scene::Facet& facet, Outlines& outlines);
+  static void pose(const BodyFacet& base, const Pose& local_from_body, PosedFacet& facet);
 
-  std::vector<BodyFacet> body_facets_;
+  std::shared_ptr<const Outlines> outlines_;
   std::vector<PosedFacet> facets_;
-  std::vector<PlanarTriangle> triangles_;
-  std::vector<std::array<dvec3, 3>> corners_;  ///< [triangles_], in the body's frame
-  std::vector<Motion> motions_;                ///< [bodies]
-  std::vector<uint32_t> first_facet_;          ///< [bodies + 1]: each body's facets are a range
+  std::vector<Motion> motions_;  ///< [bodies]
 };
 
 }  // namespace greatx::rf

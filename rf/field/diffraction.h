@@ -41,10 +41,11 @@ std::optional<dvec3> keller_point(const scene::Wedge& posed, const dvec3& before
 /// Can waves be there: in the exterior's angle (its faces included, within the same tolerance)?
 bool in_exterior(const scene::Wedge& posed, const dvec3& point);
 
-/// Does the wedge stand between `source` and `observer`, were its faces endless? What PathOptions' shadow-only diffraction
-/// keeps. Leaving out the diffracted field of the lit region costs 6.02 dB of the total at the shadow boundary (there half
-/// the field is missing, or what is not is counted twice), 1.37 dB at most beyond nu = -0.78 (Fresnel and Kirchhoff's
-/// parameter), 0.45 dB beyond -3, 0.14 dB at -10; and as much of a reflection beside the reflection's own boundary.
+/// Does the wedge stand between `source` and `observer`, were its faces endless? What the solver's
+/// shadow-only diffraction keeps. Leaving out the diffracted field of the lit region costs 6.02 dB of the
+/// total at the shadow boundary (there half the field is missing, or what is not is counted twice), 1.37 dB
+/// at most beyond nu = -0.78 (Fresnel and Kirchhoff's parameter), 0.45 dB beyond -3, 0.14 dB at -10; and as
+/// much of a reflection beside the reflection's own boundary.
 bool in_shadow(const scene::Wedge& posed, const dvec3& source, const dvec3& observer);
 
 /// What an edge does to the field: from components on (beta_0', phi') of the incident ray to those on (beta_0, phi) of the

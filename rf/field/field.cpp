@@ -160,17 +160,11 @@ class Travelling {
     }
   }
 
-  /// Amplitude that roughness and scattering leave to the specular reflection.
   double specular_share(uint32_t material, double cosine) const {
-    const RadioSurface& surface = model_.surfaces->surface(material);
     const FieldEffects& effects = model_.effects;
-    double kept = 1.0;
-    if (effects.roughness && surface.roughness_m > 0.0)
-      kept = roughness_factor(effects.roughness_model, roughness_parameter(surface.roughness_m, cosine,
-                                                                           model_.surfaces->wavelength_m()));
-    const double scattered = surface.scattering.coefficient;
-    if (effects.scattering) kept *= std::sqrt((1.0 - scattered) * (1.0 + scattered));
-    return kept;
+    return rf::specular_share(model_.surfaces->surface(material), cosine, model_.surfaces->wavelength_m(),
+                              effects.roughness ? std::optional(effects.roughness_model) : std::nullopt,
+                              effects.scattering);
   }
 
   const FieldModel& model_;

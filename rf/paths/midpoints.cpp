@@ -113,9 +113,9 @@ struct Midpoints::Chain {
   }
 };
 
-Midpoints::Midpoints(const RadioModel& model, const MidpointOptions& options)
-    : model_(&model), options_(options) {
-  if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, options.patch_m);
+Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
+    : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
+  if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
 }
 
 /// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of the wedge's
@@ -152,8 +152,7 @@ Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidate
   uint32_t prefix = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     const auto facets = candidates.sequence(i);
-    if (facets.empty() || facets.size() > options_.max_depth || facets.size() - 1 > most_reflections)
-      continue;
+    if (facets.empty() || facets.size() > limits_.max_depth || facets.size() - 1 > most_reflections) continue;
     const auto shorter = facets.first(facets.size() - 1);
     while (prefix < i && sequence_less(candidates.sequence(prefix), shorter)) ++prefix;
     if (std::ranges::equal(candidates.sequence(prefix), shorter)) pairs.push_back({facets.back(), prefix, i});
@@ -228,7 +227,7 @@ void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree&
   if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
   if (!model_->effects.scattering) return;
   std::vector<PlaneWindow> windows;
-  at_facets_ = arrivals_at_facets(candidates, options_.max_reflections_before_scattering, windows);
+  at_facets_ = arrivals_at_facets(candidates, limits_.max_reflections_before_scattering, windows);
   at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
 }
 
@@ -263,7 +262,7 @@ void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes,
     const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
     for (const uint32_t suffix : to)
       for (const uint32_t prefix : from)
-        if (tree.depth(prefix) + 1 + suffixes.depth(suffix) <= options_.max_depth)
+        if (tree.depth(prefix) + 1 + suffixes.depth(suffix) <= limits_.max_depth)
           diffract({tree, suffixes, prefix, suffix}, wedge, index, paths);
   }
 }
@@ -280,7 +279,7 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
     if (std::abs(to) <= facet.tolerance_m) continue;
     for (const PatchArrival& before : at_patches_.of(number)) {
       const size_t count = before.depth + 1 + after.depth;
-      if (count > options_.max_depth) continue;
+      if (count > limits_.max_depth) continue;
       const double from = facet.distance(before.from);
       if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) continue;
       GeometricPath& path = paths.emplace_back();
@@ -307,15 +306,15 @@ void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t numbe
 
 LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
                          std::vector<GeometricPath>& paths) const {
-  const bool searched = options_.max_reflections_after > 0;
+  const bool searched = limits_.max_reflections_after > 0;
   CandidateList list;
   LeftOut left_out;
   Arrivals wedges;
   if (searched) {
     BeamSearchOptions search;
-    search.max_depth = options_.max_reflections_after + 1;
-    search.max_transmissions = options_.max_transmissions;
-    search.moving_bodies = options_.moving_bodies;
+    search.max_depth = limits_.max_reflections_after + 1;
+    search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
+    search.moving_bodies = moving_bodies_;
     search.source_body = target_body;
     search.threads = 1;  // targets are solved side by side
     BeamSearchResult result =
@@ -336,7 +335,7 @@ LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t ta
   PatchArrivals at_patches;
   if (searched) {
     std::vector<PlaneWindow> windows;
-    const Arrivals facets = arrivals_at_facets(list, options_.max_reflections_after, windows);
+    const Arrivals facets = arrivals_at_facets(list, limits_.max_reflections_after, windows);
     at_patches = arrivals_at_patches(facets, windows, suffixes);
   } else {
     at_patches = straight_to_patches(target);

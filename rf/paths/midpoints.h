@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "rf/config/path_limits.h"
 #include "rf/geometry/candidates.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
@@ -29,19 +30,11 @@ struct Patch {
 std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
                                       size_t most = 10'000'000);
 
-struct MidpointOptions {
-  uint32_t max_depth = 3;              ///< interactions on a path
-  uint32_t max_transmissions = 0;      ///< of them walls passed
-  uint32_t max_reflections_after = 0;  ///< on the target's side; more than 0: a search at every target
-  uint32_t max_reflections_before_scattering = ~0u;  ///< on the source's side
-  double patch_m = 10.0;
-  bool moving_bodies = false;  ///< facets of bodies other than 0 reflect
-};
-
 class Midpoints {
  public:
-  /// `model` is read by every call and must outlive this.
-  Midpoints(const RadioModel& model, const MidpointOptions& options);
+  /// `model` is read by every call and must outlive this. With PathLimits::max_reflections_after above 0
+  /// there is a search at every target. `moving_bodies`: facets of bodies other than 0 reflect.
+  Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
 
   /// Which sequences lead to which wedges and patches; `tree` is built from the same candidates, which list wedges if
   /// diffraction is on. Patches outside the window of their facet are left out: nothing of the beam gets there.
@@ -92,7 +85,8 @@ class Midpoints {
                       std::vector<GeometricPath>& paths) const;
 
   const RadioModel* model_;
-  MidpointOptions options_;
+  PathLimits limits_;
+  bool moving_bodies_;
   std::vector<Patch> patches_;
   Arrivals at_wedges_, at_facets_;
   PatchArrivals at_patches_;

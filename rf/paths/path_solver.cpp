@@ -128,17 +128,9 @@ void keep_most(LinkGeometry& link, uint64_t most) {
   std::sort(link.paths.begin(), link.paths.end(), less);
 }
 
-PathSolver::PathSolver(const RadioModel& model, const PathOptions& options)
-    : model_(&model), options_(options), field_(model.field_model()) {
-  if (model.effects.diffraction || model.effects.scattering)
-    midpoints_.emplace(
-        model,
-        MidpointOptions{.max_depth = options.max_depth,
-                        .max_transmissions = model.effects.transmission ? options.max_transmissions : 0,
-                        .max_reflections_after = options.max_reflections_after,
-                        .max_reflections_before_scattering = options.max_reflections_before_scattering,
-                        .patch_m = options.patch_m,
-                        .moving_bodies = options.moving_bodies});
+PathSolver::PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
+    : model_(&model), limits_(limits), field_(model.field_model()) {
+  if (model.effects.diffraction || model.effects.scattering) midpoints_.emplace(model, limits, moving_bodies);
 }
 
 void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
@@ -167,14 +159,14 @@ LinkGeometry PathSolver::geometry(const EndState& end) const {
     link.searched = midpoints_->solve(*tree_, target, end.body, link.paths);
     std::sort(link.paths.begin(), link.paths.end(), less);
   }
-  keep_most(link, options_.max_paths);
+  keep_most(link, limits_.max_paths);
   return link;
 }
 
 uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
-  if (!model_->effects.transmission || path.interactions.size() >= options_.max_depth) return 0;
-  const uint32_t left = options_.max_depth - static_cast<uint32_t>(path.interactions.size());
-  return std::min({left, options_.max_transmissions, shared::crossings_max});
+  if (!model_->effects.transmission || path.interactions.size() >= limits_.max_depth) return 0;
+  const uint32_t left = limits_.max_depth - static_cast<uint32_t>(path.interactions.size());
+  return std::min({left, limits_.max_transmissions, shared::crossings_max});
 }
 
 void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
@@ -204,7 +196,9 @@ void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndSta
 
 std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
                                      std::span<const Crossing> crossings, const EndState& transmitter,
-                                     const EndState& receiver) const {
+                                     const EndState& receiver, const FacetWorld& world) const {
+  FieldModel field = field_;
+  field.world = &world;
   std::vector<GeometricPath> lit;
   size_t first = 0;
   for (const GeometricPath& path : paths) {
@@ -212,10 +206,10 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
     GREATX_CHECK(first + count <= crossings.size(), "{} answers for {} segments and more", crossings.size(),
                  first + count);
     GeometricPath full;
-    const bool clear = insert_walls(model_->facets, path, crossings.subspan(first, count), full);
+    const bool clear = insert_walls(world, path, crossings.subspan(first, count), full);
     first += count;
-    if (!clear || full.interactions.size() > options_.max_depth) continue;
-    if (full.interactions.size() - path.interactions.size() > options_.max_transmissions) continue;
+    if (!clear || full.interactions.size() > limits_.max_depth) continue;
+    if (full.interactions.size() - path.interactions.size() > limits_.max_transmissions) continue;
     lit.push_back(std::move(full));
   }
   GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());
@@ -224,7 +218,7 @@ std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
   fields.reserve(lit.size());
   for (const GeometricPath& path : lit) {
     checkpoint();
-    fields.push_back(path_field(path, field_, transmitter.velocity, receiver.velocity));
+    fields.push_back(path_field(path, field, transmitter.velocity, receiver.velocity));
   }
   return fields;
 }

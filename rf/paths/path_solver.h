@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "rf/config/path_limits.h"
 #include "rf/geometry/geometry.h"
 #include "rf/geometry/path.h"
 #include "rf/paths/crossings.h"
@@ -30,23 +31,10 @@ struct EndState {
   uint32_t body = 0;  ///< that carries it and does not hide it; 0: none
 };
 
-struct PathOptions {
-  uint32_t max_depth = 3;          ///< interactions on a path, of whatever type
-  uint32_t max_transmissions = 3;  ///< of them walls passed
-  uint32_t max_reflections_after =
-      0;  ///< of them reflections after a diffraction or scattering, on the target's side
-  uint32_t max_reflections_before_scattering =
-      ~0u;                         ///< of them reflections between the source and a scattering
-  double patch_m = 10.0;           ///< longest side of a scattering patch
-  bool moving_bodies = false;      ///< facets of bodies other than 0 reflect
-  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; what is beyond is counted, not traced:
-                                   ///< keep_most()
-};
-
 /// A link's paths before the GPU has answered.
 struct LinkGeometry {
   std::vector<GeometricPath> paths;  ///< canonical order; reflections, diffraction, scattering, no walls yet
-  uint64_t overflow = 0;             ///< paths beyond PathOptions::max_paths
+  uint64_t overflow = 0;             ///< paths beyond PathLimits::max_paths
   LeftOut searched = {};             ///< of the search at the target
 };
 
@@ -56,8 +44,9 @@ void keep_most(LinkGeometry& link, uint64_t most);
 
 class PathSolver {
  public:
-  /// `model` is read by every call and must outlive the solver.
-  PathSolver(const RadioModel& model, const PathOptions& options);
+  /// `model` is read by every call and must outlive the solver. `moving_bodies`: facets of bodies other than
+  /// 0 reflect.
+  PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies = false);
 
   /// Builds the images of `source` for these candidates, which run from it.
   void set_candidates(const CandidateList& candidates, const dvec3& source, Source end);
@@ -69,18 +58,20 @@ class PathSolver {
   /// Appends the segments of the paths, one after the other.
   void add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
                     const EndState& receiver, std::vector<Segment>& segments) const;
-  /// Walls become interactions; blocked paths and those beyond the bounds go; fields of the rest, in canonical order.
-  /// `crossings`: the answers to the segments of these paths.
+  /// Walls become interactions; blocked paths and those beyond the bounds go; fields of the rest, in
+  /// canonical order. `crossings`: the answers to the segments of these paths. `world`: a copy of the model's
+  /// facets as they stood when the geometry was solved; those of the model may have moved on since.
   std::vector<Path> finish(std::span<const GeometricPath> paths, std::span<const Crossing> crossings,
-                           const EndState& transmitter, const EndState& receiver) const;
+                           const EndState& transmitter, const EndState& receiver,
+                           const FacetWorld& world) const;
 
-  const PathOptions& options() const { return options_; }
+  const PathLimits& limits() const { return limits_; }
 
  private:
   uint32_t walls_allowed(const GeometricPath& path) const;
 
   const RadioModel* model_;
-  PathOptions options_;
+  PathLimits limits_;
   FieldModel field_;
   std::optional<ImageTree> tree_;
   std::optional<Midpoints> midpoints_;  ///< none: neither diffraction nor scattering

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include "rf/search/search_key.h"
+
 #include <vector>
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "rf/search/search_cache.h"
 
 namespace greatx::rf {
 

@@ -40,4 +40,9 @@ double roughness_factor(RoughnessModel model, double g) {
   return model == RoughnessModel::ament ? std::exp(-x) : scaled_bessel_i0(x);
 }
 
+double most_roughness_db(double rms_height_m, double wavelength_m) {
+  const double g = roughness_parameter(rms_height_m, 1.0, wavelength_m);
+  return -20.0 * std::log10(roughness_factor(RoughnessModel::ament, g));
+}
+
 }  // namespace greatx::rf

@@ -24,6 +24,9 @@ double roughness_parameter(double rms_height_m, double cos_theta, double wavelen
 /// Ament's underflows to 0 and Miller and Brown's falls as 1/(sqrt(pi) g); nothing overflows.
 double roughness_factor(RoughnessModel model, double g);
 
+/// Most that a surface takes from a specular reflection by Ament's factor, at normal incidence, dB: >= 0.
+double most_roughness_db(double rms_height_m, double wavelength_m);
+
 /// e^{-x} I_0(x), x >= 0, to some 1e-15 of it (Abramowitz and Stegun, 9.6.12 and 9.7.1).
 double scaled_bessel_i0(double x);
 

@@ -3,6 +3,7 @@
 #include "rf/surface/surfaces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -18,6 +19,16 @@ FresnelCoefficients fresnel(const std::vector<DielectricLayer>& layers, double w
 }
 
 }  // namespace
+
+double specular_share(const RadioSurface& surface, double cosine, double wavelength_m,
+                      std::optional<RoughnessModel> roughness, bool scattering) {
+  double kept = 1.0;
+  if (roughness && surface.roughness_m > 0.0)
+    kept = roughness_factor(*roughness, roughness_parameter(surface.roughness_m, cosine, wavelength_m));
+  const double scattered = surface.scattering.coefficient;
+  if (scattering) kept *= std::sqrt((1.0 - scattered) * (1.0 + scattered));
+  return kept;
+}
 
 RadioSurface radio_surface(const scene::RadioMaterial& material, double frequency_hz,
                            const std::string& material_name) {

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rf/surface/fresnel.h"
+#include "rf/surface/roughness.h"
 #include "rf/surface/scattering.h"
 #include "scene/description/scene.h"
 
@@ -27,6 +29,12 @@ struct RadioSurface {
   /// Does the wave come out on the other side: no half-space among the layers?
   bool penetrable() const { return !front.empty() && front.back().thickness_m > 0.0; }
 };
+
+/// Amplitude that a rough surface leaves to the specular reflection, 0 to 1: rho of `roughness` (none: that
+/// effect is off) times, with `scattering`, sqrt(1 - S^2). The one rule of paths and echoes. `cosine` of the
+/// angle from the normal.
+double specular_share(const RadioSurface& surface, double cosine, double wavelength_m,
+                      std::optional<RoughnessModel> roughness, bool scattering);
 
 /// Transmitted over incident field of a wall drawn as a sheet without thickness: what the wall does beyond the free-space
 /// propagation that the path's length counts already (P.2040-4, 2.2.2). A wall of vacuum: 1.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/build/build_materials.h"
 
-#include <algorithm>
 #include <functional>
 #include <string_view>
 #include <tuple>
@@ -12,55 +11,16 @@
 namespace greatx::scene {
 namespace {
 
+/// A texture's name does not matter.
 bool equal(const Texture& left, const Texture& right) {
   const auto key = [](const Texture& texture) {
-    return std::tie(texture.width, texture.height, texture.srgb, texture.repeat_u, texture.repeat_v);
+    return std::tie(texture.width, texture.height, texture.srgb, texture.repeat_u, texture.repeat_v,
+                    texture.rgba);
   };
-  return key(left) == key(right) && left.rgba == right.rgba;
+  return key(left) == key(right);
 }
 
-bool equal(const PbrMaterial& left, const PbrMaterial& right) {
-  const auto key = [](const PbrMaterial& pbr) {
-    return std::tie(pbr.metallic, pbr.roughness, pbr.normal_scale, pbr.alpha_cutoff, pbr.alpha_mode,
-                    pbr.double_sided, pbr.transmission, pbr.base_color_texture,
-                    pbr.metallic_roughness_texture, pbr.normal_texture, pbr.emissive_texture);
-  };
-  return key(left) == key(right) && left.base_color == right.base_color && left.emissive == right.emissive;
-}
-
-bool equal(const RadioMedium& left, const RadioMedium& right) {
-  const auto same_row = [](const RadioRow& one, const RadioRow& two) {
-    return std::tie(one.a, one.b, one.c, one.d, one.min_hz, one.max_hz) ==
-           std::tie(two.a, two.b, two.c, two.d, two.min_hz, two.max_hz);
-  };
-  return left.source == right.source && left.extrapolate == right.extrapolate &&
-         std::equal(left.rows.begin(), left.rows.end(), right.rows.begin(), right.rows.end(), same_row);
-}
-
-bool equal(const RadioMaterial& left, const RadioMaterial& right) {
-  const auto key = [](const RadioMaterial& radio) {
-    return std::tie(radio.scattering_coefficient, radio.pattern, radio.pattern_exponent,
-                    radio.backscatter_exponent, radio.backscatter_share, radio.cross_polarization,
-                    radio.roughness_m);
-  };
-  const auto same_layer = [](const RadioLayer& one, const RadioLayer& two) {
-    return one.thickness_m == two.thickness_m && equal(one.medium, two.medium);
-  };
-  const bool same_foliage =
-      left.foliage.has_value() == right.foliage.has_value() &&
-      (!left.foliage || left.foliage->attenuation_db_per_m == right.foliage->attenuation_db_per_m);
-  return key(left) == key(right) && same_foliage &&
-         std::equal(left.layers.begin(), left.layers.end(), right.layers.begin(), right.layers.end(),
-                    same_layer);
-}
-
-bool equal(const Material& left, const Material& right) {
-  const bool same_radio =
-      left.radio.has_value() == right.radio.has_value() && (!left.radio || equal(*left.radio, *right.radio));
-  return left.name == right.name && equal(left.pbr, right.pbr) && same_radio &&
-         left.reflectance_905nm == right.reflectance_905nm &&
-         left.reflectance_1550nm == right.reflectance_1550nm;
-}
+bool equal(const Material& left, const Material& right) { return left == right; }
 
 size_t key_of(const Texture& texture) {
   return std::hash<std::string_view>()(

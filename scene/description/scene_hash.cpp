@@ -38,33 +38,54 @@ class Feeder {
 
 void feed(Feeder& feeder, const Bounds& bounds) { feeder.values(bounds.min, bounds.max); }
 
+// A material's members are bound by position, so that the struct is the one list of them: a new one changes
+// `==` by itself and is a compiler's error here, until it is decided how it goes into the hash.
+
+void feed(Feeder& feeder, const RadioMedium& medium) {
+  const auto& [source, rows, extrapolate] = medium;
+  static_cast<void>(source);  // says where the rows come from
+  feeder.values(static_cast<uint32_t>(extrapolate)).count(rows.size());
+  for (const RadioRow& row : rows) {
+    const auto& [a, b, c, d, min_hz, max_hz] = row;
+    feeder.values(a, b, c, d, min_hz, max_hz);
+  }
+}
+
 void feed(Feeder& feeder, const RadioMaterial& radio) {
-  if (radio.foliage) {
-    feeder.values(static_cast<uint32_t>(radio.foliage->attenuation_db_per_m.has_value()),
-                  radio.foliage->attenuation_db_per_m.value_or(0.0));
+  const auto& [layers, foliage, scattering_coefficient, pattern, pattern_exponent, backscatter_exponent,
+               backscatter_share, cross_polarization, roughness_m] = radio;
+  if (foliage) {
+    const auto& [attenuation_db_per_m] = *foliage;
+    feeder.values(static_cast<uint32_t>(attenuation_db_per_m.has_value()),
+                  attenuation_db_per_m.value_or(0.0));
   }
-  feeder.count(radio.layers.size());
-  for (const RadioLayer& layer : radio.layers) {
-    feeder.values(layer.thickness_m, static_cast<uint32_t>(layer.medium.extrapolate))
-        .count(layer.medium.rows.size());
-    for (const RadioRow& row : layer.medium.rows)
-      feeder.values(row.a, row.b, row.c, row.d, row.min_hz, row.max_hz);
+  feeder.count(layers.size());
+  for (const RadioLayer& layer : layers) {
+    const auto& [medium, thickness_m] = layer;
+    feeder.values(thickness_m);
+    feed(feeder, medium);
   }
-  feeder.values(radio.scattering_coefficient, static_cast<uint32_t>(radio.pattern), radio.pattern_exponent,
-                radio.backscatter_exponent, radio.backscatter_share, radio.cross_polarization,
-                radio.roughness_m);
+  feeder.values(scattering_coefficient, static_cast<uint32_t>(pattern), pattern_exponent,
+                backscatter_exponent, backscatter_share, cross_polarization, roughness_m);
+}
+
+void feed(Feeder& feeder, const PbrMaterial& pbr) {
+  const auto& [base_color, metallic, roughness, emissive, normal_scale, alpha_cutoff, alpha_mode,
+               double_sided, transmission, base_color_texture, metallic_roughness_texture, normal_texture,
+               emissive_texture] = pbr;
+  feeder.values(base_color, metallic, roughness, emissive, normal_scale, alpha_cutoff,
+                static_cast<uint32_t>(alpha_mode), static_cast<uint32_t>(double_sided), base_color_texture,
+                metallic_roughness_texture, normal_texture, emissive_texture);
+  if (transmission > 0.0f) feeder.values(transmission);
 }
 
 void feed(Feeder& feeder, const Material& material) {
-  const PbrMaterial& pbr = material.pbr;
-  feeder.values(pbr.base_color, pbr.metallic, pbr.roughness, pbr.emissive, pbr.normal_scale, pbr.alpha_cutoff,
-                static_cast<uint32_t>(pbr.alpha_mode), static_cast<uint32_t>(pbr.double_sided),
-                pbr.base_color_texture, pbr.metallic_roughness_texture, pbr.normal_texture,
-                pbr.emissive_texture);
-  if (pbr.transmission > 0.0f) feeder.values(pbr.transmission);
-  feeder.values(material.reflectance_905nm.value_or(-1.0f), material.reflectance_1550nm.value_or(-1.0f));
-  feeder.values(!material.radio ? 0u : material.radio->foliage ? 2u : 1u);
-  if (material.radio) feed(feeder, *material.radio);
+  const auto& [name, pbr, radio, reflectance_905nm, reflectance_1550nm] = material;
+  static_cast<void>(name);  // nothing that is computed depends on it
+  feed(feeder, pbr);
+  feeder.values(reflectance_905nm.value_or(-1.0f), reflectance_1550nm.value_or(-1.0f));
+  feeder.values(!radio ? 0u : radio->foliage ? 2u : 1u);
+  if (radio) feed(feeder, *radio);
 }
 
 void feed(Feeder& feeder, const Texture& texture) {

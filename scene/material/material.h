@@ -33,6 +33,7 @@ struct PbrMaterial {
   int32_t metallic_roughness_texture = -1;  ///< G roughness, B metallic
   int32_t normal_texture = -1;
   int32_t emissive_texture = -1;
+  friend bool operator==(const PbrMaterial&, const PbrMaterial&) = default;
 };
 
 /// Holds one row of a frequency-dependent material: eta' = a f^b, sigma = c f^d S/m, f in GHz (ITU-R
@@ -40,6 +41,7 @@ struct PbrMaterial {
 struct RadioRow {
   double a = 1.0, b = 0.0, c = 0.0, d = 0.0;
   double min_hz = 0.0, max_hz = 0.0;  ///< the range in which the row holds
+  friend bool operator==(const RadioRow&, const RadioRow&) = default;
 };
 
 /// Describes a homogeneous medium with its rows and their source.
@@ -47,6 +49,7 @@ struct RadioMedium {
   std::string source;  ///< "ITU-R P.2040-4 Table 3, concrete", "explicit a, b, c, d", "explicit permittivity"
   std::vector<RadioRow> rows;
   bool extrapolate = false;  ///< use the nearest row outside every range (asked for explicitly)
+  friend bool operator==(const RadioMedium&, const RadioMedium&) = default;
 };
 
 enum class ScatteringPattern : uint32_t { lambertian, directive, backscattering };
@@ -56,6 +59,7 @@ enum class ScatteringPattern : uint32_t { lambertian, directive, backscattering 
 struct RadioLayer {
   RadioMedium medium;
   double thickness_m = 0.0;
+  friend bool operator==(const RadioLayer&, const RadioLayer&) = default;
 };
 
 /// Describes leaves and twigs in a closed mesh. Foliage neither reflects nor blocks. It attenuates by the
@@ -77,6 +81,7 @@ struct RadioMaterial {
   double backscatter_share = 0.5;     ///< 1 - Lambda
   double cross_polarization = 0.0;    ///< K_x in [0, 1]
   double roughness_m = 0.0;           ///< rms height
+  friend bool operator==(const RadioMaterial&, const RadioMaterial&) = default;
 };
 
 struct Material {
@@ -86,6 +91,7 @@ struct Material {
   /// Lambertian reflectance at 905 nm and 1550 nm. Where the file gives none, it is the luminance of the base
   /// colour. The documentation says so, and `greatx scene info` prints it.
   std::optional<float> reflectance_905nm, reflectance_1550nm;
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// Returns the row of `medium` that holds at `frequency_hz`: the narrowest range that contains it (ranges

@@ -3,7 +3,6 @@
 #include "sim/channel/channel_sensor.h"
 
 #include <cmath>
-#include <limits>
 
 #include <spdlog/spdlog.h>
 
@@ -48,23 +47,20 @@ ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& cross
   grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
            doppler_ ? config_.time_spacing_s : 0.0};
   if (experiment.plan.dispersion.on)
-    dispersion_.emplace(experiment.scene(), radio_->model.field_model(), radio_->model.effects.weather,
+    dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
                         grid_);
   if (experiment.plan.every_element.on) find_near_links();
   describe();
 }
 
 void ChannelSensor::find_near_links() {
-  if (config_.candidates == "rays") return;
-  const Scenario& scenario = experiment_.scenario;
-  const auto wish = scenario.effects.find("every_element");
-  const bool all = wish != scenario.effects.end() && wish->second == Switch::on;
   Spending pairs(budget::element_pairs);
   for (size_t r = 0; r < receiver_arrays_.size(); ++r)
     for (size_t t = 0; t < transmitter_arrays_.size(); ++t) {
-      const double far_m =
-          rf::far_field_distance_m(transmitter_arrays_[t], receiver_arrays_[r], config_.carrier_hz);
-      if (!(far_m > 0.0 && (all || may_be_near(scenario, config_, t, r)))) continue;
+      const double within_m =
+          every_element_within_m(experiment_.scenario, config_, transmitter_arrays_[t], receiver_arrays_[r]);
+      const bool all = std::isinf(within_m);
+      if (!(within_m > 0.0 && (all || may_be_near(experiment_.scenario, config_, t, r)))) continue;
       const uint64_t of_link =
           uint64_t{transmitter_arrays_[t].element_count()} * receiver_arrays_[r].element_count();
       pairs.plan(fmt::format("channel '{}': {} and {}, {} elements and {}, may be in their near field "
@@ -72,7 +68,7 @@ void ChannelSensor::find_near_links() {
                              config_.name, config_.transmitters[t], config_.receivers[r],
                              transmitter_arrays_[t].element_count(), receiver_arrays_[r].element_count()),
                  of_link);
-      near_links_.push_back({r, t, all ? std::numeric_limits<double>::infinity() : far_m, nullptr, {}});
+      near_links_.push_back({r, t, within_m, nullptr, {}});
     }
 }
 

@@ -76,7 +76,8 @@ bool ChannelSnapshot::solve_batch(size_t first, const Take& take) {
                 solved.receiver,
                 solved.distance_m,
                 solved.left_out,
-                std::move(solved.paths)};
+                std::move(solved.paths),
+                results[t].world};
       if (!take(std::move(link))) return false;
     }
   return true;

@@ -36,6 +36,8 @@ class ChannelSnapshot {
     double distance_m = 0.0;
     LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
+    /// The facets that the paths were solved among, which never move.
+    std::shared_ptr<const rf::FacetWorld> world;
   };
   /// `device` and `experiment` outlive this. `options`: of the scene on the GPU, for whoever draws it as
   /// well; none: the plan's. Throws UserError like ChannelPaths.
@@ -43,7 +45,7 @@ class ChannelSnapshot {
                   const std::optional<scene::GpuSceneOptions>& options = {});
 
   /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again. Gives the same
-  /// paths as a snapshot that is made there; counters go on. What shares radio() sees bodies move.
+  /// paths as a snapshot that is made there; counters go on.
   void move(uint32_t sequence, int64_t tick);
 
   /// Receivers one after the other in their order, each with all transmitters in theirs; false: enough.
@@ -58,7 +60,7 @@ class ChannelSnapshot {
   const Experiment& experiment() const { return experiment_; }
   uint32_t channel() const { return channel_; }
   const Moment& moment() const { return moment_; }
-  const rf::RadioModel& model() const { return radio_->model; }
+  const rf::RadioModel& model() const { return radio_->model(); }
   /// The same for those whose results outlive the snapshot.
   std::shared_ptr<const RadioWorld> radio() const { return radio_; }
   size_t transmitters() const { return paths_.size(); }

@@ -65,7 +65,8 @@ void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::
     const size_t s = index / rx_elements, u = index % rx_elements;
     const ChannelPaths::Link& link = results_[s].links[u];
     std::vector<std::complex<float>> block(to_ports * from_ports * per_pair);
-    sum(link.paths, {from, results_[s].transmitter.orientation}, {to, link.receiver.orientation}, block);
+    sum(link.paths, *results_[s].world, {from, results_[s].transmitter.orientation},
+        {to, link.receiver.orientation}, block);
     for (size_t q = 0; q < to_ports; ++q)
       std::copy_n(
           block.begin() + static_cast<std::ptrdiff_t>(q * from_ports * per_pair), from_ports * per_pair,

@@ -27,7 +27,7 @@ std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment&
   notes.emplace_back(
       "bounds", fmt::format("a search keeps {} sequences, a link {} geometric paths (max_paths); what is "
                             "beyond is counted, and the guarantee of the results says so",
-                            rf::BeamSearchOptions{}.capacity, config.max_paths));
+                            rf::BeamSearchOptions{}.capacity, config.limits.max_paths));
   return notes;
 }
 

@@ -71,11 +71,7 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   planner.decide(plan.radar, radar, radar ? fmt::format("{} of them", asks.radars) : "no radar");
   // Ament's factor of both fields at normal incidence, the most there can be.
   const double most_db =
-      offers.roughness_m > 0.0
-          ? -20.0 * std::log10(rf::roughness_factor(
-                        rf::RoughnessModel::ament,
-                        rf::roughness_parameter(offers.roughness_m, 1.0, asks.shortest_wavelength_m)))
-          : 0.0;
+      offers.roughness_m > 0.0 ? rf::most_roughness_db(offers.roughness_m, asks.shortest_wavelength_m) : 0.0;
   decide(plan.radar_roughness, most_db > scenario.tolerance_db,
          fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
          offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",

@@ -46,7 +46,7 @@ RadioAsks radio_asks_of(const Scenario& scenario) {
   RadioAsks asks;
   for (const ChannelConfig& channel : scenario.channels) {
     ++asks.channels;
-    asks.max_depth = std::max(asks.max_depth, channel.max_depth);
+    asks.max_depth = std::max(asks.max_depth, channel.limits.max_depth);
     asks.walls = std::max(asks.walls, channel.walls());
     asks.time_samples = std::max(asks.time_samples, channel.time_samples);
     asks.longest_record_s =
@@ -54,8 +54,8 @@ RadioAsks radio_asks_of(const Scenario& scenario) {
     asks.carriers_hz.push_back(channel.carrier_hz);
     asks.highest_hz = std::max(asks.highest_hz, channel.carrier_hz);
     asks.lowest_hz = std::min(asks.lowest_hz, channel.carrier_hz);
-    asks.every_tick |= channel.search == "every_tick";
-    (channel.candidates == "rays" ? asks.rays : asks.beams) = true;
+    asks.every_tick |= channel.search == ChannelConfig::Search::every_tick;
+    (channel.candidates == ChannelConfig::Candidates::rays ? asks.rays : asks.beams) = true;
   }
   return asks;
 }
@@ -278,10 +278,9 @@ void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scen
   const bool leaves = radio.on() && radio.surfaces.foliage;
   radio.planner.decide(plan.foliage, leaves,
                        radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
-  const double g = rf::roughness_parameter(radio.surfaces.roughness_m, 1.0,
-                                           speed_of_light / std::max(asks.highest_hz, 1.0));
   const double rough_db =
-      asks.max_depth * -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
+      asks.max_depth *
+      rf::most_roughness_db(radio.surfaces.roughness_m, speed_of_light / std::max(asks.highest_hz, 1.0));
   const bool rough = plan.reflection.on && rough_db > tolerance;
   radio.planner.decide(plan.roughness, rough,
                        radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"

@@ -21,6 +21,7 @@
 #include "core/vec.h"
 #include "renderer/lidar/scan/returns.h"
 #include "renderer/lidar/scan/scan_pattern.h"
+#include "rf/config/path_limits.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/optics.h"
@@ -169,22 +170,17 @@ struct ChannelConfig {
   uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
   uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
-  uint32_t max_depth = 3;  ///< interactions on a path: reflections, walls passed, a diffraction or scattering
   static constexpr uint32_t most_walls = 8;  ///< on a path; shared::crossings_max
-  /// The most walls passed, which count as interactions. If it is not given, it is max_depth, but at most
-  /// most_walls.
-  std::optional<uint32_t> max_transmissions;
-  /// Of the interactions, the most reflections between a diffraction or scattering and the end that is
-  /// searched for.
-  uint32_t max_reflections_after = 0;
-  /// Of the interactions, the most reflections between the end that is searched from and a scattering.
-  uint32_t max_reflections_before_scattering = 1;
-  double scattering_patch_m = 10.0;  ///< longest side of the pieces that scatter as one
-  uint32_t max_paths = 100'000;      ///< geometric paths of a link and tick; paths beyond are reported
-  std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
-  uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
-  std::string search = "auto";       ///< auto, once (from a static end), every_tick
-  /// Selects the arrays that are written besides those of every link.
+  rf::PathLimits limits{
+      .max_transmissions = most_walls, .max_reflections_before_scattering = 1, .max_paths = 100'000};
+  /// Beams lose nothing; rays are shot and bounce.
+  enum class Candidates { beams, rays };
+  Candidates candidates = Candidates::beams;
+  uint32_t rays = 1u << 19;  ///< launched per search, if candidates come from rays
+  /// Once: from an end that stands still.
+  enum class Search { automatic, once, every_tick };
+  Search search = Search::automatic;
+  /// Which arrays are written besides those of every link.
   struct Outputs {
     bool cfr = true, paths = true;
     bool cfr_parts = false;  ///< the line of sight, and all other paths, separately
@@ -198,7 +194,8 @@ struct ChannelConfig {
   std::optional<Taps> taps;
   std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
   double resistance_ohm = 50.0;     ///< of each receive port
-  uint32_t walls() const { return std::min(max_transmissions.value_or(most_walls), max_depth); }
+  /// Walls that a path may pass.
+  uint32_t walls() const { return std::min(limits.max_transmissions, limits.max_depth); }
   SourceLocation where;
 };
 

@@ -30,6 +30,30 @@ void expect_near(Complex found, Complex expected, double tolerance) {
   EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
 }
 
+/// Paths and echoes take it from here: rho of the roughness times sqrt(1 - S^2), each only if its effect is
+/// on.
+TEST(SpecularShare, IsOfRoughnessAndScatteringApartAndTogether) {
+  RadioSurface surface;
+  surface.roughness_m = 0.01;
+  surface.scattering.coefficient = 0.6;
+  const double cosine = 0.7, g = 4.0 * pi * 0.01 * cosine / wavelength_m;
+  const double rho = std::exp(-0.5 * g * g);
+  EXPECT_LT(rho, 0.8);
+  const auto share = [&](std::optional<RoughnessModel> roughness, bool scattering) {
+    return specular_share(surface, cosine, wavelength_m, roughness, scattering);
+  };
+  EXPECT_EQ(share(std::nullopt, false), 1.0);
+  EXPECT_NEAR(share(RoughnessModel::ament, false), rho, 1e-15);
+  EXPECT_NEAR(share(std::nullopt, true), 0.8, 1e-15);
+  EXPECT_NEAR(share(RoughnessModel::ament, true), 0.8 * rho, 1e-15);
+  EXPECT_GT(share(RoughnessModel::miller_brown, false), rho);
+  EXPECT_NEAR(most_roughness_db(0.01, wavelength_m),
+              -20.0 * std::log10(std::exp(-0.5 * std::pow(g / cosine, 2))), 1e-12);
+  EXPECT_EQ(most_roughness_db(0.0, wavelength_m), 0.0);
+  surface.roughness_m = 0.0;
+  EXPECT_EQ(share(RoughnessModel::ament, false), 1.0);
+}
+
 TEST(Fresnel, ConcreteAt3500MHz) {
   expect_near(concrete(), {5.24, -0.632143}, 5e-7);
   const FresnelCoefficients face = half_space(concrete(), std::sqrt(0.5));

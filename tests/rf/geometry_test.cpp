@@ -399,6 +399,28 @@ TEST(ImageMethod, MovingBodiesAndSources) {
   EXPECT_THROW(world.move(0, motion), ContractError);
 }
 
+TEST(FacetWorld, ACopyStaysWhereItIsUntilItTakesPoses) {
+  HandScene hand;
+  hand.ground(50.0);
+  const uint32_t body = hand.body();
+  const uint32_t plate = hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);
+  FacetWorld world(hand.scene);
+  world.move(body, {{{10, 0, 3}, orientation_from_yaw_pitch_roll(0.3, 0, 0)}, {1, 0, 0}, {}, {}});
+  FacetWorld snapshot = world;
+  const dvec3 normal = world.facet(plate).normal, corner = world.corners(plate, 0)[0];
+  world.move(body, {{{-4, 2, 3}, orientation_from_yaw_pitch_roll(1.3, 0, 0)}, {2, 0, 0}, {}, {}});
+  EXPECT_EQ(snapshot.facet(plate).normal, normal);
+  EXPECT_EQ(snapshot.corners(plate, 0)[0], corner);
+  EXPECT_EQ(snapshot.velocity(plate, {10, 0, 3}), dvec3(1, 0, 0));
+  EXPECT_NE(world.facet(plate).normal, normal);
+  snapshot.take_poses(world);
+  EXPECT_EQ(snapshot.facet(plate).normal, world.facet(plate).normal);
+  EXPECT_EQ(snapshot.corners(plate, 0), world.corners(plate, 0));
+  EXPECT_EQ(snapshot.velocity(plate, {0, 0, 0}), dvec3(2, 0, 0));
+  EXPECT_EQ(snapshot.facet(0).offset, world.facet(0).offset);
+  EXPECT_THROW(snapshot.take_poses(FacetWorld(hand.scene)), ContractError);
+}
+
 TEST(ImageMethod, NothingToHit) {
   HandScene hand;
   const auto paths = solve_all(hand, {0, 0, 1}, {3, 4, 1}, 3);

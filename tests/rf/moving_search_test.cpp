@@ -100,7 +100,7 @@ struct Street {
 class Channel {
  public:
   enum class Way { whole, reuse, between };
-  Channel(const scene::Scene& scene, const RadioEffects& effects, const PathOptions& options, Way way,
+  Channel(const scene::Scene& scene, const RadioEffects& effects, const PathLimits& options, Way way,
           uint32_t threads = 0)
       : scene_(scene),
         model_(scene, carrier_hz, effects),
@@ -110,9 +110,7 @@ class Channel {
         way_(way),
         threads_(threads),
         fixed_(model_, options),
-        moving_(model_, options) {
-    options_.moving_bodies = true;
-  }
+        moving_(model_, options) {}
 
   std::vector<Path> paths(const EndState& tx, const EndState& rx, const std::vector<Motion>& motions) {
     for (uint32_t body = 1; body < motions.size(); ++body) model_.facets.move(body, motions[body]);
@@ -127,7 +125,7 @@ class Channel {
     const CrossingPass::Pending pending = crossings_.record(slot, segments);
     ring.submit(slot);
     ring.wait(slot);
-    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx);
+    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx, model_.facets);
   }
 
   CandidateList last;  ///< what moves, or everything
@@ -188,7 +186,7 @@ class Channel {
   RadioModel model_;
   scene::GpuScene gpu_scene_;
   CrossingPass crossings_;
-  PathOptions options_;
+  PathLimits options_;
   Way way_;
   uint32_t threads_;
   PathSolver fixed_, moving_;
@@ -218,7 +216,7 @@ bool touches_body(const scene::Scene& scene, const Path& path, uint32_t body) {
 void expect_the_same(bool walls, uint32_t max_depth, uint32_t threads) {
   const Street street;
   const scene::Scene scene = street.tiny.build();
-  PathOptions options;
+  PathLimits options;
   options.max_depth = max_depth;
   options.max_transmissions = max_depth;
   Channel whole(scene, with_walls(walls), options, Channel::Way::whole, threads);

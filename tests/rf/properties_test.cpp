@@ -65,7 +65,7 @@ class Rig {
 
   /// Looks for candidates; those for the receivers of paths().
   void search(const dvec3& transmitter, const CandidateSource& candidates = by_beams) {
-    PathOptions options;
+    PathLimits options;
     options.max_depth = bounds_.depth;
     options.max_transmissions = bounds_.walls;
     solver_.emplace(model_, options);
@@ -89,8 +89,9 @@ class Rig {
     Links links;
     for (size_t r = 0; r < receivers.size(); ++r) {
       to.position = receivers[r];
-      links.push_back(solver_->finish(
-          geometry[r].paths, std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from, to));
+      links.push_back(solver_->finish(geometry[r].paths,
+                                      std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from,
+                                      to, model_.facets));
     }
     return links;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rf/radar/signal/radar_processor.h"
+#include "tests/rf/beat_direct.h"
 
 namespace greatx::rf::testing {
 

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "rf/search/search_key.h"
 #include "scene/description/wedges.h"
 #include "tests/rf/search_scenes.h"
 #include "tests/support/temporary_folder.h"

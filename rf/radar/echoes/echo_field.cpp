@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "rf/surface/roughness.h"
 #include "rf/surface/scattering.h"
 
 namespace greatx::rf {
@@ -88,15 +87,9 @@ Complex EchoField::received(const FieldVector& field, const dvec3& arrival) cons
 }
 
 double EchoField::coherent_share(uint32_t material, double cos_in, double cos_out) const {
-  const RadioSurface& surface = surfaces_.surface(material);
-  double kept = 1.0;
-  if (options_.roughness && surface.roughness_m > 0.0)
-    kept = roughness_factor(RoughnessModel::ament,
-                            roughness_parameter(surface.roughness_m, std::min(1.0, 0.5 * (cos_in + cos_out)),
-                                                surfaces_.wavelength_m()));
-  const double scattered = surface.scattering.coefficient;
-  if (options_.diffuse) kept *= std::sqrt((1.0 - scattered) * (1.0 + scattered));
-  return kept;
+  return specular_share(
+      surfaces_.surface(material), std::min(1.0, 0.5 * (cos_in + cos_out)), surfaces_.wavelength_m(),
+      options_.roughness ? std::optional(RoughnessModel::ament) : std::nullopt, options_.diffuse);
 }
 
 FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const {

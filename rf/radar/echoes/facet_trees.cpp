@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -93,7 +92,7 @@ struct HalfSpace {
 
 }  // namespace
 
-FacetTrees::FacetTrees(const scene::Scene& scene) : root_(scene.facets.size(), no_tree) {
+FacetTrees::FacetTrees(const scene::Scene& scene) : trees_(scene.facets.size()) {
   for (uint32_t i = 0; i < scene.facets.size(); ++i) {
     const scene::Facet& facet = scene.facets[i];
     const Joiner joined(facet,
@@ -107,12 +106,9 @@ FacetTrees::FacetTrees(const scene::Scene& scene) : root_(scene.facets.size(), n
     }
     const uint32_t count = static_cast<uint32_t>(pieces_.size()) - first;
     if (count <= small_facet) continue;
-    const uint32_t base = static_cast<uint32_t>(order_.size());
-    order_.resize(base + count);
-    std::iota(order_.begin() + base, order_.end(), first);
-    root_[i] = static_cast<uint32_t>(nodes_.size());
-    nodes_.push_back({dvec3(0.0), dvec3(0.0), base, count, 0});
-    split(root_[i]);
+    std::vector<scene::Bounds> boxes;
+    for (uint32_t piece = first; piece < first + count; ++piece) boxes.push_back(bounds_of(piece));
+    trees_[i] = scene::BoxTree(boxes);
   }
   first_piece_.push_back(static_cast<uint32_t>(pieces_.size()));
 }
@@ -121,26 +117,6 @@ scene::Bounds FacetTrees::bounds_of(uint32_t piece) const {
   scene::Bounds bounds;
   for (uint32_t i = 0; i < pieces_[piece].count; ++i) bounds.add(corners_[pieces_[piece].first + i]);
   return bounds;
-}
-
-void FacetTrees::split(uint32_t node) {
-  const uint32_t first = nodes_[node].first, count = nodes_[node].count;
-  scene::Bounds bounds;
-  for (uint32_t i = 0; i < count; ++i) bounds.add(bounds_of(order_[first + i]));
-  nodes_[node].center = bounds.center();
-  nodes_[node].half = 0.5 * bounds.size();
-  if (count <= leaf_size) return;
-  const dvec3 size = bounds.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto key = [&](uint32_t i) { return bounds_of(i).center()[axis]; };
-  std::sort(order_.begin() + first, order_.begin() + first + count,
-            [&](uint32_t a, uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  const uint32_t left = static_cast<uint32_t>(nodes_.size()), half = count / 2;
-  nodes_[node].left = left;
-  nodes_.push_back({dvec3(0.0), dvec3(0.0), first, half, 0});
-  nodes_.push_back({dvec3(0.0), dvec3(0.0), first + half, count - half, 0});
-  split(left);
-  split(left + 1);
 }
 
 std::span<const dvec3> FacetTrees::corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
@@ -157,7 +133,7 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const K
                       std::vector<uint32_t>& pieces) const {
   pieces.clear();
   const PosedFacet& posed = world.facet(facet);
-  if (root_[facet] == no_tree) {
+  if (trees_[facet].empty()) {
     for (uint32_t i = first_piece_[facet]; i < first_piece_[facet + 1]; ++i) pieces.push_back(i);
     return;
   }
@@ -172,32 +148,21 @@ void FacetTrees::find(const FacetWorld& world, uint32_t facet, std::span<const K
     }
     local[i].reach = glm::abs(local[i].normal);
   }
-  const auto outside = [&](const Node& node) {
+  const uint32_t first = first_piece_[facet];
+  const auto outside = [&](const scene::Bounds& box) {
+    const dvec3 center = box.center(), half = 0.5 * (box.max - box.min);
     for (size_t i = 0; i < spaces.size(); ++i)
-      if (glm::dot(local[i].normal, node.center) + local[i].offset + glm::dot(local[i].reach, node.half) <
-          0.0)
+      if (glm::dot(local[i].normal, center) + local[i].offset + glm::dot(local[i].reach, half) < 0.0)
         return true;
     return false;
   };
-  std::array<uint32_t, 64> stack;
-  uint32_t depth = 0;
-  stack[depth++] = root_[facet];
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (outside(node)) continue;
-    if (node.left == 0) {
-      for (uint32_t i = 0; i < node.count; ++i) pieces.push_back(order_[node.first + i]);
-      continue;
-    }
-    stack[depth++] = node.left;
-    stack[depth++] = node.left + 1;
-  }
-  std::sort(pieces.begin(), pieces.end());
+  trees_[facet].gather(outside, pieces);
+  for (uint32_t& piece : pieces) piece += first;
 }
 
 bool FacetTrees::contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const {
   const PosedFacet& posed = world.facet(facet);
-  if (root_[facet] == no_tree) return world.contains(facet, posed.plane_coordinates(point));
+  if (trees_[facet].empty()) return world.contains(facet, posed.plane_coordinates(point));
   const Pose pose = posed.body == 0 ? Pose{} : world.motion(posed.body).pose.inverse();
   const dvec3 at = pose.apply(point), normal = pose.rotate(posed.normal);
   const auto inside = [&](uint32_t piece) {
@@ -208,23 +173,13 @@ bool FacetTrees::contains(const FacetWorld& world, uint32_t facet, const dvec3& 
     }
     return true;
   };
-  std::array<uint32_t, 64> stack;
-  uint32_t depth = 0;
-  stack[depth++] = root_[facet];
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
+  const auto outside = [&](const scene::Bounds& box) {
     // Boxes of a plane may be flat: a point of the plane is off it by roundings.
-    const dvec3 off = glm::abs(at - node.center) - node.half;
-    if (std::max({off.x, off.y, off.z}) > 1e-5) continue;
-    if (node.left != 0) {
-      stack[depth++] = node.left;
-      stack[depth++] = node.left + 1;
-      continue;
-    }
-    for (uint32_t i = 0; i < node.count; ++i)
-      if (inside(order_[node.first + i])) return true;
-  }
-  return false;
+    const dvec3 off = glm::abs(at - box.center()) - 0.5 * (box.max - box.min);
+    return std::max({off.x, off.y, off.z}) > 1e-5;
+  };
+  const uint32_t first = first_piece_[facet];
+  return trees_[facet].visit_until(outside, [&](uint32_t piece) { return inside(first + piece); });
 }
 
 }  // namespace greatx::rf

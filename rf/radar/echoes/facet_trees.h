@@ -14,7 +14,7 @@
 
 #include "core/vec.h"
 #include "rf/facets/facet_world.h"
-#include "scene/description/scene.h"
+#include "scene/description/box_tree.h"
 
 namespace greatx::rf {
 
@@ -46,24 +46,17 @@ class FacetTrees {
   bool contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const;
 
  private:
-  static constexpr uint32_t no_tree = ~0u, leaf_size = 4, small_facet = 8;
+  static constexpr uint32_t small_facet = 8;
   struct Piece {
     uint32_t first = 0, count = 0;  ///< of corners_
   };
-  struct Node {
-    dvec3 center{0.0}, half{0.0};   ///< in the body's frame
-    uint32_t first = 0, count = 0;  ///< of order_; an inner node has its children at `left`
-    uint32_t left = 0;
-  };
   scene::Bounds bounds_of(uint32_t piece) const;
-  void split(uint32_t node);
 
   std::vector<dvec3> corners_;         ///< in the bodies' frames
   std::vector<Piece> pieces_;          ///< facet by facet
   std::vector<uint32_t> first_piece_;  ///< [facets + 1]
-  std::vector<uint32_t> root_;         ///< [facets]
-  std::vector<Node> nodes_;
-  std::vector<uint32_t> order_;
+  /// [facets] of the facet's pieces, in the body's frame; empty where these are few.
+  std::vector<scene::BoxTree> trees_;
 };
 
 }  // namespace greatx::rf

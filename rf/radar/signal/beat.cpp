@@ -17,6 +17,13 @@
 namespace greatx::rf {
 namespace {
 
+std::vector<double> element_leads(const std::vector<dvec3>& positions, const dquat& orientation,
+                                  const dvec3& direction) {
+  std::vector<double> result;
+  for (const dvec3& p : positions) result.push_back(glm::dot(direction, orientation * p) / speed_of_light);
+  return result;
+}
+
 constexpr size_t slots_per_task = 4;
 
 /// Echoes of one list, column by column, padded to whole blocks with echoes of amplitude 0.
@@ -316,6 +323,16 @@ BeatReport BeatSynthesizer::add(const EchoList& list, const RadarAttitude& attit
     sum.bent_tones += report.bent_tones;
   }
   return sum;
+}
+
+std::vector<double> transmitter_leads(const RadarArrays& arrays, const RadarAttitude& attitude,
+                                      const Echo& echo) {
+  return element_leads(arrays.transmit_m, attitude.transmitter, echo.departure);
+}
+
+std::vector<double> receiver_leads(const RadarArrays& arrays, const RadarAttitude& attitude,
+                                   const Echo& echo) {
+  return element_leads(arrays.receive_m, attitude.receiver, echo.arrival);
 }
 
 }  // namespace greatx::rf

@@ -37,8 +37,8 @@ struct BeatReport {
   uint64_t bent_tones = 0;  ///< of those, added sample by sample for they bend too much within a chirp
 };
 
-/// Adds echoes to cubes by a non-uniform fast Fourier transform for each slot and receiver. Against beat_direct() each sample
-/// is good to 1e-5 of the sum of the echoes' amplitudes.
+/// Adds echoes to cubes by a non-uniform fast Fourier transform for each slot and receiver. Each sample is
+/// good to 1e-5 of the sum of the echoes' amplitudes.
 class BeatSynthesizer {
  public:
   explicit BeatSynthesizer(const RadarSignalConfig& config);
@@ -53,11 +53,6 @@ class BeatSynthesizer {
   struct Shared;
   std::unique_ptr<Shared> shared_;
 };
-
-/// The same sum in fp64, every sample's phase on its own, with the delay at that sample's time: the reference, without phase
-/// noise. cube: [receivers, transmitters, chirps, samples], added to.
-void beat_direct(const RadarSignalConfig& config, const EchoList& list, const RadarAttitude& attitude,
-                 uint32_t threads, std::span<std::complex<double>> cube);
 
 /// departure . d_tx/c of each transmitter, arrival . d_rx/c of each receiver: by how much the delay between two elements is
 /// shorter than that between the origins, seconds.

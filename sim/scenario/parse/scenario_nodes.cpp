@@ -3,6 +3,7 @@
 //
 // Parses nodes[] and channels[], and the references between them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -247,28 +248,27 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
   parse_outputs(map, channel);
   if (const auto f = map.find("time_samples")) channel.time_samples = f->integer32(1, 1u << 20);
   if (const auto f = map.find("time_spacing_s")) channel.time_spacing_s = f->positive(1e-12, 1e6);
-  if (const auto f = map.find("max_depth")) channel.max_depth = f->integer32(0, 16);
+  if (const auto f = map.find("max_depth")) channel.limits.max_depth = f->integer32(0, 16);
   if (const auto f = map.find("max_transmissions"))
-    channel.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
-  if (const auto f = map.find("max_reflections_after")) channel.max_reflections_after = f->integer32(0, 4);
+    channel.limits.max_transmissions = f->integer32(0, ChannelConfig::most_walls);
+  if (const auto f = map.find("max_reflections_after"))
+    channel.limits.max_reflections_after = f->integer32(0, 4);
   if (const auto f = map.find("max_reflections_before_scattering"))
-    channel.max_reflections_before_scattering = f->integer32(0, 16);
-  if (const auto f = map.find("scattering_patch_m")) channel.scattering_patch_m = f->positive(1e-3, 1e8);
-  if (const auto f = map.find("max_paths")) channel.max_paths = f->integer32(1, 1u << 30);
-  if (const auto f = map.find("candidates")) {
-    f->choice({"beams", "rays"});
-    channel.candidates = f->text();
-  }
+    channel.limits.max_reflections_before_scattering = f->integer32(0, 16);
+  if (const auto f = map.find("scattering_patch_m")) channel.limits.patch_m = f->positive(1e-3, 1e8);
+  if (const auto f = map.find("max_paths")) channel.limits.max_paths = f->integer32(1, 1u << 30);
+  if (const auto f = map.find("candidates"))
+    channel.candidates = std::array{ChannelConfig::Candidates::beams,
+                                    ChannelConfig::Candidates::rays}[f->choice({"beams", "rays"})];
   if (const auto f = map.find("rays")) {
     channel.rays = f->integer32(1, 1u << 28);
-    if (map.find("candidates") && channel.candidates != "rays")
+    if (map.find("candidates") && channel.candidates != ChannelConfig::Candidates::rays)
       f->fail("no rays with candidates: beams", "both");
-    channel.candidates = "rays";
+    channel.candidates = ChannelConfig::Candidates::rays;
   }
-  if (const auto f = map.find("search")) {
-    f->choice({"auto", "once", "every_tick"});
-    channel.search = f->text();
-  }
+  if (const auto f = map.find("search"))
+    channel.search = std::array{ChannelConfig::Search::automatic, ChannelConfig::Search::once,
+                                ChannelConfig::Search::every_tick}[f->choice({"auto", "once", "every_tick"})];
   return channel;
 }
 

@@ -27,16 +27,16 @@ bool fits_16_bits(size_t instances) { return instances < 65535; }
 
 }  // namespace
 
-CameraSensor::CameraSensor(Stage& stage, const render::ProbePass* probe, const Scenario& scenario,
+CameraSensor::CameraSensor(PosedScene& posed, const render::ProbePass* probe, const Scenario& scenario,
                            uint32_t node, uint32_t sensor)
-    : stage_(stage),
-      world_(stage.world()),
+    : posed_(posed),
+      world_(posed.world()),
       config_(std::get<CameraConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       clock_(scenario.tick_rate_hz),
       times_(scenario.tick_rate_hz, scenario.nodes[node].sensors[sensor].rate_hz),
-      pass_(stage.lighting(), camera_desc(scenario, scenario.nodes[node],
+      pass_(posed.lighting(), camera_desc(scenario, scenario.nodes[node],
                                           scenario.nodes[node].sensors[sensor], world_.body_of_node[node])),
       probe_(pass_.desc().outputs.depth && !config_.distortion.any() ? probe : nullptr) {
   spec_.name = pass_.desc().name;
@@ -45,7 +45,7 @@ CameraSensor::CameraSensor(Stage& stage, const render::ProbePass* probe, const S
   describe(config_, world_.scene.instances.size());
   if (probe_ != nullptr) probe_pixels_ = probe_pixels(config_.width, config_.height, probes_per_picture);
   if (const render::TruthOutputs outputs = truth_outputs(config_); outputs.any())
-    truth_ = std::make_unique<render::TruthPass>(stage.lighting(), pass_.desc(), outputs);
+    truth_ = std::make_unique<render::TruthPass>(posed.lighting(), pass_.desc(), outputs);
   if (!config_.boxes) return;
   boxes_ = std::make_unique<Boxes>(world_.scene, pass_.desc(), config_.box_classes);
   node_of_body_.assign(world_.scene.bodies.size(), -1);
@@ -127,15 +127,16 @@ void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const
   if (!pass_.desc().parts) return pass_.record(slot, local_from_sensor, frame);
   const float weight = 1.0f / static_cast<float>(instants);
   bool first = true;
-  for (uint32_t i = 0; i < instants; ++i) {
-    if (i == instants / 2) continue;
-    const double time_s = context.time_s + *config_.exposure.shutter_s * ((i + 0.5) / instants - 0.5);
-    stage_.move_to(slot, context, time_s);
-    const Pose pose = world_.scene.to_local(context.motion_at(node_, time_s).pose) * mount_;
-    pass_.record(slot, pose, frame, {.weight = weight, .first = first, .last = false});
-    first = false;
-  }
-  stage_.move_to(slot, context, context.time_s);
+  posed_.at_instants(slot, context, [&](Instants& at) {
+    for (uint32_t i = 0; i < instants; ++i) {
+      if (i == instants / 2) continue;
+      const double time_s = context.time_s + *config_.exposure.shutter_s * ((i + 0.5) / instants - 0.5);
+      at.move_to(time_s);
+      const Pose pose = world_.scene.to_local(context.motion_at(node_, time_s).pose) * mount_;
+      pass_.record(slot, pose, frame, {.weight = weight, .first = first, .last = false});
+      first = false;
+    }
+  });
   pass_.record(slot, local_from_sensor, frame, {.weight = weight, .first = false, .last = true});
 }
 

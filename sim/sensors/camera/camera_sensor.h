@@ -12,7 +12,7 @@
 #include "sim/scenario/clock.h"
 #include "sim/sensors/camera/boxes.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/stage.h"
+#include "sim/world/posed_scene.h"
 
 namespace greatx::sim {
 
@@ -26,7 +26,7 @@ struct TruthMoment {
 class CameraSensor : public Sensor {
  public:
   /// `node`, `sensor`: indices into the scenario. `probe` may be null; the others outlive this.
-  CameraSensor(Stage& stage, const render::ProbePass* probe, const Scenario& scenario, uint32_t node,
+  CameraSensor(PosedScene& posed, const render::ProbePass* probe, const Scenario& scenario, uint32_t node,
                uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
@@ -47,7 +47,7 @@ class CameraSensor : public Sensor {
   /// When the camera fires next; after a sequence's last sample the trajectories go on as Course has it.
   TruthMoment next_sample(const TickContext& context) const;
 
-  Stage& stage_;
+  PosedScene& posed_;
   const World& world_;
   CameraConfig config_;
   uint32_t node_;

@@ -72,20 +72,20 @@ std::string name_of(const NodeConfig& node, uint32_t sensor) {
 
 }  // namespace
 
-EventSensor::EventSensor(Stage& stage, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
-                         uint32_t sensor)
-    : stage_(stage),
-      world_(stage.world()),
+EventSensor::EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario,
+                         uint32_t node, uint32_t sensor)
+    : posed_(posed),
+      world_(posed.world()),
       config_(std::get<EventCameraConfig>(scenario.nodes[node].sensors[sensor].config)),
       node_(node),
       mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
       clock_(scenario.tick_rate_hz),
       shared_(shared),
-      events_(stage.lighting().scene(),
+      events_(posed.lighting().scene(),
               event_desc(name_of(scenario.nodes[node], sensor), scenario, config_)) {
   const SensorConfig& config = scenario.nodes[node].sensors[sensor];
   if (shared_ == nullptr || events_.desc().substeps > 1)
-    camera_.emplace(stage.lighting(), camera_desc(name_of(scenario.nodes[node], sensor), config_,
+    camera_.emplace(posed.lighting(), camera_desc(name_of(scenario.nodes[node], sensor), config_,
                                                   needs_seen(config_), world_.body_of_node[node]));
   if (config_.hdf5 && clock_.seconds(scenario.ticks) > longest_hdf5_s)
     throw_user_error_at(config.where, "outputs: expected a run of at most {} s for 'hdf5', found {} s",
@@ -154,13 +154,12 @@ void EventSensor::start(const TickContext& /*context*/) {
 void EventSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   const int64_t now_ns = clock_.nanoseconds(context.tick), before_ns = last_ns_.value_or(now_ns);
   events_.begin(slot, {before_ns, now_ns, sample_, context.sequence});
-  if (!last_ns_) {
-    take_picture(slot, context, 0, context.time_s);
-  } else {
+  posed_.at_instants(slot, context, [&](Instants& at) {
+    if (!last_ns_) return take_picture(slot, context, at, 0, context.time_s);
     const uint32_t last = events_.desc().substeps;
     for (uint32_t i = 1; i <= last; ++i)
-      take_picture(slot, context, i, i == last ? context.time_s : 1e-9 * double(events_.time_ns(i)));
-  }
+      take_picture(slot, context, at, i, i == last ? context.time_s : 1e-9 * double(events_.time_ns(i)));
+  });
   events_.end(slot, picture_at(true).luminance());
   begin_ns_[slot.index] = before_ns;
   last_ns_ = now_ns;
@@ -171,12 +170,11 @@ const render::CameraPass& EventSensor::picture_at(bool sample) const {
   return sample && shared_ != nullptr ? shared_->pass() : *camera_;
 }
 
-void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, uint32_t index,
+void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, Instants& at, uint32_t index,
                                double time_s) {
   const gpu::Condition condition(*slot.cmd, events_.condition(index));
   const bool sample = time_s == context.time_s, of_shared = sample && shared_ != nullptr;
-  // At the first picture, and if there are none in between, everything is there already.
-  if (last_ns_ && (!of_shared || camera_)) stage_.move_to(slot, context, time_s);
+  at.move_to(time_s);
   if (!of_shared) {
     const Motion motion = sample ? context.nodes[node_] : context.motion_at(node_, time_s);
     camera_->record(slot, world_.scene.to_local(motion.pose) * mount_, {context.sequence, context.tick});

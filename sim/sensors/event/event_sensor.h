@@ -9,7 +9,7 @@
 #include "renderer/event/event_pass.h"
 #include "sim/scenario/clock.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/stage.h"
+#include "sim/world/posed_scene.h"
 
 namespace greatx::sim {
 
@@ -20,8 +20,9 @@ class CameraSensor;
 /// With EventCameraConfig::camera the pictures at the samples are that camera's, which recorded them just before.
 class EventSensor : public Sensor {
  public:
-  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. Stage and camera outlive this.
-  EventSensor(Stage& stage, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
+  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the
+  /// camera outlive this.
+  EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
               uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
@@ -41,10 +42,11 @@ class EventSensor : public Sensor {
   void describe();
   /// The pass that has the picture of an instant.
   const render::CameraPass& picture_at(bool sample) const;
-  void take_picture(gpu::TickSlot& slot, const TickContext& context, uint32_t index, double time_s);
+  void take_picture(gpu::TickSlot& slot, const TickContext& context, Instants& at, uint32_t index,
+                    double time_s);
   std::vector<shared::EventMotion> motions(const TickContext& context, double time_s) const;
 
-  Stage& stage_;
+  PosedScene& posed_;
   const World& world_;
   EventCameraConfig config_;
   uint32_t node_;

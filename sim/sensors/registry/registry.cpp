@@ -28,7 +28,7 @@ struct Workshop {
 
 std::unique_ptr<Sensor> make_camera(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  auto camera = std::make_unique<CameraSensor>(*p.passes.stage, p.passes.probe.get(), p.experiment.scenario,
+  auto camera = std::make_unique<CameraSensor>(*p.passes.posed, p.passes.probe.get(), p.experiment.scenario,
                                                at.node, at.sensor);
   shop.cameras[camera->spec().name] = camera.get();
   return camera;
@@ -46,7 +46,7 @@ std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
     GREATX_CHECK(found != shop.cameras.end(), "{}: no camera '{}'", node.name, camera);
     shared = found->second;
   }
-  return std::make_unique<EventSensor>(*p.passes.stage, shared, p.experiment.scenario, at.node, at.sensor);
+  return std::make_unique<EventSensor>(*p.passes.posed, shared, p.experiment.scenario, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_lidar(Workshop& shop, SensorPlace at) {

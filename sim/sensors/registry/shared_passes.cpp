@@ -13,7 +13,7 @@ SharedPasses::SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experim
   if (plan.camera.on)
     lighting = std::make_unique<render::SceneLighting>(
         gpu_scene, lighting_of(experiment.scenario.environment), camera_effects(plan));
-  if (lighting) stage = std::make_unique<Stage>(gpu_scene, *lighting, *experiment.world);
+  if (lighting) posed = std::make_unique<PosedScene>(gpu_scene, *lighting, *experiment.world);
   if (plan.consistency.on) probe = std::make_unique<render::ProbePass>(gpu_scene);
   if (plan.channel.on)
     crossings = std::make_unique<rf::CrossingPass>(

@@ -9,7 +9,7 @@
 #include "rf/paths/crossings.h"
 #include "scene/device/gpu_scene.h"
 #include "sim/experiment/experiment.h"
-#include "sim/world/stage.h"
+#include "sim/world/posed_scene.h"
 
 namespace greatx::sim {
 
@@ -19,7 +19,7 @@ struct SharedPasses {
   SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experiment);
 
   std::unique_ptr<render::SceneLighting> lighting;  ///< for cameras of any kind
-  std::unique_ptr<Stage> stage;                     ///< exists if `lighting` does
+  std::unique_ptr<PosedScene> posed;                ///< exists if `lighting` does
   std::unique_ptr<render::ProbePass> probe;         ///< for the comparison of depth pictures with rays
   std::unique_ptr<rf::CrossingPass> crossings;      ///< for channels
 };

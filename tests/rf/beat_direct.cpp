@@ -1,34 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/rf/beat_direct.h"
+
 #include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/phase.h"
-#include "rf/radar/signal/beat.h"
 #include "rf/radar/signal/delay.h"
 
-namespace greatx::rf {
-namespace {
-
-std::vector<double> leads(const std::vector<dvec3>& positions, const dquat& orientation,
-                          const dvec3& direction) {
-  std::vector<double> result;
-  for (const dvec3& p : positions) result.push_back(glm::dot(direction, orientation * p) / speed_of_light);
-  return result;
-}
-
-}  // namespace
-
-std::vector<double> transmitter_leads(const RadarArrays& arrays, const RadarAttitude& attitude,
-                                      const Echo& echo) {
-  return leads(arrays.transmit_m, attitude.transmitter, echo.departure);
-}
-
-std::vector<double> receiver_leads(const RadarArrays& arrays, const RadarAttitude& attitude,
-                                   const Echo& echo) {
-  return leads(arrays.receive_m, attitude.receiver, echo.arrival);
-}
+namespace greatx::rf::testing {
 
 void beat_direct(const RadarSignalConfig& config, const EchoList& list, const RadarAttitude& attitude,
                  uint32_t threads, std::span<std::complex<double>> cube) {
@@ -63,4 +44,4 @@ void beat_direct(const RadarSignalConfig& config, const EchoList& list, const Ra
   });
 }
 
-}  // namespace greatx::rf
+}  // namespace greatx::rf::testing
