@@ -54,7 +54,8 @@ sim::Moment beginning_of(const sim::Experiment& experiment) {
 /// The channel's own way through a tick, with the receivers as points. `rays` 0: the guaranteed search.
 Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
   sim::Scenario scenario = c.experiment.scenario;
-  scenario.channels[0].candidates = rays == 0 ? "beams" : "rays";
+  scenario.channels[0].candidates =
+      rays == 0 ? sim::ChannelConfig::Candidates::beams : sim::ChannelConfig::Candidates::rays;
   if (rays > 0) scenario.channels[0].rays = rays;
   const sim::Experiment experiment = sim::make_experiment(std::move(scenario), c.experiment.world);
   scene::GpuScene gpu_scene(device, experiment.scene(), sim::gpu_scene_options(experiment.plan));
