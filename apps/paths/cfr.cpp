@@ -12,25 +12,27 @@ namespace greatx::apps {
 
 CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot,
                  uint32_t transmitter, std::optional<size_t> points)
-    : path_(file) {
-  const auto& [scenario, world, plan] = snapshot.experiment();
-  const rf::RadioModel& model = snapshot.model();
-  const sim::ChannelConfig& config = scenario.channels[snapshot.channel()];
-  transmitter_ = sim::antenna_array(scenario, config.transmitters[transmitter], config.carrier_hz);
+    : path_(file),
+      scenario_(snapshot.experiment().scenario),
+      config_(scenario_.channels[snapshot.channel()]) {
+  const sim::Experiment& experiment = snapshot.experiment();
+  transmitter_ = sim::antenna_array(scenario_, config_.transmitters[transmitter], config_.carrier_hz);
   if (points)
     receivers_.emplace_back();
   else
-    for (const std::string& name : config.receivers)
-      receivers_.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
+    for (const std::string& name : config_.receivers)
+      receivers_.push_back(sim::antenna_array(scenario_, name, config_.carrier_hz));
   for (const rf::AntennaArray& receiver : receivers_)
     if (receiver.port_count() != receivers_[0].port_count())
       throw_user_error("--cfr: channel '{}': expected receivers with one number of ports, found {} and {}",
-                       config.name, receivers_[0].port_count(), receiver.port_count());
+                       config_.name, receivers_[0].port_count(), receiver.port_count());
   count_ = points.value_or(receivers_.size());
-  grid_ = {config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers, config.time_samples,
-           plan.doppler.on ? config.time_spacing_s : 0.0};
-  if (plan.dispersion.on)
-    dispersion_.emplace(world->scene, model.field_model(), model.effects.weather, grid_);
+  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
+           experiment.plan.doppler.on ? config_.time_spacing_s : 0.0};
+  if (experiment.plan.dispersion.on) {
+    const rf::RadioModel& model = snapshot.model();
+    dispersion_.emplace(experiment.scene(), model.field_model(), model.effects.weather, grid_);
+  }
 
   io::create_folder_of(path_);
   file_ = io::File::open_for_writing(io::part_name(path_));

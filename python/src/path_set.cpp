@@ -191,7 +191,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
       {"time_spacing_s", config_.time_spacing_s},
       {"transmitters", config_.transmitters},
       {"every_element",
-       std::array{"auto", "on", "off"}[static_cast<size_t>(sim::every_element_asked(stage_->scenario))]},
+       std::array{"auto", "on", "off"}[static_cast<size_t>(sim::every_element_asked(experiment_->scenario))]},
       {"near_links", near},
       {"counters", Json::object()},
       {"notes", Json::object()}};
