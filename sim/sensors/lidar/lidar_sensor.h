@@ -23,6 +23,9 @@ class LidarSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;
 
+  /// The sweep collected last.
+  const render::LidarScan& scan() const { return scan_; }
+
  private:
   struct Sweep {
     render::LidarPass::Pending pending;
@@ -45,7 +48,7 @@ class LidarSensor : public Sensor {
   render::LidarPass pass_;
   SensorSpec spec_;
   std::array<Sweep, slots_in_flight> sweeps_;
-  render::LidarScan scan_;  ///< collected last
+  render::LidarScan scan_;
 };
 
 }  // namespace greatx::sim
