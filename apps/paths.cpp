@@ -192,7 +192,8 @@ void write_glb(const PathsOptions& options, const Json& head, std::span<const Pa
   io::write_file_atomically(file, paths_glb(links, scene, glb));
 }
 
-/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
+/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports
+/// need.
 std::vector<PathLink> solve(const PathsOptions& options, const PathsRequest& request, const PathScene& scene,
                             sim::ChannelSnapshot& snapshot,
                             std::span<const std::unique_ptr<PathsOutput>> outputs, CfrFile* cfr,

@@ -93,8 +93,8 @@ class CameraRow {
   double squares_ = 0.0;
 };
 
-/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point: 900 cd down a
-/// cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
+/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point:
+/// 900 cd down a cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
 std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, uint32_t count) {
   constexpr double spacing_m = 30.0;
   std::vector<scene::PunctualLight> lamps;
@@ -114,7 +114,8 @@ std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, ui
   return lamps;
 }
 
-/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
+/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with
+/// it.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
                                               sim::SensorPlace camera, uint32_t count) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);

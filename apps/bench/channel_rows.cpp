@@ -21,7 +21,8 @@ constexpr size_t response_paths = 20;
 
 const TickRow& plain_tick = tick_rows[0];
 
-/// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of their sum.
+/// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of
+/// their sum.
 std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points,
                                  size_t count) {
   std::vector<rf::Path> paths;

@@ -25,8 +25,8 @@ namespace greatx::apps {
 
 namespace {
 
-/// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and scattering: what Sionna
-/// RT 2.2.0 needs for a position there.
+/// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and
+/// scattering: what Sionna RT 2.2.0 needs for a position there.
 constexpr double first_cir_target_ms = 1000.0, search_target_ms = 10'000.0, tick_target_ms = 2.5,
                  many_target_ms = 3000.0, sionna_effects_ms = 430.0;
 

@@ -45,7 +45,8 @@ std::vector<Level> levels_at(const scene::Scene& scene, const dvec2& at) {
   return levels;
 }
 
-/// The point `share` of the way from 1.5 m above the ground to the top, if there is ground below it and no solid around.
+/// The point `share` of the way from 1.5 m above the ground to the top, if there is ground below it and no
+/// solid around.
 std::optional<dvec3> place(const scene::Scene& scene, const dvec2& at, double share) {
   const std::vector<Level> levels = levels_at(scene, at);
   const auto ground = std::find_if(levels.begin(), levels.end(), [](const Level& level) { return level.up; });

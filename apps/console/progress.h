@@ -23,7 +23,8 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// "\rsearch [####      ] about 41 %, 0:32 min left": `share` of the work is done after so many seconds, < 0: who knows.
+/// "\rsearch [####      ] about 41 %, 0:32 min left": `share` of the work is done after so many seconds, < 0:
+/// who knows.
 std::string progress_line(const std::string& what, double share, double seconds);
 
 /// True after Ctrl-C or SIGTERM, once installed: long work stops after the tick it is in.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last thing that text passes before a terminal: names of scenes and files are in tables, notes and errors, and a
-// terminal obeys control characters.
+// The last thing that text passes before a terminal: names of scenes and files are in tables, notes and
+// errors, and a terminal obeys control characters.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,8 @@
 
 namespace greatx::apps {
 
-/// While it lives, what goes to `stream` goes through printable_lines(): in JSON the same text, written otherwise.
+/// While it lives, what goes to `stream` goes through printable_lines(): in JSON the same text, written
+/// otherwise.
 class SafeStream : public std::streambuf {
  public:
   explicit SafeStream(std::ostream& stream);

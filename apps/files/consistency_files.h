@@ -14,8 +14,8 @@
 
 namespace greatx::apps {
 
-/// consistency.csv: a line for each row, numbers exact. Beside the data set, not in its manifest: a run that was
-/// interrupted has the lines of its last part alone.
+/// consistency.csv: a line for each row, numbers exact. Beside the data set, not in its manifest: a run that
+/// was interrupted has the lines of its last part alone.
 std::string consistency_csv(const std::vector<sim::ConsistencyRow>& rows);
 /// The inverse. Throws UserError, file:line.
 std::vector<sim::ConsistencyRow> parse_consistency_csv(const std::string& text, const std::string& name);
@@ -33,8 +33,9 @@ struct ConsistencyReport {
   std::vector<io::Problem> problems;
 };
 
-/// Recomputes each line of consistency.csv from the arrays on disk. A problem for each record that says something else than it did
-/// in the run: its files, the figure, what it is held against. Throws UserError if the folder holds no data set.
+/// Recomputes each line of consistency.csv from the arrays on disk. A problem for each record that says
+/// something else than it did in the run: its files, the figure, what it is held against. Throws UserError if
+/// the folder holds no data set.
 ConsistencyReport verify_consistency(const std::filesystem::path& folder, uint32_t threads = 0);
 
 }  // namespace greatx::apps

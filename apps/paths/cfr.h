@@ -13,12 +13,13 @@
 
 namespace greatx::apps {
 
-/// Frequency responses of any number of receivers as one .npy, complex64 [receivers, rx_ant, tx, tx_ant, time, subcarrier],
-/// written receiver by receiver, and removed if it is not finished: the memory does not grow with their number.
+/// Frequency responses of any number of receivers as one .npy, complex64 [receivers, rx_ant, tx, tx_ant,
+/// time, subcarrier], written receiver by receiver, and removed if it is not finished: the memory does not
+/// grow with their number.
 class CfrFile {
  public:
-  /// `points`: how many points at rest take the place of the channel's receivers, each with one vertical isotropic antenna;
-  /// none: its own. `snapshot` outlives this. The file is `file` + ".part" until finish().
+  /// `points`: how many points at rest take the place of the channel's receivers, each with one vertical
+  /// isotropic antenna; none: its own. `snapshot` outlives this. The file is `file` + ".part" until finish().
   CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot, uint32_t transmitter,
           std::optional<size_t> points);
   ~CfrFile();

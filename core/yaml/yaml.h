@@ -23,8 +23,8 @@ int line_of(const YAML::Node& node, int fallback = 0);
 /// The line of a fault; 0 if the library has no place for it.
 int line_of(const YAML::Exception& error);
 
-/// These read plain scalars by YAML 1.2's core schema: a quoted one is a text, never a number or a boolean. They are
-/// empty for anything else.
+/// These read plain scalars by YAML 1.2's core schema: a quoted one is a text, never a number or a boolean.
+/// They are empty for anything else.
 std::optional<double> plain_number(const YAML::Node& node);
 std::optional<bool> plain_boolean(const YAML::Node& node);
 

@@ -54,7 +54,8 @@ Color viridis(double t) {
 
 Color color_of_id(uint32_t id) {
   if (id == 0) return {40, 43, 50};
-  // Steps of the golden ratio around the circle of hues keep neighbours apart; saturation and value vary slowly.
+  // Steps of the golden ratio around the circle of hues keep neighbours apart; saturation and value vary
+  // slowly.
   const double hue = std::fmod(id * 0.6180339887498949, 1.0);
   return from_hsv(hue, 0.45 + 0.15 * ((id / 3) % 3), 0.95 - 0.18 * ((id / 7) % 3));
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture to draw plots on: rectangles, anti-aliased lines and circles, text in a built-in 5x7 font, colour maps.
+// A picture to draw plots on: rectangles, anti-aliased lines and circles, text in a built-in 5x7 font, colour
+// maps.
 #pragma once
 
 #include <cstdint>

@@ -35,8 +35,8 @@ struct MapStage {
   std::string subtitle;  ///< "1.5 m above ground, 3.5 GHz, ..."
 };
 
-/// From values to colours. Where a hundredth of the cells at either end spreads the range by a third or more, the range is
-/// that of the rest, and what lies beyond has the colours of the ends; the picture says so.
+/// From values to colours. Where a hundredth of the cells at either end spreads the range by a third or more,
+/// the range is that of the rest, and what lies beyond has the colours of the ends; the picture says so.
 struct MapScale {
   io::Scale scale;
   bool clipped_low = false, clipped_high = false;
@@ -55,8 +55,9 @@ struct MapLayer {
 MapLayer map_layer(const sim::RadioMap& map, const sim::MapQuantity& quantity,
                    std::optional<size_t> transmitter, const std::vector<MapMarker>& transmitters);
 
-/// u8 [height, width, 3]: title, cells in Viridis over the subdued scene (where a cell has no place, as in buildings, the scene
-/// itself), outlines where the scene's height jumps, transmitters, axes in world metres, colours, lengths, north.
+/// u8 [height, width, 3]: title, cells in Viridis over the subdued scene (where a cell has no place, as in
+/// buildings, the scene itself), outlines where the scene's height jumps, transmitters, axes in world metres,
+/// colours, lengths, north.
 Array draw_map(const MapStage& stage, const MapLayer& layer);
 /// Several of them side by side, without axes.
 Array draw_maps(const MapStage& stage, std::span<const MapLayer> layers);

@@ -29,7 +29,8 @@ PictureView top_view(const MapPixels& pixels, const dvec3& origin, double level_
   const dvec2 size = pixels.max_m - pixels.min_m, middle = 0.5 * (pixels.min_m + pixels.max_m);
   const double reach = 0.5 * glm::length(size);
   const double above = std::max(high_m - level_m, 0.0), below = std::max(level_m - low_m, 0.0);
-  // A point dz above the level, r from the middle, is shown where the ray through it meets the level: r dz/(h - dz) off.
+  // A point dz above the level, r from the middle, is shown where the ray through it meets the level: r dz/(h
+  // - dz) off.
   const double height = std::min(highest, std::max({reach * above / most_shift_m + above,
                                                     reach * below / most_shift_m, above + clearance, reach}));
   PictureView view;

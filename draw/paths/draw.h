@@ -18,8 +18,8 @@ namespace greatx::apps {
 /// What lines are coloured by.
 enum class PathColors { gain, kind };
 
-/// Gains from the weakest to the strongest path, widened to whole tens of dB; at most 60 dB: what is weaker is drawn in
-/// the weakest colour, and the legend says so.
+/// Gains from the weakest to the strongest path, widened to whole tens of dB; at most 60 dB: what is weaker
+/// is drawn in the weakest colour, and the legend says so.
 struct GainScale {
   double low_db = -120.0, high_db = -60.0;
   bool weaker = false;  ///< there are paths below low_db
@@ -38,9 +38,9 @@ struct PictureText {
   std::string transmitter;  ///< "bs/panel"
 };
 
-/// The picture of `view` with a head and a legend, u8 [height, width, 3]: the scene subdued, hidden stretches thin and
-/// faint, stronger paths over weaker ones, a marker of its kind at each interaction. `rgb` [height, width, 3] and `depth`
-/// [height, width] of the view.
+/// The picture of `view` with a head and a legend, u8 [height, width, 3]: the scene subdued, hidden stretches
+/// thin and faint, stronger paths over weaker ones, a marker of its kind at each interaction. `rgb` [height,
+/// width, 3] and `depth` [height, width] of the view.
 Array draw_paths(const PictureView& view, std::span<const uint8_t> rgb, std::span<const float> depth,
                  std::span<const PathLink> links, const PathScene& scene, PathColors colors,
                  const PictureText& text);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `greatx paths` says of paths beyond what rf::Path holds: gains, phases, names of what they touch, figures of a
-// whole link. Everything that prints, draws or exports paths takes its numbers from here.
+// What `greatx paths` says of paths beyond what rf::Path holds: gains, phases, names of what they touch,
+// figures of a whole link. Everything that prints, draws or exports paths takes its numbers from here.
 #pragma once
 
 #include <array>
@@ -42,9 +42,11 @@ struct PathScene {
 void sort_by_delay(std::vector<rf::Path>& paths);
 
 /// (lambda / 4 pi)^2 ||T||_F^2 / 2: the power that isotropic antennas of unit gain take from the path in both
-/// polarizations, over the power sent, mean over the polarization sent. A line of sight: Friis, (lambda / 4 pi d)^2.
+/// polarizations, over the power sent, mean over the polarization sent. A line of sight: Friis, (lambda / 4
+/// pi d)^2.
 double path_gain(const rf::Path& path, double carrier_hz);
-/// a = (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: what two vertical isotropic antennas see at the carrier.
+/// a = (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: what two vertical isotropic antennas see at the
+/// carrier.
 rf::Complex vertical_amplitude(const rf::Path& path, double carrier_hz);
 /// 10 log10; of zero: -infinity.
 double gain_db(double gain);
@@ -53,8 +55,8 @@ double gain_db(double gain);
 std::string chain_of(const rf::Path& path);
 char letter_of(rf::InteractionType type);
 
-/// The kind that a path counts as: that of its rarest interaction, scattering before diffraction before transmission
-/// before reflection; none: line of sight.
+/// The kind that a path counts as: that of its rarest interaction, scattering before diffraction before
+/// transmission before reflection; none: line of sight.
 rf::InteractionType kind_of(const rf::Path& path);
 inline constexpr std::array<rf::InteractionType, 5> path_kinds = {
     rf::InteractionType::none, rf::InteractionType::reflection, rf::InteractionType::transmission,

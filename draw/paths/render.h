@@ -40,7 +40,8 @@ class PictureRenderer {
   std::unique_ptr<render::CameraPass> depth_pass_;
 };
 
-/// A scenario's own camera or event camera, "node/sensor". Throws UserError naming the scenario's cameras if there is none of that name.
+/// A scenario's own camera or event camera, "node/sensor". Throws UserError naming the scenario's cameras if
+/// there is none of that name.
 struct CameraName {
   uint32_t node = 0, sensor = 0;
 };

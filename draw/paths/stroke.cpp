@@ -27,7 +27,8 @@ double box_distance(const dvec2& p, double half) {
   return glm::length(glm::max(d, dvec2(0.0))) + std::min(std::max(d.x, d.y), 0.0);
 }
 
-/// Convex polygon with `corners` corners on a circle, one of them on top: distance to its nearest edge's line.
+/// Convex polygon with `corners` corners on a circle, one of them on top: distance to its nearest edge's
+/// line.
 double polygon_distance(const dvec2& p, double radius, int corners) {
   double distance = -1e300;
   for (int i = 0; i < corners; ++i) {

@@ -13,8 +13,8 @@
 
 namespace greatx::apps {
 
-/// How much of each pixel something covers. What is drawn before paint() is one shape: where its parts overlap it is
-/// not denser, so a bent line has no knots.
+/// How much of each pixel something covers. What is drawn before paint() is one shape: where its parts
+/// overlap it is not denser, so a bent line has no knots.
 class ShapeCoverage {
  public:
   ShapeCoverage(int width, int height);
@@ -32,8 +32,9 @@ class ShapeCoverage {
   std::vector<uint32_t> touched_;  ///< pixels that are not zero
 };
 
-/// A marker's outline: signed distance in pixels from a point to the shape of an interaction (disc: reflection, square on
-/// its corner: transmission, triangle: diffraction, star: scattering), `radius` its size.
+/// A marker's outline: signed distance in pixels from a point to the shape of an interaction (disc:
+/// reflection, square on its corner: transmission, triangle: diffraction, star: scattering), `radius` its
+/// size.
 double marker_distance(rf::InteractionType type, const dvec2& offset, double radius);
 
 /// A part of a stretch that is in sight, or behind something, all along; pixels.
@@ -41,8 +42,9 @@ struct Stretch {
   dvec2 a{0.0}, b{0.0};
   bool hidden = false;
 };
-/// A stretch from a to b (local coordinates) as the picture shows it: what is behind the camera or outside is cut off, the
-/// rest is split where it goes behind a surface, and behind a lens that distorts into chords. `depth` [height, width] of the view.
+/// A stretch from a to b (local coordinates) as the picture shows it: what is behind the camera or outside is
+/// cut off, the rest is split where it goes behind a surface, and behind a lens that distorts into chords.
+/// `depth` [height, width] of the view.
 std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
                                   const dvec3& b);
 

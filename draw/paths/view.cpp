@@ -110,8 +110,8 @@ PictureView fit_view(std::span<const dvec3> points, double azimuth, double eleva
                to_bottom = (height - margins.bottom - view.cy) / view.fy;
   GREATX_CHECK(to_left + to_right > 0.0 && to_top + to_bottom > 0.0, "margins leave nothing of {} x {}",
                width, height);
-  // A point p is left enough of the right margin if (p - e).left >= -to_right (p - e).forward, and so on: each plane
-  // bounds one combination of the eye's coordinates by the extreme point.
+  // A point p is left enough of the right margin if (p - e).left >= -to_right (p - e).forward, and so on:
+  // each plane bounds one combination of the eye's coordinates by the extreme point.
   const double half = 0.5 * least_extent_m;
   double left_bound = -1e300, right_bound = -1e300, top_bound = -1e300, bottom_bound = -1e300,
          nearest = 1e300;

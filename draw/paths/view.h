@@ -24,16 +24,18 @@ struct PictureView {
   render::Distortion distortion;  ///< set_lens() sets it
   render::LensBounds sees;  ///< of a lens that distorts: beyond it the model may fold back into the picture
 
-  /// Column and row in pixels, and planar depth in metres; behind the camera, or beyond what a lens that distorts sees,
-  /// the depth is negative and the rest means nothing.
+  /// Column and row in pixels, and planar depth in metres; behind the camera, or beyond what a lens that
+  /// distorts sees, the depth is negative and the rest means nothing.
   dvec3 project(const dvec3& local) const;
-  /// The same as a pinhole would show it: there what is straight in space is straight, and 1 / depth is linear.
+  /// The same as a pinhole would show it: there what is straight in space is straight, and 1 / depth is
+  /// linear.
   dvec3 project_straight(const dvec3& local) const;
   /// Where the picture shows a point of the pinhole's picture that the lens sees.
   dvec2 bent(const dvec2& straight) const;
   /// The same view with another number of pixels.
   PictureView scaled(uint32_t new_width) const;
-  /// Puts a lens on, whose size and intrinsics are the view's. Throws UserError naming it if the picture folds.
+  /// Puts a lens on, whose size and intrinsics are the view's. Throws UserError naming it if the picture
+  /// folds.
   void set_lens(const render::Distortion& lens, const std::string& name);
 };
 
@@ -42,9 +44,10 @@ struct PictureMargins {
   double left = 60.0, right = 60.0, top = 60.0, bottom = 60.0;
 };
 
-/// The nearest view from a direction that has every point inside its margins: `azimuth` from x towards y and `elevation`
-/// above the horizon say where the camera stands, seen from the points. The four planes through the margins touch the
-/// points: closed form. Points closer together than `least_extent_m` are shown as if they were that far apart.
+/// The nearest view from a direction that has every point inside its margins: `azimuth` from x towards y and
+/// `elevation` above the horizon say where the camera stands, seen from the points. The four planes through
+/// the margins touch the points: closed form. Points closer together than `least_extent_m` are shown as if
+/// they were that far apart.
 PictureView fit_view(std::span<const dvec3> points, double azimuth, double elevation, uint32_t width,
                      uint32_t height, const PictureMargins& margins, double least_extent_m = 10.0);
 
@@ -53,14 +56,15 @@ PictureView fit_view(std::span<const dvec3> points, double azimuth, double eleva
 double visible_share(const PictureView& view, std::span<const float> depth, std::span<const PathLink> links,
                      const PathScene& scene);
 
-/// The best of a ring of oblique views from above: most of the paths in sight, large in the picture. `depth_of` renders
-/// the planar depth of a view. Ties go to the first direction, so that the answer is always the same.
+/// The best of a ring of oblique views from above: most of the paths in sight, large in the picture.
+/// `depth_of` renders the planar depth of a view. Ties go to the first direction, so that the answer is
+/// always the same.
 PictureView choose_view(std::span<const PathLink> links, const PathScene& scene, uint32_t width,
                         uint32_t height,
                         const std::function<std::vector<float>(const PictureView&)>& depth_of);
 
-/// Is a point at planar depth `point_m` hidden where the picture's surface is at `surface_m`? Points on the surface are
-/// not: 0.5 % of the depth + 0.2 m.
+/// Is a point at planar depth `point_m` hidden where the picture's surface is at `surface_m`? Points on the
+/// surface are not: 0.5 % of the depth + 0.2 m.
 inline bool is_hidden(double point_m, float surface_m) {
   return point_m > static_cast<double>(surface_m) * 1.005 + 0.2;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A data set as a short animated picture: moment by moment what all its sensors saw, in tiles like the contact sheet's.
+// A data set as a short animated picture: moment by moment what all its sensors saw, in tiles like the
+// contact sheet's.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,8 @@
 
 namespace greatx::io {
 
-/// When the frames are shown. At the data set's own speed if that makes 7 to 40 of them a second, otherwise 10 a second.
+/// When the frames are shown. At the data set's own speed if that makes 7 to 40 of them a second, otherwise
+/// 10 a second.
 struct Playback {
   std::vector<int> start_ms;  ///< of each frame; the first is 0
   int end_ms = 0;             ///< of the last
@@ -21,12 +23,12 @@ struct Playback {
 /// One moment or more, in order.
 Playback playback_of(const std::vector<SheetMoment>& moments);
 
-/// Three tiles a row, four panels as two by two; the tiles that stay free in the last row show plots of the whole
-/// sequence, one a sensor.
+/// Three tiles a row, four panels as two by two; the tiles that stay free in the last row show plots of the
+/// whole sequence, one a sensor.
 class Animation {
  public:
-  /// At most `frames` moments, evenly from the first to the last (choose_moments). Throws UserError if `frames` is 0,
-  /// the sequence has no records, or none of the sensors is drawn moment by moment.
+  /// At most `frames` moments, evenly from the first to the last (choose_moments). Throws UserError if
+  /// `frames` is 0, the sequence has no records, or none of the sensors is drawn moment by moment.
   Animation(const DatasetReader& reader, size_t frames, uint32_t sequence = 0);
 
   size_t frames() const { return moments_.size(); }
@@ -55,8 +57,8 @@ struct AnimationFile {
   int width = 0, height = 0, duration_ms = 0;
   uint64_t bytes = 0;
 };
-/// As an animated WebP that starts again at its end. Throws UserError like Animation, and if the file's name does not end
-/// in .webp or the picture is too tall for WebP.
+/// As an animated WebP that starts again at its end. Throws UserError like Animation, and if the file's name
+/// does not end in .webp or the picture is too tall for WebP.
 AnimationFile write_animation(const DatasetReader& reader, const std::filesystem::path& file, size_t frames,
                               uint32_t sequence = 0);
 

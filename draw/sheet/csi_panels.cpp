@@ -36,7 +36,8 @@ void inverse_fft(std::vector<Complex>& x) {
   }
 }
 
-/// One link over the sequence: H(f) of receiver 0, transmitter 0, the first port of each, the first time sample.
+/// One link over the sequence: H(f) of receiver 0, transmitter 0, the first port of each, the first time
+/// sample.
 struct Link {
   std::string sensor;
   double spacing_hz = 1.0;
@@ -98,8 +99,8 @@ class DecibelPanel : public SeriesPanel {
   std::string vertical_label_;
 };
 
-/// |h(tau)|: the inverse DFT of H(f) under a Hann window, four times zero-padded, scaled so that one path of amplitude a
-/// peaks at |a|. Delays repeat after 1 / spacing.
+/// |h(tau)|: the inverse DFT of H(f) under a Hann window, four times zero-padded, scaled so that one path of
+/// amplitude a peaks at |a|. Delays repeat after 1 / spacing.
 class ImpulsePanel : public DecibelPanel {
  public:
   explicit ImpulsePanel(const Link& link) : title_(link.sensor + " |h| over delay") {

@@ -9,7 +9,8 @@ namespace greatx::io {
 
 namespace {
 
-/// A cloud from above, coloured by height; north is up if the data set has the node's pose, else forward is up.
+/// A cloud from above, coloured by height; north is up if the data set has the node's pose, else forward is
+/// up.
 class LidarPanel : public FramePanel {
  public:
   explicit LidarPanel(const PanelSource& source) : source_(source) {

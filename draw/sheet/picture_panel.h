@@ -16,8 +16,8 @@ inline constexpr Color color_of_sky{48, 52, 62};
 
 class PicturePanel : public FramePanel {
  public:
-  /// `array`: of one of the types, of shape [h, w] or [h, w, channels]; it sets the picture's aspect. `what`: the title, behind
-  /// the sensor's name.
+  /// `array`: of one of the types, of shape [h, w] or [h, w, channels]; it sets the picture's aspect. `what`:
+  /// the title, behind the sensor's name.
   PicturePanel(const PanelSource& source, std::string array, const char* what,
                std::initializer_list<DType> types, int64_t channels = 0)
       : source_(source),

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a radar saw: power over range and velocity, and over the ground as its beams see it, with detections on both.
+// What a radar saw: power over range and velocity, and over the ground as its beams see it, with detections
+// on both.
 #include <algorithm>
 #include <cmath>
 

@@ -31,8 +31,8 @@ class NormalsPanel : public PicturePanel {
   }
 };
 
-/// Direction as hue, length as saturation, white: none (the idea of the Middlebury coding: S. Baker et al., "A Database
-/// and Evaluation Methodology for Optical Flow", IJCV 92, 2011); one full scale for all rows.
+/// Direction as hue, length as saturation, white: none (the idea of the Middlebury coding: S. Baker et al.,
+/// "A Database and Evaluation Methodology for Optical Flow", IJCV 92, 2011); one full scale for all rows.
 class FlowPanel : public PicturePanel {
  public:
   explicit FlowPanel(const PanelSource& source) : PicturePanel(source, "flow", "flow", {DType::f32}, 2) {
@@ -74,7 +74,8 @@ class FlowPanel : public PicturePanel {
   double full_px_ = 1.0;
 };
 
-/// Rectangles of the objects over the darkened picture: what is seen of each, in its colour; hidden ones thin.
+/// Rectangles of the objects over the darkened picture: what is seen of each, in its colour; hidden ones
+/// thin.
 class BoxesPanel : public PicturePanel {
  public:
   explicit BoxesPanel(const PanelSource& source) : PicturePanel(source, "rgb", "boxes", {DType::u8}, 3) {}

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What writer, reader and verify agree on: where files lie, what dataset.json and the index say, when a sensor fires.
-// docs/dataset.md is the user's side of it.
+// What writer, reader and verify agree on: where files lie, what dataset.json and the index say, when a
+// sensor fires. docs/dataset.md is the user's side of it.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ inline constexpr const char* companion_files[] = {"contact_sheet.png", "animatio
 inline constexpr int64_t most_sequences = 1'000'000, most_ticks = 1'000'000'000'000;
 inline constexpr uint64_t largest_array = uint64_t{4} << 30;  ///< bytes of one array of one record
 
-/// What does not change during a run. Two runs whose DatasetInfo agree give the same bytes on the same device, so it
-/// must not hold wall-clock times, host names or paths.
+/// What does not change during a run. Two runs whose DatasetInfo agree give the same bytes on the same
+/// device, so it must not hold wall-clock times, host names or paths.
 struct DatasetInfo {
   std::string run_json =
       "{}";                   ///< JSON object: scenario name, scene hash, seed, device, driver, versions, ...
@@ -54,8 +54,8 @@ struct IndexRow {
 };
 inline constexpr const char* index_columns = "tick,time_ns,sensor,sample,row";
 
-/// Throws UserError for names that are no plain relative paths or meet on disk, ContractError for outputs that do not
-/// fit their arrays, an array that no output keeps or one that is larger than largest_array.
+/// Throws UserError for names that are no plain relative paths or meet on disk, ContractError for outputs
+/// that do not fit their arrays, an array that no output keeps or one that is larger than largest_array.
 void check_sensors(const std::vector<SensorSpec>& sensors);
 /// The arrays of an output, as indices into SensorSpec::arrays.
 std::vector<size_t> arrays_of(const SensorSpec& sensor, const OutputSpec& output);
@@ -76,14 +76,15 @@ std::string export_path(uint32_t sequence, const SensorSpec& sensor, const Outpu
 std::string frame_folder(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output);
 std::string frame_path(uint32_t sequence, const SensorSpec& sensor, const OutputSpec& output, int64_t sample);
 std::string index_path(uint32_t sequence, const char* extension);
-/// Bytes of one row of a stack: of one record (npy_stack) or of one element along the first axis (npy_ragged).
+/// Bytes of one row of a stack: of one record (npy_stack) or of one element along the first axis
+/// (npy_ragged).
 uint64_t stack_row_bytes(const ArraySpec& array);
 
 std::string dataset_json(const DatasetInfo& info);
 /// The inverse, except for scenario_text. `name` stands for the file in messages. Throws UserError.
 DatasetInfo parse_dataset_json(const std::string& text, const std::string& name);
-/// The fields in which two dataset.json differ, "path: the data set has X, this run has Y", at most eight lines. `name` is the
-/// stored one's file. Throws UserError if that is no JSON.
+/// The fields in which two dataset.json differ, "path: the data set has X, this run has Y", at most eight
+/// lines. `name` is the stored one's file. Throws UserError if that is no JSON.
 std::string describe_differences(const std::string& stored, const std::string& wanted,
                                  const std::string& name);
 
@@ -96,8 +97,8 @@ void check_index_rows(const std::string& name, const DatasetInfo& info, const st
 /// When samples fire: sample k at tick round(k * tick_rate / rate), half up, and when ticks are, exactly.
 class SampleClock {
  public:
-  /// Rationals as text: "30", "29.97", "30000/1001", numerator and denominator up to 10^12. Throws UserError. Ticks and
-  /// samples must lie within most_ticks; a result beyond 64 bits is a UserError.
+  /// Rationals as text: "30", "29.97", "30000/1001", numerator and denominator up to 10^12. Throws UserError.
+  /// Ticks and samples must lie within most_ticks; a result beyond 64 bits is a UserError.
   SampleClock(const std::string& tick_rate, const std::string& rate);
   int64_t tick_of(int64_t sample) const;
   int64_t samples_before(int64_t tick) const;  ///< how many fire at ticks 0 .. tick-1
@@ -111,9 +112,9 @@ class SampleClock {
   Ratio tick_rate_, rate_;
 };
 
-/// The first value of the array that must not be there, described; empty if all is well. Floating-point arrays are
-/// finite, except: a camera's arrays named "depth..." may hold +infinity (sky), and the arrays that the sensor's
-/// metadata list as "non_finite" may hold anything.
+/// The first value of the array that must not be there, described; empty if all is well. Floating-point
+/// arrays are finite, except: a camera's arrays named "depth..." may hold +infinity (sky), and the arrays
+/// that the sensor's metadata list as "non_finite" may hold anything.
 std::string find_bad_value(const SensorSpec& sensor, const ArraySpec& spec, const Array& array);
 
 }  // namespace greatx::io

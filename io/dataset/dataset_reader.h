@@ -35,8 +35,8 @@ class DatasetReader {
   /// The records of one sensor.
   std::vector<IndexRow> records_of(uint32_t sequence, size_t sensor) const;
 
-  /// One array of one record, as it was written: [h, w, 3], [n, 4], ... From an output that keeps it exactly if there
-  /// is one (of a depth kept as EXR and as 24-bit PNG: the EXR).
+  /// One array of one record, as it was written: [h, w, 3], [n, 4], ... From an output that keeps it exactly
+  /// if there is one (of a depth kept as EXR and as 24-bit PNG: the EXR).
   Array load(uint32_t sequence, const IndexRow& row, const std::string& array) const;
   /// Likewise, from one output.
   Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array) const;

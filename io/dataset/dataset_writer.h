@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packets to files. write() checks the packet and hands it to worker threads, which encode, hash and write its
-// pictures and clouds; packets are then committed in their order: stacks are appended, and last a line goes into the
-// journal. So a killed run leaves whole packets, and `resume` cuts away what is beyond the last one.
+// Packets to files. write() checks the packet and hands it to worker threads, which encode, hash and write
+// its pictures and clouds; packets are then committed in their order: stacks are appended, and last a line
+// goes into the journal. So a killed run leaves whole packets, and `resume` cuts away what is beyond the last
+// one.
 //
 //   DatasetWriter writer(folder, info, {.resume = true});
-//   for (auto [sequence, tick, finished] = writer.resume_position(); sequence < info.sequences; ++sequence, tick = 0) {
+//   for (auto [sequence, tick, finished] = writer.resume_position(); sequence < info.sequences; ++sequence,
+// tick = 0) {
 //     writer.begin_sequence(sequence);
 //     ... writer.write(packet) from `tick` on ...
 //     writer.end_sequence();
@@ -39,11 +41,12 @@ struct WriterStats {
 
 class DatasetWriter : public RecordSink {
  public:
-  /// Makes the folder, or opens it if `resume`. Throws UserError if it cannot be written, holds other files, holds a
-  /// finished data set (without `resume`), is in use by another process, or holds a different run; the message then
-  /// lists what differs.
+  /// Makes the folder, or opens it if `resume`. Throws UserError if it cannot be written, holds other files,
+  /// holds a finished data set (without `resume`), is in use by another process, or holds a different run;
+  /// the message then lists what differs.
   DatasetWriter(const std::filesystem::path& folder, DatasetInfo info, WriterOptions options = {});
-  /// Commits what was written so far; the data set stays unfinished and can be resumed unless finish() was called.
+  /// Commits what was written so far; the data set stays unfinished and can be resumed unless finish() was
+  /// called.
   ~DatasetWriter() override;
 
   struct Position {
@@ -55,7 +58,8 @@ class DatasetWriter : public RecordSink {
 
   /// In order, from resume_position().sequence on.
   void begin_sequence(uint32_t sequence);
-  /// Throws what went wrong with this packet or one before it. A full disk is a UserError that says how to go on.
+  /// Throws what went wrong with this packet or one before it. A full disk is a UserError that says how to go
+  /// on.
   void write(Packet packet) override;
   /// Waits for all packets, closes the stacks, writes the index.
   void end_sequence();

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The journal of an unfinished data set: one line a packet, appended when all its files are in place, and one line a
-// sequence when that is closed. Each line ends in a CRC-32, so that a torn last line is seen and dropped.
+// The journal of an unfinished data set: one line a packet, appended when all its files are in place, and one
+// line a sequence when that is closed. Each line ends in a CRC-32, so that a torn last line is seen and
+// dropped.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +54,8 @@ struct JournalEntry {
 
 std::string journal_line(const JournalPacket& packet);
 std::string journal_line(const JournalEnd& end);
-/// All whole lines; reading stops at the first one that is torn. `name` stands for the file in messages. Throws UserError for
-/// a line whose checksum is right and that still is none of a journal.
+/// All whole lines; reading stops at the first one that is torn. `name` stands for the file in messages.
+/// Throws UserError for a line whose checksum is right and that still is none of a journal.
 std::vector<JournalEntry> parse_journal(const std::string& text, const std::string& name = "journal.txt");
 
 /// A path below the data set's folder, and a SHA-256 in hexadecimal digits. Throw UserError.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// manifest.json: every file of the data set with its size and SHA-256, and totals. It is written last, so a data set
-// with a manifest is complete. The order of the files is fixed: dataset.json, scenario.yaml, the stacks and indices
-// of the sequences, then the frames in order of their commit.
+// manifest.json: every file of the data set with its size and SHA-256, and totals. It is written last, so a
+// data set with a manifest is complete. The order of the files is fixed: dataset.json, scenario.yaml, the
+// stacks and indices of the sequences, then the frames in order of their commit.
 #pragma once
 
 #include <array>

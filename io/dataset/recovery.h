@@ -17,10 +17,11 @@ struct Recovered {
   uint64_t journal_bytes = 0;          ///< the journal beyond that is to be dropped
 };
 
-/// Reads the journal and believes a packet only if its files are there with their size. Changes nothing on disk.
+/// Reads the journal and believes a packet only if its files are there with their size. Changes nothing on
+/// disk.
 Recovered read_committed(const std::filesystem::path& folder, const DatasetInfo& info);
-/// Removes files of packets that were not committed, gives the open sequence's stacks their `.part` names back.
-/// Throws UserError if a closed sequence lacks a file, because that cannot be mended by going on.
+/// Removes files of packets that were not committed, gives the open sequence's stacks their `.part` names
+/// back. Throws UserError if a closed sequence lacks a file, because that cannot be mended by going on.
 void clear_uncommitted(const std::filesystem::path& folder, const DatasetInfo& info,
                        const Recovered& recovered);
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stacks of the sequence that is being written: one open file for each npy_stack, two for each npy_ragged. They
-// carry the name PATH.part until the sequence is closed, and until then their header says zero rows.
+// The stacks of the sequence that is being written: one open file for each npy_stack, two for each
+// npy_ragged. They carry the name PATH.part until the sequence is closed, and until then their header says
+// zero rows.
 #pragma once
 
 #include <functional>
@@ -15,13 +16,13 @@ namespace greatx::io {
 
 class SequenceFiles {
  public:
-  /// Opens or creates every stack and cuts it to the given number of records of each sensor. Throws UserError if a
-  /// file has less than that.
+  /// Opens or creates every stack and cuts it to the given number of records of each sensor. Throws UserError
+  /// if a file has less than that.
   SequenceFiles(const std::filesystem::path& folder, const DatasetInfo& info, uint32_t sequence,
                 std::vector<int64_t> records_per_sensor);
 
-  /// Appends the record's stacked arrays. After an exception the files may hold part of a record. A file that somebody else
-  /// deleted or cut meanwhile is a UserError.
+  /// Appends the record's stacked arrays. After an exception the files may hold part of a record. A file that
+  /// somebody else deleted or cut meanwhile is a UserError.
   void append(const Record& record);
   int64_t records_of(uint32_t sensor) const { return records_[sensor]; }
 
@@ -31,8 +32,8 @@ class SequenceFiles {
   /// Final names of all stacks, relative.
   static std::vector<std::string> stack_paths(const DatasetInfo& info, uint32_t sequence);
 
-  /// Closing in two steps: seal(i) for i in 0 .. file_count()-1, in any order or in parallel, writes the header,
-  /// closes the file and hashes it; publish() renames them all.
+  /// Closing in two steps: seal(i) for i in 0 .. file_count()-1, in any order or in parallel, writes the
+  /// header, closes the file and hashes it; publish() renames them all.
   size_t file_count() const { return files_.size(); }
   FileEntry seal(size_t file);
   void publish();

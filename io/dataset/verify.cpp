@@ -241,7 +241,8 @@ void Verifier::check_stack_values(const SensorSpec& sensor, const ArraySpec& spe
   }
 }
 
-/// Decodes the frames of floating-point values; integers have no bad values, and their bytes are known by hash.
+/// Decodes the frames of floating-point values; integers have no bad values, and their bytes are known by
+/// hash.
 void Verifier::check_frame_values(const DatasetReader& reader, uint32_t sequence) {
   const std::vector<IndexRow>& rows = reader.records(sequence);
   std::vector<std::vector<Problem>> found(rows.size());

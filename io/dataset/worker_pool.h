@@ -22,7 +22,8 @@ class WorkerPool {
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   void submit(std::function<void()> job);
-  /// Runs job(0) .. job(count-1) on the workers and waits; rethrows the exception of the lowest index that had one.
+  /// Runs job(0) .. job(count-1) on the workers and waits; rethrows the exception of the lowest index that
+  /// had one.
   void for_each(size_t count, const std::function<void(size_t)>& job);
 
  private:

@@ -28,14 +28,16 @@ class WriteError : public UserError {
   WriteError(const std::filesystem::path& file, int error_number);
 };
 
-/// An open file descriptor, closed with the object. Short writes are continued; a write that makes no progress throws.
+/// An open file descriptor, closed with the object. Short writes are continued; a write that makes no
+/// progress throws.
 class File {
  public:
   File() = default;
   /// For reading. Throws UserError, also for what is no plain file: a FIFO would have to be waited for.
   static File open_for_reading(const std::filesystem::path& path);
   /// For reading and writing, created if missing, kept if there. Throws WriteError; UserError for a symbolic
-  /// link, which nothing is written through, and for what is neither a plain file nor a device (/dev/full, /dev/null).
+  /// link, which nothing is written through, and for what is neither a plain file nor a device (/dev/full,
+  /// /dev/null).
   static File open_for_writing(const std::filesystem::path& path);
   ~File();
   File(File&& other) noexcept;
@@ -50,7 +52,8 @@ class File {
   /// Exactly that many bytes; throws UserError if the file ends before.
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;
   void truncate(uint64_t size);
-  /// Throws UserError if the file has been deleted, or has not this size: somebody else was at it while it was written.
+  /// Throws UserError if the file has been deleted, or has not this size: somebody else was at it while it
+  /// was written.
   void check_untouched(uint64_t size) const;
   /// Closes now; a failure that the system reports only then (NFS, quota) throws.
   void close();
@@ -87,8 +90,8 @@ struct FolderSize {
 };
 FolderSize folder_size(const std::filesystem::path& folder);
 
-/// Makes a write beyond the file-size limit (ulimit -f) an ordinary error instead of the end of the process. Only the
-/// default action is replaced; a handler that the program has set stays.
+/// Makes a write beyond the file-size limit (ulimit -f) an ordinary error instead of the end of the process.
+/// Only the default action is replaced; a handler that the program has set stays.
 void ignore_file_size_signal();
 
 inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }

@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-
 /// Of what is there, a link itself; empty: nothing is.
 std::optional<struct stat> status_of(const fs::path& path) {
   struct stat status {};

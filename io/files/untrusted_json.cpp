@@ -17,8 +17,8 @@ namespace {
 
 constexpr size_t longest_excerpt = 60;
 
-/// Goes over the beginnings of values in the order of the text, which need not be valid: visit(line, depth) returns
-/// false to stop. Keys are no values.
+/// Goes over the beginnings of values in the order of the text, which need not be valid: visit(line, depth)
+/// returns false to stop. Keys are no values.
 template <typename Visit>
 void scan(std::string_view text, Visit visit) {
   int line = 0, depth = 0;

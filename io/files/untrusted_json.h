@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// JSON that somebody else may have written: bounded in size, depth and number of values before anything is built of it, and
-// read by getters that name the file, the line and the field of what is not as expected.
+// JSON that somebody else may have written: bounded in size, depth and number of values before anything is
+// built of it, and read by getters that name the file, the line and the field of what is not as expected.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct JsonLimits {
 
 class JsonDocument;
 
-/// A value of a JsonDocument, valid as long as that. Every getter throws UserError: "FILE:LINE: sensors[0].name: expected a
-/// string, found 7".
+/// A value of a JsonDocument, valid as long as that. Every getter throws UserError: "FILE:LINE:
+/// sensors[0].name: expected a string, found 7".
 class JsonValue {
  public:
   bool is_object() const;
@@ -54,7 +54,8 @@ class JsonValue {
 
 class JsonDocument {
  public:
-  /// `where`: the file, and the line on which the text begins (0: none is named in messages). Throws UserError.
+  /// `where`: the file, and the line on which the text begins (0: none is named in messages). Throws
+  /// UserError.
   JsonDocument(std::string text, const SourceLocation& where, const JsonLimits& limits = {});
   ~JsonDocument();
   JsonDocument(const JsonDocument&) = delete;

@@ -12,7 +12,8 @@
 
 namespace greatx::io {
 
-/// A sequence's events in order of time, read from .npy files piece by piece: t i64 ns, x u16, y u16, p u8 (1: brighter).
+/// A sequence's events in order of time, read from .npy files piece by piece: t i64 ns, x u16, y u16, p u8
+/// (1: brighter).
 class EventArrays {
  public:
   /// Throws UserError if a file is no array of its type or they differ in length.
@@ -42,13 +43,15 @@ class EventArrays {
   NpyFile t_, x_, y_, p_;
 };
 
-/// DSEC's layout (M. Gehrig et al., "DSEC", RA-L 2021): /events/t u32 microseconds, rounded down, /events/x u16,
-/// /events/y u16, /events/p u8, /ms_to_idx u64, /t_offset i64 microseconds (0: times count from the sequence's first
-/// tick). ms_to_idx[ms] is the first event with t >= 1000 ms; its last entry is the number of events. The same events give
-/// the same bytes: no times of day, no compression. Throws WriteError, or UserError if a time is beyond 32 bits.
+/// DSEC's layout (M. Gehrig et al., "DSEC", RA-L 2021): /events/t u32 microseconds, rounded down, /events/x
+/// u16, /events/y u16, /events/p u8, /ms_to_idx u64, /t_offset i64 microseconds (0: times count from the
+/// sequence's first tick). ms_to_idx[ms] is the first event with t >= 1000 ms; its last entry is the number
+/// of events. The same events give the same bytes: no times of day, no compression. Throws WriteError, or
+/// UserError if a time is beyond 32 bits.
 void write_hdf5_events(const std::filesystem::path& file, const EventArrays& events);
 
-/// A line beginning with '#', then "t x y p" for each event: t in seconds with nine decimals, exact. Throws WriteError.
+/// A line beginning with '#', then "t x y p" for each event: t in seconds with nine decimals, exact. Throws
+/// WriteError.
 void write_text_events(const std::filesystem::path& file, const EventArrays& events);
 
 }  // namespace greatx::io

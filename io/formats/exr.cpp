@@ -22,8 +22,8 @@ namespace greatx::io {
 
 namespace {
 
-/// Workers call this from many threads at once, so OpenEXR's own pool stays empty: each picture is done where it is
-/// asked for.
+/// Workers call this from many threads at once, so OpenEXR's own pool stays empty: each picture is done where
+/// it is asked for.
 int no_threads() {
   [[maybe_unused]] static const bool once = (Imf::setGlobalThreadCount(0), true);
   return 0;
@@ -56,8 +56,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* value
   return buffer;
 }
 
-/// Writes the format around blocks that are compressed already: OpenEXR's own way through zlib takes three times as long as
-/// libdeflate's, a sixth of all CPU time of a camera's tick.
+/// Writes the format around blocks that are compressed already: OpenEXR's own way through zlib takes three
+/// times as long as libdeflate's, a sixth of all CPU time of a camera's tick.
 class Writer {
  public:
   explicit Writer(Bytes& file) {
@@ -97,9 +97,9 @@ class Writer {
   exr_context_t context_ = nullptr;
 };
 
-/// Lines as the format's ZIP compression has them: per line one channel after the other; of all bytes the even ones, then the
-/// odd ones, each but the first as its difference from the one before, plus 128; then zlib's format. What does not shrink
-/// stays as it is.
+/// Lines as the format's ZIP compression has them: per line one channel after the other; of all bytes the
+/// even ones, then the odd ones, each but the first as its difference from the one before, plus 128; then
+/// zlib's format. What does not shrink stays as it is.
 class BlockEncoder {
  public:
   BlockEncoder(int width, int channels)
@@ -151,7 +151,8 @@ Bytes encode_exr(const Array& image) {
   Bytes file;
   file.reserve(image.bytes.size());
   Writer writer(file);
-  // The header has the attributes that the format requires and none of time or owner: same pixels, same bytes.
+  // The header has the attributes that the format requires and none of time or owner: same pixels, same
+  // bytes.
   writer.begin(width, height, channel_names(rgb));
   BlockEncoder blocks(width, rgb ? 3 : 1);
   for (int y = 0; y < height; y += lines_of_a_block) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NumPy's .npy format, version 1.0 (numpy.lib.format; NEP 1), little endian, C order. NaN and infinities are stored
-// bit for bit. The header always takes 256 bytes, so that a stack's first axis can be rewritten in place when it is
-// complete, and the data are 64-byte aligned when memory-mapped.
+// NumPy's .npy format, version 1.0 (numpy.lib.format; NEP 1), little endian, C order. NaN and infinities are
+// stored bit for bit. The header always takes 256 bytes, so that a stack's first axis can be rewritten in
+// place when it is complete, and the data are 64-byte aligned when memory-mapped.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ Bytes encode_npy(const Array& array);
 /// A .npy file open for reading; rows are read on demand.
 class NpyFile {
  public:
-  /// Throws UserError if the file is not .npy 1.0 in C order of a type that DType knows, or shorter than its shape.
+  /// Throws UserError if the file is not .npy 1.0 in C order of a type that DType knows, or shorter than its
+  /// shape.
   explicit NpyFile(const std::filesystem::path& path);
   DType dtype() const { return dtype_; }
   const std::vector<int64_t>& shape() const { return shape_; }

@@ -12,8 +12,9 @@
 
 namespace greatx::io {
 
-/// Before room is made for a decoded picture, whose header may say anything: throws UserError unless its shape is the
-/// expected one (negative extents: any; empty: any shape) and takes no more than largest_read bytes.
+/// Before room is made for a decoded picture, whose header may say anything: throws UserError unless its
+/// shape is the expected one (negative extents: any; empty: any shape) and takes no more than largest_read
+/// bytes.
 inline void check_picture_shape(const std::string& name, DType dtype, const std::vector<int64_t>& found,
                                 const std::vector<int64_t>& expected) {
   bool fits = expected.empty() || expected.size() == found.size();

@@ -12,8 +12,8 @@
 
 namespace greatx::io {
 
-/// arrays[0] f32 [n, 4] gives the properties x, y, z, intensity; each other array [n] gives the property of its name.
-/// 64-bit integers and complex numbers have no PLY type: ContractError.
+/// arrays[0] f32 [n, 4] gives the properties x, y, z, intensity; each other array [n] gives the property of
+/// its name. 64-bit integers and complex numbers have no PLY type: ContractError.
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays);
 /// Every property as an array [n], by name. Throws UserError.
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name);

@@ -21,8 +21,8 @@ struct VertexProperty {
   DType dtype;
 };
 
-/// arrays[0] f32 [n, 4] gives the properties x, y, z, intensity, every other array [n] that of its name. ContractError for
-/// other shapes.
+/// arrays[0] f32 [n, 4] gives the properties x, y, z, intensity, every other array [n] that of its name.
+/// ContractError for other shapes.
 std::vector<VertexProperty> vertex_properties(const std::vector<std::string>& names,
                                               const std::vector<const Array*>& arrays);
 /// `header` and the rows of those arrays behind it.

@@ -9,12 +9,13 @@ namespace greatx::io {
 
 namespace {
 
-// Measured at 40 frames of nine panels of the default city: quality 70 makes 3.2 MB, 75 3.4, 60 2.8. Method 4 (libwebp's
-// default) takes 6.7 s of CPU time, method 2 5.2 and makes 5 % more bytes, method 6 30 s and 6 % less.
+// Measured at 40 frames of nine panels of the default city: quality 70 makes 3.2 MB, 75 3.4, 60 2.8. Method 4
+// (libwebp's default) takes 6.7 s of CPU time, method 2 5.2 and makes 5 % more bytes, method 6 30 s and 6 %
+// less.
 constexpr float quality = 70.0f;
 constexpr int method = 4;
-// Between key frames, pixels that hardly change are left as they were, which shows in skies after a while. Key frames
-// only would make a quarter more bytes, one in 5 to 10 makes 2 % more.
+// Between key frames, pixels that hardly change are left as they were, which shows in skies after a while.
+// Key frames only would make a quarter more bytes, one in 5 to 10 makes 2 % more.
 constexpr int shortest_between_keys = 5, longest_between_keys = 10;
 
 }  // namespace

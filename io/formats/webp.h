@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Animated pictures as WebP (RFC 9649), lossy, written by libwebp: the same frames always give the same bytes (of one
-// libwebp).
+// Animated pictures as WebP (RFC 9649), lossy, written by libwebp: the same frames always give the same bytes
+// (of one libwebp).
 #pragma once
 
 #include <cstdint>

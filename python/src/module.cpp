@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer protocol, so that any
-// version of NumPy takes them and nothing is copied; descriptions go as JSON.
+// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer
+// protocol, so that any version of NumPy takes them and nothing is copied; descriptions go as JSON.
 #include <chrono>
 #include <cstring>
 #include <pybind11/functional.h>
@@ -94,8 +94,8 @@ std::vector<dvec3> points_of(const py::buffer& buffer) {
   return points;
 }
 
-/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in the midst of
-/// long work, too (core/watch.h).
+/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in
+/// the midst of long work, too (core/watch.h).
 class CallWatch : public Watch {
  public:
   explicit CallWatch(py::object progress = py::none()) : progress_(std::move(progress)) {}
@@ -206,8 +206,9 @@ py::object next(Stream& stream) {
   return py::make_tuple(packet->tick, packet->time_ns, records);
 }
 
-/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the process that
-/// made the object nothing is deleted: the device's threads and whoever held its locks are not there, it would wait for ever.
+/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the
+/// process that made the object nothing is deleted: the device's threads and whoever held its locks are not
+/// there, it would wait for ever.
 struct ReleasedDelete {
   pid_t maker = ::getpid();
   template <typename T>

@@ -197,7 +197,8 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
       {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
-  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths are a run's.
+  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths
+  // are a run's.
   for (const auto& [name, count] : counters)
     if (name.starts_with("candidate"))
       json["counters"][name] = count;

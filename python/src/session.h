@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they are needed.
-// Nothing here knows Python; every call may come from any thread.
+// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they
+// are needed. Nothing here knows Python; every call may come from any thread.
 #pragma once
 
 #include <atomic>
@@ -27,8 +27,8 @@ namespace greatx::python {
 class PathSet;
 class Stream;
 
-/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something would wait for
-/// itself for ever.
+/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something
+/// would wait for itself for ever.
 class SessionMutex {
  public:
   void lock() {
@@ -81,7 +81,8 @@ class Session {
   Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device);
   ~Session();
 
-  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in messages.
+  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in
+  /// messages.
   void add_nodes(const std::string& text, const std::string& where);
   /// Its channels; their antennas are by name those of this scenario. `no_receivers`: points only.
   void add_channels(const std::string& text, const std::string& where, bool no_receivers);

@@ -20,8 +20,8 @@ class Stream {
 
   /// Name, kind, arrays and metadata of each sensor, as JSON; index = Record::sensor.
   std::string sensors() const;
-  /// None: the sequence is over. Throws UserError after a call that ended with an error or was interrupted: the tick that it
-  /// was in is lost.
+  /// None: the sequence is over. Throws UserError after a call that ended with an error or was interrupted:
+  /// the tick that it was in is lost.
   std::optional<Packet> next();
   /// Counters and notes of the run so far, as JSON.
   std::string summary();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dispersion, an option: walls and air that change over the channel's band. Without it every subcarrier has the
-// carrier's.
+// Dispersion, an option: walls and air that change over the channel's band. Without it every subcarrier has
+// the carrier's.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,14 @@
 
 namespace greatx::rf {
 
-/// The field at every subcarrier: permittivities, the slabs' phases, roughness, diffraction, gas, rain, fog and foliage
-/// of its own frequency. Each subcarrier is worked out exactly; nothing is interpolated (a wall of half a metre has a
-/// resonance every 120 MHz, and a material's row may end within the band). At the carrier's subcarrier it is what
-/// path_field says, to the bit.
+/// The field at every subcarrier: permittivities, the slabs' phases, roughness, diffraction, gas, rain, fog
+/// and foliage of its own frequency. Each subcarrier is worked out exactly; nothing is interpolated (a wall
+/// of half a metre has a resonance every 120 MHz, and a material's row may end within the band). At the
+/// carrier's subcarrier it is what path_field says, to the bit.
 ///
-/// What stays the carrier's: lambda/4 pi and the arrays' phases (rf/channel/frequency_response.h), the Doppler shift, and the random phases
-/// of scattering patches. Delay and phase of the air are those of vacuum at every frequency.
+/// What stays the carrier's: lambda/4 pi and the arrays' phases (rf/channel/frequency_response.h), the
+/// Doppler shift, and the random phases of scattering patches. Delay and phase of the air are those of vacuum
+/// at every frequency.
 class Dispersion {
  public:
   /// `carrier`: the model of the grid's carrier, of facets of `scene`; spectrum() reads the wedges that it

@@ -30,15 +30,17 @@ enum class EchoTracing : uint8_t {
 struct EchoOptions {
   FieldOfView field_of_view;
   uint32_t tubes = 6000;  ///< of the field of view, before subdivision
-  /// Surfaces that a tube meets, 1 to most_bounces. From 3 on a monostatic radar sees targets over mirrors, out and back over
-  /// the same one, with so many bounces on the target itself: the mirror does not count.
+  /// Surfaces that a tube meets, 1 to most_bounces. From 3 on a monostatic radar sees targets over mirrors,
+  /// out and back over the same one, with so many bounces on the target itself: the mirror does not count.
   uint32_t max_bounces = 3;
-  /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their distance, metres.
+  /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their
+  /// distance, metres.
   double target_tube_m = 0.03;
-  /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says to what).
+  /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says
+  /// to what).
   uint32_t target_budget = 4096;
-  /// The same for where a monostatic radar sees targets over mirrors: tubes that it may add there on top. 0: the images of
-  /// targets are seen by the tubes that happen to be there.
+  /// The same for where a monostatic radar sees targets over mirrors: tubes that it may add there on top. 0:
+  /// the images of targets are seen by the tubes that happen to be there.
   uint32_t mirror_budget = 2048;
   bool moving_targets = true;
   std::vector<uint32_t> targets;  ///< indices into Scene::instances
@@ -46,11 +48,11 @@ struct EchoOptions {
   /// A surface nearer than this to an end is inside its antenna: an error that names it. Metres.
   double antenna_radius_m = 0.02;
 
-  /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body of this
-  /// radar cross-section even for a perfect conductor, m^2. 0: nothing is.
+  /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body
+  /// of this radar cross-section even for a perfect conductor, m^2. 0: nothing is.
   double border_floor_m2 = 1e-5;
-  /// The same for what the receiver's noise hides (hidden_section_m2()): that of a body 1 m away from both ends; it grows with
-  /// the square of the distance of each. 0: nothing is hidden. m^2.
+  /// The same for what the receiver's noise hides (hidden_section_m2()): that of a body 1 m away from both
+  /// ends; it grows with the square of the distance of each. 0: nothing is hidden. m^2.
   double hidden_floor_m2 = 0.0;
 
   bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
@@ -59,8 +61,9 @@ struct EchoOptions {
   double diffuse_patch_m = 0.25;  ///< side of the patches whose phases are drawn together
   uint64_t seed = 1;              ///< of those phases
 
-  /// Tubes become one echo if they fall into one cell of delay, delay rate and direction at both ends, by `merge_share` of
-  /// what an output can tell apart: 1/bandwidth, wavelength/frame, `beam_rad`. 0: nothing is merged.
+  /// Tubes become one echo if they fall into one cell of delay, delay rate and direction at both ends, by
+  /// `merge_share` of what an output can tell apart: 1/bandwidth, wavelength/frame, `beam_rad`. 0: nothing is
+  /// merged.
   double merge_share = 0.125;
   double bandwidth_hz = 1e9;
   double beam_rad = 0.1;

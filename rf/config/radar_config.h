@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a radar is: its waveform, its elements, its receiver and what is made of the signal. Plain data; docs/radar.md.
+// What a radar is: its waveform, its elements, its receiver and what is made of the signal. Plain data;
+// docs/radar.md.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +17,11 @@ namespace greatx::rf {
 
 /// A train of equal linear ramps (frequency-modulated continuous wave), one transmitter at a time.
 ///
-/// Slot s is the s-th ramp of a frame; transmitter s % transmitters sends it, as chirp s / transmitters of its own (TDM). A
-/// frame begins at the start of the first ramp. Sample n of slot s is taken at
+/// Slot s is the s-th ramp of a frame; transmitter s % transmitters sends it, as chirp s / transmitters of
+/// its own (TDM). A frame begins at the start of the first ramp. Sample n of slot s is taken at
 ///   t = s interval_s + adc_start_s + n / sample_rate_hz,
-/// and the ramp passes `carrier_hz` at sample samples/2 (rounded down), the middle of what is sampled: f_c of every formula,
-/// and of every wavelength.
+/// and the ramp passes `carrier_hz` at sample samples/2 (rounded down), the middle of what is sampled: f_c of
+/// every formula, and of every wavelength.
 struct RadarWaveform {
   double carrier_hz = 77e9;
   double slope_hz_per_s = 20e12;  ///< S
@@ -45,7 +46,8 @@ struct RadarWaveform {
   double repetition_s() const { return transmitters * interval_s; }
   /// lambda/(2 M T), T = repetition_s().
   double velocity_bin_m_s() const { return wavelength_m() / (2.0 * chirps() * repetition_s()); }
-  /// lambda/(2 T): velocities are known up to multiples of it; what is shown lies in [-v_max, v_max), v_max half of it.
+  /// lambda/(2 T): velocities are known up to multiples of it; what is shown lies in [-v_max, v_max), v_max
+  /// half of it.
   double velocity_span_m_s() const { return wavelength_m() / (2.0 * repetition_s()); }
   double slot_start_s(uint32_t slot) const { return slot * interval_s; }
   /// Time of the sample at which slot's ramp passes carrier_hz.
@@ -62,9 +64,10 @@ struct RadarArrays {
   std::vector<dvec3> receive_m{dvec3(0.0)};   ///< [receivers]
 };
 
-/// Phase noise of the one oscillator that makes the ramp and mixes the echo: a stationary Gaussian phase whose spectrum is
-/// L(f) = L_0/(1 + (f/f_p)^2), dBc/Hz on each side: the pole of IEEE 802.11-09/0296r16, "TGad Evaluation Methodology",
-/// 4.4 (there L_0 = -90 dBc/Hz, f_p = 1 MHz, and a zero at 100 MHz, far beyond a radar's samples, which is left out).
+/// Phase noise of the one oscillator that makes the ramp and mixes the echo: a stationary Gaussian phase
+/// whose spectrum is L(f) = L_0/(1 + (f/f_p)^2), dBc/Hz on each side: the pole of IEEE 802.11-09/0296r16,
+/// "TGad Evaluation Methodology", 4.4 (there L_0 = -90 dBc/Hz, f_p = 1 MHz, and a zero at 100 MHz, far beyond
+/// a radar's samples, which is left out).
 struct PhaseNoise {
   double level_dbc_hz = -90.0;  ///< L_0
   double pole_hz = 1e6;         ///< f_p

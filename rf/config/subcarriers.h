@@ -12,9 +12,10 @@
 
 namespace greatx::rf {
 
-/// Subcarriers of `spacing_hz` that lie wholly within `bandwidth_hz`: floor(bandwidth/spacing), where a quotient within
-/// 1e-9 of a whole number is that number (20 MHz / 15 kHz: 1333; 0.3 / 0.1: 3). No guard bands: give the bandwidth that is
-/// occupied. Both finite and above 0, the spacing at most the bandwidth, the result below 2^32.
+/// Subcarriers of `spacing_hz` that lie wholly within `bandwidth_hz`: floor(bandwidth/spacing), where a
+/// quotient within 1e-9 of a whole number is that number (20 MHz / 15 kHz: 1333; 0.3 / 0.1: 3). No guard
+/// bands: give the bandwidth that is occupied. Both finite and above 0, the spacing at most the bandwidth,
+/// the result below 2^32.
 inline uint32_t subcarrier_count(double bandwidth_hz, double spacing_hz) {
   GREATX_CHECK(std::isfinite(bandwidth_hz) && spacing_hz > 0.0 && std::isfinite(spacing_hz),
                "subcarriers of {} Hz in {} Hz", spacing_hz, bandwidth_hz);

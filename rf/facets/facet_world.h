@@ -55,8 +55,9 @@ class FacetWorld {
   /// Is a point of the facet's plane inside? The facet is closed: its outline, and the edges between its own
   /// triangles, are part of it, within tolerance_m.
   bool contains(uint32_t facet, const dvec2& plane_coordinates) const;
-  /// Corners of one of the facet's triangles (below its triangle_count), local coordinates, as the mesh has them: off the
-  /// facet's plane by up to the merging tolerance. Triangles without area are none of the facet's.
+  /// Corners of one of the facet's triangles (below its triangle_count), local coordinates, as the mesh has
+  /// them: off the facet's plane by up to the merging tolerance. Triangles without area are none of the
+  /// facet's.
   std::array<dvec3, 3> corners(uint32_t facet, uint32_t triangle) const;
   /// Velocity of the facet's body at a point, m/s.
   dvec3 velocity(uint32_t facet, const dvec3& point) const;

@@ -74,8 +74,8 @@ FoliageVolumes::FoliageVolumes(const scene::Scene& scene, const FacetKinds& kind
   if (!boxes_.empty()) make_grid();
 }
 
-/// +1 at one corner of a box and -1 at its neighbours, then running sums along each axis: as fast for one box around the
-/// whole city as for a thousand small ones.
+/// +1 at one corner of a box and -1 at its neighbours, then running sums along each axis: as fast for one box
+/// around the whole city as for a thousand small ones.
 void FoliageVolumes::make_grid() {
   scene::Bounds all;
   for (const scene::Bounds& box : boxes_) all.add(grown(box, room_m));

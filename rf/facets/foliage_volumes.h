@@ -14,8 +14,8 @@
 
 namespace greatx::rf {
 
-/// The foliage of the static world, as boxes around the volumes and a grid of the cells that they touch. A volume is what
-/// facets of foliage enclose that touch each other, within `touch_m`.
+/// The foliage of the static world, as boxes around the volumes and a grid of the cells that they touch. A
+/// volume is what facets of foliage enclose that touch each other, within `touch_m`.
 class FoliageVolumes {
  public:
   static constexpr double touch_m = 0.01;

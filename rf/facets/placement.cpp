@@ -18,8 +18,9 @@ namespace {
 
 constexpr size_t rays_around = 8, rays_above = 1 + rays_around, rays = rays_above + rays_around;
 
-/// Upwards, then all around 8 degrees over the horizon, where what has no floor is closed, but what covers a lot as well;
-/// then along the horizon, where only walls are met. No other direction lies in a plane that people build.
+/// Upwards, then all around 8 degrees over the horizon, where what has no floor is closed, but what covers a
+/// lot as well; then along the horizon, where only walls are met. No other direction lies in a plane that
+/// people build.
 std::array<dvec3, rays> directions() {
   std::array<dvec3, rays> all{glm::normalize(dvec3(0.0123, 0.0079, 1.0))};
   for (size_t i = 1; i < rays; ++i) {
@@ -38,16 +39,16 @@ double tolerance_of(const dvec3& point, const dvec3& corner) {
       static_cast<float>(std::max(largest_coordinate(point), largest_coordinate(corner))));
 }
 
-/// On which side of an edge a ray from the origin passes. The two triangles of an edge ask with its ends in opposite
-/// order and get opposite answers, whatever the rounding, so that exactly one of them meets the ray.
+/// On which side of an edge a ray from the origin passes. The two triangles of an edge ask with its ends in
+/// opposite order and get opposite answers, whatever the rounding, so that exactly one of them meets the ray.
 bool left_of(const dvec3& direction, const dvec3& from, const dvec3& to) {
   const bool swapped = std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
   const dvec3 &low = swapped ? to : from, &high = swapped ? from : to;
   return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
 }
 
-/// Nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time Collision Detection",
-/// 5.1.5).
+/// Nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time Collision
+/// Detection", 5.1.5).
 dvec3 nearest_on(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
   const auto on_side = [&](const dvec3& from, const dvec3& to) {
     const dvec3 along = to - from;
@@ -150,7 +151,8 @@ uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, cons
   return Placement::none;
 }
 
-/// Whether what is met first straight below is the top of something: the point is over a floor, not in the ground.
+/// Whether what is met first straight below is the top of something: the point is over a floor, not in the
+/// ground.
 bool Surroundings::floor_below(const Shell& shell, const dvec3& point) const {
   const double reach = std::max(0.0, point.z - shell.bounds.min.z) + 1.0;
   const std::vector<Hit> list = hits(shell, point, -directions()[0], 2.0 * reach);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where an end of a channel stands: free, inside a solid, beneath an open surface, inside foliage, exactly on a surface.
-// fp64, on the host.
+// Where an end of a channel stands: free, inside a solid, beneath an open surface, inside foliage, exactly on
+// a surface. fp64, on the host.
 #pragma once
 
 #include <cstdint>
@@ -32,26 +32,29 @@ struct Placement {
 
 /// The facets of a scene, ready to be asked where a point stands among them.
 ///
-/// Inside a solid: of 17 rays, one upwards, eight all around just over the horizon and eight along it, each comes out of
-/// more surfaces than it went into, counted from the point to somewhere on its way (normals point out of what is solid).
-/// For a closed mesh this is the winding number; and it holds, too, for what files have instead: houses without a floor,
-/// walls and roof as two objects, furniture within. A room whose normals point inwards is not solid, nor is what is under
-/// a roof without walls however wide (rays along the horizon find no wall), or behind walls with a hole that one of the
-/// rays finds. Rays that meet an edge between two triangles meet one of them. Meshes without consistent winding give
-/// chance answers.
+/// Inside a solid: of 17 rays, one upwards, eight all around just over the horizon and eight along it, each
+/// comes out of more surfaces than it went into, counted from the point to somewhere on its way (normals
+/// point out of what is solid). For a closed mesh this is the winding number; and it holds, too, for what
+/// files have instead: houses without a floor, walls and roof as two objects, furniture within. A room whose
+/// normals point inwards is not solid, nor is what is under a roof without walls however wide (rays along the
+/// horizon find no wall), or behind walls with a hole that one of the rays finds. Rays that meet an edge
+/// between two triangles meet one of them. Meshes without consistent winding give chance answers.
 ///
-/// Beneath an open surface: the first nine rays come out of one, some along the horizon do not, and downwards nothing is
-/// met that a ray goes into, as under a bridge; of the static world alone. So is a point below a ground that is a sheet.
+/// Beneath an open surface: the first nine rays come out of one, some along the horizon do not, and downwards
+/// nothing is met that a ray goes into, as under a bridge; of the static world alone. So is a point below a
+/// ground that is a sheet.
 ///
-/// On a surface: within shared::visibility_tolerance of a facet (rf/paths/crossings.h): the surface does not stand in the
-/// point's way to either side.
+/// On a surface: within shared::visibility_tolerance of a facet (rf/paths/crossings.h): the surface does not
+/// stand in the point's way to either side.
 class Surroundings {
  public:
-  /// `kinds` [facets of the scene]; absent facets are left out. `scene` is read by every call and must outlive this.
+  /// `kinds` [facets of the scene]; absent facets are left out. `scene` is read by every call and must
+  /// outlive this.
   Surroundings(const scene::Scene& scene, const FacetKinds& kinds);
 
-  /// `point` in local coordinates, `body_poses` [bodies of the scene] as they stand. Facets of `own_body`, which carries
-  /// the point, do not count; 0: none does. Each body is judged alone, the static world first. Thread-safe.
+  /// `point` in local coordinates, `body_poses` [bodies of the scene] as they stand. Facets of `own_body`,
+  /// which carries the point, do not count; 0: none does. Each body is judged alone, the static world first.
+  /// Thread-safe.
   Placement of(const dvec3& point, std::span<const Pose> body_poses, uint32_t own_body = 0) const;
 
  private:
@@ -76,7 +79,8 @@ class Surroundings {
   std::vector<Shell> shells_;  ///< by body, hard ones before foliage
 };
 
-/// What a placement means for what the point sees, as in "lies inside 'house' (material brick): ..."; "is free" if it is.
+/// What a placement means for what the point sees, as in "lies inside 'house' (material brick): ..."; "is
+/// free" if it is.
 std::string describe(const Placement& placement, const scene::Scene& scene, const FacetKinds& kinds);
 
 }  // namespace greatx::rf

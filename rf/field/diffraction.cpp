@@ -25,8 +25,8 @@ dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
 
 dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
 
-/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)? Very near the edge the
-/// tolerance would be any angle.
+/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)? Very near the
+/// edge the tolerance would be any angle.
 bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
   const double off = std::abs(face.x * at.y - face.y * at.x);
   return off <= tolerance && off <= 0.05 * glm::dot(face, at);
@@ -37,9 +37,10 @@ struct FaceReflection {
   Complex beta_beta, beta_phi, phi_beta, phi_phi;
 };
 
-/// The specular reflection of a ray that meets a face at `angle` about the edge, whose direction from a to b makes
-/// `cos_beta0` with it, phi counted from that face. With N = sqrt(cos^2 angle + cos^2 beta_0 sin^2 angle), s = k x n is
-/// (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi') and (cos angle, cos beta_0 sin angle)/N on (beta_0, phi); p = k x s.
+/// The specular reflection of a ray that meets a face at `angle` about the edge, whose direction from a to b
+/// makes `cos_beta0` with it, phi counted from that face. With N = sqrt(cos^2 angle + cos^2 beta_0 sin^2
+/// angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi') and (cos angle, cos beta_0
+/// sin angle)/N on (beta_0, phi); p = k x s.
 FaceReflection face_reflection(double angle, double cos_beta0, const FresnelCoefficients& r) {
   double c = std::cos(angle), d = cos_beta0 * std::sin(angle);
   const double norm = std::hypot(c, d);

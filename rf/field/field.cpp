@@ -84,8 +84,8 @@ dvec3 any_perpendicular(const dvec3& k) {
   return glm::normalize(glm::cross(k, axis));
 }
 
-/// s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM, t_TE = t_TM to
-/// 1e-16: any s gives the same field.
+/// s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM, t_TE =
+/// t_TM to 1e-16: any s gives the same field.
 dvec3 across(const dvec3& k, const dvec3& normal) {
   const dvec3 product = glm::cross(k, normal);
   const double sine = glm::length(product);

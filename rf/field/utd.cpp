@@ -14,8 +14,8 @@ namespace {
 constexpr Complex j{0.0, 1.0};
 constexpr int node_count = 12;
 
-/// The midpoint rule's nodes t_k = (k + 1/2) h and weights e^{-t_k^2}; h balances the rule's error e^{-(pi/h)^2} with the
-/// truncated tail e^{-(node_count h)^2}.
+/// The midpoint rule's nodes t_k = (k + 1/2) h and weights e^{-t_k^2}; h balances the rule's error
+/// e^{-(pi/h)^2} with the truncated tail e^{-(node_count h)^2}.
 struct MidpointRule {
   double step;
   std::array<double, node_count> squared_node, weight;
@@ -59,7 +59,8 @@ double y_cot_y(double y) { return y == 0.0 ? 1.0 : y / std::tan(y); }
 Complex term_value(uint32_t term, double delta, double n, double wave_times_distance) {
   const double half = 0.5 * delta, sine = std::abs(std::sin(half));
   const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
-  // On the boundary itself: the lit side, which is delta > 0 for the terms with + pi and delta < 0 for the others.
+  // On the boundary itself: the lit side, which is delta > 0 for the terms with + pi and delta < 0 for the
+  // others.
   const double side = delta != 0.0 ? std::copysign(1.0, delta) : adds_pi(term) ? 1.0 : -1.0;
   const double sign = adds_pi(term) ? -side : side;
   return 0.5 * sign * sinc * y_cot_y(0.5 * delta / n) *
@@ -87,7 +88,8 @@ Complex erfcx_on_diagonal(double w) {
   }
   const double scale = std::sqrt(2.0) * w * rule.step / pi;  // 2 z h/pi = scale (1 + j)
   Complex value(scale * (re - im), scale * (re + im));
-  // The pole at t = jz, which the rule steps over: 2 e^{z^2}/(1 + e^{2 pi z/h}). Beyond e^{-40} it is nothing.
+  // The pole at t = jz, which the rule steps over: 2 e^{z^2}/(1 + e^{2 pi z/h}). Beyond e^{-40} it is
+  // nothing.
   const double decay = std::sqrt(2.0) * pi * w / rule.step;
   if (decay < 40.0) {
     const Complex shrunk = std::polar(std::exp(-decay), -decay);
@@ -114,7 +116,8 @@ UtdAngles utd_angles(double n, double incident, double observed) {
 }
 
 UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
-  // Into [0, n pi]. A point on a face may be off it by its tolerance, which is an angle to reckon with near the edge.
+  // Into [0, n pi]. A point on a face may be off it by its tolerance, which is an angle to reckon with near
+  // the edge.
   const double wide = n * pi;
   const auto from_face_0 = [&](const dvec2& direction) {
     const double turned = std::atan2(direction.y, direction.x);

@@ -18,16 +18,18 @@ struct PlaneWindow {
   friend bool operator==(const PlaneWindow&, const PlaneWindow&) = default;
 };
 
-/// Facet sequences, flat, each from the end that was searched from (the source: transmitter or receiver) outwards:
-/// the reflecting facets alone, walls that a path passes through are none of them. The empty sequence stands for the
-/// line of sight: it is looked at only if the list holds it. Canonical order: by depth, then by facet indices; no
-/// duplicates.
+/// Facet sequences, flat, each from the end that was searched from (the source: transmitter or receiver)
+/// outwards: the reflecting facets alone, walls that a path passes through are none of them. The empty
+/// sequence stands for the line of sight: it is looked at only if the list holds it. Canonical order: by
+/// depth, then by facet indices; no duplicates.
 struct CandidateList {
   std::vector<uint32_t> facets;      ///< all sequences, one after the other
   std::vector<uint32_t> offsets{0};  ///< [size + 1] into facets
-  /// [size] or empty (not known): where on its last facet a sequence can be reflected at all. Never too small.
+  /// [size] or empty (not known): where on its last facet a sequence can be reflected at all. Never too
+  /// small.
   std::vector<PlaneWindow> windows;
-  /// [size + 1] or empty (not searched for), into `wedges`: wedges that the sequence's beam may reach, ascending.
+  /// [size + 1] or empty (not searched for), into `wedges`: wedges that the sequence's beam may reach,
+  /// ascending.
   std::vector<uint32_t> wedge_offsets;
   std::vector<uint32_t> wedges;
 

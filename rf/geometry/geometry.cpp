@@ -139,8 +139,8 @@ bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) 
   return true;
 }
 
-/// By which a node's window is wider than trace() asks for, so that no path that exists is lost before. Roundings of u and
-/// v grow with the distance to the image, not with the facet.
+/// By which a node's window is wider than trace() asks for, so that no path that exists is lost before.
+/// Roundings of u and v grow with the distance to the image, not with the facet.
 double ImageTree::room(const Node& node, double tolerance_m) {
   return 2.0 * tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
 }

@@ -41,12 +41,12 @@ enum class Source : uint32_t { transmitter, receiver };
 /// A target's paths depend on that target alone: solving it among others gives the same bits.
 class ImageTree {
  public:
-  /// `candidates`, in canonical order, run from the source, whichever end that is; their windows, if they have any, are
-  /// used as bounds. `world` is read by solve() and must outlive the tree.
+  /// `candidates`, in canonical order, run from the source, whichever end that is; their windows, if they
+  /// have any, are used as bounds. `world` is read by solve() and must outlive the tree.
   ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
             Source end = Source::transmitter);
-  /// Works the images out again: the source has moved, or a body with candidate facets has. Windows hold for the source
-  /// and the bodies that they were searched for: they are dropped.
+  /// Works the images out again: the source has moved, or a body with candidate facets has. Windows hold for
+  /// the source and the bodies that they were searched for: they are dropped.
   void update(const dvec3& source);
   /// Every path between the source and `target`, from transmitter to receiver, in canonical order of the
   /// sequences.
@@ -56,15 +56,16 @@ class ImageTree {
   const dvec3& source() const { return source_; }
   Source end() const { return end_; }
 
-  /// The ends of chains that go on after their reflections (a diffraction, a scattering). `sequence` is an index into the
-  /// candidates that the tree was built from.
+  /// The ends of chains that go on after their reflections (a diffraction, a scattering). `sequence` is an
+  /// index into the candidates that the tree was built from.
   size_t sequence_count() const { return node_of_sequence_.size(); }
   /// Number of reflections of a sequence.
   uint32_t depth(size_t sequence) const;
   /// The source, mirrored at every facet of the sequence.
   const dvec3& image(size_t sequence) const;
-  /// The reflections by which the sequence leads from the source to `point`: appends them and their points to `path`,
-  /// outwards from the source, without the source and without `point`. False, and nothing appended, if it does not.
+  /// The reflections by which the sequence leads from the source to `point`: appends them and their points to
+  /// `path`, outwards from the source, without the source and without `point`. False, and nothing appended,
+  /// if it does not.
   bool reach(size_t sequence, const dvec3& point, GeometricPath& path) const;
 
  private:

@@ -16,8 +16,8 @@ struct Bound {
   float at, slope;
 };
 
-/// u_hit = (u D + U d)/(d + D) >= m is U >= m + D (m - u)/d, for an image at distance d and a point at D on either side.
-/// Rounded outwards; open where fp32 cannot tell: the image is all but in the plane.
+/// u_hit = (u D + U d)/(d + D) >= m is U >= m + D (m - u)/d, for an image at distance d and a point at D on
+/// either side. Rounded outwards; open where fp32 cannot tell: the image is all but in the plane.
 Bound lower(double m, double u, double d) {
   const double slope = (m - u) / d;
   if (!(std::abs(slope) < 1e18 && std::abs(m) < 1e18)) return {-open, 0.0f};

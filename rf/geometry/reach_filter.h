@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which of very many images may be seen from a point? A first look in fp32, many at a time, that never says no to what the
-// exact test would accept.
+// Which of very many images may be seen from a point? A first look in fp32, many at a time, that never says
+// no to what the exact test would accept.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace greatx::rf {
 
-/// An image in the plane coordinates of the facet that it was mirrored at, and the rectangle of that facet through which it
-/// can be seen, grown by whatever tolerance counts as inside.
+/// An image in the plane coordinates of the facet that it was mirrored at, and the rectangle of that facet
+/// through which it can be seen, grown by whatever tolerance counts as inside.
 struct ImageWindow {
   uint32_t group = 0;     ///< facet, numbered without gaps
   double distance = 0.0;  ///< signed, of the image from the plane, metres
@@ -24,8 +24,9 @@ class ReachFilter {
  public:
   /// `index` of an image is its place in `images`; `groups`: number of facets.
   void build(std::span<const ImageWindow> images, uint32_t groups);
-  /// Appends the indices of the images of `group` that may be seen from a point at (u, v) and signed `distance` from the
-  /// plane: all those whose line to the point passes the rectangle, from one side of the plane to the other, and few more.
+  /// Appends the indices of the images of `group` that may be seen from a point at (u, v) and signed
+  /// `distance` from the plane: all those whose line to the point passes the rectangle, from one side of the
+  /// plane to the other, and few more.
   void collect(uint32_t group, double distance, double u, double v, std::vector<uint32_t>& indices) const;
 
  private:

@@ -22,8 +22,8 @@ shared::GpuFacetPlane plane_of(const scene::Scene& scene, const scene::Facet& fa
   return {vec3(facet.normal), vec3(foot), static_cast<uint32_t>(kind), facet.body};
 }
 
-/// One box for each body that has foliage. Wider than its foliage by far more than fp32 rounds, since a line is to begin
-/// and end outside.
+/// One box for each body that has foliage. Wider than its foliage by far more than fp32 rounds, since a line
+/// is to begin and end outside.
 std::vector<shared::GpuFoliageBox> foliage_boxes(const scene::Scene& scene, const FacetKinds& kinds) {
   std::vector<scene::Bounds> bounds(scene.bodies.size());
   for (size_t i = 0; i < scene.facets.size(); ++i) {
@@ -60,8 +60,8 @@ shared::GpuSegment gpu_segment(const Segment& s, size_t index, const FoliageVolu
 
 }  // namespace
 
-/// In which order segments are traced: first those that hang on none, in their order, then the others by the one that they
-/// hang on, so that what is not looked at lies together.
+/// In which order segments are traced: first those that hang on none, in their order, then the others by the
+/// one that they hang on, so that what is not looked at lies together.
 struct CrossingPass::Rows {
   explicit Rows(std::span<const Segment> batch);
   std::vector<uint32_t> of;        ///< [segments]

@@ -118,8 +118,8 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
 }
 
-/// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of the wedge's
-/// field (edge_dyadic).
+/// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of
+/// the wedge's field (edge_dyadic).
 Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidates) const {
   const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
     const scene::Wedge& wedge = model_->wedges[index];
@@ -140,15 +140,16 @@ Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidate
   return arrivals;
 }
 
-/// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the answer] where
-/// on the facet; or empty.
+/// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the
+/// answer] where on the facet; or empty.
 Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
                                                   std::vector<PlaneWindow>& windows) const {
   struct Pair {
     uint32_t facet, prefix, sequence;
   };
   std::vector<Pair> pairs;
-  // In the canonical order a sequence comes after the one without its last facet, and so do their order's neighbours.
+  // In the canonical order a sequence comes after the one without its last facet, and so do their order's
+  // neighbours.
   uint32_t prefix = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     const auto facets = candidates.sequence(i);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths with a diffraction or a scattering in the middle: reflections from the source to a wedge or a patch (prefix),
-// reflections from there to the target (suffix). Prefixes come from the source's candidates, suffixes from a search at
-// the target; they meet at the wedge or the patch.
+// Paths with a diffraction or a scattering in the middle: reflections from the source to a wedge or a patch
+// (prefix), reflections from there to the target (suffix). Prefixes come from the source's candidates,
+// suffixes from a search at the target; they meet at the wedge or the patch.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct Patch {
   double area_m2 = 0.0;
 };
 
-/// Cuts every facet whose material scatters into triangles with sides of at most `side_m` (each cut halves the longest
-/// side), in the order of its triangles. Throws UserError if there are more than `most`.
+/// Cuts every facet whose material scatters into triangles with sides of at most `side_m` (each cut halves
+/// the longest side), in the order of its triangles. Throws UserError if there are more than `most`.
 std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
                                       size_t most = 10'000'000);
 
@@ -36,13 +36,15 @@ class Midpoints {
   /// there is a search at every target. `moving_bodies`: facets of bodies other than 0 reflect.
   Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
 
-  /// Which sequences lead to which wedges and patches; `tree` is built from the same candidates, which list wedges if
-  /// diffraction is on. Patches outside the window of their facet are left out: nothing of the beam gets there.
+  /// Which sequences lead to which wedges and patches; `tree` is built from the same candidates, which list
+  /// wedges if diffraction is on. Patches outside the window of their facet are left out: nothing of the beam
+  /// gets there.
   void set_candidates(const CandidateList& candidates, const ImageTree& tree);
   /// The source of `tree` has moved, or bodies have: windows hold no more.
   void move(const ImageTree& tree);
-  /// Appends every such path between the source of `tree` (as it was given last) and `target` (carried by `target_body`),
-  /// from transmitter to receiver, in no particular order. What the search at the target left out.
+  /// Appends every such path between the source of `tree` (as it was given last) and `target` (carried by
+  /// `target_body`), from transmitter to receiver, in no particular order. What the search at the target left
+  /// out.
   LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
                 std::vector<GeometricPath>& paths) const;
 

@@ -31,8 +31,8 @@ struct Passage {
   dvec3 point{0.0};
 };
 
-/// Where the segment meets the planes of these walls, in its own order. Two walls in one plane met at one point (a
-/// seam, a wall that the file has twice) are one.
+/// Where the segment meets the planes of these walls, in its own order. Two walls in one plane met at one
+/// point (a seam, a wall that the file has twice) are one.
 std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_t>& walls, const dvec3& a,
                               const dvec3& b) {
   std::vector<Passage> list;
@@ -80,14 +80,15 @@ std::optional<size_t> bend_of(const GeometricPath& path) {
   return std::nullopt;
 }
 
-/// Segments straight from a patch to an end of the link (0: the transmitter, 1: the receiver): all paths that are scattered
-/// there share them. Looked up only, never walked.
+/// Segments straight from a patch to an end of the link (0: the transmitter, 1: the receiver): all paths that
+/// are scattered there share them. Looked up only, never walked.
 struct StraightToPatches {
   std::unordered_map<uint64_t, uint32_t> to[2];
 };
 
-/// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first, where it leads
-/// straight to an end, and the others only if that one is clear. `segments` from `first` on are the path's.
+/// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first,
+/// where it leads straight to an end, and the others only if that one is clear. `segments` from `first` on
+/// are the path's.
 void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
                  StraightToPatches& straight) {
   const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;
@@ -98,7 +99,8 @@ void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vect
   if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
   const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
   const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
-  // The paths that may pass most walls, those of fewest interactions, come first. finish() counts walls again.
+  // The paths that may pass most walls, those of fewest interactions, come first. finish() counts walls
+  // again.
   if (!is_new && segments[known->second].walls >= segments[leader].walls)
     segments[leader].same_as = known->second;
 }

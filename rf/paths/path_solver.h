@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From candidates to fields for the links of one source (a transmitter, or a receiver that stands still) to any number
-// of targets, in three steps around the GPU's answer to what stands in the way:
+// From candidates to fields for the links of one source (a transmitter, or a receiver that stands still) to
+// any number of targets, in three steps around the GPU's answer to what stands in the way:
 //
 //   geometry(target) ─► add_segments() ─► CrossingPass ─► finish()
 //
-// Each step reads the solver and writes nothing to it: targets may be solved side by side, and a target's paths depend on
-// that target alone.
+// Each step reads the solver and writes nothing to it: targets may be solved side by side, and a target's
+// paths depend on that target alone.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ struct LinkGeometry {
   LeftOut searched = {};             ///< of the search at the target
 };
 
-/// Takes what is beyond `most` paths (in canonical order, before and after) off a link, and counts it: scattering first, then
-/// diffraction, the longest chains before others.
+/// Takes what is beyond `most` paths (in canonical order, before and after) off a link, and counts it:
+/// scattering first, then diffraction, the longest chains before others.
 void keep_most(LinkGeometry& link, uint64_t most);
 
 class PathSolver {

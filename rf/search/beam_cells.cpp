@@ -124,8 +124,8 @@ void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_
   settle_leaf(rect, first);
 }
 
-/// Constraints of a polygon's rays: its edges, moved outwards by the clearance so that no gaps are left between
-/// neighbours, and that they start well before it.
+/// Constraints of a polygon's rays: its edges, moved outwards by the clearance so that no gaps are left
+/// between neighbours, and that they start well before it.
 std::span<const HalfPlane> BeamCells::outline(uint32_t polygon, const ViewFacet& facet) {
   Outline& known = outlines_[polygon];
   if (known.count == 0) {

@@ -23,8 +23,8 @@ struct Corner {
 
 bool same_place(const Corner& a, const Corner& b) { return a.body == b.body && a.position == b.position; }
 
-/// Numbers the places that corners stand at: equal coordinates of one body are one vertex, for the mesh that is traced
-/// has no gap there. Corners that merely stand near each other are not welded.
+/// Numbers the places that corners stand at: equal coordinates of one body are one vertex, for the mesh that
+/// is traced has no gap there. Corners that merely stand near each other are not welded.
 std::vector<uint32_t> weld(std::vector<Corner>& corners, std::vector<dvec3>& vertices) {
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
     return std::tie(a.body, a.position.x, a.position.y, a.position.z, a.place) <
@@ -48,7 +48,8 @@ class Pieces {
     if (doubled < 0.0) std::swap(triangle[1], triangle[2]);
     loops_.emplace_back(triangle.begin(), triangle.end());
   }
-  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn, 1983).
+  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn,
+  /// 1983).
   void join();
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 

@@ -54,8 +54,8 @@ struct HalfSpace {
 
 class BeamScene {
  public:
-  /// Foliage is left out; so are facets of bodies other than 0, which move, unless `moving_bodies`; and wedges that
-  /// have no face among the rest.
+  /// Foliage is left out; so are facets of bodies other than 0, which move, unless `moving_bodies`; and
+  /// wedges that have no face among the rest.
   BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
             bool moving_bodies);
 

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Candidates by shooting and bouncing: rays leave one point in a Fibonacci lattice and reflect specularly off both sides
-// of every facet they meet; each prefix of the sequence of facets that a ray reflects at is a candidate. At a wall
-// (FacetKind::wall) a ray goes both ways, reflected and straight on: nothing is drawn by lot. Foliage is passed through.
+// Candidates by shooting and bouncing: rays leave one point in a Fibonacci lattice and reflect specularly off
+// both sides of every facet they meet; each prefix of the sequence of facets that a ray reflects at is a
+// candidate. At a wall (FacetKind::wall) a ray goes both ways, reflected and straight on: nothing is drawn by
+// lot. Foliage is passed through.
 //
 // What it may miss: a sequence whose beam, seen from the source, is narrower than the spacing of the rays,
-// sqrt(4 pi / rays) rad. The exact geometry (rf/geometry/geometry.h) turns candidates into paths or throws them out.
+// sqrt(4 pi / rays) rad. The exact geometry (rf/geometry/geometry.h) turns candidates into paths or throws
+// them out.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +28,15 @@ namespace greatx::rf {
 struct CandidateSearchOptions {
   uint32_t rays = 1u << 18;
   uint32_t max_depth = 3;  ///< facets that a ray meets, reflected at or passed, 1 or more
-  /// Walls that a ray passes on its way, as far as max_depth allows: a ray then ends in as many ways as there are
-  /// orders of reflections and transmissions that end with a reflection, ways_per_ray(). 0: walls are opaque.
+  /// Walls that a ray passes on its way, as far as max_depth allows: a ray then ends in as many ways as there
+  /// are orders of reflections and transmissions that end with a reflection, ways_per_ray(). 0: walls are
+  /// opaque.
   uint32_t max_transmissions = 0;
   bool moving_bodies = true;     ///< false: the static world alone, as if nothing that moves were there
   uint64_t capacity = 1u << 22;  ///< at most this many candidates are kept; the rest is counted
   uint32_t max_ways = 64;        ///< of one ray that are kept; the rest is counted
-  /// Bounds the device memory of the keys, rays * ways * max_depth * 4 bytes, by searching in parts. record() needs as
-  /// much host memory as all parts together, search() as one part.
+  /// Bounds the device memory of the keys, rays * ways * max_depth * 4 bytes, by searching in parts. record()
+  /// needs as much host memory as all parts together, search() as one part.
   uint64_t part_bytes = 64u << 20;
 };
 
@@ -41,13 +44,13 @@ struct CandidateSearchResult {
   CandidateList list;     ///< canonical order, no duplicates; the line of sight is not in it
   uint64_t found = 0;     ///< distinct sequences met
   uint64_t left_out = 0;  ///< ways of rays beyond max_ways, which may have been met by other rays or not
-  /// What was left out: sequences beyond the capacity, from the end of the canonical order (the deepest first), and ways
-  /// beyond max_ways. Not zero: say so.
+  /// What was left out: sequences beyond the capacity, from the end of the canonical order (the deepest
+  /// first), and ways beyond max_ways. Not zero: say so.
   uint64_t overflow() const { return found - list.size() + left_out; }
 };
 
-/// Ways that a ray can take through walls alone: the sum of (max_depth - 1 choose t) for t <= max_transmissions.
-/// Saturates at 2^32 - 1.
+/// Ways that a ray can take through walls alone: the sum of (max_depth - 1 choose t) for t <=
+/// max_transmissions. Saturates at 2^32 - 1.
 uint32_t ways_per_ray(uint32_t max_depth, uint32_t max_transmissions);
 
 /// Unit vectors of a Fibonacci lattice on the sphere: z_i = 1 - (2 i + 1) / n, azimuth i / golden ratio turns
@@ -62,8 +65,8 @@ CandidateSearchResult candidates_from_keys(std::span<const uint32_t> keys, uint3
 
 class CandidateSearch {
  public:
-  /// Builds the pipeline and uploads the lattice. `kinds`: [facets of the scene], or empty: all opaque. Throws UserError
-  /// if the device cannot hold so many rays.
+  /// Builds the pipeline and uploads the lattice. `kinds`: [facets of the scene], or empty: all opaque.
+  /// Throws UserError if the device cannot hold so many rays.
   CandidateSearch(scene::GpuScene& scene, const CandidateSearchOptions& options,
                   const FacetKinds& kinds = {});
 

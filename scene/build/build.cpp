@@ -36,8 +36,8 @@ dmat4 scaled_axes(const ModelPlacement& placement) {
 /// What goes into one body: the model_from_... transforms of a placement become body_from_...
 class Frame {
  public:
-  /// world_from_model about `reference`, a point of the world, or body_from_model for a moving body. The large numbers of
-  /// a position in UTM cancel here, in fp64, before anything is multiplied by them.
+  /// world_from_model about `reference`, a point of the world, or body_from_model for a moving body. The
+  /// large numbers of a position in UTM cancel here, in fp64, before anything is multiplied by them.
   Frame(const ModelPlacement& placement, const dvec3& reference)
       : scaled_(scaled_axes(placement)),
         offset_(placement.moving ? placement.pose.position : placement.pose.position - reference) {}
@@ -92,8 +92,8 @@ void check_placement(const ModelPlacement& placement) {
   }
 }
 
-/// The centre of the static bounds, rounded to whole metres. The halves are nudged so that a scene and its copy some
-/// 1e5 m away, whose centres differ in the last digit, round alike.
+/// The centre of the static bounds, rounded to whole metres. The halves are nudged so that a scene and its
+/// copy some 1e5 m away, whose centres differ in the last digit, round alike.
 dvec3 default_origin(const std::vector<ModelPlacement>& placements) {
   Bounds bounds;
   for (const ModelPlacement& placement : placements) {

@@ -25,8 +25,8 @@ struct ModelPlacement {
   dvec3 scale{1.0};
   bool moving = false;                          ///< true: becomes a body of its own, called `name`
   std::optional<SemanticClass> semantic_class;  ///< overrides the file's
-  /// Of a moving body: each becomes a body called NAME/PART behind it. The axis of a part goes where the model's transforms
-  /// take its direction; under a mirroring scale it turns right-handed about that still.
+  /// Of a moving body: each becomes a body called NAME/PART behind it. The axis of a part goes where the
+  /// model's transforms take its direction; under a mirroring scale it turns right-handed about that still.
   std::vector<PartPlacement> parts;
 };
 
@@ -38,8 +38,8 @@ struct BuildOptions {
   double coplanar_angle_rad = 1e-4;
 };
 
-/// Places the models, makes what is missing (normals, tangents), mends winding under negative scale, merges facets.
-/// Throws UserError naming model and mesh if a transformed vertex is not finite.
+/// Places the models, makes what is missing (normals, tangents), mends winding under negative scale, merges
+/// facets. Throws UserError naming model and mesh if a transformed vertex is not finite.
 Scene build_scene(const std::vector<ModelPlacement>& placements, const BuildOptions& options);
 
 }  // namespace greatx::scene

@@ -29,8 +29,8 @@ void place_positions(const ModelPrimitive& source, const dmat4& body_from_mesh, 
   }
 }
 
-/// Normals are planes, not directions: they follow the inverse transpose. The cofactor matrix is it, times the
-/// determinant, whose sign is all that is left after normalising.
+/// Normals are planes, not directions: they follow the inverse transpose. The cofactor matrix is it, times
+/// the determinant, whose sign is all that is left after normalising.
 void place_normals(const ModelPrimitive& source, const glm::dmat3& linear, VertexData& vertices) {
   const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1]));

@@ -11,9 +11,10 @@
 
 namespace greatx::scene {
 
-/// `source` in its body's frame: positions in fp64, normals by the inverse transpose (flat ones, with vertices of
-/// their own, where the file has none), winding mended under a negative determinant, tangents if `want_tangents`.
-/// Throws UserError starting with `what` if a position is not finite in fp32 or a triangle loses its area in fp64.
+/// `source` in its body's frame: positions in fp64, normals by the inverse transpose (flat ones, with
+/// vertices of their own, where the file has none), winding mended under a negative determinant, tangents if
+/// `want_tangents`. Throws UserError starting with `what` if a position is not finite in fp32 or a triangle
+/// loses its area in fp64.
 VertexData place_primitive(const ModelPrimitive& source, const dmat4& body_from_mesh, bool want_tangents,
                            const std::string& what);
 

@@ -12,14 +12,14 @@
 
 namespace greatx::scene {
 
-/// Collects the models' materials and textures into a scene, equal ones once: several placements of a model share
-/// them, and so do several models that use the same picture.
+/// Collects the models' materials and textures into a scene, equal ones once: several placements of a model
+/// share them, and so do several models that use the same picture.
 class MaterialMerger {
  public:
   explicit MaterialMerger(Scene& scene) : scene_(scene) {}
 
-  /// For each of the model's materials, its index in the scene. The reference holds until the next call. Throws UserError
-  /// if the scene's textures come to more than budget::scene_textures.
+  /// For each of the model's materials, its index in the scene. The reference holds until the next call.
+  /// Throws UserError if the scene's textures come to more than budget::scene_textures.
   const std::vector<uint32_t>& indices_of(const Model& model);
 
  private:

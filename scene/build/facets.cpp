@@ -17,7 +17,8 @@ namespace {
 /// Normals that a thin triangle's rounding may turn further than this are compared as if it were this.
 constexpr double most_angle_rad = 0.5;
 
-/// A plane from weighted triangles, with sums taken about a near point so that no digits are lost far from the origin.
+/// A plane from weighted triangles, with sums taken about a near point so that no digits are lost far from
+/// the origin.
 class PlaneFit {
  public:
   explicit PlaneFit(const dvec3& about) : about_(about) {}
@@ -62,9 +63,10 @@ class Fan {
   }
   void finish() { std::sort(by_angle_.begin(), by_angle_.end()); }
 
-  /// At least those that may join a facet with this normal, from `least_triangle` on, ascending. A triangle is no larger
-  /// than the facet that it joins (the largest are the seeds), so that it turns the sum of the normals by no more
-  /// than it then lies off it: the facet's normal before is within twice the allowed angle.
+  /// At least those that may join a facet with this normal, from `least_triangle` on, ascending. A triangle
+  /// is no larger than the facet that it joins (the largest are the seeds), so that it turns the sum of the
+  /// normals by no more than it then lies off it: the facet's normal before is within twice the allowed
+  /// angle.
   void near(const dvec3& normal, uint32_t least_triangle, std::vector<uint32_t>& found) const {
     found.clear();
     const double window = 2.0 * reach_ + 2.0 * margin_rad, at = angle_of(normal);
@@ -173,7 +175,8 @@ class Merger {
     const Triangle& triangle = triangles_[neighbour];
     if (surely_faces_elsewhere(fixed ? plane.normal() : plane.normal_sum() + triangle.normal, triangle))
       return;
-    // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own badly.
+    // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own
+    // badly.
     PlaneFit trial = plane;
     if (!fixed) trial.add(triangle.normal, triangle.weight, centroid(neighbour));
     if (!faces_along(trial, neighbour) || !lies_in(trial, neighbour)) return;
@@ -194,8 +197,9 @@ class Merger {
     return entry->second;
   }
 
-  /// What the loop over all of them would find, in its order: asked again when the plane has turned. Every triangle of a
-  /// facet that lies around the edge asks; nobody new can join as long as nothing has changed since nobody did.
+  /// What the loop over all of them would find, in its order: asked again when the plane has turned. Every
+  /// triangle of a facet that lies around the edge asks; nobody new can join as long as nothing has changed
+  /// since nobody did.
   void join_fan(Fan& fan, bool fixed, PlaneFit& plane) {
     if (fan.settled == changes_) return;
     const uint64_t before = changes_;

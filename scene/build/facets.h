@@ -29,12 +29,12 @@ struct FacetGroups {
 };
 
 /// Merges edge-connected triangles that face the same way and whose corners all lie within
-/// `options.coplanar_distance_m` of the facet's plane: its area-weighted normal through its area-weighted centroid.
-/// Normals may differ by `options.coplanar_angle_rad`, plus what `noise_m` can do to a thin triangle's.
-/// Every triangle ends in exactly one facet; facets come in order of their first triangle. No binning: planes are
-/// compared with the facet that grows, so that nothing can fall across the edge of a bin. Of many triangles around one
-/// edge those are compared alone whose normals are near enough, so that a fan of n takes n log n.
-/// `crowd`: from so many triangles around an edge on; what comes out does not depend on it.
+/// `options.coplanar_distance_m` of the facet's plane: its area-weighted normal through its area-weighted
+/// centroid. Normals may differ by `options.coplanar_angle_rad`, plus what `noise_m` can do to a thin
+/// triangle's. Every triangle ends in exactly one facet; facets come in order of their first triangle. No
+/// binning: planes are compared with the facet that grows, so that nothing can fall across the edge of a bin.
+/// Of many triangles around one edge those are compared alone whose normals are near enough, so that a fan of
+/// n takes n log n. `crowd`: from so many triangles around an edge on; what comes out does not depend on it.
 FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options, uint32_t crowd = 16);
 
 }  // namespace greatx::scene

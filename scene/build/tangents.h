@@ -19,10 +19,10 @@ struct VertexData {
   std::vector<uint32_t> indices;
 };
 
-/// Makes tangents from positions, normals and uvs: per vertex the sum of its triangles' d position / d u, weighed by
-/// their angle at the vertex, made perpendicular to the normal; w = -1 where the map is mirrored. A vertex between
-/// mirrored and plain triangles is doubled (as MikkTSpace does). Triangles without area in uv give no tangent of their
-/// own; a vertex that only has such gets any perpendicular of its normal.
+/// Makes tangents from positions, normals and uvs: per vertex the sum of its triangles' d position / d u,
+/// weighed by their angle at the vertex, made perpendicular to the normal; w = -1 where the map is mirrored.
+/// A vertex between mirrored and plain triangles is doubled (as MikkTSpace does). Triangles without area in
+/// uv give no tangent of their own; a vertex that only has such gets any perpendicular of its normal.
 void make_tangents(VertexData& vertices);
 
 }  // namespace greatx::scene

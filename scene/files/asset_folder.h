@@ -33,7 +33,8 @@ class AssetFolder {
 /// Percent-decodes; throws UserError starting with `what` on a broken escape or a NUL.
 std::string decode_uri(const std::string& uri, const std::string& what);
 
-/// The whole file. Throws UserError starting with `what` if it is no regular file, cannot be read, or is too large.
+/// The whole file. Throws UserError starting with `what` if it is no regular file, cannot be read, or is too
+/// large.
 std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what,
                                              const Budget& budget);
 

@@ -95,8 +95,8 @@ class JpegDecoder : public PictureDecoder {
     std::snprintf(decoder.message_, sizeof(message_), "%s", text);
     longjmp(decoder.jump_, 1);
   }
-  /// libjpeg fills in grey for what is damaged or missing and warns; such a picture is refused. Bytes between markers
-  /// are harmless, and cameras write them.
+  /// libjpeg fills in grey for what is damaged or missing and warns; such a picture is refused. Bytes between
+  /// markers are harmless, and cameras write them.
   static void on_message(j_common_ptr jpeg, int level) {
     if (level < 0 && jpeg->err->msg_code != JWRN_EXTRANEOUS_DATA && jpeg->err->msg_code != JWRN_JFIF_MAJOR)
       on_error(jpeg);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two decoders behind decode_picture(). Both libraries leave a failed call by longjmp, so their functions that call
-// setjmp own nothing that needs a destructor: whatever does lies in the class.
+// The two decoders behind decode_picture(). Both libraries leave a failed call by longjmp, so their functions
+// that call setjmp own nothing that needs a destructor: whatever does lies in the class.
 #pragma once
 
 #include <cstdint>

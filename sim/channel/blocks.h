@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes for every pair of ports: sums over a link's paths, such as the frequency response. Which ones, the
-// scenario says; what a row here does not name is not computed.
+// What a channel writes for every pair of ports: sums over a link's paths, such as the frequency response.
+// Which ones, the scenario says; what a row here does not name is not computed.
 #pragma once
 
 #include <complex>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas and files. The channel
-// sensor and `greatx paths` are built on it. Per tick: exact geometry of all candidates on the host, while the GPU is busy
-// with the tick before; what stands in the segments' way in the tick's command buffer; fields of what is lit when the
-// tick is collected.
+// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas
+// and files. The channel sensor and `greatx paths` are built on it. Per tick: exact geometry of all
+// candidates on the host, while the GPU is busy with the tick before; what stands in the segments' way in the
+// tick's command buffer; fields of what is lit when the tick is collected.
 #pragma once
 
 #include <array>
@@ -49,7 +49,8 @@ class RadioWorld {
   std::shared_ptr<const rf::FacetWorld> current_;           ///< null: bodies have moved since
 };
 
-/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search holds.
+/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search
+/// holds.
 struct LinkLeftOut {
   rf::LeftOut searched;
   uint64_t paths = 0;
@@ -74,8 +75,8 @@ class ChannelPaths {
     std::shared_ptr<const rf::FacetWorld> world;  ///< the facets that the paths were solved among
   };
 
-  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the channel
-  /// stands still, or diffraction is on and candidates come from rays.
+  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the
+  /// channel stands still, or diffraction is on and candidates come from rays.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                std::shared_ptr<RadioWorld> radio, uint32_t channel, ChannelEnds ends);
 

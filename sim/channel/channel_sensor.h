@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths, seen through
-// the antennas.
+// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths,
+// seen through the antennas.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ namespace greatx::sim {
 
 class ChannelSensor : public Sensor {
  public:
-  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the receivers differ in their number of ports.
+  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the
+  /// receivers differ in their number of ports.
   ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                 uint32_t channel);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All paths of one channel at one tick, outside a run: between its own ends, or to any points. `greatx paths`, radio maps
-// and Python are built on it.
+// All paths of one channel at one tick, outside a run: between its own ends, or to any points. `greatx
+// paths`, radio maps and Python are built on it.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,8 @@ class ChannelSnapshot {
     int64_t tick = 0;
     std::optional<uint32_t> transmitter;  ///< this one alone; none: all
   };
-  /// One transmitter and one receiver; positions and orientations in local coordinates (world - Scene::origin).
+  /// One transmitter and one receiver; positions and orientations in local coordinates (world -
+  /// Scene::origin).
   struct Link {
     uint32_t transmitter = 0;  ///< index in the channel
     size_t receiver = 0;       ///< index in the channel, or in the list of points
@@ -44,16 +45,17 @@ class ChannelSnapshot {
   ChannelSnapshot(gpu::Device& device, const Experiment& experiment, uint32_t channel, const Instant& instant,
                   const std::optional<scene::GpuSceneOptions>& options = {});
 
-  /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again. Gives the same
-  /// paths as a snapshot that is made there; counters go on.
+  /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again.
+  /// Gives the same paths as a snapshot that is made there; counters go on.
   void move(uint32_t sequence, int64_t tick);
 
   /// Receivers one after the other in their order, each with all transmitters in theirs; false: enough.
   using Take = std::function<bool(Link)>;
   /// The channel's own receivers.
   void solve(const Take& take);
-  /// Points at rest in the world instead, `points_at_once` in the memory at a time; nothing depends on the number.
-  /// `first`: the number of the first of them in its list. `check`: points that stand inside something are counted and said.
+  /// Points at rest in the world instead, `points_at_once` in the memory at a time; nothing depends on the
+  /// number. `first`: the number of the first of them in its list. `check`: points that stand inside
+  /// something are counted and said.
   void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 

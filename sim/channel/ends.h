@@ -27,7 +27,8 @@ struct ChannelEnd {
 struct ChannelEnds {
   ChannelEnd transmitter;
   std::vector<ChannelEnd> receivers;
-  /// Whether it is said and counted if an end stands inside something; once is enough for an end of several links.
+  /// Whether it is said and counted if an end stands inside something; once is enough for an end of several
+  /// links.
   bool check_transmitter = true, check_receivers = true;
 };
 
@@ -35,7 +36,8 @@ struct ChannelEnds {
 ChannelEnd antenna_end(const Experiment& experiment, const std::string& name);
 /// At rest in the world.
 ChannelEnd point_end(const dvec3& point, size_t number);
-/// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked if it is 0.
+/// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked
+/// if it is 0.
 ChannelEnds channel_ends(const Experiment& experiment, uint32_t channel, uint32_t transmitter);
 
 /// Local coordinates, with the velocity that the node's turning gives to what is mounted off its origin.

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio maps: the links from all transmitters of a channel to the centres of a grid's cells, by the paths that a receiver
-// put there would have, to the bit. sim/channel/radio_map_run.h makes whole maps of these steps.
+// Radio maps: the links from all transmitters of a channel to the centres of a grid's cells, by the paths
+// that a receiver put there would have, to the bit. sim/channel/radio_map_run.h makes whole maps of these
+// steps.
 //
-//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx] ─► map_arrays
+//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx] ─►
+// map_arrays
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,8 @@
 
 namespace greatx::sim {
 
-/// Squares over a rectangle of the world's x (east) and y (north). Cell = row * columns + column; row 0 is the southernmost,
-/// column 0 the westernmost.
+/// Squares over a rectangle of the world's x (east) and y (north). Cell = row * columns + column; row 0 is
+/// the southernmost, column 0 the westernmost.
 struct MapGrid {
   dvec2 min_m{0.0};  ///< the south-western corner, world
   double cell_m = 1.0;
@@ -40,13 +42,13 @@ struct MapGrid {
 /// The most links (cells times transmitters) that a map may have.
 inline constexpr size_t most_map_links = 4'000'000;
 
-/// As many cells as cover the rectangle: where its sides are no multiples of the cell, the last row and column stick out.
-/// Throws UserError naming `--cell`, `--min` or `--max` if the cell is not above 0, the rectangle is empty or there would be
-/// more than most_map_links.
+/// As many cells as cover the rectangle: where its sides are no multiples of the cell, the last row and
+/// column stick out. Throws UserError naming `--cell`, `--min` or `--max` if the cell is not above 0, the
+/// rectangle is empty or there would be more than most_map_links.
 MapGrid make_map_grid(const dvec2& min_m, const dvec2& max_m, double cell_m, size_t transmitters);
 
-/// Corners that are not given are the scene's. Throws UserError like make_map_grid, and if the scene is empty.
-/// `cell_m` none: 1, 2 or 5 times a power of ten, at most 150 along the longer side.
+/// Corners that are not given are the scene's. Throws UserError like make_map_grid, and if the scene is
+/// empty. `cell_m` none: 1, 2 or 5 times a power of ten, at most 150 along the longer side.
 MapGrid map_grid_of(const std::optional<dvec2>& min_m, const std::optional<dvec2>& max_m,
                     std::optional<double> cell_m, const scene::Scene& scene, size_t transmitters);
 
@@ -85,10 +87,10 @@ struct MapCells {
   }
 };
 
-/// `kinds` of the channel's facets, `bodies` as they stand (Moment::bodies). Throws UserError, naming the field and the
-/// scene's bounds, if the rectangle misses the scene, the plane lies above or below everything in the scene and `ends`
-/// (world positions of the transmitters), or no cell has anything beneath; with `beyond_scene` only if the plane is not a
-/// number or no cell has anything beneath.
+/// `kinds` of the channel's facets, `bodies` as they stand (Moment::bodies). Throws UserError, naming the
+/// field and the scene's bounds, if the rectangle misses the scene, the plane lies above or below everything
+/// in the scene and `ends` (world positions of the transmitters), or no cell has anything beneath; with
+/// `beyond_scene` only if the plane is not a number or no cell has anything beneath.
 MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                      const rf::FacetKinds& kinds, std::span<const Pose> bodies, std::span<const dvec3> ends,
                      bool beyond_scene);
@@ -104,8 +106,9 @@ class RadioMapSolver {
   /// `snapshot` outlives this and has all transmitters that the map has.
   RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver);
 
-  /// Hands over the links of the cells from `first` on, in the order of cells, some hundred at a time: [cells, tx]; those of
-  /// cells without values have no path. Ends early if `take` returns false. No cell depends on another, nor on `first`.
+  /// Hands over the links of the cells from `first` on, in the order of cells, some hundred at a time:
+  /// [cells, tx]; those of cells without values have no path. Ends early if `take` returns false. No cell
+  /// depends on another, nor on `first`.
   using Take = std::function<bool(std::span<const rf::LinkStatistics>)>;
   void solve(const MapCells& cells, size_t first, const Take& take);
 

@@ -24,7 +24,8 @@ class ErrorStatistics {
   }
   uint64_t count() const { return count_; }
   double max() const { return max_; }
-  /// An upper bound of the `share` quantile, at most 26 % above it (ten buckets a decade); 0 without any error added.
+  /// An upper bound of the `share` quantile, at most 26 % above it (ten buckets a decade); 0 without any
+  /// error added.
   double quantile(double share) const {
     const double wanted = share * static_cast<double>(count_);
     uint64_t below = 0;

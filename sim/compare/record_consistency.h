@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do the modalities see one world? From arrays and metadata alone, as they are written: a run and the files that it left give
-// the same figures.
+// Do the modalities see one world? From arrays and metadata alone, as they are written: a run and the files
+// that it left give the same figures.
 #pragma once
 
 #include <cstdint>
@@ -48,11 +48,12 @@ ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera)
 /// c times the delay of each direct path against the distance of its ends, by the nodes' poses.
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses);
 
-/// Of each instance that a radar's frame names, the strongest detection: how far its range lies outside those of the instance's
-/// box, over the range. Everything stands where the tick's poses, velocities, accelerations and angular velocities take it to
-/// by the frame's middle. Half the way over the box lies between what its nearest point and its farthest corner make of it;
-/// ranges that differ by the radar's span are one. So a point target is compared to its extent, and to half a bin where
-/// noise and neighbours allow; an instance seen by a reflection alone is farther than its box.
+/// Of each instance that a radar's frame names, the strongest detection: how far its range lies outside those
+/// of the instance's box, over the range. Everything stands where the tick's poses, velocities, accelerations
+/// and angular velocities take it to by the frame's middle. Half the way over the box lies between what its
+/// nearest point and its farthest corner make of it; ranges that differ by the radar's span are one. So a
+/// point target is compared to its extent, and to half a bin where noise and neighbours allow; an instance
+/// seen by a reflection alone is farther than its box.
 ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
                               std::span<const InstanceBox> boxes);
 

@@ -28,8 +28,8 @@ void describe_layout(const rf::AntennaArray& array, nlohmann::json& json) {
   json["port_order"] = "(row * columns + column) * polarizations + polarization";
 }
 
-/// [zeniths * azimuths] of one part of one component, or nothing if it is zero throughout. As one text: dataset.json is written
-/// with a line for every item of a list, and a table has some 100,000.
+/// [zeniths * azimuths] of one part of one component, or nothing if it is zero throughout. As one text:
+/// dataset.json is written with a line for every item of a list, and a table has some 100,000.
 void describe_part(const rf::PatternTable& table, const char* name, double (*part)(const rf::Jones&),
                    nlohmann::json& json) {
   std::vector<double> values;

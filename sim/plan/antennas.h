@@ -18,11 +18,12 @@ namespace greatx::sim {
 /// The antenna called "node/sensor" in a scenario, at this carrier. It must exist.
 rf::AntennaArray antenna_array(const Scenario& scenario, const std::string& name, double carrier_hz);
 
-/// An array as data sets describe it: all that recomputing its response takes, but for the table of an imported pattern, which
-/// is named by its hash.
+/// An array as data sets describe it: all that recomputing its response takes, but for the table of an
+/// imported pattern, which is named by its hash.
 nlohmann::json describe_array(const rf::AntennaArray& array);
 
-/// The tables of those arrays at some ends that have imported patterns, by their hashes; an empty map if there are none.
+/// The tables of those arrays at some ends that have imported patterns, by their hashes; an empty map if
+/// there are none.
 nlohmann::json describe_pattern_tables(std::initializer_list<std::span<const rf::AntennaArray>> ends);
 
 }  // namespace greatx::sim

@@ -23,8 +23,8 @@ std::string digits(double lux) {
   return lux >= 10.0 ? fmt::format("{:.0f}", lux) : fmt::format("{:.2g}", lux);
 }
 
-/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1 m (a lamp
-/// nearer to a surface than that lights a spot of its own size only).
+/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1
+/// m (a lamp nearer to a surface than that lights a spot of its own size only).
 double lamp_illuminance(const scene::PunctualLight& light, double ground) {
   if (light.type == scene::PunctualLight::Type::directional) return light.intensity;
   const double height = std::max(1.0, light.position.z - ground);
@@ -154,7 +154,8 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const CameraAsks& as
                                          : "event cameras step evenly");
 }
 
-/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is built.
+/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is
+/// built.
 void check_lenses(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors) {

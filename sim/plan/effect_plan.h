@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Only the effects that the scene calls for: what the scene offers, what the scenario asks, and what can matter within
-// the tolerance decide each effect before anything is built. What is off is not compiled, not recorded and not run.
+// Only the effects that the scene calls for: what the scene offers, what the scenario asks, and what can
+// matter within the tolerance decide each effect before anything is built. What is off is not compiled, not
+// recorded and not run.
 #pragma once
 
 #include <string>
@@ -34,9 +35,9 @@ struct EffectPlan {
   std::vector<const Effect*> all() const;
 };
 
-/// Decides every effect. Bodies other than 0 count as moving. `points`: a box, world coordinates, around receivers that
-/// the scenario does not have (`--receivers`, the cells of a map, Python); empty: none. Throws UserError for a name under
-/// `effects:` that is none, or one that cannot be switched.
+/// Decides every effect. Bodies other than 0 count as moving. `points`: a box, world coordinates, around
+/// receivers that the scenario does not have (`--receivers`, the cells of a map, Python); empty: none. Throws
+/// UserError for a name under `effects:` that is none, or one that cannot be switched.
 EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                             const scene::Bounds& points = {});
 

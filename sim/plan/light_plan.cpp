@@ -25,7 +25,8 @@ struct Lamp {
   double sky_lux() const { return level_lux - direct_lux * std::max(0.0, std::sin(true_elevation)); }
 };
 
-/// Splits level_lux as the model of the air does. Below a degree the disc's light goes to 0 with the elevation.
+/// Splits level_lux as the model of the air does. Below a degree the disc's light goes to 0 with the
+/// elevation.
 void split(Lamp& lamp, const Environment& environment) {
   if (lamp.true_elevation <= 0.0 || lamp.level_lux <= 0.0) return;
   const double at_least = std::max(lamp.true_elevation, radians(1.0));

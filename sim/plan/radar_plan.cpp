@@ -76,7 +76,8 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
          fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
          offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
          radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
-  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for it.
+  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for
+  // it.
   planner.decide(
       plan.radar_clutter, false,
       !radar ? "no radar"

@@ -91,7 +91,8 @@ scene::Bounds widened(const scene::Bounds& bounds, double by_m) {
   return bounds.empty() ? bounds : scene::Bounds{bounds.min - by_m, bounds.max + by_m};
 }
 
-/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with the node.
+/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with
+/// the node.
 void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene::Bounds& bounds) {
   for (const auto* names : {&channel.transmitters, &channel.receivers})
     for (const std::string& name : *names) {
@@ -120,8 +121,8 @@ double largest_body_m(const scene::Scene& scene) {
   return largest;
 }
 
-/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements of antennas,
-/// what moves and reflects, and the points given from outside.
+/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements
+/// of antennas, what moves and reflects, and the points given from outside.
 double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
                       bool moving_reflectors, const scene::Bounds& points) {
   scene::Bounds courses;

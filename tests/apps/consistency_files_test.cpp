@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The consistency figures of a run, found again from its files; what was changed since is named by sensor and tick.
+// The consistency figures of a run, found again from its files; what was changed since is named by sensor and
+// tick.
 #include "apps/files/consistency_files.h"
 
 #include <cstring>

@@ -61,7 +61,8 @@ TEST(MapView, WhatStandsInTheSceneIsShownWithinTheBound) {
   }
 }
 
-/// Heights of a box on the ground as the camera sees them, pixel by pixel: its outline is where the world has it.
+/// Heights of a box on the ground as the camera sees them, pixel by pixel: its outline is where the world has
+/// it.
 TEST(MapBackground, ABoxStandsWhereItIs) {
   scene::Material concrete;
   concrete.name = "concrete";

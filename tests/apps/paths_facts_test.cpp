@@ -119,7 +119,8 @@ TEST(PathFacts, PathsAreSortedByDelayThenCanonically) {
   EXPECT_EQ(paths[2].delay_s, 2.0);
 }
 
-// ------------------------------------------------------------------------------------------------ what is printed
+// ------------------------------------------------------------------------------------------------ what is
+// printed
 
 TEST(PathText, TheTableHasUnitsAnglesAndNames) {
   const SampleScene sample;

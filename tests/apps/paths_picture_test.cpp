@@ -136,8 +136,8 @@ TEST(Stretches, AWallHidesWhatIsBehindIt) {
 
 TEST(Stretches, DepthAlongASlantingStretchIsThatOfSpaceNotOfThePicture) {
   const PictureView view = side_view();
-  // From 10 m deep at x = 190 to 190 m deep at x = 110.5; a surface at 100 m hides the half beyond it, which begins in
-  // the middle of the stretch and not in the middle of the picture of it.
+  // From 10 m deep at x = 190 to 190 m deep at x = 110.5; a surface at 100 m hides the half beyond it, which
+  // begins in the middle of the stretch and not in the middle of the picture of it.
   const std::vector<float> depth(200 * 100, 100.0f);
   const std::vector<Stretch> runs = stretches_of(view, depth, {9, -90, 0}, {20, 90, 0});
   ASSERT_EQ(runs.size(), 2u);
@@ -184,7 +184,8 @@ TEST(Stretches, ALensBendsThem) {
     }
     EXPECT_LE(glm::distance(c.a, c.b), 12.0);
     if (c.hidden) hidden_from = std::min(hidden_from, c.a.x), hidden_to = std::max(hidden_to, c.b.x);
-    // On the picture of the line: the row that the lens gives the point of space that it shows in this column.
+    // On the picture of the line: the row that the lens gives the point of space that it shows in this
+    // column.
     double low = -160.0, high = 160.0;
     for (int k = 0; k < 60; ++k) {
       const double middle = 0.5 * (low + high);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in numpy_test.cpp).
+// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in
+// numpy_test.cpp).
 #include <array>
 #include <cstdlib>
 #include <cstring>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Data sets that lie about themselves, and files that others take away: each is a UserError that names the file.
+// Data sets that lie about themselves, and files that others take away: each is a UserError that names the
+// file.
 #include <functional>
 #include <sys/stat.h>
 #include <unistd.h>

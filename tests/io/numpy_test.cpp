@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of a set.
+// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of
+// a set.
 #include <gtest/gtest.h>
 
 #include "io/files/file.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs that end badly: killed at any point, torn journal, full disk. Each is resumed and must give the bytes of a run
-// that was never interrupted.
+// Runs that end badly: killed at any point, torn journal, full disk. Each is resumed and must give the bytes
+// of a run that was never interrupted.
 #include <csignal>
 #include <functional>
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of damage is found and named. Damage that the hashes would find anyway is given a matching manifest, so
-// that the check behind them is seen to work.
+// Every kind of damage is found and named. Damage that the hashes would find anyway is given a matching
+// manifest, so that the check behind them is seen to work.
 #include "io/dataset/verify.h"
 
 #include <functional>

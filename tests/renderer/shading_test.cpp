@@ -66,7 +66,8 @@ TEST(Shading, BothSidesOfASheetAreLit) {
 }
 
 TEST(Shading, FurnaceHasNoEdges) {
-  // A white surface in a uniformly white world sends back what comes in, at any angle, roughness and metalness.
+  // A white surface in a uniformly white world sends back what comes in, at any angle, roughness and
+  // metalness.
   render::Lighting furnace = plain_light();
   furnace.sky_model = render::SkyModel::uniform;
   furnace.sun_illuminance_lux = 0.0;
@@ -250,7 +251,8 @@ TEST(Shading, TexturesAreDecodedFromSrgb) {
 }
 
 TEST(Shading, NormalMapTurnsTheNormal) {
-  // Every texel leans 30 degrees towards the tangent (+x); the sun stands 30 degrees from the zenith, towards +x.
+  // Every texel leans 30 degrees towards the tangent (+x); the sun stands 30 degrees from the zenith, towards
+  // +x.
   TinyScene tiny;
   scene::Material bumpy = optical_material("bumpy", 0.5f);
   const auto byte = [](double v) { return uint8_t(std::lround(255.0 * (0.5 * v + 0.5))); };

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The formulas of rf/channel/seed_formulas.h, left column, by code of their own; numbers are those of the primer named there.
+// The formulas of rf/channel/seed_formulas.h, left column, by code of their own; numbers are those of the
+// primer named there.
 #include <array>
 #include <cmath>
 

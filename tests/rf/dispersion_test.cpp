@@ -54,8 +54,8 @@ Slab concrete_slab(double frequency_hz, double thickness_m, double cosine) {
 }
 
 TEST(Dispersion, SlabOverTwoGigahertz) {
-  // Through a wall of 10 cm at 60 degrees from its normal, and off it: eq. 43 and 44 at every subcarrier. The wall's own
-  // phase counts once: behind it the wave is where it would be without it but for T e^{jkd cos}.
+  // Through a wall of 10 cm at 60 degrees from its normal, and off it: eq. 43 and 44 at every subcarrier. The
+  // wall's own phase counts once: behind it the wave is where it would be without it but for T e^{jkd cos}.
   constexpr double thickness_m = 0.1;
   for (const double carrier : {5e9, 28e9}) {
     const ChannelGrid grid = two_gigahertz(carrier);

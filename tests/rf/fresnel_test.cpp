@@ -108,8 +108,8 @@ TEST(FresnelHardCase, N28_Brewster) {
 }
 
 TEST(FresnelHardCase, N29_AlmostVacuum) {
-  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C + A)
-  // would have no digit left.
+  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C
+  // + A) would have no digit left.
   const double contrast = 0x1p-40, c = 0.6;
   const FresnelCoefficients face = half_space(1.0 + contrast, c);
   EXPECT_NEAR(face.r_te.real() / (-contrast / (4 * c * c)), 1.0, 1e-9);
@@ -179,8 +179,8 @@ TEST(FresnelHardCase, N33_Energy) {
 }
 
 TEST(FresnelHardCase, N33_EnergyOfRandomStacks) {
-  // One to six layers from films to walls, thin and dense media, total reflection included, from normal incidence to 89.99
-  // degrees; from either side the same passes.
+  // One to six layers from films to walls, thin and dense media, total reflection included, from normal
+  // incidence to 89.99 degrees; from either side the same passes.
   RandomStream random(33, 0);
   for (int i = 0; i < 4000; ++i) {
     const double c = i % 4 == 0 ? std::pow(10.0, random.uniform(-3.7, 0.0)) : random.uniform(0.01, 1.0);

@@ -128,7 +128,8 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
     for (size_t k = 0; k < a[i].vertices.size(); ++k)
       EXPECT_LT(glm::length(a[i].vertices[k] - b[i].vertices[k]), 1e-9);
   }
-  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11 m).
+  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11
+  // m).
   HandScene far;
   const dvec3 off(500'000.0, -500'000.0, 0.0);
   far.room({8, 5, 3}, off);
@@ -171,7 +172,8 @@ TEST(ImageMethodHardCase, N17_TransmitterIsReceiver) {
 }
 
 TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
-  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two facets.
+  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two
+  // facets.
   HandScene merged, apart;
   merged.ground(10.0);
   apart.triangle({-10, -10, 0}, {10, -10, 0}, {10, 10, 0});
@@ -206,8 +208,8 @@ TEST(ImageMethodHardCase, N19_DuplicateFacets) {
 }
 
 TEST(ImageMethodHardCase, N20_CornerTie) {
-  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself when both
-  // ends and the edge are in one line as seen from above; xy and yx are then one path.
+  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself
+  // when both ends and the edge are in one line as seen from above; xy and yx are then one path.
   HandScene hand;
   hand.quad({0, 0, 0}, {0, 10, 0}, {0, 10, 10}, {0, 0, 10});  // x = 0, facing +x
   hand.quad({0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0});  // y = 0, facing +y
@@ -286,7 +288,8 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
 }
 
 TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {
-  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no duplicates.
+  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no
+  // duplicates.
   HandScene hand;
   for (int i = -4; i < 4; ++i)
     for (int j = -4; j < 4; ++j) hand.quad({i, j, 0}, {i + 1, j, 0}, {i + 1, j + 1, 0}, {i, j + 1, 0});

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves, found from the tree of the world at rest: against every sequence there is (host), and against the whole search
-// at every tick, down to the bytes of the paths (device).
+// What moves, found from the tree of the world at rest: against every sequence there is (host), and against
+// the whole search at every tick, down to the bytes of the paths (device).
 #include "rf/search/moving_search.h"
 
 #include <cstring>
@@ -356,7 +356,8 @@ struct Boxes {
   dvec3 source{0.0}, target{0.0};
 };
 
-/// No occlusion at all is used where the tree has stopped: so every sequence that has a path in empty space is there.
+/// No occlusion at all is used where the tree has stopped: so every sequence that has a path in empty space
+/// is there.
 TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   size_t with_body = 0, all = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {
@@ -395,8 +396,8 @@ TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   EXPECT_GT(all, with_body);
 }
 
-/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the visibility test alone
-/// would let a path reach the inside of its top, a tolerance below the edge.
+/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the
+/// visibility test alone would let a path reach the inside of its top, a tolerance below the edge.
 TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   TinyScene tiny;
   testing::add_radio_materials(tiny);
@@ -405,7 +406,8 @@ TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   const scene::Scene scene = tiny.build();
   RadioModel model(scene, carrier_hz, {});
   MovingSearch search(model.facets, model.kinds, {});
-  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's inside.
+  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's
+  // inside.
   const dvec3 target(-0.5, 0.0, 0.5);
   for (const double behind : {4e-5, 1e-3, -4e-5}) {
     const dvec3 at(-1.0 + behind, 0.0, 1.0), source = at - dvec3(3.0, 0.0, 3.0);

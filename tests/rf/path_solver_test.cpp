@@ -309,8 +309,8 @@ TEST(PathSolver, ASourceThatMovesScattersFromWhereItIs) {
 }
 
 TEST(PathSolver, AWedgesOwnFaceDoesNotReflectRightBesideIt) {
-  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection just before it
-  // would have a point of its own.
+  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection
+  // just before it would have a point of its own.
   TinyScene tiny = materials();
   tiny.object("wall", 0, 2)
       .face({{dvec3(0, 0, 0), dvec3(10, 0, 0), dvec3(10, 0, 8)},

@@ -310,7 +310,8 @@ TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
     const Links plain = solve(draw.scene, draw.random, draw.bounds);
     const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.bounds);
     expect_same(plain, other, draw.name, {.vertex_m = 1e-9, .length_m = 1e-9});
-    // And the same field by the same facets; of walls that stand in one place another one may have been named.
+    // And the same field by the same facets; of walls that stand in one place another one may have been
+    // named.
     if (draw.random.name == "terrace") continue;
     for (size_t r = 0; r < plain.size(); ++r)
       for (const Path& path : plain[r]) {
@@ -331,7 +332,8 @@ TEST(Properties, NoPathGainsEnergy) {
   for (const Draw& draw : draws(2, {{3, 1}}))
     for (const auto& link : solve(draw.scene, draw.random, draw.bounds))
       for (const Path& path : link) {
-        // What free space of that length leaves of the field bounds it; the norm itself is good to sqrt(1e-16).
+        // What free space of that length leaves of the field bounds it; the norm itself is good to
+        // sqrt(1e-16).
         const double gain = spectral_norm(path.transfer) * path.length_m;
         EXPECT_LE(gain, 1.0 + 1e-7) << draw.name << ": " << text_of(path.interactions, path.length_m);
         if (!path.interactions.empty()) largest = std::max(largest, gain);

@@ -355,8 +355,8 @@ TEST(BuildScene, HashCoversWhatReachesASensor) {
 
 // ------------------------------------------------------------------------------------------------ facets
 
-/// `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of the world); `lift`
-/// moves vertices off it.
+/// `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of the
+/// world); `lift` moves vertices off it.
 GltfWriter grid(uint32_t columns, uint32_t rows, const std::function<float(uint32_t, uint32_t)>& lift) {
   std::vector<vec3> positions;
   std::vector<uint32_t> indices;
@@ -394,7 +394,8 @@ TEST(HardCase, N18_ATessellatedWallMakesOneFacet) {
 }
 
 TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
-  // Offsets that sit on the rounding edge of every decimal grid, jittered across it by less than the tolerance.
+  // Offsets that sit on the rounding edge of every decimal grid, jittered across it by less than the
+  // tolerance.
   for (const float offset : {0.0f, 0.5e-4f, 1e-4f, 0.5e-3f, 0.5f, 1.0f, 12.345f}) {
     const auto jitter = [&](uint32_t column, uint32_t row) {
       return offset + ((column + row) % 2 ? 4e-5f : -4e-5f);

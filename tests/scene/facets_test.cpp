@@ -55,7 +55,8 @@ void expect_same(const FacetInput& input, const BuildOptions& options, uint32_t 
   }
 }
 
-// Clusters about the angles that are allowed, sizes over two decades, edges long and hardly there, noise of none and much.
+// Clusters about the angles that are allowed, sizes over two decades, edges long and hardly there, noise of
+// none and much.
 TEST(Facets, ACrowdedEdgeGivesTheSameFacets) {
   RandomStream random(5, 17);
   BuildOptions options;

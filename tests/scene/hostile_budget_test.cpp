@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that grows with
-// the file. No test here measures time: what was quadratic would run into the time limit of the test run.
+// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that
+// grows with the file. No test here measures time: what was quadratic would run into the time limit of the
+// test run.
 #include <cmath>
 
 #include "core/budget.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has made), and
-// damaged ones.
+// Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has
+// made), and damaged ones.
 #include "scene/files/picture.h"
 
 #include <cmath>
@@ -246,8 +246,8 @@ TEST(Picture, WhatIsCutOffOrForeignIsRefused) {
           << size;
 }
 
-/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files: decoded or refused, nothing else (under
-/// the sanitizers too).
+/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files: decoded or refused, nothing
+/// else (under the sanitizers too).
 TEST(Picture, DamageIsSurvived) {
   std::mt19937 random(17);
   size_t refused = 0;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors that are raised while the tick after is in flight: the simulator goes down with the device at work, under
-// validation, and says nothing but the error.
+// Errors that are raised while the tick after is in flight: the simulator goes down with the device at work,
+// under validation, and says nothing but the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,8 @@ std::vector<Beside> kinds() {
           {"none", "", ""}};
 }
 
-/// A node that drives towards a wall at x = 10 m and is 1 cm before it at tick 3; `radar_first`: in the order of the sensors.
+/// A node that drives towards a wall at x = 10 m and is 1 cm before it at tick 3; `radar_first`: in the order
+/// of the sensors.
 std::string yaml(const Beside& beside, bool radar, bool radar_first) {
   const std::string radar_yaml =
       "{name: radar, type: radar, rate_hz: 10, waveform: {chirps: 16, samples: 64}, echoes: {tubes: 500}}";

@@ -167,7 +167,8 @@ TEST(EventSensor, SequencesDifferInNoiseAlone) {
 }
 
 TEST(EventSensor, FlowStepsFollowTheTurning) {
-  // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the corners.
+  // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the
+  // corners.
   const auto pictures = [](double turn_deg) {
     const KeptRun r =
         keep_run(head + van(false) + eye(turn_deg, dvs(", steps: {by: flow, max_px: 0.5, most: 32}", "10")));

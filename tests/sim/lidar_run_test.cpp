@@ -143,8 +143,8 @@ std::map<std::pair<uint16_t, int>, Shot> surfaces_of(const KeptRun& run) {
   return shots;
 }
 
-/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is weaker by what the air
-/// takes there and back.
+/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is
+/// weaker by what the air takes there and back.
 TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
   const auto embedded = std::ranges::find(embedded_scenarios(), "city_fog", &EmbeddedScenario::name);
   Scenario fog = parse_scenario(std::string(embedded->text), "city_fog.yaml", ".");

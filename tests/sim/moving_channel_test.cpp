@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channels that keep their search between ticks, among meshes that move, against the same with a whole search at every tick.
+// Channels that keep their search between ticks, among meshes that move, against the same with a whole search
+// at every tick.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

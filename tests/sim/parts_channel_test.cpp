@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What turns on a node, in the channel: its surfaces shift what they reflect by Doppler, and block what they come in front of.
+// What turns on a node, in the channel: its surfaces shift what they reflect by Doppler, and block what they
+// come in front of.
 #include <cmath>
 #include <fstream>
 
@@ -83,7 +84,8 @@ TEST(PartsChannel, DopplerOffAVaneIsThatOfTheClosedForm) {
     for (size_t tick = 0; tick < 5; ++tick) {
       const double angle = radians(-8.0) + omega * 1e-3 * static_cast<double>(tick), step = 1e-6;
       const Closed now(tx, rx, angle);
-      // By the path's length over time, and by the speed of the point that reflects: 2 v cos(incidence) / lambda.
+      // By the path's length over time, and by the speed of the point that reflects: 2 v cos(incidence) /
+      // lambda.
       const double slope =
           (Closed(tx, rx, angle + omega * step).length_m - Closed(tx, rx, angle - omega * step).length_m) /
           (2.0 * step);

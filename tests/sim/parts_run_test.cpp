@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rotors that turn, through the whole simulator: every sensor sees the blades where they are, none those of its own node.
+// Rotors that turn, through the whole simulator: every sensor sees the blades where they are, none those of
+// its own node.
 #include <cmath>
 #include <set>
 
@@ -69,7 +70,8 @@ struct Ran {
   KeptRun run;
 };
 
-/// The point of a pixel's centre in local coordinates; the cameras above look straight down with their top to +x.
+/// The point of a pixel's centre in local coordinates; the cameras above look straight down with their top to
+/// +x.
 dvec3 point_at(size_t pixel, double depth, const dvec3& eye) {
   const double right = (static_cast<double>(pixel % width) + 0.5 - 0.5 * width) / focal,
                down = (static_cast<double>(pixel / width) + 0.5 - 0.5 * height) / focal;
@@ -129,7 +131,8 @@ TEST(PartsRun, ASensorSeesNoPartOfItsOwnNode) {
   EXPECT_EQ(hits(hidden, "uav/camera"), 0u);
   EXPECT_GT(hits(seen, "uav/camera"), 100u);
   for (const uint16_t id : hidden.run.array<uint16_t>(1, "uav/camera", "instance")) EXPECT_EQ(id, 0);
-  // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing else.
+  // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing
+  // else.
   EXPECT_EQ(hidden.run.statistics.consistency.at(lidar_figure).count(), 0u);
   EXPECT_GT(seen.run.statistics.consistency.at(lidar_figure).count(), 10u);
   EXPECT_LT(seen.run.statistics.consistency.at(lidar_figure).max(), 1e-4);

@@ -101,7 +101,8 @@ TEST(Parts, EveryCornerOfABladeIsWhereTheClosedFormHasIt) {
 
 TEST(Parts, TurnAboutTheirOwnHub) {
   const Flight f(flying(four_rotors));
-  // scene/generator/objects/quadrotor.cpp: on a circle of half the diagonal, 2.2 m, front left first; the model's mount on top.
+  // scene/generator/objects/quadrotor.cpp: on a circle of half the diagonal, 2.2 m, front left first; the
+  // model's mount on top.
   const Pose mount{dvec3(0.1, 0.2, -0.3),
                    orientation_from_yaw_pitch_roll(radians(30.0), radians(10.0), radians(5.0))};
   for (int rotor = 0; rotor < 4; ++rotor) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Effects that distance decides follow every end that there is: points given from outside, mounts and elements far from
-// their node, what moves and reflects.
+// Effects that distance decides follow every end that there is: points given from outside, mounts and
+// elements far from their node, what moves and reflects.
 #include <cmath>
 #include <complex>
 

@@ -220,8 +220,8 @@ TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   }
 }
 
-// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is level: a nose that
-// points up would tilt the receiver's polarization.
+// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is
+// level: a nose that points up would tilt the receiver's polarization.
 TEST(Channel, FreeSpaceIsFriis) {
   const std::string yaml =
       head + "nodes:\n" + bs_isotropic +

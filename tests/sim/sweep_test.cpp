@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every number of a scenario at its ends and beyond: an error that names file and line, or a run; never a broken
-// contract, a crash, an allocation without end. What is swept are the numbers of scenarios/sweep/*.yaml, which have
-// everything that the schema knows.
+// Every number of a scenario at its ends and beyond: an error that names file and line, or a run; never a
+// broken contract, a crash, an allocation without end. What is swept are the numbers of
+// scenarios/sweep/*.yaml, which have everything that the schema knows.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -170,7 +170,8 @@ std::vector<std::string> accepted_ends(const std::string& text, const Number& nu
   return ends;
 }
 
-/// Each run builds a simulator of its own, three minutes for all: every fourth number, unless GREATX_SWEEP=all.
+/// Each run builds a simulator of its own, three minutes for all: every fourth number, unless
+/// GREATX_SWEEP=all.
 bool chosen(size_t index) {
   const char* const sweep = std::getenv("GREATX_SWEEP");
   return (sweep != nullptr && std::string(sweep) == "all") || index % 4 == 0;

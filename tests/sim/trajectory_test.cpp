@@ -60,7 +60,8 @@ TEST(Attitude, WhollyVerticalFlightIsFinite) {
 }
 
 TEST(Attitude, SmoothDwellLooksWhereItCameFrom) {
-  // Rests exactly at t = 1 .. 2: the Hermite tangents there are not zero, so give the dwell room on both sides.
+  // Rests exactly at t = 1 .. 2: the Hermite tangents there are not zero, so give the dwell room on both
+  // sides.
   const auto path = course_of(way_points({{0, {0, 0, 0}, {}},
                                           {1, {0, 4, 0}, {}},
                                           {2, {0, 4, 0}, {}},

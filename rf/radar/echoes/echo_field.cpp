@@ -124,7 +124,8 @@ Complex EchoField::density(const EchoPoint& point) const {
   if (cos_out <= 0.0 || at.cosine <= 0.0) return 0.0;
   const FieldVector electric = sum(field, at.reflected);
   const FieldVector magnetic = sum(crossed(in, field), crossed(at.out, at.reflected));  // eta H
-  // eta J - r x M, J = n x H, M = -n x E; what lies along r is dropped by `received`, whose axes are across it.
+  // eta J - r x M, J = n x H, M = -n x E; what lies along r is dropped by `received`, whose axes are across
+  // it.
   const FieldVector source = sum(crossed(at.normal, magnetic), crossed(out, crossed(at.normal, electric)));
   const double kept = coherent_share(facet.material, at.cosine, cos_out);
   const double wavelength = surfaces_.wavelength_m();

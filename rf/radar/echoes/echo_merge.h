@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Raw echoes that no output can tell apart become one: same instance, same number of bounces, one cell of delay, of delay
-// rate and of direction at both ends. The sum is exact at the carrier and the middle of the frame; what differs elsewhere is
-// bounded by the size of a cell (docs/radar_echoes.md).
+// Raw echoes that no output can tell apart become one: same instance, same number of bounces, one cell of
+// delay, of delay rate and of direction at both ends. The sum is exact at the carrier and the middle of the
+// frame; what differs elsewhere is bounded by the size of a cell (docs/radar_echoes.md).
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,9 @@ struct MergedEcho {
   uint32_t members = 0;
 };
 
-/// `rate_mps`, `instance`: [echoes]. In the order of their cells, which are in that of instance, bounces, delay, ...: a
-/// total order. Echoes whose members cancel to less than 1e-9 of the strongest one are left out.
+/// `rate_mps`, `instance`: [echoes]. In the order of their cells, which are in that of instance, bounces,
+/// delay, ...: a total order. Echoes whose members cancel to less than 1e-9 of the strongest one are left
+/// out.
 std::vector<MergedEcho> merge(const RawEchoes& raw, std::span<const double> rate_mps,
                               std::span<const uint32_t> instance, const MergeCells& cells);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traces the rays of a radar on the GPU, in the tick's command buffer: which facets each meets, bounce by bounce.
+// Traces the rays of a radar on the GPU, in the tick's command buffer: which facets each meets, bounce by
+// bounce.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct EchoRays {
 
 class EchoPass {
  public:
-  /// `monostatic`: whether the receiver is seen is asked for first hits alone, of which it always is. `own_body`: rays pass
-  /// through EchoRays::source_body.
+  /// `monostatic`: whether the receiver is seen is asked for first hits alone, of which it always is.
+  /// `own_body`: rays pass through EchoRays::source_body.
   EchoPass(scene::GpuScene& scene, uint32_t max_bounces, bool monostatic, bool own_body);
 
   /// Where the answers of one batch will be; valid until its slot is begun again.
@@ -33,8 +34,9 @@ class EchoPass {
     uint32_t rays = 0;
   };
 
-  /// Records rays from one source along `directions` (unit, local axes), among the scene as scene.record_update left it.
-  /// Throws UserError if they are more than the device lets a shader see at once.
+  /// Records rays from one source along `directions` (unit, local axes), among the scene as
+  /// scene.record_update left it. Throws UserError if they are more than the device lets a shader see at
+  /// once.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, const EchoRays& rays, std::span<const vec3> directions);
   /// [max_bounces * rays] words (shaders/shared/radar.h), after the slot's submission is done.
   std::span<const uint32_t> collect(const Pending& pending) const;

@@ -19,8 +19,8 @@ namespace greatx::rf {
 namespace {
 
 constexpr uint32_t tubes_at_once = 256;
-/// Of the largest coordinate: how far a reflected ray starts from its surface, as lib/trace.glsl has it, so that what lies in
-/// the same plane but for the roundings of its fp32 corners is not met.
+/// Of the largest coordinate: how far a reflected ray starts from its surface, as lib/trace.glsl has it, so
+/// that what lies in the same plane but for the roundings of its fp32 corners is not met.
 constexpr double lift = 4.2e-7;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }

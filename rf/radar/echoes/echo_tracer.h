@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What EchoPass does, without a device: where the "GPU" is a CPU, a ray costs a third of what it costs in a shader. In fp64,
-// against the same convex pieces of facets that tubes are clipped to. One tree of boxes a body, in its frame, which no pose
-// changes; I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE Symp. Interactive Ray Tracing 2007
-// (bins), three levels of it in one node, so that eight boxes are tested side by side. Where a ray meets two facets at the same
-// distance it is the one of the lower index: what is met depends on no tree.
+// What EchoPass does, without a device: where the "GPU" is a CPU, a ray costs a third of what it costs in a
+// shader. In fp64, against the same convex pieces of facets that tubes are clipped to. One tree of boxes a
+// body, in its frame, which no pose changes; I. Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", IEEE Symp. Interactive Ray Tracing 2007 (bins), three levels of it in one node, so that eight
+// boxes are tested side by side. Where a ray meets two facets at the same distance it is the one of the lower
+// index: what is met depends on no tree.
 #pragma once
 
 #include <array>
@@ -29,8 +30,8 @@ class EchoTracer {
     std::vector<uint32_t> words;  ///< [max_bounces * tubes], as EchoPass::collect's
     bool direct = false;          ///< as EchoPass::direct
   };
-  /// `reflects`: rays end at facets that do not. `last`: the surfaces, at most max_bounces, that a ray may meet whose first two
-  /// these are. The same bytes whatever the threads.
+  /// `reflects`: rays end at facets that do not. `last`: the surfaces, at most max_bounces, that a ray may
+  /// meet whose first two these are. The same bytes whatever the threads.
   Answer trace(const FacetWorld& world, const EchoRays& rays, const RayGrid& grid, uint32_t max_bounces,
                bool monostatic, const std::function<bool(uint32_t facet)>& reflects,
                const std::function<uint32_t(uint32_t first, uint32_t second)>& last, uint32_t threads) const;
@@ -48,8 +49,8 @@ class EchoTracer {
 
  private:
   static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
-  /// Children side by side; a leaf has `count` pieces from `child` on, an inner one is the node `child`, an absent one has a
-  /// box that nothing meets.
+  /// Children side by side; a leaf has `count` pieces from `child` on, an inner one is the node `child`, an
+  /// absent one has a box that nothing meets.
   struct alignas(32) Node {
     float box[3][2][wide];  ///< by axis: low, high
     uint32_t child[wide], count[wide];

@@ -3,8 +3,9 @@
 //
 // How long an echo is under way while everything moves: vertices stay where they are on their bodies.
 //
-// A reflection's vertex is where the path is shortest, so that letting it glide changes the delay in second order only
-// (Fermat): with v across the path at a distance R the error of the path's length is at most (v t)^2 / R after t seconds.
+// A reflection's vertex is where the path is shortest, so that letting it glide changes the delay in second
+// order only (Fermat): with v across the path at a distance R the error of the path's length is at most (v
+// t)^2 / R after t seconds.
 #pragma once
 
 #include <array>
@@ -62,8 +63,8 @@ bool fit_track(const PoseTable& poses, std::span<const CarriedPoint> vertices, d
 std::vector<std::array<double, 2>> track_table(const PoseTable& poses, std::span<const CarriedPoint> vertices,
                                                double step_s);
 
-/// Where a path of reflections runs: from the transmitter along `departure` over the facets of `chain`, in the frames of
-/// their bodies. The last vertex is `point`.
+/// Where a path of reflections runs: from the transmitter along `departure` over the facets of `chain`, in
+/// the frames of their bodies. The last vertex is `point`.
 CarriedPath carried_vertices(const FacetWorld& world, const dvec3& transmitter, const dvec3& departure,
                              std::span<const uint32_t> chain, const dvec3& point);
 

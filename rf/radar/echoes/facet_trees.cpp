@@ -14,7 +14,8 @@ namespace {
 
 using Corners = std::vector<uint32_t>;  ///< of a convex piece, counter-clockwise about the facet's normal
 
-/// Joins the triangles of one facet: greedily, across every edge that two pieces share and that leaves a convex one.
+/// Joins the triangles of one facet: greedily, across every edge that two pieces share and that leaves a
+/// convex one.
 class Joiner {
  public:
   Joiner(const scene::Facet& facet, std::span<const scene::FacetTriangle> triangles) : normal_(facet.normal) {
@@ -84,7 +85,8 @@ class Joiner {
   std::map<Edge, uint32_t> owner_;  ///< of directed edges
 };
 
-/// A KeptSide in a body's frame, and how far a box of half size 1 reaches along it. Nothing is set beforehand.
+/// A KeptSide in a body's frame, and how far a box of half size 1 reaches along it. Nothing is set
+/// beforehand.
 struct HalfSpace {
   dvec3 normal, reach;
   double offset;

@@ -60,7 +60,8 @@ std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, 
       const PosedFacet& posed = world.facet(mirror.facet);
       const double side = posed.distance(radar), there = posed.distance(target.points[0]);
       if (!(side * there > 0.0)) continue;
-      // Where the ray to the image of the middle meets the plane, as far from the facet as a ray to a corner may be.
+      // Where the ray to the image of the middle meets the plane, as far from the facet as a ray to a corner
+      // may be.
       const double share = side / (side + there);
       const dvec2 from = posed.plane_coordinates(radar),
                   at = from + share * (posed.plane_coordinates(target.points[0]) - from);

@@ -41,8 +41,8 @@ class Polygon {
   double area() const;
   /// Of the area; the mean of the corners if there is none.
   dvec2 centroid() const;
-  /// The part in a half-plane. A polygon that would grow beyond `capacity` loses its shortest side: its area changes by
-  /// less than anything that a tube resolves.
+  /// The part in a half-plane. A polygon that would grow beyond `capacity` loses its shortest side: its area
+  /// changes by less than anything that a tube resolves.
   Polygon clipped(const HalfPlane& side) const;
   /// The half-plane on the inner side of side i.
   HalfPlane inside(uint32_t i) const;

@@ -46,7 +46,8 @@ Footprint footprint_of(const TargetBox& target, const Pose& radar_from_local, co
     const double azimuth = std::remainder(std::atan2(p.y, p.x) - print.azimuth, 2.0 * pi);
     print.half_azimuth = std::max(print.half_azimuth, std::abs(azimuth));
   }
-  // Near a pole azimuth says nothing; edges of boxes bulge beyond their corners by less than the sagitta of what they span.
+  // Near a pole azimuth says nothing; edges of boxes bulge beyond their corners by less than the sagitta of
+  // what they span.
   const double highest = std::max(std::abs(print.elevation_min), std::abs(print.elevation_max));
   const double span = std::max(print.elevation_max - print.elevation_min, 2.0 * print.half_azimuth);
   const double bulge = 0.125 * span * span * std::tan(std::min(highest, 1.4));

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tubes of rays over a field of view: cells of a regular grid in azimuth and elevation, each as a quadrilateral whose sides
-// are arcs of great circles, so that cells tile the directions without gaps and overlaps; cells in which a target may be
-// seen, directly or over a mirror, are subdivided n x n, along the same great circles.
+// Tubes of rays over a field of view: cells of a regular grid in azimuth and elevation, each as a
+// quadrilateral whose sides are arcs of great circles, so that cells tile the directions without gaps and
+// overlaps; cells in which a target may be seen, directly or over a mirror, are subdivided n x n, along the
+// same great circles.
 #pragma once
 
 #include <array>
@@ -37,22 +38,22 @@ class RayGrid {
  public:
   static constexpr uint32_t outside = ~0u;
 
-  /// `local_from_radar`: the transmitter. Throws UserError if the field of view is empty, wider than the sphere, or if there
-  /// are so few tubes that a cell is wider than 0.5 rad.
+  /// `local_from_radar`: the transmitter. Throws UserError if the field of view is empty, wider than the
+  /// sphere, or if there are so few tubes that a cell is wider than 0.5 rad.
   RayGrid(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets,
           std::span<const TargetImage> images = {});
 
   uint32_t size() const { return static_cast<uint32_t>(tubes_.size()); }
-  /// Unit vectors in local axes. Corners in the order of turning from azimuth towards elevation; side i runs from corner i to
-  /// corner i + 1 and looks at neighbour side_neighbour[i].
+  /// Unit vectors in local axes. Corners in the order of turning from azimuth towards elevation; side i runs
+  /// from corner i to corner i + 1 and looks at neighbour side_neighbour[i].
   const dvec3& axis(uint32_t tube) const { return axes_[tube]; }
   std::array<dvec3, 4> corners(uint32_t tube) const;
-  /// The tubes around: [0, 8), first the four across the sides 0 to 3 (-elevation, +azimuth, +elevation, -azimuth), then
-  /// those across corners 0 to 3 (tube across corner i lies between sides i - 1 and i). `outside` beyond the field of view.
-  /// Next to cells of another subdivision: the one across the middle.
+  /// The tubes around: [0, 8), first the four across the sides 0 to 3 (-elevation, +azimuth, +elevation,
+  /// -azimuth), then those across corners 0 to 3 (tube across corner i lies between sides i - 1 and i).
+  /// `outside` beyond the field of view. Next to cells of another subdivision: the one across the middle.
   std::array<uint32_t, 8> neighbours(uint32_t tube) const;
-  /// The tube that a direction (local axes, of any length) lies in; `outside` beyond the field of view. Within the sagitta of
-  /// a cell's sides it may be the one beside.
+  /// The tube that a direction (local axes, of any length) lies in; `outside` beyond the field of view.
+  /// Within the sagitta of a cell's sides it may be the one beside.
   uint32_t tube_at(const dvec3& direction) const;
   /// Whether two tubes that share a side are equally subdivided: their sides are then one and the same.
   bool same_level(uint32_t a, uint32_t b) const { return count_[tubes_[a].cell] == count_[tubes_[b].cell]; }
@@ -73,8 +74,8 @@ class RayGrid {
   void choose_cells(const EchoOptions& options);
   void subdivide(const EchoOptions& options, const Pose& local_from_radar, std::span<const TargetBox> targets,
                  std::span<const TargetImage> images);
-  /// Raises count_ where `nearest` [cells] has a target's distance until that would add more than `budget` tubes; returns how
-  /// many it added and sets the width it came to.
+  /// Raises count_ where `nearest` [cells] has a target's distance until that would add more than `budget`
+  /// tubes; returns how many it added and sets the width it came to.
   uint64_t divide_cells(std::span<const double> nearest, double cell_rad, uint32_t budget, double& tube_m);
   bool shows(const TargetImage& image, uint32_t cell) const;
   void set_vertices();

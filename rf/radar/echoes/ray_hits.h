@@ -21,12 +21,13 @@ class RayHits {
 
   /// `words` of EchoPass::collect, [bounces * tubes].
   RayHits(std::span<const uint32_t> words, uint32_t tubes);
-  /// Of a monostatic radar: from a second or later surface it is seen if one of its own rays about that direction (the
-  /// tube's or one of the eight around it) meets the surface first; from what lies beyond the field of view it is not. From
-  /// the second of two surfaces of which the first is a mirror to it, it is not either: that way is found backwards.
-  /// With max_bounces >= mirror_bounces also where it is seen over the first surface, if that is a mirror to the one met: from
-  /// the second surface, by which the tube came, it is; from later ones if one of the radar's rays about that direction meets
-  /// the two in turn. Beyond max_bounces hits stay of such tubes alone.
+  /// Of a monostatic radar: from a second or later surface it is seen if one of its own rays about that
+  /// direction (the tube's or one of the eight around it) meets the surface first; from what lies beyond the
+  /// field of view it is not. From the second of two surfaces of which the first is a mirror to it, it is not
+  /// either: that way is found backwards. With max_bounces >= mirror_bounces also where it is seen over the
+  /// first surface, if that is a mirror to the one met: from the second surface, by which the tube came, it
+  /// is; from later ones if one of the radar's rays about that direction meets the two in turn. Beyond
+  /// max_bounces hits stay of such tubes alone.
   void find_seen(const RayGrid& grid, const FacetWorld& world, const dvec3& radar, uint32_t max_bounces,
                  uint32_t threads);
 

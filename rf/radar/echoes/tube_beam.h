@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tube on its way, unfolded: where its rays seem to come from, and coordinates that a ray keeps when it is reflected.
+// A tube on its way, unfolded: where its rays seem to come from, and coordinates that a ray keeps when it is
+// reflected.
 #pragma once
 
 #include <cmath>
@@ -11,8 +12,9 @@
 
 namespace greatx::rf {
 
-/// Rays leave `source` along axis + u e1 + v e2: straight lines of the (u, v) plane are planes through the source, so that
-/// triangles are polygons there. A reflection mirrors all four vectors; (u, v) of a ray stays.
+/// Rays leave `source` along axis + u e1 + v e2: straight lines of the (u, v) plane are planes through the
+/// source, so that triangles are polygons there. A reflection mirrors all four vectors; (u, v) of a ray
+/// stays.
 struct TubeBeam {
   dvec3 source{0.0}, axis{1, 0, 0}, e1{0, 1, 0}, e2{0, 0, 1};
 

@@ -35,23 +35,23 @@ struct RawEchoes {
   }
 };
 
-/// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and agree on seeing
-/// the receiver: then all of it falls on that facet. Else it is divided by find_visible among the facets that those nine have
-/// met after the same facets before, if anything sends from there: any of the nine sees the receiver then or later. Each part
-/// goes on as a beam of its own.
+/// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and
+/// agree on seeing the receiver: then all of it falls on that facet. Else it is divided by find_visible among
+/// the facets that those nine have met after the same facets before, if anything sends from there: any of the
+/// nine sees the receiver then or later. Each part goes on as a beam of its own.
 ///
-/// Where a small surface is followed by a large one (target, wall), the currents are taken on the small one and the large
-/// one is a mirror on the way to the receiver: on the large one the wave of a small surface has no parallel rays, and currents
-/// there would be stronger than they are (by 10 dB in the test). The same path backwards, out over the mirror, is its
-/// reciprocal for a monostatic radar: it is added with it, and not looked for on its own where the small surface is seen
-/// directly.
+/// Where a small surface is followed by a large one (target, wall), the currents are taken on the small one
+/// and the large one is a mirror on the way to the receiver: on the large one the wave of a small surface has
+/// no parallel rays, and currents there would be stronger than they are (by 10 dB in the test). The same path
+/// backwards, out over the mirror, is its reciprocal for a monostatic radar: it is added with it, and not
+/// looked for on its own where the small surface is seen directly.
 ///
-/// A tube that came by a mirror sends back over it, too (wall, target, wall), from all surfaces from which the radar is seen
-/// there, wherever their own reflections go: what the wall shows is an image of the radar, and it sees the target as the radar
-/// itself would from there.
+/// A tube that came by a mirror sends back over it, too (wall, target, wall), from all surfaces from which
+/// the radar is seen there, wherever their own reflections go: what the wall shows is an image of the radar,
+/// and it sees the target as the radar itself would from there.
 ///
-/// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine mesh) what is
-/// left uncovered counts as the middle ray's facet.
+/// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine
+/// mesh) what is left uncovered counts as the middle ray's facet.
 class TubeEchoes {
  public:
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
@@ -74,10 +74,11 @@ class TubeEchoes {
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
   void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
-  /// Which mirror the way to the receiver goes over: the tube's first surface, or another one that its ray meets next.
+  /// Which mirror the way to the receiver goes over: the tube's first surface, or another one that its ray
+  /// meets next.
   enum class Over : uint8_t { first, other };
-  /// Currents on surface `last` of the chain, and what they send over `mirror`; with the same path backwards where only this
-  /// one is looked for.
+  /// Currents on surface `last` of the chain, and what they send over `mirror`; with the same path backwards
+  /// where only this one is looked for.
   void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
                  bool whole) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;

@@ -77,8 +77,9 @@ struct Border {
     else
       out.push_back({at, value, true});
   }
-  /// Whether both ends of a side are far from stationary and below the floor, without working them out: |density| is at most
-  /// (1 + 3 bend/gradient^2)/gradient, what an end makes of it that times (1 + bend/slope^2)/slope.
+  /// Whether both ends of a side are far from stationary and below the floor, without working them out:
+  /// |density| is at most (1 + 3 bend/gradient^2)/gradient, what an end makes of it that times (1 +
+  /// bend/slope^2)/slope.
   bool faint(double slope, double gradient, double length) const {
     const double squared = slope * slope;
     if (!(limits.floor > 0.0 && squared > limits.stationary * most_bend && slope * length > pi)) return false;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a tube sees, exactly: the facets that its ray and those around it have met, each clipped to the tube, the nearer in
-// front of the farther.
+// What a tube sees, exactly: the facets that its ray and those around it have met, each clipped to the tube,
+// the nearer in front of the farther.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,9 @@ struct VisibleScratch {
   std::vector<Polygon> rest;
 };
 
-/// Parts of `whole` (in the beam's coordinates) by what they fall on; what falls on none of `facets` (ascending, each once)
-/// is left as `nothing`. Of two facets at the same distance the first one counts. Facets that cut through each other are
-/// told apart at the centre of where they overlap.
+/// Parts of `whole` (in the beam's coordinates) by what they fall on; what falls on none of `facets`
+/// (ascending, each once) is left as `nothing`. Of two facets at the same distance the first one counts.
+/// Facets that cut through each other are told apart at the centre of where they overlap.
 /// `smallest`: parts of less area than this are dropped.
 void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
                   const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,

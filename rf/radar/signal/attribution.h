@@ -12,7 +12,8 @@
 
 namespace greatx::rf {
 
-/// Where each echo's tone is expected: bins of range and Doppler at the middle of its list's slots, ambiguities included.
+/// Where each echo's tone is expected: bins of range and Doppler at the middle of its list's slots,
+/// ambiguities included.
 class Attribution {
  public:
   /// An instance must account for this share of a cell's power.
@@ -20,9 +21,9 @@ class Attribution {
 
   Attribution(const RadarSignalConfig& config, const RadarMaps& maps, std::span<const EchoList> lists);
 
-  /// Of instances whose echoes lie within two bins of the cell: that with the largest of |sum of tones|^2 and the sum of
-  /// their powers (the lower id of equals), if that is least_share of `power_w`; else 0. Echoes by tables count in all Doppler
-  /// bins between their slowest and fastest, their power shared among those.
+  /// Of instances whose echoes lie within two bins of the cell: that with the largest of |sum of tones|^2 and
+  /// the sum of their powers (the lower id of equals), if that is least_share of `power_w`; else 0. Echoes by
+  /// tables count in all Doppler bins between their slowest and fastest, their power shared among those.
   uint32_t instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const;
 
  private:

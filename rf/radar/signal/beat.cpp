@@ -31,7 +31,8 @@ struct EchoColumns {
   size_t echoes = 0, padded = 0;
   TrackColumns track;
   std::vector<double> mid_delay_s;  ///< at the middle of the list's slots
-  /// [virtual antennas, padded]: conj(a) sqrt(P_t) and the phase of the antenna's lead; cells that it shifts the tone.
+  /// [virtual antennas, padded]: conj(a) sqrt(P_t) and the phase of the antenna's lead; cells that it shifts
+  /// the tone.
   std::vector<float> phasor_re, phasor_im, shift;
 };
 

@@ -41,8 +41,8 @@ double gamma_quantile(uint32_t looks, double tail) {
 
 constexpr int steps = 800;
 
-/// Mean of f(x) over the rank-th smallest x of n Gamma(looks) variates, n and rank real: midpoints in F(x)'s logit, whose
-/// density Beta(rank, n - rank + 1) is known.
+/// Mean of f(x) over the rank-th smallest x of n Gamma(looks) variates, n and rank real: midpoints in F(x)'s
+/// logit, whose density Beta(rank, n - rank + 1) is known.
 template <typename Function>
 double order_statistic_mean(double cells, double rank, const std::vector<double>& quantiles,
                             const Function& f) {

@@ -101,7 +101,8 @@ void DetectionMaker::place(RadarDetection& detection, const Offsets& at,
   detection.range_m = wrapped(0.5 * way, -0.5 * w.range_bin_m(), w.range_span_m());
   detection.velocity_m_s = 0.5 * speed_of_light * nu /
                            (w.carrier_hz - 2.0 * w.slope_hz_per_s * detection.range_m / speed_of_light);
-  // The point on the ray of arrival whose way to the transmitter and back is that: a sphere's, or an ellipsoid's.
+  // The point on the ray of arrival whose way to the transmitter and back is that: a sphere's, or an
+  // ellipsoid's.
   way = 2.0 * detection.range_m;
   const dvec3 arrival = geometry.attitude.receiver * unit, baseline = geometry.baseline_m;
   const double back =

@@ -46,8 +46,8 @@ class DetectionMaker {
   DetectionMaker(const RadarSignalConfig& config, const RadarMaps& maps, RadarGain transmit_gain,
                  RadarGain receive_gain);
 
-  /// Drops the peaks that a stronger one's windows leave there (twice the highest response within half a bin of that offset);
-  /// returns how many.
+  /// Drops the peaks that a stronger one's windows leave there (twice the highest response within half a bin
+  /// of that offset); returns how many.
   size_t drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<const float> map) const;
   /// [peaks]; spectrum [rx, tx, range, velocity].
   std::vector<RadarDetection> make(std::span<const CfarPeak> peaks, std::span<const float> map,

@@ -25,9 +25,10 @@ struct Direction {
   }
 };
 
-/// Bartlett's beam (H. L. Van Trees, "Optimum Array Processing", 2002, 2.4 and 8.4): searched over the half space in front of
-/// the array, x > 0, a fifth of a beam apart, then refined to 1e-7 rad. What the elements cannot tell is 0: the elevation of a
-/// row along y, the azimuth of a column along z, both of one antenna. A row reads the azimuth that its cone has at elevation 0.
+/// Bartlett's beam (H. L. Van Trees, "Optimum Array Processing", 2002, 2.4 and 8.4): searched over the half
+/// space in front of the array, x > 0, a fifth of a beam apart, then refined to 1e-7 rad. What the elements
+/// cannot tell is 0: the elevation of a row along y, the azimuth of a column along z, both of one antenna. A
+/// row reads the azimuth that its cone has at elevation 0.
 class DirectionFinder {
  public:
   explicit DirectionFinder(const RadarSignalConfig& config);

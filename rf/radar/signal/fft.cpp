@@ -10,9 +10,9 @@
 
 #include "core/error.h"
 
-/// KISS FFT's template on four numbers side by side. Its own constructor works out the phases in the numbers that it
-/// transforms; here they are fp64, rounded last. Radices are 4, 2, 3 and 5 alone: for others the template keeps a buffer
-/// that threads would share.
+/// KISS FFT's template on four numbers side by side. Its own constructor works out the phases in the numbers
+/// that it transforms; here they are fp64, rounded last. Radices are 4, 2, 3 and 5 alone: for others the
+/// template keeps a buffer that threads would share.
 template <>
 kissfft<greatx::rf::Four>::kissfft(const std::size_t nfft, const bool inverse)
     : _nfft(nfft), _inverse(inverse) {

@@ -10,9 +10,9 @@
 
 namespace greatx::rf {
 
-/// Discrete Fourier transforms of four signals side by side, in fp32 (KISS FFT): out[k] = sum_n in[n] e^{-j 2 pi k n/size}, or
-/// e^{+j ...} backward; no factor. The same input gives the same bits, in any lane. transform() may run on many threads at
-/// once.
+/// Discrete Fourier transforms of four signals side by side, in fp32 (KISS FFT): out[k] = sum_n in[n] e^{-j 2
+/// pi k n/size}, or e^{+j ...} backward; no factor. The same input gives the same bits, in any lane.
+/// transform() may run on many threads at once.
 class Fft {
  public:
   /// A number of each signal.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Loops that one processor works on eight numbers at a time and another on four: GREATX_LANES before a function compiles it
-// once for each and picks at run time. The bits are the same: nothing is contracted or reordered, only done side by side.
-// The functions here have no branch, so that loops of them stay so.
+// Loops that one processor works on eight numbers at a time and another on four: GREATX_LANES before a
+// function compiles it once for each and picks at run time. The bits are the same: nothing is contracted or
+// reordered, only done side by side. The functions here have no branch, so that loops of them stay so.
 #pragma once
 
 #include <bit>
@@ -53,8 +53,8 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
 inline double nearest(double value) { return (value + 0x1.8p52) - 0x1.8p52; }
 inline float nearest(float value) { return (value + 0x1.8p23f) - 0x1.8p23f; }
 
-/// cos and sin of 2 pi `turns`, |turns| <= 2^20, to 1.2e-7. Polynomials over an eighth of a turn on each side: S. Moshier,
-/// Cephes 2.2, sinf.c and cosf.c.
+/// cos and sin of 2 pi `turns`, |turns| <= 2^20, to 1.2e-7. Polynomials over an eighth of a turn on each
+/// side: S. Moshier, Cephes 2.2, sinf.c and cosf.c.
 inline void cos_sin_of_turns(float turns, float& cosine, float& sine) {
   const float quarter = nearest(turns * 4.0f);
   const float x = (turns - quarter * 0.25f) * 6.28318530717958647692f, xx = x * x;

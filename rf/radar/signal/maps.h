@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the cube to spectra and maps. Both transforms divide by the sum of their window: the power of a tone at a bin's centre
-// is its power at the receiver's port.
+// From the cube to spectra and maps. Both transforms divide by the sum of their window: the power of a tone
+// at a bin's centre is its power at the receiver's port.
 #pragma once
 
 #include <complex>
@@ -16,12 +16,14 @@
 
 namespace greatx::rf {
 
-/// Bin k of `bins` along the Doppler axis stands for k - floor(bins/2) turns over the chirps; positive: receding.
+/// Bin k of `bins` along the Doppler axis stands for k - floor(bins/2) turns over the chirps; positive:
+/// receding.
 inline int32_t doppler_turns(uint32_t bin, uint32_t bins) {
   return static_cast<int32_t>(bin) - static_cast<int32_t>(bins / 2);
 }
 
-/// What a radar's axes read. Ranges are of targets at rest: a velocity v shifts a tone by f_c v/S metres (docs/radar.md).
+/// What a radar's axes read. Ranges are of targets at rest: a velocity v shifts a tone by f_c v/S metres
+/// (docs/radar.md).
 struct RadarAxes {
   std::vector<double> range_m;       ///< [ranges]: k c/2B
   std::vector<double> velocity_m_s;  ///< [velocities]: rate of range, positive receding, from -v_max up
@@ -43,10 +45,10 @@ class RadarMaps {
                                             uint32_t threads) const;
   /// Mean over the virtual antennas of |spectrum|^2: W [range, velocity].
   std::vector<float> range_doppler(std::span<const std::complex<float>> spectrum, uint32_t threads) const;
-  /// W [range, azimuth], at elevation 0: power of the beam (mean of the virtual antennas, each turned by what its direction
-  /// and, with TDM, its slot's time at the bin's velocity add), summed over all velocities and divided by the Doppler window's
-  /// noise bandwidth, so that a target in the beam counts with its received power whatever its velocity. Bistatic: beams of
-  /// each transmitter's receivers, their mean power.
+  /// W [range, azimuth], at elevation 0: power of the beam (mean of the virtual antennas, each turned by what
+  /// its direction and, with TDM, its slot's time at the bin's velocity add), summed over all velocities and
+  /// divided by the Doppler window's noise bandwidth, so that a target in the beam counts with its received
+  /// power whatever its velocity. Bistatic: beams of each transmitter's receivers, their mean power.
   std::vector<float> range_azimuth(std::span<const std::complex<float>> spectrum, uint32_t threads) const;
 
  private:
@@ -67,8 +69,8 @@ inline double tdm_turns(const RadarWaveform& waveform, uint32_t transmitter, dou
   return doppler * transmitter / (double(waveform.chirps()) * waveform.transmitters);
 }
 
-/// Turns of virtual antenna (receiver, transmitter) for a unit direction in the array's frame, -u . d/lambda, d the sum of
-/// both elements' positions (of the receiver's alone if bistatic).
+/// Turns of virtual antenna (receiver, transmitter) for a unit direction in the array's frame, -u . d/lambda,
+/// d the sum of both elements' positions (of the receiver's alone if bistatic).
 double steering_turns(const RadarSignalConfig& config, uint32_t receiver, uint32_t transmitter,
                       const dvec3& direction);
 

@@ -57,7 +57,8 @@ class RadarProcessor {
   const RadarAxes& axes() const { return maps_.axes(); }
   const RadarMaps& maps() const { return maps_; }
 
-  /// threads: 0, all there are; the bytes do not depend on it. Throws UserError for echoes of no use (check_echoes()).
+  /// threads: 0, all there are; the bytes do not depend on it. Throws UserError for echoes of no use
+  /// (check_echoes()).
   RadarFrame process(const RadarFrameInput& input, uint32_t threads = 0) const;
 
  private:

@@ -168,7 +168,8 @@ void PhaseWalk::Ramp::differences(uint32_t node, std::span<float> turns) {
   extend(walk_.samples_ + whole + 1);
   std::vector<std::complex<float>> bridge(walk_.samples_);
   complex_normals(walk_.seeds_, RadarDraw::bridge, slot_, node << 24, bridge);
-  // Given both neighbours: D. T. Gillespie, Phys. Rev. E 54, 2084 (1996), for the process; conditioned on the far end.
+  // Given both neighbours: D. T. Gillespie, Phys. Rev. E 54, 2084 (1996), for the process; conditioned on the
+  // far end.
   const double both = std::sinh(rate);
   const float near = static_cast<float>(std::sinh(rate * (1.0 - later)) / both);
   const float far = static_cast<float>(std::sinh(rate * later) / both);

@@ -94,7 +94,8 @@ GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, cons
   for (uint32_t i = 0; i < count; ++i) {
     const int32_t orders = tones.orders[i];
     if (orders == 0) continue;
-    // Receiver by receiver, for neighbours in delay add to the same cells: each waits for what the one before has stored.
+    // Receiver by receiver, for neighbours in delay add to the same cells: each waits for what the one before
+    // has stored.
     for (uint32_t r = 0; r < receivers; ++r) {
       const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
       const int32_t segment = taps[r].segment[i] * row;

@@ -64,8 +64,9 @@ void block_tones(const SlotScales& scales, const BlockDelays& delays, const doub
 void block_taps(const SlotScales& scales, const BlockTones& tones, const float* shift, const float* phasor_re,
                 const float* phasor_im, BlockTaps& taps);
 
-/// Adds the first `count` tones, in their order, to each receiver's grid of M + 8 cells, re and im, `stride` floats each, one
-/// receiver's after the other's: those of tone i begin at `grids` + offset[i]. taps: [receivers].
+/// Adds the first `count` tones, in their order, to each receiver's grid of M + 8 cells, re and im, `stride`
+/// floats each, one receiver's after the other's: those of tone i begin at `grids` + offset[i]. taps:
+/// [receivers].
 void spread(const ToneKernel& kernel, const BlockTones& tones, const BlockTaps* taps, uint32_t receivers,
             const uint32_t* offset, uint32_t count, uint32_t stride, float* grids);
 

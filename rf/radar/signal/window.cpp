@@ -44,7 +44,8 @@ std::vector<double> coefficients_of(RadarWindow kind) {
 std::complex<double> kernel_of(double bins, uint32_t size) {
   const double turns = bins / size, whole = std::nearbyint(turns);
   const double lean = pi * turns * (double(size) - 1.0 - 2.0 * double(size / 2));
-  // At multiples of `size` all terms are 1: the quotient's limit, sign included, is what lean's phase takes off again.
+  // At multiples of `size` all terms are 1: the quotient's limit, sign included, is what lean's phase takes
+  // off again.
   const double top = std::sin(pi * (bins - whole * size)), bottom = std::sin(pi * (turns - whole));
   const double sum = std::abs(bottom) < 1e-15 ? size : top / bottom;
   const double sign = std::fmod(std::abs(whole), 2.0) == 0.0 || size % 2 == 1 ? 1.0 : -1.0;

@@ -111,8 +111,9 @@ class CityFurniture {
 
 double heading(const dvec2& direction) { return std::atan2(direction.y, direction.x); }
 
-/// Lamps every 28 m or so: along both sides of an avenue, staggered; along the south and west edges of other blocks, so
-/// that each street has one row. Trees along avenues, of one species; signals, signs, shelters, bins.
+/// Lamps every 28 m or so: along both sides of an avenue, staggered; along the south and west edges of other
+/// blocks, so that each street has one row. Trees along avenues, of one species; signals, signs, shelters,
+/// bins.
 void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, RandomStream& random) {
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;

@@ -133,8 +133,8 @@ Style make_style(int floors, RandomStream& random) {
   return style;
 }
 
-/// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and apart.
-/// Returns their middles.
+/// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and
+/// apart. Returns their middles.
 std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof,
                                  const std::vector<dvec2>& spots, const dvec2& along, double roof_z,
                                  RandomStream& random) {
@@ -184,8 +184,8 @@ struct Site {
   dvec2 along;
 };
 
-/// Rings of a façade from `bottom` to `top`, one for every two floors, so that each starts with a bay of its own: no
-/// two walls show the same windows lit.
+/// Rings of a façade from `bottom` to `top`, one for every two floors, so that each starts with a bay of its
+/// own: no two walls show the same windows lit.
 void add_facade(RingSolid& solid, double inset, double bottom, double base, double top, int facade,
                 RandomStream& looks) {
   for (double z = base; z < top - 0.01; z += 2.0 * floor_height)

@@ -17,8 +17,8 @@ struct Building {
   double yaw = 0.0;
 };
 
-/// The buildings of a block: footprints of several shapes on its lots, 8 to 45 m high, taller towards the centre.
-/// `first` is the number of the first of them in the city.
+/// The buildings of a block: footprints of several shapes on its lots, 8 to 45 m high, taller towards the
+/// centre. `first` is the number of the first of them in the city.
 std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
                                      RandomStream& random);
 

@@ -14,8 +14,8 @@ namespace {
 constexpr double frame_side_m = 0.15;  ///< what stays whole along the kerbs, and
 constexpr double frame_end_m = 0.7;    ///< at both ends, so that neighbours meet a street in single edges
 
-/// A row across the street within the frame: `cuts` are fractions of the street's width, cell i lies between cuts i
-/// and i + 1.
+/// A row across the street within the frame: `cuts` are fractions of the street's width, cell i lies between
+/// cuts i and i + 1.
 struct Row {
   double length_m = 0.0;
   std::vector<double> cuts;
@@ -56,8 +56,8 @@ std::vector<Row> make_rows(const Street& street, double length, double width, Ra
   const Row plain = make_row(1.5, width, {});
   const auto crossing = [&](bool junction) { return junction && (street.avenue || random.uniform() >= 0.5); };
   const bool head = crossing(street.junction[0]), tail = crossing(street.junction[1]);
-  // Traffic keeps to the right: it stops before the crossing at the far end on the right half, at the near end on the
-  // left half.
+  // Traffic keeps to the right: it stops before the crossing at the far end on the right half, at the near
+  // end on the left half.
   const double rim = 0.35 / width, middle = 0.2 / width;
   const Row stop_left = make_row(0.4, width, {{rim, 0.5 - middle}}),
             stop_right = make_row(0.4, width, {{0.5 + middle, 1.0 - rim}});

@@ -10,8 +10,8 @@ namespace greatx::scene::generator {
 inline constexpr double pavement_height_m =
     0.15;  ///< kerb: pavements and courtyards lie this high above the road
 
-/// Streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane, not laid over it:
-/// radio sees one flat road.
+/// Streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane, not laid
+/// over it: radio sees one flat road.
 void add_streets(const CityPlan& plan, uint64_t seed, MeshBuilder& road, MeshBuilder& markings);
 
 /// Pavement with its kerb, and the land within it (`surface`), of one block.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The city seen from above: slightly tilted straight streets that cross, blocks with rounded corners between them.
-// Streets, junctions and blocks share their corners exactly, so that the ground is one closed surface.
+// The city seen from above: slightly tilted straight streets that cross, blocks with rounded corners between
+// them. Streets, junctions and blocks share their corners exactly, so that the ground is one closed surface.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace greatx::scene::generator {
 
-/// Edges 0 south, 1 east, 2 north, 3 west; corner i lies between edges i - 1 and i: south-west, south-east, ...
+/// Edges 0 south, 1 east, 2 north, 3 west; corner i lies between edges i - 1 and i: south-west, south-east,
+/// ...
 struct Block {
   int column = 0, row = 0;
   std::array<bool, 4> street{};        ///< whether a street runs along the edge (else the model ends there)

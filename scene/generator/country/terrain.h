@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The country's ground: one warped grid whose columns follow the road, so that the road is part of the surface and
-// not laid over it.
+// The country's ground: one warped grid whose columns follow the road, so that the road is part of the
+// surface and not laid over it.
 #pragma once
 
 #include <string>

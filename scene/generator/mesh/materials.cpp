@@ -9,9 +9,9 @@ namespace greatx::scene::generator {
 
 namespace {
 
-// Radio side. Media are those of ITU-R P.2040-4, Table 3, by name where it has them. Scattering coefficients are
-// plausible figures for the effective-roughness model (smooth glass and metal least, rough ground most), not
-// measurements of these surfaces.
+// Radio side. Media are those of ITU-R P.2040-4, Table 3, by name where it has them. Scattering coefficients
+// are plausible figures for the effective-roughness model (smooth glass and metal least, rough ground most),
+// not measurements of these surfaces.
 const char* const concrete_wall =
     R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
 const char* const concrete_ground =
@@ -46,7 +46,8 @@ const char* const clay_tiles =
 
 std::vector<MaterialSpec> make_library() {
   const dvec2 facade(3.0 * facade_bays, 6.4);
-  // What a white texel of TextureMaps::lit gives. A warm lit pane has 0.6 of a white one's luminance (docs/generator.md).
+  // What a white texel of TextureMaps::lit gives. A warm lit pane has 0.6 of a white one's luminance
+  // (docs/generator.md).
   const vec3 home_light(0.05f), office_light(0.05f), shop_light(0.12f);
   return {
       // name, texture, tile, bays, colour, roughness, metallic, emissive, radio

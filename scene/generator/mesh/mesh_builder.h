@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Collects flat-shaded faces into one triangle list per material. Positions are whole millimetres, so that faces that
-// meet share exact corners and the bytes do not depend on the last bit of a sine.
+// Collects flat-shaded faces into one triangle list per material. Positions are whole millimetres, so that
+// faces that meet share exact corners and the bytes do not depend on the last bit of a sine.
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct PrimitiveData {
 
 class MeshBuilder {
  public:
-  /// Corners counter-clockwise seen from outside. A triangle that millimetres make degenerate is a ContractError.
+  /// Corners counter-clockwise seen from outside. A triangle that millimetres make degenerate is a
+  /// ContractError.
   void triangle(int material, const std::array<dvec3, 3>& corners, const std::array<dvec2, 3>& uvs);
   /// The same with normals of its own (smooth shading).
   void triangle(int material, const std::array<dvec3, 3>& corners, const std::array<dvec3, 3>& normals,
@@ -74,8 +75,8 @@ class MeshBuilder {
   std::vector<PrimitiveData> primitives_;
 };
 
-/// Texture coordinates of a point on a face with this normal: metres along the face over the material's tile; glTF's
-/// v grows downwards, so it falls with height.
+/// Texture coordinates of a point on a face with this normal: metres along the face over the material's tile;
+/// glTF's v grows downwards, so it falls with height.
 dvec2 planar_uv(int material, const dvec3& point, const dvec3& normal);
 
 /// A regular polygon with `count` corners, the first at angle `phase` (rad).
@@ -89,8 +90,8 @@ std::vector<dvec2> inset(std::span<const dvec2> corners, double distance);
 /// Triangles of a simple polygon that is counter-clockwise, by ear clipping in exact integer millimetres.
 std::vector<std::array<uint32_t, 3>> triangulate(std::span<const dvec2> corners);
 
-/// A closed solid made of rings: each is the footprint moved inwards by `inset_m` at height `z`, joined to the next by
-/// walls (same inset) or a strip, level or (over rectangles only) sloping.
+/// A closed solid made of rings: each is the footprint moved inwards by `inset_m` at height `z`, joined to
+/// the next by walls (same inset) or a strip, level or (over rectangles only) sloping.
 struct Ring {
   double inset_m = 0.0;
   double z = 0.0;

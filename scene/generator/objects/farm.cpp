@@ -15,8 +15,8 @@ struct House {
   int wall, gable, roof;
 };
 
-/// Walls and gables under a roof that is a closed slab of its own, 0.25 m thick, overhanging; it reaches 5 cm into the
-/// body, so that no two faces share a plane.
+/// Walls and gables under a roof that is a closed slab of its own, 0.25 m thick, overhanging; it reaches 5 cm
+/// into the body, so that no two faces share a plane.
 void add_house(MeshBuilder& mesh, const House& h) {
   const double w = snap(h.half_width), l = snap(h.half_length), bottom = -1.0;
   const double eaves = snap(h.eaves), ridge = snap(h.ridge);

@@ -11,8 +11,8 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A spot of this flux (LightSpec::flux_lm) with full intensity up to `inner` and none beyond `outer`, degrees from
-/// straight down.
+/// A spot of this flux (LightSpec::flux_lm) with full intensity up to `inner` and none beyond `outer`,
+/// degrees from straight down.
 LightSpec downlight(const vec3& color, double flux_lm, double inner, double outer, double range_m) {
   LightSpec light{.color = color,
                   .intensity_cd = 1.0,

@@ -10,8 +10,8 @@
 
 namespace greatx::scene::generator {
 
-/// `variant` "hatchback" or "van"; `paint` a material; `detailed` adds rims, plates and pillars for close views, and
-/// switches the lamps on: without it, a parked car.
+/// `variant` "hatchback" or "van"; `paint` a material; `detailed` adds rims, plates and pillars for close
+/// views, and switches the lamps on: without it, a parked car.
 MeshBuilder make_car(const std::string& variant, const std::string& paint, bool detailed);
 
 /// A car that drives: its mesh with low beams and tail lights (KHR_lights_punctual).

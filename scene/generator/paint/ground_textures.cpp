@@ -10,8 +10,8 @@
 
 namespace greatx::scene::generator {
 
-/// 16 m across x 32 m along a street, its middle at x = 256: wheel tracks of the lanes, oil between them, patches,
-/// cracks and a few covers.
+/// 16 m across x 32 m along a street, its middle at x = 256: wheel tracks of the lanes, oil between them,
+/// patches, cracks and a few covers.
 TextureMaps asphalt() {
   TexturePainter painter(512, 1024, {80, 80, 82});
   painter.blotches(256, 7, 11);
@@ -140,8 +140,9 @@ TextureMaps pasture() {
   return painter.maps();
 }
 
-/// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of a sprayer
-/// every 24 m, patches that grew better or worse. What is low is dark: colour and relief have the same heights.
+/// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of
+/// a sprayer every 24 m, patches that grew better or worse. What is low is dark: colour and relief have the
+/// same heights.
 TextureMaps crop() {
   TexturePainter painter(512, 512, {204, 204, 198});
   painter.blotches(256, 14, 51);
@@ -152,7 +153,8 @@ TextureMaps crop() {
       const int phase = y % 8, furrow = 5 * std::min(phase, 8 - phase);
       const int clod = 5 * static_cast<int>(hash(x / 2, y / 2, 54) % 5) - 10, height = clod - furrow;
       painter.add(x, y, {height, height, height});
-      // Of a pixel of 9.4 cm: furrows 12 cm deep, clods as high. In steps of 5 there are few slopes: a small file.
+      // Of a pixel of 9.4 cm: furrows 12 cm deep, clods as high. In steps of 5 there are few slopes: a small
+      // file.
       painter.raise(x, y, x + 1, y + 1, height);
     }
   for (int y = 40; y < 512; y += 256)

@@ -122,8 +122,8 @@ TextureMaps boards() {
   return painter.maps();
 }
 
-/// 2.4 m: eight courses of clay tiles that overlap, staggered; each bulges across and lies with its lower edge, a tile's
-/// thickness up, on the next.
+/// 2.4 m: eight courses of clay tiles that overlap, staggered; each bulges across and lies with its lower
+/// edge, a tile's thickness up, on the next.
 TextureMaps roof_tiles() {
   TexturePainter painter(128, 128, {150, 82, 58});
   for (int row = 0; row < 8; ++row)

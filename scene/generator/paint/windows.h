@@ -21,15 +21,16 @@ struct WindowStyle {
 /// A colour at so many percent.
 Rgb dimmed(const Rgb& color, int percent);
 
-/// Whether window (x, y) is lit in `layer`, and its light; black: dark. Offices go out by rooms of three windows.
+/// Whether window (x, y) is lit in `layer`, and its light; black: dark. Offices go out by rooms of three
+/// windows.
 Rgb night_light(Use use, int layer, int x, int y, uint32_t seed);
 
 /// A lit pane: brighter towards the lamp above, furniture dark against it.
 void light_pane(TexturePainter& painter, int layer, int x0, int y0, int x1, int y1, const Rgb& light, Use use,
                 uint32_t seed);
 
-/// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the top,
-/// perhaps a curtain or a blind. By night some are lit.
+/// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the
+/// top, perhaps a curtain or a blind. By night some are lit.
 void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed);
 
 /// Soot and rain under a sill.

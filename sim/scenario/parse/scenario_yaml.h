@@ -64,7 +64,8 @@ class Field {
     return choice(std::span(choices.begin(), choices.size()));
   }
   size_t choice(std::span<const std::string_view> choices) const;
-  /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g. "sensors".
+  /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g.
+  /// "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
   /// Returns an existing regular file as an absolute path. A relative one is looked for in the scenario's
   /// folder, then among the assets.

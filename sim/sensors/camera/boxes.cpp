@@ -226,7 +226,8 @@ void Boxes::count_seen(std::span<const uint32_t> instances) {
 }
 
 bool Boxes::outside(const Object& object, const Pose& optical_from_body) const {
-  // A corner of the 3-D box is beyond a side of the view if it is so in homogeneous coordinates, also behind the eye.
+  // A corner of the 3-D box is beyond a side of the view if it is so in homogeneous coordinates, also behind
+  // the eye.
   uint32_t beyond_all = 31;
   const dvec2 least = projection_.least(), most = projection_.most();
   const Pose optical_from_box = optical_from_body * object.body_from_box;

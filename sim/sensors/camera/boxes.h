@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes of a camera's objects, in three dimensions and in its picture, and how much of each is seen. Host, fp64.
-// docs/truth.md has the definitions.
+// Boxes of a camera's objects, in three dimensions and in its picture, and how much of each is seen. Host,
+// fp64. docs/truth.md has the definitions.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace greatx::sim {
 
-/// An object of one picture. Rectangles are u_min, v_min, u_max, v_max in pixel coordinates (pixel i reaches from i to
-/// i + 1).
+/// An object of one picture. Rectangles are u_min, v_min, u_max, v_max in pixel coordinates (pixel i reaches
+/// from i to i + 1).
 struct ObjectBox {
   uint32_t object = 0;  ///< index into Boxes::objects()
   Pose world_from_box;  ///< to the box's centre and axes
@@ -37,9 +37,9 @@ struct ObjectBox {
 
 class Boxes {
  public:
-  /// What gets a box: a moving body with all its instances and parts, or an instance of the static world. The box of a body
-  /// with parts that turn holds them however they are turned, so that its size does not change; rectangles and pixels are
-  /// those of the parts as they stand.
+  /// What gets a box: a moving body with all its instances and parts, or an instance of the static world. The
+  /// box of a body with parts that turn holds them however they are turned, so that its size does not change;
+  /// rectangles and pixels are those of the parts as they stand.
   struct Object {
     uint32_t first_instance = 0, instance_count = 1;
     scene::SemanticClass semantic_class = scene::SemanticClass::unlabeled;
@@ -55,15 +55,15 @@ class Boxes {
     std::vector<Piece> pieces;  ///< vertices up to the next one's are of its body; the body's own first
   };
 
-  /// Objects of `classes` (names); none given: of every class but ground, road, pavement, lane_marking, building, roof,
-  /// window, water and unlabeled. `scene` outlives this.
+  /// Objects of `classes` (names); none given: of every class but ground, road, pavement, lane_marking,
+  /// building, roof, window, water and unlabeled. `scene` outlives this.
   Boxes(const scene::Scene& scene, const render::CameraDesc& camera, std::span<const std::string> classes);
   Boxes(const Boxes&) = delete;
   Boxes& operator=(const Boxes&) = delete;
 
   const std::vector<Object>& objects() const { return objects_; }
-  /// Objects that would cover a pixel's centre if they were alone, or are seen, in order of their instances. `bodies`:
-  /// local poses by body. `instances`: [height, width] instance index + 1, 0: nothing.
+  /// Objects that would cover a pixel's centre if they were alone, or are seen, in order of their instances.
+  /// `bodies`: local poses by body. `instances`: [height, width] instance index + 1, 0: nothing.
   std::vector<ObjectBox> find(const Pose& local_from_sensor, std::span<const Pose> bodies,
                               std::span<const uint32_t> instances);
 
@@ -91,9 +91,9 @@ class Boxes {
   Coverage coverage_;
 };
 
-/// The upright box of least volume around points: least-area rectangle over their horizontal hull (H. Freeman and R.
-/// Shapira, "Determining the minimum-area encasing rectangle", CACM 18(7), 1975), x along its longer side, yaw within
-/// (-90, 90] degrees. Sets `size`, returns where the box is.
+/// The upright box of least volume around points: least-area rectangle over their horizontal hull (H. Freeman
+/// and R. Shapira, "Determining the minimum-area encasing rectangle", CACM 18(7), 1975), x along its longer
+/// side, yaw within (-90, 90] degrees. Sets `size`, returns where the box is.
 Pose upright_box(std::span<const dvec3> points, dvec3& size);
 
 }  // namespace greatx::sim

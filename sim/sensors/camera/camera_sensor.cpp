@@ -120,7 +120,8 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
           context.body_poses_at(time_s)};
 }
 
-/// The instants of an exposure around the tick, evenly; the tick itself, whose depth and ids are the picture's, last.
+/// The instants of an exposure around the tick, evenly; the tick itself, whose depth and ids are the
+/// picture's, last.
 void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
   const render::FrameNumber frame{context.sequence, context.tick};
   const uint32_t instants = config_.motion_blur_samples;

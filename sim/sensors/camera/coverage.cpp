@@ -59,8 +59,8 @@ struct Projection::Bounds {
   }
 };
 
-/// Of a straight edge that the lens bends; places along it are counted from where it comes closest to the axis, in
-/// normalised coordinates.
+/// Of a straight edge that the lens bends; places along it are counted from where it comes closest to the
+/// axis, in normalised coordinates.
 void Projection::add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) const {
   const dvec2 a = normalised(from), along = normalised(to) - a;
   const double length = glm::length(along), step = edge_step / std::max(fx_, fy_);
@@ -171,7 +171,8 @@ void Coverage::add_straight(std::span<const dvec2> polygon) {
     const double y = row + 0.5;
     double left = infinity, right = -infinity;
     for (size_t i = 0; i < polygon.size(); ++i) {
-      // From the upper end to the lower one, whichever way round the polygon goes: neighbours find the same crossing.
+      // From the upper end to the lower one, whichever way round the polygon goes: neighbours find the same
+      // crossing.
       const dvec2 *a = &polygon[i], *b = &polygon[(i + 1) % polygon.size()];
       if (a->y > b->y) std::swap(a, b);
       if (!(a->y <= y && y < b->y)) continue;

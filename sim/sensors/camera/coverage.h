@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which pixels of a picture a shape covers, exactly: projection and rasterisation at pixels' centres on the host, fp64.
+// Which pixels of a picture a shape covers, exactly: projection and rasterisation at pixels' centres on the
+// host, fp64.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 
 namespace greatx::sim {
 
-/// Where a camera shows points. Optical axes: x right, y down, z forward. *Pinhole* pixel coordinates are those of a
-/// camera of the same intrinsics without distortion, in which straight edges stay straight.
+/// Where a camera shows points. Optical axes: x right, y down, z forward. *Pinhole* pixel coordinates are
+/// those of a camera of the same intrinsics without distortion, in which straight edges stay straight.
 class Projection {
  public:
   explicit Projection(const render::CameraDesc& desc);
@@ -23,12 +24,12 @@ class Projection {
   dvec2 pinhole(const dvec3& optical) const {
     return {cx_ + fx_ * optical.x / optical.z, cy_ + fy_ * optical.y / optical.z};
   }
-  /// Pixel coordinates in the picture. What lies beyond the lens's fold (outside of the picture for sure) is taken to
-  /// the fold.
+  /// Pixel coordinates in the picture. What lies beyond the lens's fold (outside of the picture for sure) is
+  /// taken to the fold.
   dvec2 picture(const dvec2& pinhole) const;
-  /// Bounds in the picture of a polygon of pinhole coordinates: u_min, v_min, u_max, v_max. A lens bends its edges:
-  /// points are taken every `edge_step` pixels of them where the picture may show them, however far they go on beyond, and
-  /// between those where a side turns round.
+  /// Bounds in the picture of a polygon of pinhole coordinates: u_min, v_min, u_max, v_max. A lens bends its
+  /// edges: points are taken every `edge_step` pixels of them where the picture may show them, however far
+  /// they go on beyond, and between those where a side turns round.
   dvec4 bounds(std::span<const dvec2> polygon) const;
   static constexpr double edge_step = 8.0;
   bool distorted() const { return distortion_.any(); }
@@ -64,9 +65,9 @@ class Coverage {
   explicit Coverage(const Projection& projection);
 
   void clear();
-  /// Adds the pixels whose centres lie in a convex polygon of pinhole pixel coordinates, whose bounds() in the picture
-  /// are `bounds`. Without distortion an edge's centres belong to the polygon on its right or lower side, so that
-  /// neighbours share none.
+  /// Adds the pixels whose centres lie in a convex polygon of pinhole pixel coordinates, whose bounds() in
+  /// the picture are `bounds`. Without distortion an edge's centres belong to the polygon on its right or
+  /// lower side, so that neighbours share none.
   void add(std::span<const dvec2> polygon, const dvec4& bounds);
   void add(uint32_t column, uint32_t row) { row_bits(row)[column / 64] |= uint64_t{1} << (column % 64); }
   bool contains(uint32_t column, uint32_t row) const {

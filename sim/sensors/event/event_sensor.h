@@ -15,9 +15,10 @@ namespace greatx::sim {
 
 class CameraSensor;
 
-/// An event camera on a node: at each of its samples, the events since the sample before (docs/events.md). Pictures at
-/// the instants in between are rendered in the same tick's command buffer, with everything that moves where it then was.
-/// With EventCameraConfig::camera the pictures at the samples are that camera's, which recorded them just before.
+/// An event camera on a node: at each of its samples, the events since the sample before (docs/events.md).
+/// Pictures at the instants in between are rendered in the same tick's command buffer, with everything that
+/// moves where it then was. With EventCameraConfig::camera the pictures at the samples are that camera's,
+/// which recorded them just before.
 class EventSensor : public Sensor {
  public:
   /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the

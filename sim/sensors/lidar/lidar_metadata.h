@@ -13,8 +13,8 @@
 
 namespace greatx::sim {
 
-/// The arrays that some output holds, in the order of arrays_of: `points` alone for bare points (npy, KITTI), all of them for
-/// clouds with their properties (PLY, PCD).
+/// The arrays that some output holds, in the order of arrays_of: `points` alone for bare points (npy, KITTI),
+/// all of them for clouds with their properties (PLY, PCD).
 std::vector<ArraySpec> lidar_arrays(const LidarConfig::Outputs& outputs);
 std::vector<Array> arrays_of(const render::LidarScan& scan, const LidarConfig::Outputs& outputs);
 /// Scan pattern, beam, returns and receiver as they are used, effects that are off left out.

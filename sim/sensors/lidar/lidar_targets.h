@@ -21,10 +21,10 @@ struct SweepView {
   double max_range_m = 0.0;
 };
 
-/// Every body that a beam may meet, with its motion over the sweep. Not apart if none moves meanwhile: then they all stand
-/// where they are at the tick. A body is left out if it stays more than 10 m beyond the range at every sixteenth of the
-/// times. It has no motion if it stands at all of those where it is at the tick; a part that turns always has one, since it
-/// may have turned whole turns from one of those times to the next.
+/// Every body that a beam may meet, with its motion over the sweep. Not apart if none moves meanwhile: then
+/// they all stand where they are at the tick. A body is left out if it stays more than 10 m beyond the range
+/// at every sixteenth of the times. It has no motion if it stands at all of those where it is at the tick; a
+/// part that turns always has one, since it may have turned whole turns from one of those times to the next.
 render::LidarTargets lidar_targets(const World& world, const TickContext& context, const SweepView& view);
 
 }  // namespace greatx::sim

@@ -13,11 +13,13 @@
 
 namespace greatx::sim {
 
-/// A radar on a node, with a transmitter of its own or another node's antenna. A frame begins at the tick. Its rays are
-/// traced in the tick's command buffer, as often as RadarConfig::updates says, each time with everything where it then is.
+/// A radar on a node, with a transmitter of its own or another node's antenna. A frame begins at the tick.
+/// Its rays are traced in the tick's command buffer, as often as RadarConfig::updates says, each time with
+/// everything where it then is.
 class RadarSensor : public Sensor {
  public:
-  /// Throws UserError for a target that is no instance of the scene, and for materials unknown at the carrier.
+  /// Throws UserError for a target that is no instance of the scene, and for materials unknown at the
+  /// carrier.
   RadarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
               const World& world, uint32_t node, uint32_t sensor);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What shines by night, and how much: photometry of lamps, luminance and share of lit windows, lamps of vehicles.
+// What shines by night, and how much: photometry of lamps, luminance and share of lit windows, lamps of
+// vehicles.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,7 +22,8 @@ constexpr double full_candelas = 1000.0;  // emission of factor 1.0, cd/m^2
 
 double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }
 
-/// Luminous intensity towards an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone Angles").
+/// Luminous intensity towards an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone
+/// Angles").
 double candelas(const PunctualLight& light, double angle) {
   const double peak = static_cast<double>(light.intensity) * luminance(light.color);
   if (light.type == PunctualLight::Type::point) return peak;

@@ -21,7 +21,8 @@ dvec3 normal_of(const generator::Raster& raster, uint32_t x, uint32_t y) {
 }
 
 TEST(Relief, ARampLeansAgainstItsRise) {
-  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the picture.
+  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the
+  // picture.
   generator::TexturePainter painter(64, 64, {});
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) painter.raise(x, y, x + 1, y + 1, 4 * x + 2 * y);
