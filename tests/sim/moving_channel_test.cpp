@@ -8,7 +8,6 @@
 
 #include "rf/channel/dispersion.h"
 #include "sim/channel/channel_snapshot.h"
-#include "sim/plan/plan_options.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/kept_run.h"
@@ -97,13 +96,11 @@ TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
 
 /// Results that outlive a tick have its facets, whatever is solved after it.
 TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
-  const Scenario scenario =
-      parse_scenario(street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", ""), "test.yaml", ".");
-  const World world = load_world(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
-  ChannelSnapshot snapshot(test::device(), scenario, world, plan, gpu_scene_options(plan), 0, {.tick = 1});
-  const rf::Dispersion dispersion(world.scene, snapshot.model().field_model(), {},
-                                  {scenario.channels[0].carrier_hz, 30e6, 3, 1, 0.0});
+  const Experiment experiment = make_experiment(
+      parse_scenario(street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", ""), "test.yaml", "."));
+  ChannelSnapshot snapshot(test::device(), experiment, 0, {.tick = 1});
+  const rf::Dispersion dispersion(experiment.scene(), snapshot.model().field_model(), {},
+                                  {experiment.scenario.channels[0].carrier_hz, 30e6, 3, 1, 0.0});
   const auto solve = [&] {
     std::vector<ChannelSnapshot::Link> links;
     snapshot.solve([&](ChannelSnapshot::Link link) {
