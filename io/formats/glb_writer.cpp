@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/rounding.h"
+
 namespace greatx::io {
 
 namespace {
@@ -45,12 +47,12 @@ Json json_of(const Vec& v) {
 /// glTF's rotation that takes -z, where its lights look, to `aim` (z up) by the shortest way. It is rounded
 /// to float, so that the last bit of a square root does not show.
 Json rotation_to(const dvec3& aim, const std::string& node) {
-  const auto narrow = [](double value) { return static_cast<double>(static_cast<float>(value)); };
   const dvec3 d = glm::normalize(dvec3(aim.x, aim.z, -aim.y));
   const dvec3 axis = glm::cross(dvec3(0.0, 0.0, -1.0), d);
   const double w = 1.0 - d.z, length = std::sqrt(w * w + glm::dot(axis, axis));
   GREATX_CHECK(length > 1e-6, "node '{}' aims straight back", node);
-  return {narrow(axis.x / length), narrow(axis.y / length), narrow(axis.z / length), narrow(w / length)};
+  return {rounded_to_float(axis.x / length), rounded_to_float(axis.y / length),
+          rounded_to_float(axis.z / length), rounded_to_float(w / length)};
 }
 
 void append_u32(Bytes& out, uint32_t value) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/rounding.h"
 #include "core/units.h"
 #include "io/formats/png.h"
 #include "scene/generator/mesh/materials.h"
@@ -24,8 +25,7 @@ float largest(const vec3& color) { return std::max({color.x, color.y, color.z});
 
 /// A turn about z, of which the last bit of a sine does not show.
 dquat turn_about_z(double yaw) {
-  const auto narrow = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  return {narrow(std::cos(yaw / 2)), 0.0, 0.0, narrow(std::sin(yaw / 2))};
+  return {rounded_to_float(std::cos(yaw / 2)), 0.0, 0.0, rounded_to_float(std::sin(yaw / 2))};
 }
 
 }  // namespace
