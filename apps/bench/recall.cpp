@@ -49,7 +49,8 @@ struct Answer {
 /// The channel's own way through a tick, with the receivers as points. `rays` 0: the guaranteed search.
 Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
   sim::Scenario scenario = c.scenario;
-  scenario.channels[0].candidates = rays == 0 ? "beams" : "rays";
+  using Candidates = sim::ChannelConfig::Candidates;
+  scenario.channels[0].candidates = rays == 0 ? Candidates::beams : Candidates::rays;
   if (rays > 0) scenario.channels[0].rays = rays;
   const sim::EffectPlan plan = sim::make_effect_plan(scenario, c.world.scene);
   scene::GpuScene gpu_scene(device, c.world.scene, sim::gpu_scene_options(plan));
