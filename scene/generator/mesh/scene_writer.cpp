@@ -22,11 +22,7 @@ dvec3 micro(const vec3& v) { return {micro(v.x), micro(v.y), micro(v.z)}; }
 
 float largest(const vec3& color) { return std::max({color.x, color.y, color.z}); }
 
-/// A turn about z, of which the last bit of a sine does not show.
-dquat turn_about_z(double yaw) {
-  const auto narrow = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  return {narrow(std::cos(yaw / 2)), 0.0, 0.0, narrow(std::sin(yaw / 2))};
-}
+dquat turn_about_z(double yaw) { return {std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)}; }
 
 }  // namespace
 
