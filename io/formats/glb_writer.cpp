@@ -11,8 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/rounding.h"
-
 namespace greatx::io {
 
 namespace {
@@ -44,15 +42,20 @@ Json json_of(const Vec& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-/// glTF's rotation that takes -z, where its lights look, to `aim` (z up) by the shortest way. It is rounded
-/// to float, so that the last bit of a square root does not show.
-Json rotation_to(const dvec3& aim, const std::string& node) {
+/// Rounds to float. The value goes through memory because GCC 12.2 drops such a pair of conversions where it
+/// handles two neighbours as one vector (seen with x86-64, -O2, two members of a quaternion).
+double narrow(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
+/// glTF's rotation that takes -z, where its lights look, to `aim` (z up) by the shortest way.
+dquat rotation_to(const dvec3& aim, const std::string& node) {
   const dvec3 d = glm::normalize(dvec3(aim.x, aim.z, -aim.y));
   const dvec3 axis = glm::cross(dvec3(0.0, 0.0, -1.0), d);
   const double w = 1.0 - d.z, length = std::sqrt(w * w + glm::dot(axis, axis));
   GREATX_CHECK(length > 1e-6, "node '{}' aims straight back", node);
-  return {rounded_to_float(axis.x / length), rounded_to_float(axis.y / length),
-          rounded_to_float(axis.z / length), rounded_to_float(w / length)};
+  return {w / length, axis.x / length, axis.y / length, axis.z / length};
 }
 
 void append_u32(Bytes& out, uint32_t value) {
@@ -240,11 +243,17 @@ int GlbWriter::add_node(const GlbNode& node) {
   if (node.mesh >= 0) json["mesh"] = node.mesh;
   const dvec3 position = to_gltf(node.pose.position);
   if (position != dvec3(0.0)) json["translation"] = json_of(position);
+  const auto rotate = [&](const dvec3& axis, double w) {
+    json["rotation"] = options_.compact ? Json{narrow(axis.x), narrow(axis.y), narrow(axis.z), narrow(w)}
+                                        : Json{axis.x, axis.y, axis.z, w};
+  };
   const dquat& q = node.pose.orientation;
-  if (node.aim != dvec3(0.0))
-    json["rotation"] = rotation_to(node.aim, node.name);
-  else if (const dvec3 axis = to_gltf(dvec3(q.x, q.y, q.z)); axis != dvec3(0.0))
-    json["rotation"] = {axis.x, axis.y, axis.z, q.w};
+  if (node.aim != dvec3(0.0)) {
+    const dquat aimed = rotation_to(node.aim, node.name);
+    rotate({aimed.x, aimed.y, aimed.z}, aimed.w);
+  } else if (const dvec3 axis = to_gltf(dvec3(q.x, q.y, q.z)); axis != dvec3(0.0)) {
+    rotate(axis, q.w);
+  }
   if (node.scale) json["scale"] = std::vector<double>(3, *node.scale);
   if (!node.extras_json.empty()) json["extras"] = Json::parse(node.extras_json);
   if (node.light >= 0) json["extensions"] = {{lights_extension, {{"light", node.light}}}};

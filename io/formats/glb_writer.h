@@ -66,9 +66,10 @@ struct GlbNode {
 /// What glTF leaves to the writer. Each program keeps its choice, so that its files keep their bytes.
 struct GlbOptions {
   std::string generator = "greatx " GREATX_VERSION;  ///< the file's asset.generator
-  /// Indices have 16 bits where these suffice, the mode of triangles, which is the default, is left out, and
-  /// the JSON lists come from the data up to the scene. Otherwise: 32 bits, every mode, from the scene down
-  /// to the data.
+  /// Indices have 16 bits where these suffice, the mode of triangles, which is the default, is left out,
+  /// rotations are rounded to float, so that the last bit of a sine does not show, and the JSON lists come from
+  /// the data up to the scene. Otherwise indices have 32 bits, every mode is written, rotations are exact, and
+  /// the lists come from the scene down to the data.
   bool compact = false;
 };
 

@@ -4,6 +4,7 @@
 // Files are read back by tinygltf, which shares no code with the writer.
 #include "io/formats/glb_writer.h"
 
+#include <cmath>
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -210,6 +211,13 @@ TEST(GlbWriter, CompactFilesHoldTheSame) {
   EXPECT_EQ(primitives[0].mode, TINYGLTF_MODE_TRIANGLES);
   EXPECT_EQ(primitives[1].mode, TINYGLTF_MODE_LINE);
   EXPECT_THAT(values_of<uint16_t>(model, primitives[0].indices), ElementsAre(0, 1, 2));
+  // Rotations are rounded to float: sine and cosine of an eighth of a radian.
+  const Pose turned{{}, dquat(std::cos(0.125), 0.0, 0.0, std::sin(0.125))};
+  for (GlbWriter* const writer : {&plain, &compact}) writer->add_node({.name = "turned", .pose = turned});
+  EXPECT_THAT(read_back(compact.finish("s")).nodes.at(0).rotation,
+              ElementsAre(0.0, double{0.12467473f}, 0.0, double{0.99219767f}));
+  EXPECT_THAT(read_back(plain.finish("s")).nodes.at(0).rotation,
+              ElementsAre(0.0, std::sin(0.125), 0.0, std::cos(0.125)));
   // 65535 stands for a restart: a mesh that needs it has indices of 32 bits.
   for (const uint32_t count : {65534u, 65535u}) {
     GlbPrimitive large_one = a_triangle();

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/rounding.h"
 #include "core/units.h"
 #include "io/formats/png.h"
 #include "scene/generator/mesh/materials.h"
@@ -23,10 +22,7 @@ dvec3 micro(const vec3& v) { return {micro(v.x), micro(v.y), micro(v.z)}; }
 
 float largest(const vec3& color) { return std::max({color.x, color.y, color.z}); }
 
-/// A turn about z, of which the last bit of a sine does not show.
-dquat turn_about_z(double yaw) {
-  return {rounded_to_float(std::cos(yaw / 2)), 0.0, 0.0, rounded_to_float(std::sin(yaw / 2))};
-}
+dquat turn_about_z(double yaw) { return {std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)}; }
 
 }  // namespace
 

@@ -43,6 +43,23 @@ TEST(Generate, SameSeedSameBytesOtherSeedOtherBytes) {
   EXPECT_EQ(generate_glb({.kind = "car", .seed = 1}), generate_glb({.kind = "car", .seed = 2}));
 }
 
+TEST(Generate, RotationsAreFloats) {
+  const auto file = generate_glb({.kind = "quadrotor"});
+  uint32_t length = 0;
+  std::memcpy(&length, file.data() + 12, sizeof(length));
+  const char* const text = reinterpret_cast<const char*>(file.data()) + 20;
+  int rotations = 0;
+  for (const auto& node : nlohmann::json::parse(text, text + length)["nodes"]) {
+    if (!node.contains("rotation")) continue;
+    ++rotations;
+    for (const double value : node["rotation"]) {
+      const volatile float rounded = static_cast<float>(value);  // GCC 12 would drop both conversions
+      EXPECT_EQ(static_cast<double>(rounded), value);
+    }
+  }
+  EXPECT_EQ(rotations, 4);
+}
+
 TEST(Generate, EmptyVariantIsTheFirst) {
   for (const std::string kind : {"car", "quadrotor"}) {
     const std::vector<std::string> variants = generator_variants(kind);
