@@ -44,7 +44,7 @@ TEST(Generate, SameSeedSameBytesOtherSeedOtherBytes) {
 }
 
 TEST(Generate, RotationsAreFloats) {
-  const auto file = generate_glb({.kind = "quadrotor"});
+  const auto file = generate_glb({.kind = "city", .seed = 7, .size_m = 200});
   uint32_t length = 0;
   std::memcpy(&length, file.data() + 12, sizeof(length));
   const char* const text = reinterpret_cast<const char*>(file.data()) + 20;
@@ -57,7 +57,7 @@ TEST(Generate, RotationsAreFloats) {
       EXPECT_EQ(static_cast<double>(rounded), value);
     }
   }
-  EXPECT_EQ(rotations, 4);
+  EXPECT_GT(rotations, 10);
 }
 
 TEST(Generate, EmptyVariantIsTheFirst) {
