@@ -48,8 +48,9 @@ TEST(Generate, RotationsAreFloats) {
   uint32_t length = 0;
   std::memcpy(&length, file.data() + 12, sizeof(length));
   const char* const text = reinterpret_cast<const char*>(file.data()) + 20;
+  const nlohmann::json scene = nlohmann::json::parse(text, text + length);
   int rotations = 0;
-  for (const auto& node : nlohmann::json::parse(text, text + length)["nodes"]) {
+  for (const auto& node : scene["nodes"]) {
     if (!node.contains("rotation")) continue;
     ++rotations;
     for (const double value : node["rotation"]) {
