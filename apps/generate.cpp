@@ -7,22 +7,24 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/consistency_files.h"
-#include "apps/json_text.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/summary.h"
-#include "apps/watch.h"
-#include "io/dataset_writer.h"
-#include "sim/simulator.h"
+#include "apps/console/command_line.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/summary.h"
+#include "apps/console/watch.h"
+#include "apps/files/consistency_files.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/experiment/experiment.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 
 namespace {
 
-struct Options {
+struct GenerateOptions {
   ScenarioOptions scenario;
   RunOptions run;
   std::string output = "out/dataset";
@@ -57,14 +59,12 @@ bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const s
   return true;
 }
 
-void run(const Options& options) {
+void run_generate(const GenerateOptions& options) {
   const Clock::time_point begin = Clock::now();
-  const sim::Scenario scenario = load_scenario(options.scenario);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
   gpu::Device device(options.run.device_options());
-  sim::Simulator simulator(device, scenario, world, plan);
-  io::DatasetWriter writer(options.output, dataset_info(scenario, world, plan, device, simulator.sensors()),
+  sim::Simulator simulator(device, experiment);
+  io::DatasetWriter writer(options.output, dataset_info(experiment, device, simulator.sensors()),
                            {options.threads, options.resume});
   if (writer.resume_position().finished) {
     if (options.json)
@@ -79,7 +79,7 @@ void run(const Options& options) {
   bool complete = false;
   try {
     const TerminalWatch watch(options.quiet);
-    complete = run_sequences(simulator, writer, scenario, options.quiet, begin, first_packet_s);
+    complete = run_sequences(simulator, writer, experiment.scenario, options.quiet, begin, first_packet_s);
   } catch (const Interrupted&) {
     writer.flush();  // in the midst of a tick: the packets before are whole
   }
@@ -109,7 +109,8 @@ void run(const Options& options) {
     const io::DatasetWriter::Position next = writer.resume_position();
     throw Interrupted(fmt::format(
         "{}: complete up to tick {} of {} in sequence {} of {}; the same command with --resume goes on",
-        options.output, next.next_tick, scenario.ticks, next.sequence + 1, scenario.sequences));
+        options.output, next.next_tick, experiment.scenario.ticks, next.sequence + 1,
+        experiment.scenario.sequences));
   }
 }
 
@@ -117,7 +118,7 @@ void run(const Options& options) {
 
 void add_generate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("generate", "run a scenario and write its data set");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--output", options->output, "folder of the data set")->capture_default_str();
@@ -130,7 +131,7 @@ void add_generate(CLI::App& app) {
       ->check(integer_of(0, 1024));
   command->add_flag("--json", options->json, "print one JSON object with the run's summary");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_generate(*options); });
 }
 
 }  // namespace greatx::apps

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
-#include "apps/json_text.h"
+#include "apps/console/json_text.h"
 #include "gpu/device.h"
 
 namespace greatx::apps {

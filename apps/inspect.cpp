@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "io/animation.h"
-#include "io/contact_sheet.h"
-#include "io/summary.h"
+#include "apps/console/command_line.h"
+#include "draw/sheet/animation.h"
+#include "draw/sheet/contact_sheet.h"
+#include "io/dataset/summary.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::apps {
@@ -18,14 +18,14 @@ namespace greatx::apps {
 void add_inspect(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("inspect", "summarise a data set and draw its contact sheet; compare several");
-  struct Options {
+  struct InspectOptions {
     std::vector<std::string> folders;
     std::string picture, animation;
     size_t frames = 36;
     uint32_t sequence = 0;
     bool json = false;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectOptions>();
   command
       ->add_option("DIR", options->folders, "folder of the data set; of several, all are drawn side by side")
       ->required();

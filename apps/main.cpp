@@ -9,12 +9,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "apps/command_line.h"
+#include "apps/bench/bench.h"
 #include "apps/commands.h"
-#include "apps/terminal.h"
+#include "apps/console/command_line.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/terminal.h"
 #include "core/activity.h"
 #include "core/error.h"
-#include "io/file.h"
+#include "io/files/file.h"
 
 namespace {
 

@@ -8,20 +8,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/json_text.h"
-#include "apps/map/background.h"
+#include "apps/console/command_line.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/watch.h"
 #include "apps/map/journal.h"
 #include "apps/map/output.h"
-#include "apps/paths/render.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/watch.h"
 #include "core/hash.h"
-#include "sim/channel/antennas.h"
-#include "sim/channel/radio_map_values.h"
+#include "draw/map/background.h"
+#include "draw/paths/render.h"
+#include "sim/channel/radio_map_run.h"
+#include "sim/experiment/experiment.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::apps {
 
@@ -29,7 +31,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MapOptions {
   ScenarioOptions scenario;
   RunOptions run;
   sim::ChannelSnapshot::Instant instant;
@@ -45,39 +47,33 @@ struct Options {
 
 constexpr double default_height_m = 1.5;
 
-/// What is asked of which channel.
-struct Request {
-  uint32_t channel = 0;
-  sim::MapGrid grid;
-  sim::MapHeight height;
-  sim::MapPower power;
-  sim::MapReceiver receiver;
-  std::vector<MapMarker> transmitters;
-  std::vector<dvec3> ends;  ///< [tx] world positions
-};
-
-/// All that needs no scene.
-Request request_of(const Options& options, const sim::Scenario& scenario) {
-  Request request;
-  request.channel = find_channel(options.channel, scenario);
-  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+/// Checks all that needs no scene.
+sim::MapRequest map_request(const MapOptions& options, const sim::ChannelConfig& channel,
+                            const sim::Scenario& scenario) {
   check_instant(options.instant.sequence, options.instant.tick, scenario);
   for (const std::string& name : options.files.quantities) sim::map_quantity(name);
+  const auto corner = [](const std::vector<double>& xy) {
+    return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
+  };
+  sim::MapRequest request;
+  request.min_m = corner(options.min);
+  request.max_m = corner(options.max);
+  request.cell_m = options.cell;
   request.height = {options.plane, options.height.value_or(default_height_m), options.over};
-  request.power = sim::map_power(options.power, options.bandwidth, options.noise_figure, channel);
+  request.power_dbm = options.power;
+  request.bandwidth_hz = options.bandwidth;
+  request.noise_figure_db = options.noise_figure;
+  request.inside_solids = options.inside;
+  request.beyond_scene = options.beyond_scene;
+  sim::check_map_request(request, channel);
   return request;
 }
 
-/// What needs the moment: where transmitters are, how the receiver is turned.
-void add_ends(Request& request, const Options& options, const sim::Scenario& scenario,
-              const sim::World& world, const sim::Moment& moment) {
-  const sim::ChannelConfig& channel = scenario.channels[request.channel];
-  for (const std::string& name : channel.transmitters) {
-    const dvec3 at = sim::world_position(sim::antenna_end(scenario, world, name), moment.context);
-    request.transmitters.push_back({name, dvec2(at)});
-    request.ends.push_back(at);
-  }
-  if (options.receiver.empty()) return;
+/// The antenna of the scenario that --rx names, turned as at the moment.
+sim::MapReceiver map_receiver(const MapOptions& options, const sim::ChannelSnapshot& snapshot) {
+  if (options.receiver.empty()) return {};
+  const sim::Experiment& experiment = snapshot.experiment();
+  const sim::Scenario& scenario = experiment.scenario;
   const auto place = sim::find_sensor(scenario.nodes, options.receiver);
   if (!place || !std::holds_alternative<sim::AntennaConfig>(
                     scenario.nodes[place->node].sensors[place->sensor].config)) {
@@ -89,13 +85,14 @@ void add_ends(Request& request, const Options& options, const sim::Scenario& sce
     throw_user_error("--rx: expected an antenna of the scenario ({}), found '{}'", fmt::join(names, ", "),
                      options.receiver);
   }
-  request.receiver.array = sim::antenna_array(scenario, options.receiver, channel.carrier_hz);
-  request.receiver.orientation =
-      sim::state_of(sim::antenna_end(scenario, world, options.receiver), world, moment.context).orientation;
+  const double carrier_hz = scenario.channels[snapshot.channel()].carrier_hz;
+  return {sim::antenna_array(scenario, options.receiver, carrier_hz),
+          sim::state_of(sim::antenna_end(experiment, options.receiver), *experiment.world,
+                        snapshot.moment().context)
+              .orientation};
 }
 
-/// Everything that decides the map's bytes.
-/// Where everything that moves stands: files that the scenario names decide it, too.
+/// Of where everything that moves stands: files that the scenario names decide it, too.
 std::string hash_of(std::span<const Pose> bodies) {
   Sha256 hash;
   for (const Pose& pose : bodies) {
@@ -106,17 +103,19 @@ std::string hash_of(std::span<const Pose> bodies) {
   return hash.hex();
 }
 
-Json json_of(const Options& options, const Request& request, const sim::Scenario& scenario,
-             const sim::World& world, const sim::EffectPlan& plan, const sim::MapCells& cells,
-             const gpu::Device& device, const sim::Moment& moment) {
-  const sim::ChannelConfig& channel = scenario.channels[request.channel];
-  const sim::MapGrid& grid = request.grid;
+/// Everything that decides the map's bytes.
+Json json_of(const MapOptions& options, const sim::ChannelSnapshot& snapshot, const sim::RadioMapRun& map,
+             const gpu::Device& device) {
+  const auto& [scenario, world, plan] = snapshot.experiment();
+  const sim::ChannelConfig& channel = scenario.channels[snapshot.channel()];
+  const sim::Moment& moment = snapshot.moment();
+  const sim::MapGrid& grid = map.cells().grid;
   const dvec2 max = grid.max_m();
-  const dquat& q = request.receiver.orientation;
+  const dquat& q = map.receiver().orientation;
   Json json{{"greatx", GREATX_VERSION},
             {"scenario", scenario.name},
             {"scenario_sha256", Sha256().update(scenario.text).hex()},
-            {"scene_sha256", world.scene.hash},
+            {"scene_sha256", world->scene.hash},
             {"bodies_sha256", hash_of(moment.bodies)},
             {"device", device.info().name},
             {"driver", device.info().driver},
@@ -126,7 +125,7 @@ Json json_of(const Options& options, const Request& request, const sim::Scenario
             {"time_s", moment.context.time_s},
             {"channel", channel.name},
             {"carrier_hz", channel.carrier_hz},
-            {"max_depth", channel.max_depth}};
+            {"max_depth", channel.limits.max_depth}};
   json["grid"] = {{"min_m", {grid.min_m.x, grid.min_m.y}},
                   {"max_m", {max.x, max.y}},
                   {"cell_m", grid.cell_m},
@@ -135,23 +134,25 @@ Json json_of(const Options& options, const Request& request, const sim::Scenario
                   {"row_0", "south"},
                   {"column_0", "west"},
                   {"center", "min_m + (index + 0.5) * cell_m"},
-                  {"height", cells.height_rule},
-                  {"inside_solids", cells.solve_inside}};
+                  {"height", map.cells().height_rule},
+                  {"inside_solids", map.cells().solve_inside}};
   json["transmitters"] = Json::array();
-  for (size_t t = 0; t < request.ends.size(); ++t)
+  for (size_t t = 0; t < map.transmitters().size(); ++t) {
+    const std::string& name = channel.transmitters[t];
+    const dvec3& at = map.transmitters()[t];
     json["transmitters"].push_back(
-        {{"name", request.transmitters[t].name},
-         {"position_m", {request.ends[t].x, request.ends[t].y, request.ends[t].z}},
-         {"power_dbm", request.power.transmit_dbm[t]},
-         {"antenna",
-          sim::describe_array(sim::antenna_array(scenario, channel.transmitters[t], channel.carrier_hz))}});
+        {{"name", name},
+         {"position_m", {at.x, at.y, at.z}},
+         {"power_dbm", map.power().transmit_dbm[t]},
+         {"antenna", sim::describe_array(sim::antenna_array(scenario, name, channel.carrier_hz))}});
+  }
   json["receiver"] = {{"antenna", options.receiver.empty() ? "isotropic, vertical" : options.receiver},
                       {"orientation_wxyz", {q.w, q.x, q.y, q.z}},
-                      {"array", sim::describe_array(request.receiver.array)}};
-  json["noise"] = {{"bandwidth_hz", request.power.bandwidth_hz},
-                   {"noise_figure_db", request.power.noise_figure_db},
+                      {"array", sim::describe_array(map.receiver().array)}};
+  json["noise"] = {{"bandwidth_hz", map.power().bandwidth_hz},
+                   {"noise_figure_db", map.power().noise_figure_db},
                    {"temperature_k", sim::MapPower::temperature_k},
-                   {"power_dbm", decibels(request.power.noise_w()) + 30.0}};
+                   {"power_dbm", decibels(map.power().noise_w()) + 30.0}};
   json["effects"] = Json::object();
   for (const sim::Effect* effect : plan.all()) json["effects"][effect->name] = effect->on;
   json["quantities"] = options.files.quantities;
@@ -162,16 +163,14 @@ Json json_of(const Options& options, const Request& request, const sim::Scenario
 }
 
 /// Until every cell has its links, or somebody stops it.
-void solve(const Options& options, const Request& request, const sim::Scenario& scenario,
-           const sim::MapCells& cells, sim::ChannelSnapshot& snapshot, MapJournal& journal) {
-  const size_t transmitters = request.ends.size(), total = cells.grid.cells();
+void solve(const MapOptions& options, sim::RadioMapRun& map, MapJournal& journal) {
+  const size_t transmitters = map.transmitters().size(), total = map.cells().grid.cells();
   const auto done = [&] { return journal.links().size() / transmitters; };
   Progress progress("map", static_cast<int64_t>(total), options.quiet, "cells");
   progress.update(static_cast<int64_t>(done()));
-  sim::RadioMapSolver solver(snapshot, scenario, request.channel, request.receiver);
   try {
     const TerminalWatch watch(options.quiet);
-    solver.solve(cells, done(), [&](std::span<const rf::LinkStatistics> links) {
+    map.solve(done(), [&](std::span<const rf::LinkStatistics> links) {
       journal.append(links);
       progress.update(static_cast<int64_t>(done()));
       return !interrupted();
@@ -184,48 +183,44 @@ void solve(const Options& options, const Request& request, const sim::Scenario& 
                                   options.output, done(), total));
 }
 
-MapStage stage_of(const Options& options, const Request& request, const sim::Scenario& scenario,
-                  const sim::MapCells& cells, const sim::Moment& moment) {
-  const sim::ChannelConfig& channel = scenario.channels[request.channel];
+MapStage stage_of(const MapOptions& options, const sim::MapRequest& request,
+                  const sim::ChannelSnapshot& snapshot, const sim::RadioMapRun& map) {
+  const sim::Scenario& scenario = snapshot.experiment().scenario;
+  const sim::ChannelConfig& channel = scenario.channels[snapshot.channel()];
   MapStage stage;
-  stage.cells = &cells;
-  stage.transmitters = request.transmitters;
+  stage.cells = &map.cells();
+  for (size_t t = 0; t < map.transmitters().size(); ++t)
+    stage.transmitters.push_back({channel.transmitters[t], dvec2(map.transmitters()[t])});
   stage.title = fmt::format("{}, {}", scenario.name, channel.name);
   const std::string where =
       options.plane ? fmt::format("z = {:g} m", *options.plane)
                     : fmt::format("{:g} m above {}", request.height.above_m,
                                   options.over == sim::MapOver::ground ? "ground" : "ground and roofs");
-  stage.subtitle = fmt::format("{}, cells of {:g} m, {:.4g} GHz, tick {}", where, cells.grid.cell_m,
-                               1e-9 * channel.carrier_hz, moment.context.tick);
+  stage.subtitle = fmt::format("{}, cells of {:g} m, {:.4g} GHz, tick {}", where, map.cells().grid.cell_m,
+                               1e-9 * channel.carrier_hz, snapshot.moment().context.tick);
   return stage;
 }
 
-void run(const Options& given) {
-  Options options = given;
+void run_map(const MapOptions& given) {
+  MapOptions options = given;
   options.files.pictures = !options.no_pictures;
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds_since = [](auto start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
-  const sim::Scenario scenario = load_scenario(options.scenario);
-  Request request = request_of(options, scenario);
-  const sim::World world = sim::load_world(scenario);
-  const auto corner = [](const std::vector<double>& xy) {
-    return xy.empty() ? std::nullopt : std::optional(dvec2(xy[0], xy[1]));
-  };
-  request.grid = sim::map_grid_of(corner(options.min), corner(options.max), options.cell, world.scene,
-                                  scenario.channels[request.channel].transmitters.size());
-  const sim::EffectPlan plan = sim::make_effect_plan(
-      scenario, world.scene, sim::bounds_of_cells(request.grid, request.height, world.scene));
-  const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(scenario, world.scene) : plan;
+  sim::Scenario scenario = load_scenario(options.scenario);
+  const uint32_t number = find_channel(options.channel, scenario);
+  const sim::ChannelConfig channel = scenario.channels[number];
+  const sim::MapRequest request = map_request(options, channel, scenario);
+  auto world = std::make_shared<const sim::World>(sim::load_world(scenario));
+  const scene::Bounds bounds = sim::map_bounds(request, channel, world->scene);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), bounds);
+  const sim::EffectPlan view_plan = options.files.pictures ? picture_plan(experiment) : experiment.plan;
   gpu::Device device(options.run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
-                                request.channel, options.instant);
-  add_ends(request, options, scenario, world, snapshot.moment());
-  sim::MapCells cells = sim::place_cells(request.grid, request.height, world.scene, snapshot.model().kinds,
-                                         snapshot.moment().bodies, request.ends, options.beyond_scene);
-  cells.solve_inside = options.inside;
-  const Json asked = json_of(options, request, scenario, world, plan, cells, device, snapshot.moment());
+  sim::ChannelSnapshot snapshot(device, experiment, number, options.instant,
+                                sim::gpu_scene_options(view_plan));
+  sim::RadioMapRun run(snapshot, request, map_receiver(options, snapshot));
+  const Json asked = json_of(options, snapshot, run, device);
 
   MapJournal journal(options.output, asked, options.resume);
   if (journal.finished()) {
@@ -235,15 +230,14 @@ void run(const Options& given) {
   install_interrupt_handler();
   const size_t before = journal.links().size();
   const auto solving = std::chrono::steady_clock::now();
-  solve(options, request, scenario, cells, snapshot, journal);
+  solve(options, run, journal);
   const double solve_s = seconds_since(solving);
-  const size_t solved = (journal.links().size() - before) / request.ends.size();
+  const size_t solved = (journal.links().size() - before) / run.transmitters().size();
 
-  const sim::RadioMap map{&cells, journal.links(), request.power};
-  MapStage stage = stage_of(options, request, scenario, cells, snapshot.moment());
+  const sim::RadioMap map = run.map(journal.links());
+  MapStage stage = stage_of(options, request, snapshot, run);
   if (options.files.pictures)
-    stage.background =
-        map_background(cells, world.scene, scenario.environment, view_plan, snapshot, options.side);
+    stage.background = map_background(run.cells(), view_plan, snapshot, options.side);
   const MapTotals totals = map_totals(map);
   Json description{{"request", asked}, {"totals", totals.json()}};
   for (const auto& [name, text] : snapshot.notes()) description["candidates"][name] = text;
@@ -257,24 +251,24 @@ void run(const Options& given) {
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
   if (options.json) {
-    Json result{{"output", options.output}, {"totals", totals.json()}, {"transmitters", request.ends.size()},
+    Json result{{"output", options.output}, {"totals", totals.json()}, {"transmitters", map.transmitters()},
                 {"cells_solved", solved},   {"solve_s", solve_s},      {"seconds", seconds_since(begin)},
                 {"counters", counters}};
     std::cout << json_text(result) << '\n';
   } else if (!options.quiet) {
-    std::cout << totals.text(request.transmitters);
+    std::cout << totals.text(stage.transmitters);
     std::vector<std::string> counts;
     for (const auto& [name, count] : counters) counts.push_back(fmt::format("{} {}", name, count));
     std::cout << fmt::format("counted: {}\n", fmt::join(counts, ", "));
     std::cout << fmt::format("{} cells x {} transmitters in {:.1f} s ({:.0f} cells/s), all in {:.1f} s\n",
-                             solved, request.ends.size(), solve_s,
+                             solved, map.transmitters(), solve_s,
                              solve_s > 0.0 ? static_cast<double>(solved) / solve_s : 0.0,
                              seconds_since(begin));
     std::cout << "wrote " << options.output << '\n';
   }
 }
 
-void add_place(CLI::App& command, Options& options) {
+void add_place(CLI::App& command, MapOptions& options) {
   CLI::Option* plane =
       command.add_option("--plane", options.plane, "one height of the world for all cells, m")
           ->check(number_of(-sim::most_position_m, sim::most_position_m));
@@ -302,7 +296,7 @@ void add_place(CLI::App& command, Options& options) {
   command.add_flag("--beyond-scene", options.beyond_scene, "the map may lie outside of the scene's bounds");
 }
 
-void add_radio(CLI::App& command, Options& options) {
+void add_radio(CLI::App& command, MapOptions& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
       ->check(integer_of(0, sim::most_ticks));
@@ -327,7 +321,7 @@ void add_radio(CLI::App& command, Options& options) {
 void add_map(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "map", "radio map: gain, SINR, best server, spreads over a plane or the terrain (docs/map.md)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--output", options->output, "folder of the map")->required();
@@ -346,7 +340,7 @@ void add_map(CLI::App& app) {
   command->add_flag("--resume", options->resume, "go on with a map that was stopped");
   command->add_flag("--json", options->json, "print figures as one JSON object");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_map(*options); });
 }
 
 }  // namespace greatx::apps

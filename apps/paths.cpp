@@ -8,19 +8,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/console/command_line.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/watch.h"
 #include "apps/paths/cfr.h"
-#include "apps/paths/draw.h"
 #include "apps/paths/glb.h"
 #include "apps/paths/output.h"
-#include "apps/paths/render.h"
-#include "apps/progress.h"
-#include "apps/session.h"
-#include "apps/watch.h"
-#include "io/png.h"
+#include "draw/paths/draw.h"
+#include "draw/paths/render.h"
+#include "io/formats/png.h"
+#include "sim/experiment/experiment.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/receiver_list.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/receiver_list.h"
 
 namespace greatx::apps {
 
@@ -28,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PathsOptions {
   ScenarioOptions scenario;
   RunOptions run;
   sim::ChannelSnapshot::Instant instant;
@@ -46,7 +48,7 @@ struct Options {
 constexpr uint32_t picture_bars = picture_head + picture_foot;
 
 /// What is asked of which channel.
-struct Request {
+struct PathsRequest {
   uint32_t channel = 0;
   sim::ChannelSnapshot::Instant instant;
   std::vector<dvec3> points;         ///< of --receivers; empty: the channel's own
@@ -66,8 +68,8 @@ uint32_t find_end(const char* option, const std::string& text, size_t count,
                    names.empty() ? "" : fmt::format(", or one of {}", fmt::join(names, ", ")), text);
 }
 
-Request request_of(const Options& options, const sim::Scenario& scenario) {
-  Request request;
+PathsRequest paths_request(const PathsOptions& options, const sim::Scenario& scenario) {
+  PathsRequest request;
   request.channel = find_channel(options.channel, scenario);
   if (!options.receivers.empty()) request.points = sim::load_receiver_list(options.receivers);
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
@@ -101,12 +103,13 @@ constexpr const char* gain_note =
 constexpr const char* phase_note =
     "arg of (lambda / 4 pi) T_theta_theta e^{-j 2 pi f tau}: vertical to vertical, at the carrier";
 
-Json head_of(const Options& options, const Request& request, const sim::Scenario& scenario,
-             const sim::World& world, const sim::EffectPlan& plan, const sim::Moment& moment) {
+Json head_of(const PathsOptions& options, const PathsRequest& request, const sim::Experiment& experiment,
+             const sim::Moment& moment) {
+  const auto& [scenario, world, plan] = experiment;
   const sim::ChannelConfig& channel = scenario.channels[request.channel];
   Json head{{"greatx", GREATX_VERSION},
             {"scenario", scenario.name},
-            {"scene_sha256", world.scene.hash},
+            {"scene_sha256", world->scene.hash},
             {"seed", scenario.seed},
             {"sequence", options.instant.sequence},
             {"tick", moment.context.tick},
@@ -114,7 +117,7 @@ Json head_of(const Options& options, const Request& request, const sim::Scenario
             {"channel", channel.name},
             {"transmitter", channel.transmitters[*request.instant.transmitter]},
             {"carrier_hz", channel.carrier_hz},
-            {"max_depth", channel.max_depth},
+            {"max_depth", channel.limits.max_depth},
             {"gain", gain_note},
             {"phase", phase_note},
             {"effects", Json::object()}};
@@ -149,14 +152,15 @@ std::string closing_text(const PathTotals& totals, const Json& head, const Json&
   return text;
 }
 
-void write_picture(const Options& options, const Request& request, const sim::Scenario& scenario,
-                   const sim::World& world, const sim::EffectPlan& plan, const Json& head,
-                   std::span<const PathLink> links, const PathScene& scene, sim::ChannelSnapshot& snapshot) {
-  PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, scenario.environment,
+void write_picture(const PathsOptions& options, const PathsRequest& request, const sim::EffectPlan& plan,
+                   const Json& head, std::span<const PathLink> links, const PathScene& scene,
+                   sim::ChannelSnapshot& snapshot) {
+  const sim::Experiment& experiment = snapshot.experiment();
+  PictureRenderer renderer(snapshot.gpu_scene(), snapshot.ring(), plan, experiment.scenario.environment,
                            snapshot.moment());
   ScenarioView chosen;
   if (request.camera)
-    chosen = scenario_view(*request.camera, scenario, world, snapshot.moment(), options.width);
+    chosen = scenario_view(*request.camera, experiment, snapshot.moment(), options.width);
   else
     chosen.view = choose_view(links, scene, options.width, options.height - picture_bars,
                               [&](const PictureView& view) { return renderer.depth(view); });
@@ -175,7 +179,7 @@ void write_picture(const Options& options, const Request& request, const sim::Sc
   io::write_file_atomically(file, png);
 }
 
-void write_glb(const Options& options, const Json& head, std::span<const PathLink> links,
+void write_glb(const PathsOptions& options, const Json& head, std::span<const PathLink> links,
                const PathScene& scene, const sim::ChannelSnapshot& snapshot) {
   PathGlbOptions glb;
   glb.colors = options.colors;
@@ -188,8 +192,9 @@ void write_glb(const Options& options, const Json& head, std::span<const PathLin
   io::write_file_atomically(file, paths_glb(links, scene, glb));
 }
 
-/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports need.
-std::vector<PathLink> solve(const Options& options, const Request& request, const PathScene& scene,
+/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports
+/// need.
+std::vector<PathLink> solve(const PathsOptions& options, const PathsRequest& request, const PathScene& scene,
                             sim::ChannelSnapshot& snapshot,
                             std::span<const std::unique_ptr<PathsOutput>> outputs, CfrFile* cfr,
                             PathTotals& totals) {
@@ -221,20 +226,21 @@ std::vector<PathLink> solve(const Options& options, const Request& request, cons
   return kept;
 }
 
-void run(const Options& options) {
+void run_paths(const PathsOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const sim::Scenario scenario = load_scenario(options.scenario);
-  const Request request = request_of(options, scenario);
-  const sim::World world = sim::load_world(scenario);
+  sim::Scenario scenario = load_scenario(options.scenario);
+  const PathsRequest request = paths_request(options, scenario);
+  auto world = std::make_shared<const sim::World>(sim::load_world(scenario));
   scene::Bounds points;
   for (const dvec3& point : request.points) points.add(point);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene, points);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), points);
   // Only a picture needs what cameras need.
-  const sim::EffectPlan view_plan = options.png.empty() ? plan : picture_plan(scenario, world.scene);
+  const sim::EffectPlan view_plan = options.png.empty() ? experiment.plan : picture_plan(experiment);
   gpu::Device device(options.run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(view_plan),
-                                request.channel, request.instant);
-  const PathScene scene{&world.scene, snapshot.model().wedges, scenario.channels[request.channel].carrier_hz};
+  sim::ChannelSnapshot snapshot(device, experiment, request.channel, request.instant,
+                                sim::gpu_scene_options(view_plan));
+  const PathScene scene{&experiment.scene(), snapshot.model().wedges,
+                        experiment.scenario.channels[request.channel].carrier_hz};
 
   std::vector<std::unique_ptr<PathsOutput>> outputs;
   if (options.json)
@@ -247,13 +253,12 @@ void run(const Options& options) {
 
   install_interrupt_handler();
   const TerminalWatch watch(options.quiet);
-  const Json head = head_of(options, request, scenario, world, plan, snapshot.moment());
+  const Json head = head_of(options, request, experiment, snapshot.moment());
   for (const auto& output : outputs) output->begin(head);
   std::optional<CfrFile> cfr;
   if (!options.cfr.empty())
-    cfr.emplace(options.cfr, scenario, world, plan, request.channel, *request.instant.transmitter,
-                request.points.empty() ? std::nullopt : std::optional(request.points.size()),
-                snapshot.model());
+    cfr.emplace(options.cfr, snapshot, *request.instant.transmitter,
+                request.points.empty() ? std::nullopt : std::optional(request.points.size()));
   PathTotals totals;
   std::vector<PathLink> links =
       solve(options, request, scene, snapshot, outputs, cfr ? &*cfr : nullptr, totals);
@@ -262,8 +267,7 @@ void run(const Options& options) {
   for (const auto& output : outputs) output->end(tail);
 
   if (options.within_db) links = strong_paths(links, scene.carrier_hz, *options.within_db);
-  if (!options.png.empty())
-    write_picture(options, request, scenario, world, view_plan, head, links, scene, snapshot);
+  if (!options.png.empty()) write_picture(options, request, view_plan, head, links, scene, snapshot);
   if (!options.glb.empty()) write_glb(options, head, links, scene, snapshot);
   device.wait_idle();
   check_validation(device);
@@ -274,7 +278,7 @@ void run(const Options& options) {
     if (!file->empty()) std::cout << "wrote " << *file << '\n';
 }
 
-void add_selection(CLI::App& command, Options& options) {
+void add_selection(CLI::App& command, PathsOptions& options) {
   command.add_option("--tick", options.instant.tick, "at which tick")
       ->capture_default_str()
       ->check(integer_of(0, sim::most_ticks));
@@ -291,7 +295,7 @@ void add_selection(CLI::App& command, Options& options) {
                      "this one alone: its number, from 0, or its name node/sensor [all]");
 }
 
-void add_pictures(CLI::App& command, Options& options) {
+void add_pictures(CLI::App& command, PathsOptions& options) {
   command.add_option("--png", options.png, "draw the paths over a view of the scene");
   command
       .add_option("--view", options.view,
@@ -322,7 +326,7 @@ void add_pictures(CLI::App& command, Options& options) {
 void add_paths(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("paths", "find, list and draw all paths of a channel at one tick (docs/paths.md)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PathsOptions>();
   options->scenario.add_to(*command);
   options->run.add_to(*command);
   add_selection(*command, *options);
@@ -339,7 +343,7 @@ void add_paths(CLI::App& app) {
       "write frequency responses as .npy, complex64 [receivers, rx_ant, 1, tx_ant, time, subcarrier]");
   add_pictures(*command, *options);
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors, and JSON if asked for");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_paths(*options); });
 }
 
 }  // namespace greatx::apps

@@ -8,10 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "apps/commands.h"
-#include "apps/scene_import.h"
+#include "apps/files/scene_import.h"
 #include "core/error.h"
 #include "core/srgb.h"
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "scene/generator/generate.h"
 #include "scene/import/mitsuba.h"
 

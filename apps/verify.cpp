@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/verify.h"
+#include "io/dataset/verify.h"
 
 #include <iostream>
 #include <memory>
@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
-#include "apps/consistency_files.h"
-#include "apps/json_text.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/json_text.h"
+#include "apps/files/consistency_files.h"
 
 namespace greatx::apps {
 
@@ -18,11 +19,11 @@ void add_verify(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "verify",
       "check a data set: files, hashes, index, lengths, values, and that its sensors see one world");
-  struct Options {
+  struct VerifyOptions {
     std::string folder;
     bool json = false;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyOptions>();
   command->add_option("DIR", options->folder, "folder of the data set")->required();
   command->add_flag("--json", options->json, "print one JSON object");
   command->callback([options] {

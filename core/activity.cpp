@@ -9,7 +9,8 @@ namespace greatx {
 namespace {
 
 thread_local const char* current = nullptr;
-/// A thread that parallel_for() starts has no activity of its own: the outermost thread's is the best there is.
+/// A thread that parallel_for() starts has no activity of its own, so the outermost thread's activity stands
+/// for it.
 std::atomic<const char*> latest{nullptr}, failed{nullptr};
 
 void on_failure() {

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the program is doing, for the one error that cannot say it itself: memory that is not there.
+// Names the activity of the program for one error that cannot name it itself: a failed allocation.
 #pragma once
 
 #include <string>
 
 namespace greatx {
 
-/// Until its end this thread is doing `what`, a text that outlives it ("building the scene"). Activities nest.
+/// As long as an Activity lives, its thread does `what` ("building the scene"). The text outlives it.
+/// Activities nest.
 class Activity {
  public:
   explicit Activity(const char* what);
@@ -20,9 +21,9 @@ class Activity {
   const char* before_;
 };
 
-/// Keeps, from now on, the activity in which memory last ran out (std::set_new_handler).
+/// From now on, keeps the activity during which memory last ran out (std::set_new_handler).
 void watch_memory();
-/// "out of memory while building the scene"; without an activity "out of memory".
+/// Returns "out of memory while building the scene", or "out of memory" if there is no activity.
 std::string out_of_memory();
 
 }  // namespace greatx

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three tiers (CONTRIBUTING.md): bad input throws UserError, a broken contract throws ContractError through
-// GREATX_CHECK, a failed Vulkan call throws gpu::VulkanError. All derive from std::exception and reach
-// main().
+// Errors have three tiers (CONTRIBUTING.md). Bad input throws UserError, a broken contract throws
+// ContractError through GREATX_CHECK, and a failed Vulkan call throws gpu::VulkanError. All derive from
+// std::exception and reach main().
 #pragma once
 
 #include <stdexcept>
@@ -14,33 +14,35 @@
 
 namespace greatx {
 
-/// Where a piece of input stands.
+/// Names the place of a piece of input.
 struct SourceLocation {
   std::string file;  ///< as the user named it; empty: the command line
   int line = 0;      ///< 1-based; 0: unknown
   std::string str() const;
 };
 
-/// Bad input: the message names file:line and field, what was expected and what was found. Exit code 1. It may quote what
-/// it complains of: a terminal obeys none of it (printable_lines() of core/text.h).
+/// Reports bad input. The message names file:line and field, and says which value was expected and which was
+/// found. The exit code is 1. The message may quote the faulty input: printable_lines() of core/text.h
+/// escapes it, so that no terminal obeys it.
 class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& message);
   UserError(const SourceLocation& where, const std::string& message);
-  /// Whether the message begins with a file's line.
+  /// Returns whether the message begins with a line of a file.
   bool located() const { return located_; }
 
  private:
   bool located_ = false;
 };
 
-/// The user stopped it (Ctrl-C, SIGTERM): the message says what was done and how to go on. Exit code 130.
+/// Reports that the user stopped the run (Ctrl-C, SIGTERM). The message says how far the run came and how to
+/// go on. The exit code is 130.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A broken contract inside the program. Exit code 2.
+/// Reports a broken contract inside the program. The exit code is 2.
 class ContractError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -63,7 +65,8 @@ namespace detail {
 
 }  // namespace greatx
 
-/// GREATX_CHECK(condition, "format", values...): holds in every build; prints the values when it does not.
+/// GREATX_CHECK(condition, "format", values...) is active in every build. It prints the values if the
+/// condition is false.
 #define GREATX_CHECK(condition, ...)                                                              \
   do {                                                                                            \
     if (!(condition)) [[unlikely]]                                                                \

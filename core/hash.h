@@ -13,7 +13,7 @@
 
 namespace greatx {
 
-/// SHA-256 (FIPS 180-4) of a stream of bytes.
+/// Computes the SHA-256 (FIPS 180-4) of a stream of bytes.
 class Sha256 {
  public:
   Sha256();
@@ -27,7 +27,7 @@ class Sha256 {
   requires std::is_trivially_copyable_v<T> Sha256& update_value(const T& value) {
     return update(std::as_bytes(std::span<const T, 1>(&value, 1)));
   }
-  /// 64 lower-case hexadecimal digits of what was fed so far; more may follow.
+  /// Returns 64 lower-case hexadecimal digits for the bytes fed so far. More bytes may follow.
   std::string hex() const;
 
  private:
@@ -35,7 +35,8 @@ class Sha256 {
   std::unique_ptr<State> state_;
 };
 
-/// FNV-1a (draft-eastlake-fnv, 32 bits). For streams of random numbers that depend on a name alone; no checksum.
+/// FNV-1a (draft-eastlake-fnv, 32 bits). It seeds streams of random numbers that depend on a name alone; it
+/// is not a checksum.
 constexpr uint32_t fnv1a32(std::string_view text) {
   uint32_t hash = 2166136261u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;

@@ -16,7 +16,7 @@ namespace greatx {
 InputFile::InputFile(const std::filesystem::path& file, const std::string& what, const Budget& budget)
     : name_(file.string()), what_(what) {
   const auto reason = [] { return std::generic_category().message(errno); };
-  // Not blocking: opening a pipe would wait for someone who writes into it.
+  // The call does not block: opening a pipe would otherwise wait for a process that writes into it.
   descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
     throw_user_error("{}: file '{}' does not exist", what_, name_);

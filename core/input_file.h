@@ -11,18 +11,19 @@
 
 namespace greatx {
 
-/// A file that a person gave, to be read whole: regular (neither folder nor pipe, which would hang) and within its
-/// budget, both known before anything is allocated.
+/// Reads a file that a person gave, whole. It is a regular file (not a folder, and not a pipe, which would
+/// hang) and within its budget. Both are checked before anything is allocated.
 class InputFile {
  public:
-  /// Throws UserError "`what`: ...": no such file, none that is regular, cannot be read, too large.
+  /// Throws UserError "`what`: ..." if the file does not exist, is not regular, cannot be read or is too
+  /// large.
   InputFile(const std::filesystem::path& file, const std::string& what, const Budget& budget);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
   size_t size() const { return size_; }
-  /// All of it. Throws UserError if it has become shorter.
+  /// Reads the whole file. Throws UserError if the file has become shorter.
   void read(std::span<std::byte> bytes) const;
   std::string text() const;
 

@@ -18,7 +18,8 @@
 
 namespace greatx {
 
-/// Cores that this process may run on: fewer than the machine has under taskset or in a container.
+/// Counts the cores that this process may run on. Under taskset or in a container there are fewer than the
+/// machine has.
 inline size_t usable_cores() {
   cpu_set_t cores;
   if (sched_getaffinity(0, sizeof cores, &cores) == 0 && CPU_COUNT(&cores) > 0)
@@ -26,10 +27,10 @@ inline size_t usable_cores() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// Calls work(index) for every index below `count`, on up to `threads` threads (0: usable_cores()). Which
-/// thread takes which index is chance: work() must write to what belongs to its index alone, so that the result is
-/// not. The first exception is thrown again here. Work that is watched (core/watch.h) is so on all of them, and is
-/// asked before each index.
+/// Calls work(index) for every index below `count`, on up to `threads` threads (0: usable_cores()). Chance
+/// decides which thread takes which index, so work() must write only to data that belongs to its index: the
+/// result then does not depend on chance. The first exception is thrown again here. If the caller's work is
+/// watched (core/watch.h), the watch covers all these threads and is asked before each index.
 template <typename Work>
 void parallel_for(size_t count, uint32_t threads, const Work& work) {
   const size_t workers = std::min(count, threads == 0 ? usable_cores() : size_t{threads});
@@ -69,7 +70,8 @@ void parallel_for(size_t count, uint32_t threads, const Work& work) {
   for (size_t i = 1; i < workers; ++i) pool.emplace_back(run_beside);
   run();
   if (watched != nullptr && watched->mine()) {
-    // Whoever waits hears of it, and may stop the others, while the last of them are at work.
+    // The waiting caller hears of the progress, and may stop the other threads, while the last of them are at
+    // work.
     std::unique_lock lock(mutex);
     while (!one_ended.wait_for(lock, std::chrono::milliseconds(20), [&] { return running == 0; })) {
       lock.unlock();

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What flows out of the simulator: a Packet per tick, with one Record of every sensor that fired; each Record
-// holds the arrays that its SensorSpec declared before the run. A RecordSink (io/: the data set's writer;
-// tests: a vector) takes packets in order of ticks.
+// The simulator delivers one Packet a tick, with one Record of every sensor that fired. Each Record holds the
+// arrays that its SensorSpec declared before the run. A RecordSink takes the packets in order of ticks; the
+// data set's writer in io/ is one, and tests use a vector.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace greatx {
 enum class DType { u8, u16, u32, u64, i8, i32, i64, f32, f64, complex64 };
 
 size_t size_of(DType dtype);
-/// NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
+/// Returns NumPy's little-endian type string, e.g. "<f4", "|u1", "<c8".
 std::string_view numpy_name(DType dtype);
 
 template <typename T>
@@ -69,14 +69,14 @@ struct DTypeOf<std::complex<float>> {
   static constexpr DType value = DType::complex64;
 };
 
-/// A dense array in C order, little endian, that owns its bytes.
+/// Holds a dense array in C order, little-endian, which owns its bytes.
 struct Array {
   DType dtype = DType::u8;
   std::vector<int64_t> shape;
   std::vector<std::byte> bytes;
 
   Array() = default;
-  /// Zero-filled.
+  /// Makes an array filled with zeros.
   Array(DType dtype_, std::vector<int64_t> shape_);
   template <typename T>
   static Array of(std::vector<int64_t> shape, std::span<const T> values) {
@@ -99,42 +99,45 @@ struct Array {
   }
 };
 
-/// One array that a sensor delivers with every record.
+/// Describes one array that a sensor delivers with every record.
 struct ArraySpec {
   std::string name;  ///< e.g. "rgb", "points", "cfr"
   DType dtype = DType::f32;
   std::vector<int64_t> shape;  ///< of one record; a first axis of -1 varies from record to record
   std::string unit;            ///< e.g. "m", "1", "s"
-  std::string description;     ///< axes and meaning, one line
+  std::string description;     ///< axes and meaning, in one line
 };
 
-/// How arrays become files.
+/// Names the way in which arrays become files.
 enum class FileFormat {
-  npy_stack,    ///< one .npy per sequence, records stacked along a new first axis
-  npy_ragged,   ///< one .npy per sequence, records concatenated along their first axis, plus NAME_offsets.npy
-                ///< [records+1]
+  npy_stack,  ///< one .npy per sequence, records stacked along a new first axis
+  /// One .npy per sequence holds the records, concatenated along their first axis; NAME_offsets.npy
+  /// [records+1] says where each begins.
+  npy_ragged,
   npy_frame,    ///< one .npy per record
   png,          ///< u8 [h, w, 3] as 8-bit RGB, or [h, w] as grey; u16 [h, w] as 16-bit grey
   png_depth24,  ///< f32 metres [h, w] as CARLA's 24-bit coding: 1000 m * (R + 256 G + 65536 B) / (2^24 - 1)
   exr,          ///< f32 [h, w] as one channel "Y", [h, w, 3] as R, G, B
-  ply,          ///< binary little-endian vertices; arrays[0] f32 [n, 4] is x, y, z, intensity, the others [n]
-                ///< properties
-  // Files of a sequence made from its npy_ragged arrays when it ends (docs/events.md).
+  /// Binary little-endian vertices: arrays[0], f32 [n, 4], is x, y, z, intensity; the other arrays [n] are
+  /// properties.
+  ply,
+  // These files of a sequence are made from its npy_ragged arrays when it ends (docs/events.md).
   hdf5_events,  ///< DSEC's HDF5; arrays: t i64 ns, x u16, y u16, p u8
   text_events,  ///< lines "t x y p", t in seconds; the same arrays
   pcd,          ///< PCD 0.7, binary; arrays as ply's
   kitti,        ///< KITTI's velodyne .bin: f32 [n, 4] as it is, no header
 };
 
-/// One file series of a sensor.
+/// Describes one file series of a sensor.
 struct OutputSpec {
   std::string name;  ///< file or folder name below the sensor's folder, e.g. "rgb", "cfr"
   FileFormat format = FileFormat::npy_stack;
-  std::vector<std::string>
-      arrays;  ///< names of the ArraySpecs that it holds; ply, pcd and the formats of events hold several, all others one
+  /// Names of the ArraySpecs that the series holds. ply, pcd and the formats of events hold several; all
+  /// others hold one.
+  std::vector<std::string> arrays;
 };
 
-/// What a sensor will deliver, declared before the run.
+/// Describes the deliveries of a sensor. It is declared before the run.
 struct SensorSpec {
   std::string name;  ///< unique, "node/sensor", also the folder's path in the data set
   std::string kind;  ///< "camera", "lidar", "csi", "pose"
@@ -144,7 +147,7 @@ struct SensorSpec {
   std::string metadata_json;  ///< one JSON object: intrinsics, frames, conventions, array geometry, ...
 };
 
-/// What one sensor measured at one tick.
+/// Holds the measurement of one sensor at one tick.
 struct Record {
   uint32_t sensor = 0;  ///< index into the SensorSpecs
   int64_t tick = 0;
@@ -153,7 +156,7 @@ struct Record {
   std::vector<Array> arrays;  ///< in the order of SensorSpec::arrays
 };
 
-/// Everything that was due at one tick, complete.
+/// Holds the complete records of every sensor that was due at one tick.
 struct Packet {
   int64_t tick = 0;
   int64_t time_ns = 0;
@@ -163,8 +166,8 @@ struct Packet {
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
-  /// Packets come in ascending order of ticks. May block to bound memory. Throws if the packet cannot be
-  /// kept.
+  /// Takes a packet. Packets come in ascending order of ticks. The call may block to bound memory. It throws
+  /// if the packet cannot be kept.
   virtual void write(Packet packet) = 0;
 };
 

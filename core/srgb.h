@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// IEC 61966-2-1, both ways, exact; 0 to 1. What shades has its own (shaders/shared/develop.h).
+// These functions convert by IEC 61966-2-1 both ways, exactly, from 0 to 1. The shaders have their own
+// version (shaders/shared/develop.h).
 #pragma once
 
 #include <cmath>

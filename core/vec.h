@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors and frames. World: right-handed, x east, y north, z up, metres. Sensor and body frames: x forward,
-// y left, z up. Camera optical frame: x right, y down, z forward. Matrices read right to left.
+// Defines vectors and frames. The world is right-handed: x east, y north, z up, in metres. Sensor and body
+// frames have x forward, y left, z up. The camera's optical frame has x right, y down, z forward. Matrices
+// read right to left.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,7 +24,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-/// A rigid transform `parent_from_child`: p_parent = position + orientation * p_child.
+/// Describes a rigid transform `parent_from_child`: p_parent = position + orientation * p_child.
 struct Pose {
   dvec3 position{0.0};                    ///< metres
   dquat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit, w x y z
@@ -47,7 +48,7 @@ inline dquat orientation_from_yaw_pitch_roll(double yaw, double pitch, double ro
          glm::angleAxis(roll, dvec3(1, 0, 0));
 }
 
-/// What a body does at an instant: pose and its derivatives in the world frame.
+/// Holds the pose of a body at an instant and its derivatives in the world frame.
 struct Motion {
   Pose pose;
   dvec3 velocity{0.0};          ///< m/s

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long work on the host is watched: whoever waits for it puts a WatchScope around the call, the work asks checkpoint() as
-// often as it likes, on whatever thread. So nothing between the two needs to know of it.
+// Watches long work on the host. The caller that waits for the work puts a WatchScope around the call. The
+// work calls checkpoint() as often as it likes, on any thread. Code between the two needs to know nothing of
+// it.
 //
-//   WatchScope (the caller's thread) ─► ... ─► WorkStage("search") ─► parallel_for ─► checkpoint() on every worker
+//   WatchScope (the caller's thread) ─► ... ─► WorkStage("search") ─► parallel_for
+//     ─► checkpoint() on every worker
 //
-// The watch itself is asked on the caller's thread alone (a terminal, an interpreter), some twenty times a second: within
-// that thread's own checkpoints, and while it waits for workers.
+// The watch itself is asked only on the caller's thread, since it may be a terminal or an interpreter. It is
+// asked some twenty times a second: within that thread's own checkpoints, and while that thread waits for
+// workers.
 #pragma once
 
 #include <atomic>
@@ -19,39 +22,39 @@
 
 namespace greatx {
 
-/// How far the work is.
+/// Says how far the work is.
 struct WorkState {
-  const char* what = nullptr;  ///< null: nothing that takes long is underway
+  const char* what = nullptr;  ///< null: no long work is underway
   double share = -1.0;         ///< done, 0 to 1; an estimate, which may fall; < 0: not known
   double seconds = 0.0;        ///< since it began
 };
 
-/// Who waits.
+/// Represents the party that waits for the work.
 class Watch {
  public:
   virtual ~Watch() = default;
-  /// False: enough.
+  /// Returns false to stop the work.
   virtual bool look(const WorkState& state) noexcept = 0;
-  /// What look() told of is over.
+  /// Is called when the stage that look() reported is over.
   virtual void stage_ended() noexcept {}
 };
 
 namespace detail {
 
-/// What a watch, its thread and the threads that work for it share.
+/// Represents the state that a watch, its thread and the threads that work for it share.
 class WatchedWork {
  public:
   explicit WatchedWork(Watch& watch) : watch_(watch) {}
-  /// Throws Interrupted once somebody asked to stop.
+  /// Throws Interrupted once the watch has asked to stop.
   void check() {
     if (mine()) poll();
     if (stop_.load(std::memory_order_relaxed)) throw Interrupted("before it was done");
   }
-  /// On the watched thread: asks the watch, if that was not just done.
+  /// On the watched thread, asks the watch unless it was asked just before.
   void poll();
   bool mine() const { return std::this_thread::get_id() == owner_; }
 
-  // Of the stage.
+  // The members below belong to the stage.
   bool begin(const char* what);
   void end();
   void add(uint64_t done) { done_.fetch_add(done, std::memory_order_relaxed); }
@@ -68,12 +71,13 @@ class WatchedWork {
   std::atomic<double> total_{0.0};
 };
 
-/// Of the work that this thread does; null: nobody watches.
+/// The watched work that this thread takes part in. Null: nobody watches.
 inline thread_local constinit WatchedWork* watched_work = nullptr;
 
 }  // namespace detail
 
-/// Watches what the thread does, with all threads of parallel_for, as long as this lives. `watch` outlives this.
+/// As long as this lives, it watches the work of its thread and of all threads of parallel_for. `watch`
+/// outlives it.
 class WatchScope {
  public:
   explicit WatchScope(Watch& watch) : work_(watch), before_(detail::watched_work) {
@@ -88,16 +92,17 @@ class WatchScope {
   detail::WatchedWork* before_;
 };
 
-/// Throws Interrupted if the work of this thread is watched and somebody asked to stop. Cheap enough for a loop whose turn
-/// takes a microsecond.
+/// Throws Interrupted if the work of this thread is watched and the watch has asked to stop. The call is
+/// cheap enough for a loop whose turn takes a microsecond.
 inline void checkpoint() {
   if (detail::watched_work != nullptr) detail::watched_work->check();
 }
 
-/// Work that may take long, as long as this lives; the outermost one on the watched thread is told of.
+/// Marks work that may take long, as long as this lives. The watch hears of the outermost stage on the
+/// watched thread.
 class WorkStage {
  public:
-  /// `what`: a literal.
+  /// `what` is a literal.
   explicit WorkStage(const char* what)
       : work_(detail::watched_work != nullptr && detail::watched_work->mine() &&
                       detail::watched_work->begin(what)
@@ -109,11 +114,11 @@ class WorkStage {
   WorkStage(const WorkStage&) = delete;
   WorkStage& operator=(const WorkStage&) = delete;
 
-  /// So many more steps are done; from any thread.
+  /// Reports that `done` more steps are done. Any thread may call it.
   void add(uint64_t done) {
     if (work_ != nullptr) work_->add(done);
   }
-  /// How many there will be, as far as that is known.
+  /// States how many steps there will be, as far as that is known.
   void expect(double total) {
     if (work_ != nullptr) work_->expect(total);
   }

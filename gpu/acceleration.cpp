@@ -43,7 +43,7 @@ VkAccelerationStructureGeometryKHR triangles(const BlasGeometry& geometry) {
   return result;
 }
 
-/// Vulkan's 3x4 rows from a matrix whose columns glm stores.
+/// Returns Vulkan's 3x4 rows for a matrix that glm stores by columns.
 VkTransformMatrixKHR rows_of(const dmat4& m) {
   VkTransformMatrixKHR rows{};
   for (int row = 0; row < 3; ++row)
@@ -150,7 +150,7 @@ void Tlas::record(Cmd& cmd, std::span<const TlasInstance> instances, const Slice
     row.accelerationStructureReference = instances[i].blas->address();
     std::memcpy(staging.mapped + i * sizeof(row), &row, sizeof(row));
   }
-  // The last tick's build may still read the instances; its rays may still read the structure.
+  // The build of the last tick may still read the instances, and its rays may still read the structure.
   cmd.barrier({sync::build_read.stage | sync::ray_query_read.stage, sync::build_read.access},
               sync::transfer_write);
   if (instance_count_ > 0)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Acceleration structures: bottom level per body, built once; top level over the bodies, refitted when one
-// moved.
+// Defines acceleration structures. Each body has a bottom level, which is built once. The top level holds the
+// bodies and is refitted when one of them has moved.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace greatx::gpu {
 
 class Cmd;
 
-/// One geometry (range of triangles) of a bottom-level structure.
+/// Holds one geometry (a range of triangles) of a bottom-level structure.
 struct BlasGeometry {
   VkDeviceAddress vertices = 0;  ///< vec3 fp32, stride 12
   uint32_t max_vertex = 0;       ///< highest index + 1
@@ -41,14 +41,15 @@ class AccelerationStructure {
   Buffer storage_;
 };
 
-/// Built once in a set-up submission of its own (waits for it); fast to trace, not updatable.
+/// Represents a bottom level. A set-up submission of its own builds it, and the constructor waits for that.
+/// It is fast to trace and cannot be updated.
 class Blas : public AccelerationStructure {
  public:
   Blas() = default;
   Blas(Device& device, std::span<const BlasGeometry> geometries, std::string_view name);
 };
 
-/// A body in the top level.
+/// Describes a body in the top level.
 struct TlasInstance {
   const Blas* blas = nullptr;
   dmat4 local_from_body{1.0};
@@ -56,14 +57,14 @@ struct TlasInstance {
   uint32_t mask = 0xff;       ///< 8 bits
 };
 
-/// The top level over a fixed number of instances.
+/// Represents the top level over a fixed number of instances.
 class Tlas : public AccelerationStructure {
  public:
   Tlas() = default;
   Tlas(Device& device, uint32_t instance_count, std::string_view name);
-  /// Records a build (first time) or a refit into `cmd`. `instances` [instance_count] are copied into
-  /// `staging`, a slice of upload memory that lives until the submission is done, of instance_bytes().
-  /// Barriers towards ray queries included.
+  /// Records a build (the first time) or a refit into `cmd`. `instances` [instance_count] are copied into
+  /// `staging`, a slice of upload memory of instance_bytes() that lives until the submission is done. The
+  /// call includes the barriers towards ray queries.
   void record(Cmd& cmd, std::span<const TlasInstance> instances, const Slice& staging);
   VkDeviceSize instance_bytes() const;
   bool built() const { return built_; }

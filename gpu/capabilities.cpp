@@ -16,7 +16,7 @@ constexpr std::array ray_tracing_extensions = {VK_KHR_ACCELERATION_STRUCTURE_EXT
                                                VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                                VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
-/// A feature bit that greatx uses: where it lives in the chain, and what for.
+/// Describes a feature bit that greatx uses: its place in the chain, and its purpose.
 struct FeatureUse {
   const char* name;
   const char* used_for;

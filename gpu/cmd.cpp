@@ -130,7 +130,8 @@ Cmd::Scope::Scope(Cmd& cmd, std::string_view name) : cmd_(cmd), index_(~0u) {
   }
   Timestamps* stamps = cmd.timestamps_;
   if (stamps == nullptr) return;
-  if (stamps->names_.size() >= stamps->max_scopes_) return;  // labelled and counted, not timed
+  // the scope is labelled and counted, but not timed
+  if (stamps->names_.size() >= stamps->max_scopes_) return;
   index_ = static_cast<uint32_t>(stamps->names_.size());
   stamps->names_.emplace_back(name);
   vkCmdWriteTimestamp2(cmd.handle_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, stamps->pool_, 2 * index_);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recording, straight line: scopes, explicit barriers, push descriptors, dispatches, draws, copies.
+// Records commands in a straight line: scopes, explicit barriers, push descriptors, dispatches, draws,
+// copies.
 #pragma once
 
 #include <initializer_list>
@@ -16,7 +17,7 @@
 
 namespace greatx::gpu {
 
-/// One side of a barrier.
+/// Describes one side of a barrier.
 struct Sync {
   VkPipelineStageFlags2 stage;
   VkAccessFlags2 access;
@@ -25,7 +26,7 @@ namespace sync {
 inline constexpr Sync none{VK_PIPELINE_STAGE_2_NONE, 0};
 inline constexpr Sync compute_write{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync compute_read{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-/// Whatever compute shaders do to buffers.
+/// Covers all accesses of compute shaders to buffers.
 inline constexpr Sync compute{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                               VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
 inline constexpr Sync transfer_write{VK_PIPELINE_STAGE_2_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -41,16 +42,16 @@ inline constexpr Sync ray_query_read{
     VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
 }  // namespace sync
 
-/// Groups of a dispatch along x and y.
+/// Holds the groups of a dispatch along x and y.
 struct GroupGrid {
   uint32_t x = 0, y = 0;
   friend bool operator==(const GroupGrid&, const GroupGrid&) = default;
 };
-/// Rows of at most 65535 groups, which every device takes along an axis, as even as can be: x * y is `groups` or up to
-/// y - 1 more.
+/// Returns rows of at most 65535 groups, which every device takes along an axis. The rows are as even as they
+/// can be: x * y is `groups` or up to y - 1 more.
 GroupGrid group_grid(uint64_t groups);
 
-/// A descriptor to be pushed into set 0.
+/// Holds a descriptor that is pushed into set 0.
 struct Descriptor {
   uint32_t slot = 0;
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -79,13 +80,13 @@ struct RenderTargets {
   uint32_t width = 0, height = 0;
 };
 
-/// Time that a scope took on the GPU.
+/// Holds the time that a scope took on the GPU.
 struct PassTime {
   std::string name;
   double milliseconds = 0.0;
 };
 
-/// Timestamps of one command buffer.
+/// Represents the timestamps of one command buffer.
 class Timestamps {
  public:
   Timestamps() = default;
@@ -93,9 +94,9 @@ class Timestamps {
   ~Timestamps();
   Timestamps(Timestamps&& other) noexcept;
   Timestamps& operator=(Timestamps&& other) noexcept;
-  /// After the submission is done; in recording order.
+  /// Returns the times in recording order. The submission must be done.
   std::vector<PassTime> read() const;
-  /// Before the command buffer is recorded anew.
+  /// Must be called before the command buffer is recorded anew.
   void reset();
 
  private:
@@ -106,14 +107,15 @@ class Timestamps {
   std::vector<std::string> names_;
 };
 
-/// A command buffer being recorded. Barriers and image transitions are the caller's, one at each hand-over.
+/// Represents a command buffer that is being recorded. The caller records barriers and image transitions, one
+/// at each hand-over.
 class Cmd {
  public:
   Cmd(Device& device, VkCommandBuffer handle, Timestamps* timestamps)
       : device_(&device), handle_(handle), timestamps_(timestamps) {}
 
-  /// Debug label, GPU timestamps and a count of one pass, until the end of the C++ scope. Scopes beyond those that the
-  /// tick's Timestamps have room for are not timed.
+  /// Gives one pass a debug label and GPU timestamps, and counts it, until the end of the C++ scope. Scopes
+  /// beyond the room of the tick's Timestamps are not timed.
   class Scope {
    public:
     ~Scope();
@@ -129,12 +131,13 @@ class Cmd {
   [[nodiscard]] Scope scope(std::string_view name) { return Scope(*this, name); }
 
   void barrier(const Sync& from, const Sync& to);
-  /// `discard`: the old content is not needed.
+  /// `discard` says that the old content is not needed.
   void transition(Image& image, ImageUse use, bool discard = false);
 
   void bind(const Pipeline& pipeline);
-  /// For the bound pipeline. Throws UserError naming the buffer if it is larger than shaders of this device may be given
-  /// at once (maxStorageBufferRange): what may grow so large is split, or read by its address.
+  /// Pushes descriptors for the bound pipeline. Throws UserError naming the buffer if it is larger than this
+  /// device lets a shader see at once (maxStorageBufferRange). A buffer that may grow so large is split, or
+  /// read by its address.
   void push(std::initializer_list<Descriptor> descriptors) {
     push(std::span(descriptors.begin(), descriptors.size()));
   }
@@ -144,12 +147,14 @@ class Cmd {
     push_constants(&values, sizeof(T));
   }
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
-  /// At least `invocations`, in rows of groups of `group_size` (along x), however many; shaders number them by
-  /// shaders/lib/linear.glsl and leave out what is beyond their count. 0: records nothing.
+  /// Dispatches at least `invocations`, in rows of groups of `group_size` (along x). Shaders number the
+  /// invocations by shaders/lib/linear.glsl and leave out those beyond their count. 0 invocations record
+  /// nothing.
   void dispatch_linear(uint64_t invocations, uint32_t group_size);
   void bind_indices(const Buffer& buffer);  ///< uint32
   void draw(uint32_t vertices, uint32_t instances = 1);
-  /// Without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is `first_instance`.
+  /// Draws without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is
+  /// `first_instance`.
   void draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance);
   void draw_indexed(uint32_t first_index, uint32_t index_count, uint32_t first_instance);
 
@@ -157,11 +162,11 @@ class Cmd {
   void end_rendering();
 
   void copy(const Slice& from, const Slice& to);
-  /// All layers of one mip, tightly packed.
+  /// The copies between images and slices take all layers of one mip, tightly packed.
   void copy(const Image& from, const Slice& to);                    ///< mip 0; image in transfer_source
   void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
   void fill(const Slice& slice, uint32_t word);
-  /// Fills mips 1.. from mip 0 (image in transfer_target, left in sampled).
+  /// Fills the mips from 1 on from mip 0. The image is in transfer_target before and in sampled after.
   void generate_mipmaps(Image& image);
 
   VkCommandBuffer handle() const { return handle_; }
@@ -176,15 +181,16 @@ class Cmd {
   const Pipeline* bound_ = nullptr;
 };
 
-/// Records with `record(cmd)`, submits, waits: set-up work outside the ticks.
+/// Records set-up work outside the ticks with `record(cmd)`, submits it and waits.
 template <typename F>
 void submit_setup(Device& device, F&& record);
 
-/// Device-local buffer filled from the host, through a staging buffer and a set-up submission.
+/// Returns a device-local buffer, filled from the host through a staging buffer and a set-up submission.
 Buffer upload_buffer(Device& device, std::span<const std::byte> bytes, std::string_view name,
                      VkBufferUsageFlags extra_usage = 0);
 
-/// Fills an image from the host, mip by mip, tightly packed, in one set-up submission; it is then ready to be sampled.
+/// Fills an image from the host, mip by mip, tightly packed, in one set-up submission. The image is then
+/// ready to be sampled.
 void upload_image(Device& device, Image& image, std::span<const std::span<const std::byte>> mips);
 
 namespace detail {

@@ -161,7 +161,7 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
   const DeviceInfo* chosen = nullptr;
   for (const DeviceInfo& info : devices) {
     if (!select.empty()) {
-      // An index is no part of a name: "1" is not the llvmpipe whose name says LLVM 15.
+      // An index is not a part of a name: "1" does not select the llvmpipe whose name says LLVM 15.
       if (select == std::to_string(info.index)) {
         chosen = &info;
         break;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which GPU, what it can do, and the one queue that everything is submitted to.
+// Chooses a GPU, finds its capabilities, and has the one queue that takes all submissions.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@
 
 namespace greatx::gpu {
 
-/// One thing that greatx needs or could use, and whether a device has it.
+/// Describes a feature that greatx needs or could use, and whether a device has it.
 struct Capability {
-  std::string name;      ///< as Vulkan calls it, e.g. "rayQuery"
+  std::string name;      ///< the name in Vulkan, e.g. "rayQuery"
   std::string used_for;  ///< in words
   bool required = true;
   bool available = false;
@@ -33,20 +33,23 @@ struct DeviceInfo {
   std::string api_version;
   std::vector<Capability> capabilities;
   uint64_t memory_bytes = 0;  ///< of the largest device-local heap
-  /// Names of the required capabilities that are missing; empty: greatx runs on it.
+  /// Returns the names of the required capabilities that are missing. greatx runs on the device if there are
+  /// none.
   std::vector<std::string> missing() const;
   bool usable() const { return missing().empty(); }
 };
 
-/// Every Vulkan device of the machine. Throws UserError if there is no Vulkan loader or driver at all.
+/// Returns every Vulkan device of the machine. Throws UserError if there is no Vulkan loader or no driver at
+/// all.
 std::vector<DeviceInfo> list_devices();
 
-/// Which of `devices` to use: the one that `select` names (index, or part of the name, case-insensitive), else the usable
-/// one of the best type. Throws UserError listing every device and what it lacks if there is none, or if the one that
-/// was named lacks something.
+/// Returns the device of `devices` that `select` names by its index or by a part of its name
+/// (case-insensitive), else the usable device of the best type. Throws UserError if no device is usable, or
+/// if the named one lacks something; the message lists every device and the features that it lacks.
 const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& select);
 
-/// Messages of the validation layer, kept for the tests and the program's end; outlives the device.
+/// Keeps the messages of the validation layer for the tests and for the end of the program. It outlives the
+/// device.
 class ValidationLog {
  public:
   void add(std::string message);
@@ -59,15 +62,15 @@ class ValidationLog {
 };
 
 struct DeviceOptions {
-  /// Index or part of the name (case-insensitive). Empty: $GREATX_DEVICE, else the best usable real GPU, else
-  /// a CPU.
+  /// Index or part of the name (case-insensitive). If it is empty, $GREATX_DEVICE is used, else the best
+  /// usable real GPU, else a CPU.
   std::string select;
-  /// Core and synchronisation validation. Also switched on by $GREATX_VALIDATION=1.
+  /// Switches on core and synchronisation validation, as $GREATX_VALIDATION=1 does.
   bool validation = false;
 };
 
-/// What was built and submitted; the run's summary and the tests of "only the effects the scene calls for"
-/// read it.
+/// Counts the objects built and the work submitted. The summary of the run reads it, and so do the tests that
+/// a run has only the effects that the scene calls for.
 struct Counters {
   uint64_t pipelines_built = 0;
   uint64_t setup_submits = 0;  ///< uploads and builds before the first tick
@@ -80,7 +83,7 @@ struct Counters {
   std::vector<std::string> pipelines;  ///< names, in the order built
 };
 
-/// Extension entry points, loaded once.
+/// Holds the entry points of extensions, loaded once.
 struct Functions {
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set = nullptr;
   PFN_vkCreateAccelerationStructureKHR create_acceleration_structure = nullptr;
@@ -95,11 +98,11 @@ struct Functions {
   PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 };
 
-/// The logical device. Not copyable, not movable: everything else refers to it and is destroyed before it.
-/// Recording and submitting happen on one thread.
+/// Represents the logical device. It can be neither copied nor moved, since everything else refers to it and
+/// is destroyed before it. Recording and submitting happen on one thread.
 class Device {
  public:
-  /// Throws UserError naming what is missing if no device fits.
+  /// Throws UserError naming the missing features if no device fits.
   explicit Device(const DeviceOptions& options = {});
   ~Device();
   Device(const Device&) = delete;
@@ -118,26 +121,30 @@ class Device {
   VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
   std::shared_ptr<ValidationLog> validation_log() const { return validation_log_; }
 
-  /// Memory type with all of `required`, preferring `preferred`. Throws UserError if there is none.
+  /// Returns a memory type with all of `required`, preferably with `preferred`. Throws UserError if there is
+  /// none.
   uint32_t memory_type(uint32_t allowed_bits, VkMemoryPropertyFlags required,
                        VkMemoryPropertyFlags preferred) const;
   /// Names an object for validation messages and RenderDoc.
   void set_name(VkObjectType type, uint64_t handle, std::string_view name) const;
   void wait_idle() const;
-  /// Buffers that are larger than one descriptor may be tell their names, for the error if they are bound whole.
+  /// Buffers that are larger than one descriptor may be register their names here, for the error when they
+  /// are bound whole.
   void add_large(VkBuffer buffer, std::string_view name) {
     large_.insert_or_assign(buffer, std::string(name));
   }
   void remove_large(VkBuffer buffer) { large_.erase(buffer); }
   std::string name_of_large(VkBuffer buffer) const;
 
-  /// Numbers a submission that was just handed to the queue.
+  /// Returns the number of a submission that was just handed to the queue.
   uint64_t submitted() { return ++submitted_; }
-  /// Says that the host has waited for a submission; those before it are done, too, since there is one queue.
+  /// States that the host has waited for a submission. Those before it are then done, too, since there is one
+  /// queue.
   void finished(uint64_t submission);
-  /// Blocks while any submission may still run that nobody has waited for. The destructor of everything that a submission
-  /// may use calls it first: whoever throws between a submission and its wait leaves nothing behind that works on freed
-  /// memory, whatever the order in which owners keep their members. Costs nothing where all has been waited for.
+  /// Blocks while a submission may still run that the host has not waited for. The destructor of every object
+  /// that a submission may use calls it first. An exception between a submission and its wait then leaves no
+  /// GPU work on freed memory, whatever the order in which owners keep their members. The call costs nothing
+  /// if the host has waited for all submissions.
   void finish() noexcept;
 
  private:

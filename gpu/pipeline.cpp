@@ -15,7 +15,7 @@ namespace {
 
 constexpr VkShaderStageFlags graphics_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-/// A shader module for the time of building a pipeline.
+/// Represents a shader module that lives while a pipeline is built.
 class Module {
  public:
   Module(Device& device, std::string_view name) : device_(device) {
@@ -45,7 +45,7 @@ class Module {
   VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-/// Values of constant_id 0, 1, 2, ...; keeps what the Vulkan struct points at.
+/// Holds the values of constant_id 0, 1, 2, ... and the memory that the Vulkan struct points at.
 struct Specialization {
   explicit Specialization(std::span<const uint32_t> values) {
     for (uint32_t i = 0; i < values.size(); ++i)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pipelines from embedded SPIR-V. Set 0 holds push descriptors, written while recording; set 1, where a pass
-// asks for it, is a table of textures that lives as long as the scene.
+// Pipelines are made from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording.
+// Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@
 
 namespace greatx::gpu {
 
-/// The words of an embedded shader ("lidar/sweep.comp"). Throws ContractError if there is none of that name.
+/// Returns the words of an embedded shader ("lidar/sweep.comp"). Throws ContractError if there is none of
+/// that name.
 std::span<const uint32_t> spirv(std::string_view name);
 
 struct Binding {
@@ -24,12 +25,13 @@ struct Binding {
   VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 };
 
-/// A fixed array of combined image samplers for set 1, binding 0, seen by fragment and compute shaders.
+/// Represents a fixed array of combined image samplers for set 1, binding 0, visible to fragment and compute
+/// shaders.
 class TextureTable {
  public:
   TextureTable() = default;
-  /// Images must be in ImageUse::sampled when used. An empty table is allowed: shaders then must not index
-  /// it.
+  /// Images must be in ImageUse::sampled when they are used. The table may be empty; shaders then must not
+  /// index it.
   TextureTable(Device& device, std::span<const VkDescriptorImageInfo> textures, std::string_view name);
   ~TextureTable();
   TextureTable(TextureTable&& other) noexcept;
@@ -44,7 +46,7 @@ class TextureTable {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// What both kinds of pipeline have in common.
+/// Represents the common part of both kinds of pipeline.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -78,8 +80,8 @@ struct ComputeDesc {
   std::string shader;                ///< "folder/name.comp"
   std::vector<Binding> bindings;     ///< of set 0
   uint32_t push_constant_bytes = 0;  ///< at most 128
-  std::vector<uint32_t>
-      specialization;  ///< value of constant_id 0, 1, 2, ... (bool: 0 or 1; float: its bits)
+  /// Values of constant_id 0, 1, 2, ... (bool: 0 or 1; float: its bits).
+  std::vector<uint32_t> specialization;
   const TextureTable* textures = nullptr;
 };
 
@@ -99,8 +101,8 @@ struct GraphicsDesc {
   std::vector<VkFormat> color_formats;
   VkFormat depth_format = VK_FORMAT_UNDEFINED;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  VkCullModeFlags cull =
-      VK_CULL_MODE_NONE;  ///< front faces wind counter-clockwise in clip space as Vulkan sees it
+  /// Front faces wind counter-clockwise in clip space as Vulkan sees it.
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
   VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   VkCompareOp depth_compare = VK_COMPARE_OP_GREATER;  ///< reversed depth
   bool depth_write = true;

@@ -30,8 +30,9 @@ uint32_t memory_type_for(const Device& device, uint32_t bits, Memory memory) {
   throw ContractError("unknown kind of memory");
 }
 
-/// A CPU's driver (lavapipe) keeps all its memory in one nameless file, to which the file-size limit applies. Beyond it the
-/// file does not grow, nothing says so, and the first access ends the process with a bus error.
+/// A CPU driver (lavapipe) keeps all its memory in one nameless file, to which the limit on file sizes
+/// applies. The file does not grow beyond that limit, no call reports this, and the first access ends the
+/// process with a bus error.
 std::atomic<uint64_t> bytes_in_file{0};
 
 bool keeps_memory_in_file(const Device& device) { return device.info().type == "cpu"; }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Buffers, images and samplers: move-only, each with its memory and its name. As everything in gpu/ they wait, before they
-// are destroyed, for submissions that nobody has waited for (Device::finish).
+// Defines buffers, images and samplers. They are move-only, and each has its memory and its name. As
+// everything in gpu/, they wait before they are destroyed for submissions that the host has not waited for
+// (Device::finish).
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@ enum class Memory {
   readback,  ///< written by the GPU, read by the host; mapped, coherent, cached if there is such a kind
 };
 
-/// A part of a buffer.
+/// Describes a part of a buffer.
 struct Slice {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
@@ -41,8 +42,9 @@ struct Slice {
 class Buffer {
  public:
   Buffer() = default;
-  /// Usable as storage, transfer source and target, and by address; `extra_usage` adds to that.
-  /// A size of 0 makes a buffer of 16 bytes, so that empty scenes need no special case.
+  /// Makes a buffer that is usable as storage, as source and target of transfers, and by address;
+  /// `extra_usage` adds to that. A size of 0 makes a buffer of 16 bytes, so that empty scenes need no special
+  /// case.
   Buffer(Device& device, VkDeviceSize size, Memory memory, std::string_view name,
          VkBufferUsageFlags extra_usage = 0);
   ~Buffer();
@@ -64,7 +66,7 @@ class Buffer {
   std::byte* mapped_ = nullptr;
 };
 
-/// What an image is used for next; layout, stage and access follow from it.
+/// Names the next use of an image. Its layout, stage and access follow from it.
 enum class ImageUse {
   undefined,
   color_target,
@@ -79,13 +81,13 @@ struct ImageDesc {
   VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
   uint32_t width = 1, height = 1;
   uint32_t mip_levels = 1;
-  uint32_t layers = 0;  ///< 0: a plain image; else an array of so many
+  uint32_t layers = 0;  ///< 0: a plain image; else an array of this many layers
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
 };
 
-/// A 2-D image, or an array of such, with one view of all its mip levels and layers. Cmd::transition keeps track of its
-/// use, in recording order.
+/// Represents a 2-D image, or an array of 2-D images, with one view of all its mip levels and layers.
+/// Cmd::transition keeps track of its use, in recording order.
 class Image {
  public:
   Image() = default;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work outside the ticks: record, submit, wait.
+// Work outside the ticks is recorded, submitted and waited for here.
 #include <cstring>
 
 #include "gpu/cmd.h"
@@ -58,7 +58,7 @@ SetupSubmission::~SetupSubmission() {
 }
 
 void SetupSubmission::submit_and_wait() {
-  // Everything written here is seen by every later submission and by the host.
+  // Every later submission and the host see everything written here.
   cmd_.barrier({VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                 VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT});

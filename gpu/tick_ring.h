@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// N slots in flight, each with a command buffer, an upload and a readback arena and timestamps; one timeline
-// semaphore counts the ticks submitted. One submission a tick.
+// The ring has N slots in flight. Each has a command buffer, an upload and a readback arena, and timestamps.
+// One timeline semaphore counts the submitted ticks. A tick is one submission.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 
 namespace greatx::gpu {
 
-/// Memory handed out front to back and taken back all at once. Grows by a block when a tick asks for more
-/// than any tick before it; a steady state allocates nothing.
+/// Represents memory that is handed out front to back and taken back all at once. It grows by a block when a
+/// tick asks for more than any tick before it. A steady state allocates nothing.
 class Arena {
  public:
   Arena() = default;
   Arena(Device& device, Memory memory, VkDeviceSize bytes, std::string name);
-  /// Aligned to 256 bytes. The content is undefined.
+  /// Returns a slice aligned to 256 bytes. Its content is undefined.
   Slice allocate(VkDeviceSize bytes);
   template <typename T>
   Slice allocate_for(size_t count) {
@@ -47,8 +47,8 @@ class Arena {
   uint64_t growths_ = 0;
 };
 
-/// Everything one tick needs while it is in flight. Slices of its arenas are valid until the slot is begun
-/// again.
+/// Holds everything that one tick needs while it is in flight. Slices of its arenas are valid until the slot
+/// is begun again.
 struct TickSlot {
   uint32_t index = 0;
   Cmd* cmd = nullptr;  ///< valid between begin and submit
@@ -66,13 +66,14 @@ class TickRing {
   TickRing(const TickRing&) = delete;
   TickRing& operator=(const TickRing&) = delete;
 
-  /// Next slot in turn; waits until its last submission is done, resets its arenas and starts recording.
+  /// Returns the next slot in turn. Waits until the slot's last submission is done, resets its arenas and
+  /// starts recording.
   TickSlot& begin();
-  /// What a submission counts as: a tick, or work before the first one.
+  /// A submission counts as a tick, or as work before the first tick.
   enum class Kind { tick, setup };
-  /// Ends recording with a barrier from all writes to host reads, and submits: one submission a tick.
+  /// Ends the recording with a barrier from all writes to host reads, and submits the slot in one submission.
   void submit(TickSlot& slot, Kind kind = Kind::tick);
-  /// Blocks until the slot's submission is done: its readback arena and timestamps may be read.
+  /// Blocks until the slot's submission is done. Its readback arena and timestamps may then be read.
   void wait(const TickSlot& slot) const;
   uint32_t slot_count() const { return static_cast<uint32_t>(slots_.size()); }
 

@@ -9,7 +9,7 @@
 
 namespace greatx::gpu {
 
-/// A Vulkan call that failed: the call's text and the result's name. Exit code 2.
+/// Reports a Vulkan call that failed: the text of the call and the name of the result. The exit code is 2.
 class VulkanError : public std::runtime_error {
  public:
   VulkanError(VkResult result, const char* call);

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Puts the compiled module into the wheel: CMake's target greatx_python, in the project's build folder.
 
-GREATX_NATIVE=1: it must be there; 0: it is left out (data sets alone, nothing is compiled); not set: it is built where the
-project has been built before, or can be (CMake, Ninja and the shaders' compiler are there).
+GREATX_NATIVE=1: it must be there; 0: it is left out (data sets alone, nothing is compiled); not set: it is
+built where the project has been built before, or can be (CMake, Ninja and the shaders' compiler are there).
 Nothing is written into python/.
 """
 import os

@@ -8,13 +8,13 @@
 
 namespace greatx {
 
-/// One shader of the program, compiled to SPIR-V at build time and embedded.
+/// Holds one shader of the program, compiled to SPIR-V at build time and embedded.
 struct SpirvModule {
   std::string_view name;  ///< path below shaders/ without ".glsl", e.g. "lidar/sweep.comp"
   std::span<const uint32_t> words;
 };
 
-/// Every embedded shader.
+/// Returns every embedded shader.
 std::span<const SpirvModule> spirv_modules();
 
 }  // namespace greatx

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the bytes that two builds of greatx write: a change of structure must leave every one of them alone.
+"""Compares the bytes that two builds of greatx write: a change of structure must leave every one of them
+alone.
 
-    python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER] [--only city --only room]
+    python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER] [--only city --only
+    room]
 
-Each embedded scenario, and the examples whose files lie in FOLDER, run for a few ticks in both builds. The manifests
-list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each scenario with a channel
-the JSON of `greatx paths` is compared as well. The exit status is 0 if everything is equal and 1 if not.
+Each embedded scenario, and the examples whose files lie in FOLDER, run for a few ticks in both builds. The
+manifests list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each
+scenario with a channel the JSON of `greatx paths` is compared as well. The exit status is 0 if everything is
+equal and 1 if not.
 """
 import argparse
 import json

@@ -13,12 +13,13 @@
 #include "core/units.h"
 #include "gpu/tick_ring.h"
 #include "renderer/camera/camera.h"
-#include "sim/moment.h"
+#include "sim/plan/camera_desc.h"
 #include "sim/plan/plan_options.h"
 #include "sim/scenario/clock.h"
-#include "sim/sensors/camera_desc.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 
@@ -30,10 +31,11 @@ constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 25
                  fog_ev100 = 13.4;
 
 /// One way to take the picture, with everything it needs.
-class Row {
+class CameraRow {
  public:
-  Row(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
-      const render::Lighting& lighting, const render::CameraEffects& effects, const render::CameraDesc& desc)
+  CameraRow(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
+            const render::Lighting& lighting, const render::CameraEffects& effects,
+            const render::CameraDesc& desc)
       : name_(std::move(name)),
         scene_(std::make_unique<scene::Scene>(std::move(scene))),
         gpu_(device, *scene_,
@@ -91,8 +93,8 @@ class Row {
   double squares_ = 0.0;
 };
 
-/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point: 900 cd down a
-/// cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
+/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point:
+/// 900 cd down a cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
 std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, uint32_t count) {
   constexpr double spacing_m = 30.0;
   std::vector<scene::PunctualLight> lamps;
@@ -112,7 +114,8 @@ std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, ui
   return lamps;
 }
 
-/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with it.
+/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with
+/// it.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
                                               sim::SensorPlace camera, uint32_t count) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
@@ -124,7 +127,7 @@ std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, con
     std::vector<Instant> instants;
     for (uint32_t step = 0; step <= EventRow::substeps; ++step) {
       const double time_s = begin_s + 1e-9 * double(EventRow::interval_ns) * step / EventRow::substeps;
-      instants.push_back({world.scene.to_local(courses.paths[camera.node]->at(time_s).pose) * mount,
+      instants.push_back({world.scene.to_local(courses.nodes[camera.node]->at(time_s).pose) * mount,
                           sim::body_poses(world, courses, time_s)});
     }
     intervals.push_back(std::move(instants));
@@ -159,12 +162,10 @@ render::CameraDesc enlarged(render::CameraDesc desc) {
   return desc;
 }
 
-class Bench {
+class CameraBench {
  public:
-  Bench(const ScenarioOptions& options, const RunOptions& run)
-      : scenario_(load_scenario(options)),
-        world_(sim::load_world(scenario_)),
-        plan_(sim::make_effect_plan(scenario_, world_.scene)),
+  CameraBench(const ScenarioOptions& options, const RunOptions& run)
+      : experiment_(sim::make_experiment(load_scenario(options))),
         device_(run.device_options()),
         camera_(first_sensor<sim::CameraConfig>(scenario_, "--camera", "a camera")) {
     const sim::NodeConfig& node = scenario_.nodes[camera_.node];
@@ -208,7 +209,8 @@ class Bench {
     render::CameraDesc large = enlarged(desc_);
     large.msaa = 1;
     large.smooth_edges = false;
-    reference_ = std::make_unique<Row>(device_, "reference", world_.scene, plan_, day_, effects_, large);
+    reference_ =
+        std::make_unique<CameraRow>(device_, "reference", world_.scene, plan_, day_, effects_, large);
   }
 
   nlohmann::json measure(const CameraBenchOptions& options) {
@@ -225,7 +227,8 @@ class Bench {
  private:
   void add(const std::string& name, scene::Scene scene, const render::Lighting& lighting,
            const render::CameraEffects& effects, const render::CameraDesc& desc) {
-    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scene), plan_, lighting, effects, desc));
+    rows_.push_back(
+        std::make_unique<CameraRow>(device_, name, std::move(scene), plan_, lighting, effects, desc));
   }
 
   /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.
@@ -241,7 +244,7 @@ class Bench {
     desc.exposure_ev100 = fog_ev100;
     desc.automatic_exposure = false;
     add("fog", world_.scene, sim::lighting_of(environment),
-        sim::camera_effects(sim::make_effect_plan(scenario, world_.scene)), desc);
+        sim::camera_effects(sim::make_effect_plan(scenario, experiment_.scene())), desc);
   }
 
   /// The same view by night: the scene's own lamps, then lamps over the whole scene.
@@ -249,7 +252,7 @@ class Bench {
     sim::Scenario scenario = scenario_;
     scenario.environment = {};
     scenario.environment.sun_elevation = radians(night_elevation_deg);
-    const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
+    const sim::EffectPlan plan = sim::make_effect_plan(scenario, experiment_.scene());
     const render::Lighting night = sim::lighting_of(scenario.environment);
     render::CameraDesc desc = desc_;
     desc.exposure_ev100 = night_ev100;
@@ -315,24 +318,25 @@ class Bench {
     return result;
   }
 
-  sim::Scenario scenario_;
-  sim::World world_;
-  sim::EffectPlan plan_;
+  sim::Experiment experiment_;
+  const sim::Scenario& scenario_ = experiment_.scenario;
+  const sim::World& world_ = *experiment_.world;
+  const sim::EffectPlan& plan_ = experiment_.plan;
   gpu::Device device_;
   sim::SensorPlace camera_;
   render::CameraDesc desc_;
   render::Lighting day_;
   render::CameraEffects effects_;
-  std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::unique_ptr<CameraRow>> rows_;
   std::vector<std::unique_ptr<EventRow>> event_rows_;
-  std::unique_ptr<Row> reference_;
+  std::unique_ptr<CameraRow> reference_;
 };
 
 }  // namespace
 
 nlohmann::json camera_bench(const ScenarioOptions& scenario, const RunOptions& run,
                             const CameraBenchOptions& options) {
-  Bench bench(scenario, run);
+  CameraBench bench(scenario, run);
   bench.add_rows();
   return bench.measure(options);
 }

@@ -7,10 +7,9 @@
 #include "apps/bench/radio_rows.h"
 #include "apps/bench/recall_scene.h"
 #include "apps/paths/cfr.h"
-#include "io/dataset_writer.h"
-#include "sim/channel/antennas.h"
-#include "sim/plan/plan_options.h"
-#include "sim/simulator.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/plan/antennas.h"
+#include "sim/run/simulator.h"
 
 namespace greatx::apps {
 
@@ -20,9 +19,10 @@ namespace {
 constexpr double response_target_ms = 1.0, written_tick_target_ms = 4.0, many_responses_target_ms = 8000.0;
 constexpr size_t response_paths = 20;
 
-const TickRow& plain = tick_rows[0];
+const TickRow& plain_tick = tick_rows[0];
 
-/// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of their sum.
+/// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of
+/// their sum.
 std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points,
                                  size_t count) {
   std::vector<rf::Path> paths;
@@ -40,13 +40,12 @@ std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const
 }  // namespace
 
 nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOptions& run) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, plain_tick));
   gpu::Device device(run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {});
+  sim::ChannelSnapshot snapshot(device, experiment, 0, {});
   const std::vector<rf::Path> paths =
-      some_paths(snapshot, draw_receivers(world.scene, scenario.seed, 100), response_paths);
+      some_paths(snapshot, draw_receivers(experiment.scene(), experiment.scenario.seed, 100), response_paths);
+  const sim::Scenario& scenario = experiment.scenario;
   const sim::ChannelConfig& config = scenario.channels[0];
   const rf::ArrayPose transmitter{sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz)},
       receiver{sim::antenna_array(scenario, config.receivers[0], config.carrier_hz)};
@@ -71,13 +70,11 @@ nlohmann::json response_row(const ScenarioOptions& scenario_options, const RunOp
 
 nlohmann::json written_tick_row(const ScenarioOptions& scenario_options, const RunOptions& run,
                                 const RadioBenchOptions& options) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, plain_tick));
   gpu::Device device(run.device_options());
-  sim::Simulator simulator(device, scenario, world, plan);
+  sim::Simulator simulator(device, experiment);
   const ScratchFolder scratch;
-  io::DatasetWriter writer(scratch.path(), dataset_info(scenario, world, plan, device, simulator.sensors()));
+  io::DatasetWriter writer(scratch.path(), dataset_info(experiment, device, simulator.sensors()));
   writer.begin_sequence(0);
   simulator.start(0);
   std::vector<double> ticks;
@@ -95,17 +92,15 @@ nlohmann::json written_tick_row(const ScenarioOptions& scenario_options, const R
 
 nlohmann::json many_responses_row(const ScenarioOptions& scenario_options, const RunOptions& run,
                                   uint32_t receivers) {
-  const sim::Scenario scenario = radio_only(scenario_options, plain);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, plain_tick));
   gpu::Device device(run.device_options());
-  const std::vector<dvec3> points = draw_receivers(world.scene, scenario.seed, receivers);
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {0, 0, 0});
+  const std::vector<dvec3> points = draw_receivers(experiment.scene(), experiment.scenario.seed, receivers);
+  sim::ChannelSnapshot snapshot(device, experiment, 0, {0, 0, 0});
   const ScratchFolder scratch;
   const auto stop = [](sim::ChannelSnapshot::Link) { return false; };
   snapshot.solve(std::span(points).first(1), 0, stop);  // the search, or its file
   const Clock::time_point begin = Clock::now();
-  CfrFile file(scratch.path() / "cfr.npy", scenario, world, plan, 0, 0, points.size(), snapshot.model());
+  CfrFile file(scratch.path() / "cfr.npy", snapshot, 0, points.size());
   snapshot.solve(points, 0, [&](sim::ChannelSnapshot::Link link) {
     file.add(link);
     return true;

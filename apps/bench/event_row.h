@@ -21,8 +21,8 @@ struct Instant {
   std::vector<Pose> bodies;
 };
 
-/// The view of `desc` as an event camera with its defaults sees it: luminance pictures at even sub-steps, all in one
-/// submission, from recording to the sorted list of events.
+/// The view of `desc` as an event camera with its defaults sees it: luminance pictures at even sub-steps, all
+/// in one submission, from recording to the sorted list of events.
 class EventRow {
  public:
   static constexpr uint32_t substeps = 4;
@@ -31,7 +31,8 @@ class EventRow {
   /// `lighting`, its scene and `gpu_scene`, which is that scene, outlive this.
   EventRow(std::string name, scene::GpuScene& gpu_scene, render::SceneLighting& lighting,
            render::CameraDesc desc);
-  /// The picture that the interval begins with, then, counted, those of its sub-steps: `substeps` + 1 instants.
+  /// The picture that the interval begins with, then, counted, those of its sub-steps: `substeps` + 1
+  /// instants.
   void shoot(const std::vector<Instant>& instants, bool counts);
   /// As the other rows of the bench, and `events`: on average.
   nlohmann::json result() const;

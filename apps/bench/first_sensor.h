@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sim/moment.h"
 #include "sim/scenario/clock.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
+#include "sim/world/world.h"
 
 namespace greatx::apps {
 
-/// In the scenario's order. `option`, `what`: for the message of the UserError if there is none ("--lidar", "a LiDAR").
+/// In the scenario's order. `option`, `what`: for the message of the UserError if there is none ("--lidar",
+/// "a LiDAR").
 template <typename Config>
 sim::SensorPlace first_sensor(const sim::Scenario& scenario, const char* option, const char* what) {
   for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
@@ -26,8 +27,8 @@ sim::SensorPlace first_sensor(const sim::Scenario& scenario, const char* option,
   throw_user_error("{}: bench {}: expected {}, found none", scenario.name, option, what);
 }
 
-/// The scenario without channels and with no other sensor than the first one of `Config` and antennas, which an effect plan
-/// then is about alone.
+/// The scenario without channels and with no other sensor than the first one of `Config` and antennas, which
+/// an effect plan then is about alone.
 template <typename Config>
 sim::Scenario first_sensor_alone(sim::Scenario scenario, const char* option, const char* what) {
   const sim::SensorPlace first = first_sensor<Config>(scenario, option, what);

@@ -12,13 +12,14 @@
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/sensor_alone.h"
-#include "sim/sensors/lidar_sensor.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/sensors/lidar/lidar_sensor.h"
 
 namespace greatx::apps {
 
 namespace {
 
-constexpr const char* option = "--lidar";
+constexpr const char* lidar_option = "--lidar";
 constexpr double spun_s = 0.1;         ///< of the rows with a sweep, where the scenario's has none
 constexpr double divergence = 1.5e-3;  ///< rad, of the rows with rings, where the scenario's has none
 constexpr double noise_equivalent_power = 1e-8;
@@ -28,7 +29,7 @@ constexpr const char* effect_names[] = {
     "lidar_glass",      "lidar_haze",     "lidar_backscatter",  "lidar_detection",     "lidar_range_noise"};
 
 /// What a row adds to the plain sweep.
-struct Change {
+struct LidarChange {
   std::string name;
   std::vector<std::string> effects;  ///< that the plan may switch on; the first one is what the row is about
   std::function<void(sim::LidarConfig&, sim::Environment&)> apply;
@@ -48,7 +49,7 @@ render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions
   return scan;
 }
 
-std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
+std::vector<LidarChange> changes(const sim::LidarConfig& own, const LidarBenchOptions& options) {
   const double sweep_s = render::duration_s(own.scan) > 0.0 ? render::duration_s(own.scan) : spun_s;
   const auto spin = [sweep_s](sim::LidarConfig& c) {
     std::get<render::SpinningScan>(c.scan).sweep_s = sweep_s;
@@ -94,7 +95,7 @@ std::vector<Change> changes(const sim::LidarConfig& own, const LidarBenchOptions
 }
 
 /// The plain sweep with a change, every other effect off.
-sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const Change& change,
+sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const LidarChange& change,
                       const LidarBenchOptions& options) {
   auto& config = std::get<sim::LidarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
   const render::SpinningScan scan = plain_scan(config.scan, options);
@@ -111,11 +112,10 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
 }
 
 /// One way to sweep, with everything it needs.
-class Row {
+class LidarRow {
  public:
-  Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
-      const sim::SensorPlace& place)
-      : name_(std::move(name)), lidar_(device, std::move(scenario), world, place) {
+  LidarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
+      : name_(std::move(name)), lidar_(device, std::move(experiment), place) {
     const auto& config =
         std::get<sim::LidarConfig>(lidar_.scenario().nodes[place.node].sensors[place.sensor].config);
     shots_ = render::scan_pattern(config.scan).size();
@@ -155,32 +155,31 @@ class Row {
   uint64_t returns_ = 0;
 };
 
-class Bench {
+class LidarBench {
  public:
-  Bench(const ScenarioOptions& options, const RunOptions& run)
-      : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), option, "a LiDAR")),
-        place_(first_sensor<sim::LidarConfig>(scenario_, option, "a LiDAR")),
-        world_(sim::load_world(scenario_)),
+  LidarBench(const ScenarioOptions& options, const RunOptions& run)
+      : scenario_(first_sensor_alone<sim::LidarConfig>(load_scenario(options), lidar_option, "a LiDAR")),
+        place_(first_sensor<sim::LidarConfig>(scenario_, lidar_option, "a LiDAR")),
+        world_(std::make_shared<const sim::World>(sim::load_world(scenario_))),
         device_(run.device_options()) {}
 
   void add_rows(const LidarBenchOptions& options) {
-    for (const Change& change : changes(own(), options)) {
-      sim::Scenario scenario = changed(scenario_, place_, change, options);
+    for (const LidarChange& change : changes(own(), options)) {
+      sim::Experiment experiment = sim::make_experiment(changed(scenario_, place_, change, options), world_);
       if (!change.effects.empty()) {
-        const sim::EffectPlan plan = sim::make_effect_plan(scenario, world_.scene);
-        for (const sim::Effect* effect : plan.all())
+        for (const sim::Effect* effect : experiment.plan.all())
           if (effect->name == change.effects[0] && !effect->on) left_out_[change.name] = effect->reason;
         if (left_out_.contains(change.name)) continue;
       }
-      add(rows_.empty() ? change.name : "+ " + change.name, std::move(scenario));
+      add(rows_.empty() ? change.name : "+ " + change.name, std::move(experiment));
     }
-    add("as in the scenario", scenario_);
+    add("as in the scenario", sim::make_experiment(scenario_, world_));
   }
 
   nlohmann::json measure(const LidarBenchOptions& options) {
     const auto warm = static_cast<uint32_t>(options.warm_up);
-    const sim::Courses courses = sim::make_courses(scenario_, world_, 0);
-    const std::vector<sim::Moment> moments = moments_of(scenario_, world_, courses, options.sweeps + warm);
+    const sim::Courses courses = sim::make_courses(scenario_, *world_, 0);
+    const std::vector<sim::Moment> moments = moments_of(scenario_, *world_, courses, options.sweeps + warm);
     for (uint32_t i = 0; i < moments.size(); ++i)
       for (const auto& row : rows_) row->shoot(moments[i], i >= warm);
     return result();
@@ -191,8 +190,8 @@ class Bench {
   const sim::LidarConfig& own() const {
     return std::get<sim::LidarConfig>(scenario_.nodes[place_.node].sensors[place_.sensor].config);
   }
-  void add(const std::string& name, sim::Scenario scenario) {
-    rows_.push_back(std::make_unique<Row>(device_, name, std::move(scenario), world_, place_));
+  void add(const std::string& name, sim::Experiment experiment) {
+    rows_.push_back(std::make_unique<LidarRow>(device_, name, std::move(experiment), place_));
   }
 
   nlohmann::json result() const {
@@ -201,7 +200,7 @@ class Bench {
                           {"device", device_.info().name},
                           {"driver", device_.info().driver},
                           {"lidar", node.name + "/" + node.sensors[place_.sensor].name},
-                          {"triangles", world_.scene.triangle_count()},
+                          {"triangles", world_->scene.triangle_count()},
                           {"rows", nlohmann::json::array()},
                           {"left_out", left_out_}};
     for (const auto& row : rows_) result["rows"].push_back(row->result());
@@ -212,9 +211,9 @@ class Bench {
 
   sim::Scenario scenario_;
   sim::SensorPlace place_;
-  sim::World world_;
+  std::shared_ptr<const sim::World> world_;
   gpu::Device device_;
-  std::vector<std::unique_ptr<Row>> rows_;
+  std::vector<std::unique_ptr<LidarRow>> rows_;
   std::map<std::string, std::string> left_out_;
 };
 
@@ -222,7 +221,7 @@ class Bench {
 
 nlohmann::json lidar_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const LidarBenchOptions& options) {
-  Bench bench(scenario, run);
+  LidarBench bench(scenario, run);
   bench.add_rows(options);
   nlohmann::json result = bench.measure(options);
   check_validation(bench.device());

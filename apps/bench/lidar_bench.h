@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/session.h"
+#include "apps/console/session.h"
 
 namespace greatx::apps {
 
@@ -18,12 +18,13 @@ struct LidarBenchOptions {
   uint32_t channels = 64, azimuth_steps = 1024;  ///< of all rows but the last
 };
 
-/// One JSON object: scenario, device, driver, lidar, triangles, and rows: name, tick_ms (from recording to arrays on the
-/// host, nothing encoded), cpu_ms (of all threads), `ratio` of the medians to that of the first row, shots, rays (of a shot),
-/// returns (of a sweep, on average), effects (that are on). The first row is a sweep of channels x azimuth_steps single rays at the tick
-/// without any effect; the next ones are that and one thing more, the last one is the scenario's own. `left_out`: name and
-/// reason of rows whose effect the scene does not call for. Rows are measured in turns, sweep by sweep, along the LiDAR's way.
-/// Throws UserError if there is no LiDAR.
+/// One JSON object: scenario, device, driver, lidar, triangles, and rows: name, tick_ms (from recording to
+/// arrays on the host, nothing encoded), cpu_ms (of all threads), `ratio` of the medians to that of the first
+/// row, shots, rays (of a shot), returns (of a sweep, on average), effects (that are on). The first row is a
+/// sweep of channels x azimuth_steps single rays at the tick without any effect; the next ones are that and
+/// one thing more, the last one is the scenario's own. `left_out`: name and reason of rows whose effect the
+/// scene does not call for. Rows are measured in turns, sweep by sweep, along the LiDAR's way. Throws
+/// UserError if there is no LiDAR.
 nlohmann::json lidar_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const LidarBenchOptions& options);
 std::string lidar_bench_text(const nlohmann::json& result);

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The row of radio maps: a square about the scene's middle, 1.5 m above the ground.
+#include <memory>
+#include <utility>
+
 #include "apps/bench/radio_rows.h"
-#include "sim/channel/radio_map.h"
-#include "sim/plan/plan_options.h"
+#include "sim/channel/radio_map_run.h"
+#include "sim/experiment/experiment.h"
 
 namespace greatx::apps {
 
@@ -17,35 +20,39 @@ constexpr double cell_m = 1.0, above_ground_m = 1.5;
 }  // namespace
 
 nlohmann::json map_row(const ScenarioOptions& scenario_options, const RunOptions& run, uint32_t side_cells) {
-  const sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
-  const sim::World world = sim::load_world(scenario);
-  const scene::Scene& scene = world.scene;
-  const dvec2 middle(scene.bounds.center() + scene.origin), half(0.5 * side_cells * cell_m);
-  const sim::MapGrid grid = sim::make_map_grid(middle - half, middle + half, cell_m, 1);
-  const sim::MapHeight height{std::nullopt, above_ground_m, sim::MapOver::ground};
-  const sim::EffectPlan plan =
-      sim::make_effect_plan(scenario, scene, sim::bounds_of_cells(grid, height, scene));
+  sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
+  scenario.channels[0].transmitters.resize(1);
+  auto world = std::make_shared<const sim::World>(sim::load_world(scenario));
+  const dvec3 center = world->scene.bounds.center() + world->scene.origin;
+  const dvec2 half(0.5 * side_cells * cell_m);
+  sim::MapRequest request;
+  request.min_m = dvec2(center) - half;
+  request.max_m = dvec2(center) + half;
+  request.cell_m = cell_m;
+  request.height = {std::nullopt, above_ground_m, sim::MapOver::ground};
+  request.beyond_scene = true;
+  const scene::Bounds points = sim::map_bounds(request, scenario.channels[0], world->scene);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), points);
   gpu::Device device(run.device_options());
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {0, 0, 0});
-  const dvec3 above = scene.bounds.center() + scene.origin;
-  sim::RadioMapSolver solver(snapshot, scenario, 0, {});
-  const dvec3 point(middle, above.z);
-  snapshot.solve(std::span(&point, 1), 0, [](sim::ChannelSnapshot::Link) { return false; });  // the search
+  sim::ChannelSnapshot snapshot(device, experiment, 0, {});
+  snapshot.solve(std::span(&center, 1), 0, [](sim::ChannelSnapshot::Link) { return false; });  // the search
 
   const Clock::time_point begin = Clock::now();
-  const sim::MapCells cells = sim::place_cells(grid, height, scene, snapshot.model().kinds,
-                                               snapshot.moment().bodies, std::span(&above, 1), true);
+  sim::RadioMapRun map(snapshot, request, {});
   size_t solved = 0;
-  for (size_t cell = 0; cell < grid.cells(); ++cell) solved += cells.solved(cell);
+  for (size_t cell = 0; cell < map.cells().grid.cells(); ++cell) solved += map.cells().solved(cell);
   uint64_t paths = 0;
-  solver.solve(cells, 0, [&](std::span<const rf::LinkStatistics> links) {
+  map.solve(0, [&](std::span<const rf::LinkStatistics> links) {
     for (const rf::LinkStatistics& link : links) paths += link.paths;
     return true;
   });
-  nlohmann::json row{
-      {"ms", milliseconds_since(begin)}, {"cells", grid.cells()}, {"solved", solved}, {"paths", paths}};
+  nlohmann::json row{{"ms", milliseconds_since(begin)},
+                     {"cells", map.cells().grid.cells()},
+                     {"solved", solved},
+                     {"paths", paths}};
   check_validation(device);
-  set_target(row, map_target_ms * static_cast<double>(grid.cells()) / map_target_cells, row["ms"]);
+  set_target(row, map_target_ms * static_cast<double>(map.cells().grid.cells()) / map_target_cells,
+             row["ms"]);
   return row;
 }
 

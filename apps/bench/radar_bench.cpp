@@ -11,30 +11,30 @@
 #include "apps/bench/first_sensor.h"
 #include "apps/bench/measure.h"
 #include "apps/bench/sensor_alone.h"
-#include "rf/radar/receiver.h"
-#include "rf/radar/window.h"
-#include "sim/sensors/radar_sensor.h"
+#include "rf/radar/signal/receiver.h"
+#include "rf/radar/signal/window.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/sensors/radar/radar_sensor.h"
 
 namespace greatx::apps {
 
 namespace {
 
-constexpr const char* option = "--radar";
+constexpr const char* radar_option = "--radar";
 constexpr double factors[] = {0.5, 1.0, 2.0, 4.0, 8.0}, reference_factor = 32.0;
 constexpr uint32_t compared_every = 3;
 
-using Change = std::function<void(sim::RadarConfig&, sim::Scenario&)>;
+using RadarChange = std::function<void(sim::RadarConfig&, sim::Scenario&)>;
 
 sim::RadarConfig& radar_of(sim::Scenario& scenario, const sim::SensorPlace& place) {
   return std::get<sim::RadarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
 }
 
 /// One radar, with everything it needs.
-class Row {
+class RadarRow {
  public:
-  Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
-      const sim::SensorPlace& place)
-      : name_(std::move(name)), radar_(device, std::move(scenario), world, place) {}
+  RadarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
+      : name_(std::move(name)), radar_(device, std::move(experiment), place) {}
 
   void shoot(const sim::Moment& moment, bool counts) {
     const double cpu_before = cpu_milliseconds();
@@ -111,16 +111,18 @@ double cell_noise_w(const rf::RadarSignalConfig& signal) {
          (double(waveform.samples) * waveform.chirps());
 }
 
-class Bench {
+class RadarBench {
  public:
-  Bench(const ScenarioOptions& options, const RunOptions& run)
-      : scenario_(first_sensor_alone<sim::RadarConfig>(load_scenario(options), option, "a radar")),
-        place_(first_sensor<sim::RadarConfig>(scenario_, option, "a radar")),
-        world_(sim::load_world(scenario_)),
+  RadarBench(const ScenarioOptions& options, const RunOptions& run)
+      : scenario_(first_sensor_alone<sim::RadarConfig>(load_scenario(options), radar_option, "a radar")),
+        place_(first_sensor<sim::RadarConfig>(scenario_, radar_option, "a radar")),
+        world_(std::make_shared<const sim::World>(sim::load_world(scenario_))),
         device_(run.device_options()) {}
 
   void add_rows() {
-    const auto frame = [&](const char* name, const Change& change) { frames_.push_back(row(name, change)); };
+    const auto frame = [&](const char* name, const RadarChange& change) {
+      frames_.push_back(row(name, change));
+    };
     frame("as in the scenario", [](auto&, auto&) {});
     frame("1 bounce", [](auto& r, auto&) { r.echoes.max_bounces = 1; });
     frame("4 tracings a frame", [](auto& r, auto&) { r.updates = std::min(4u, r.signal.waveform.chirps()); });
@@ -143,8 +145,8 @@ class Bench {
 
   nlohmann::json measure(const RadarBenchOptions& options) {
     const auto warm = static_cast<uint32_t>(options.warm_up);
-    const sim::Courses courses = sim::make_courses(scenario_, world_, 0);
-    const std::vector<sim::Moment> moments = moments_of(scenario_, world_, courses, options.frames + warm);
+    const sim::Courses courses = sim::make_courses(scenario_, *world_, 0);
+    const std::vector<sim::Moment> moments = moments_of(scenario_, *world_, courses, options.frames + warm);
     for (uint32_t i = 0; i < moments.size(); ++i) {
       for (const auto& row : frames_) row->shoot(moments[i], i >= warm);
       for (const auto& row : echoes_) row->shoot(moments[i], i >= warm);
@@ -155,10 +157,11 @@ class Bench {
   const gpu::Device& device() const { return device_; }
 
  private:
-  std::unique_ptr<Row> row(const char* name, const Change& change) {
+  std::unique_ptr<RadarRow> row(const char* name, const RadarChange& change) {
     sim::Scenario scenario = scenario_;
     change(radar_of(scenario, place_), scenario);
-    return std::make_unique<Row>(device_, name, std::move(scenario), world_, place_);
+    return std::make_unique<RadarRow>(device_, name, sim::make_experiment(std::move(scenario), world_),
+                                      place_);
   }
 
   void compare(const sim::Moment& moment) {
@@ -182,7 +185,7 @@ class Bench {
                           {"device", device_.info().name},
                           {"driver", device_.info().driver},
                           {"radar", node.name + "/" + node.sensors[place_.sensor].name},
-                          {"triangles", world_.scene.triangle_count()},
+                          {"triangles", world_->scene.triangle_count()},
                           {"transmitters", signal.waveform.transmitters},
                           {"receivers", signal.arrays.receive_m.size()},
                           {"chirps", signal.waveform.chirps()},
@@ -213,10 +216,10 @@ class Bench {
 
   sim::Scenario scenario_;
   sim::SensorPlace place_;
-  sim::World world_;
+  std::shared_ptr<const sim::World> world_;
   gpu::Device device_;
-  std::vector<std::unique_ptr<Row>> frames_, echoes_;
-  std::unique_ptr<Row> reference_;
+  std::vector<std::unique_ptr<RadarRow>> frames_, echoes_;
+  std::unique_ptr<RadarRow> reference_;
   std::vector<std::vector<double>> errors_;
   uint64_t cells_ = 0;
 };
@@ -225,7 +228,7 @@ class Bench {
 
 nlohmann::json radar_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const RadarBenchOptions& options) {
-  Bench bench(scenario, run);
+  RadarBench bench(scenario, run);
   bench.add_rows();
   nlohmann::json result = bench.measure(options);
   check_validation(bench.device());

@@ -14,18 +14,19 @@
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
 #include "rf/search/beam_search.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/channel_snapshot.h"
-#include "sim/moment.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/plan_options.h"
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/world/moment.h"
 
 namespace greatx::apps {
 
 namespace {
 
-/// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and scattering: what Sionna
-/// RT 2.2.0 needs for a position there.
+/// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and
+/// scattering: what Sionna RT 2.2.0 needs for a position there.
 constexpr double first_cir_target_ms = 1000.0, search_target_ms = 10'000.0, tick_target_ms = 2.5,
                  many_target_ms = 3000.0, sionna_effects_ms = 430.0;
 
@@ -37,9 +38,9 @@ uint64_t counter(const sim::RunStatistics& statistics, const std::string& ending
 }
 
 /// The whole tick, as a run has it: the host works on one while the GPU works on another.
-nlohmann::json pipelined(gpu::Device& device, const sim::Scenario& scenario, const sim::World& world,
-                         const sim::EffectPlan& plan, const RadioBenchOptions& options) {
-  sim::Simulator simulator(device, scenario, world, plan);
+nlohmann::json pipelined(gpu::Device& device, const sim::Experiment& experiment,
+                         const RadioBenchOptions& options) {
+  sim::Simulator simulator(device, experiment);
   simulator.start(0);
   Discard discard;
   std::vector<double> ticks;
@@ -61,13 +62,15 @@ nlohmann::json pipelined(gpu::Device& device, const sim::Scenario& scenario, con
 }
 
 /// The same ticks stage by stage, each waiting for the one before.
-nlohmann::json staged(gpu::Device& device, const sim::Scenario& scenario, const sim::World& world,
-                      const sim::EffectPlan& plan, const RadioBenchOptions& options) {
+nlohmann::json staged(gpu::Device& device, const sim::Experiment& experiment,
+                      const RadioBenchOptions& options) {
+  const sim::Scenario& scenario = experiment.scenario;
+  const sim::World& world = *experiment.world;
   const sim::ChannelConfig& config = scenario.channels[0];
-  scene::GpuScene gpu_scene(device, world.scene, sim::gpu_scene_options(plan));
+  scene::GpuScene gpu_scene(device, world.scene, sim::gpu_scene_options(experiment.plan));
   gpu::TickRing ring(device, sim::slots_in_flight, 4u << 20, 4u << 20);
-  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(world.scene, sim::radio_effects(plan, scenario)));
-  sim::ChannelPaths channel(gpu_scene, crossings, plan, scenario, world, 0);
+  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(world.scene, sim::radio_effects(experiment)));
+  sim::ChannelPaths channel(gpu_scene, crossings, experiment, 0);
   const rf::AntennaArray transmitter =
       sim::antenna_array(scenario, config.transmitters[0], config.carrier_hz);
   std::vector<rf::AntennaArray> receivers;
@@ -130,10 +133,9 @@ void set_target(nlohmann::json& row, double target, double measured) {
 nlohmann::json first_cir_row(const ScenarioOptions& options, const RunOptions& run, Clock::time_point begin) {
   sim::Scenario scenario = radio_only(options, tick_rows[0]);
   scenario.ticks = 1;
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario));
   gpu::Device device(run.device_options());
-  sim::Simulator simulator(device, scenario, world, plan);
+  sim::Simulator simulator(device, experiment);
   simulator.start(0);
   Discard discard;
   while (simulator.step(discard)) continue;
@@ -145,16 +147,16 @@ nlohmann::json first_cir_row(const ScenarioOptions& options, const RunOptions& r
 }
 
 nlohmann::json search_row(const ScenarioOptions& options) {
-  const sim::Scenario scenario = radio_only(options, tick_rows[0]);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(options, tick_rows[0]));
+  const sim::Scenario& scenario = experiment.scenario;
+  const sim::World& world = *experiment.world;
   const sim::ChannelConfig& channel = scenario.channels[0];
-  const rf::RadioModel model(world.scene, channel.carrier_hz, sim::radio_effects(plan, scenario));
+  const rf::RadioModel model(world.scene, channel.carrier_hz, sim::radio_effects(experiment));
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
   const sim::Moment moment = sim::moment_at(world, courses, sim::Clock(scenario.tick_rate_hz), 0);
   rf::BeamSearchOptions search_options;
-  search_options.max_depth = channel.max_depth;
-  search_options.max_transmissions = plan.transmission.on ? channel.walls() : 0;
+  search_options.max_depth = channel.limits.max_depth;
+  search_options.max_transmissions = experiment.plan.transmission.on ? channel.walls() : 0;
   const rf::BeamSearch search(model.facets, model.kinds, model.wedges, search_options);
   const dvec3 source = transmitter_position(scenario, world, moment);
   const Clock::time_point begin = Clock::now();
@@ -169,12 +171,10 @@ nlohmann::json search_row(const ScenarioOptions& options) {
 
 nlohmann::json tick_row(const ScenarioOptions& scenario_options, const RunOptions& run,
                         const RadioBenchOptions& options, const TickRow& which) {
-  const sim::Scenario scenario = radio_only(scenario_options, which);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, which));
   gpu::Device device(run.device_options());
-  nlohmann::json row = pipelined(device, scenario, world, plan, options);
-  row.update(staged(device, scenario, world, plan, options));
+  nlohmann::json row = pipelined(device, experiment, options);
+  row.update(staged(device, experiment, options));
   check_validation(device);
   const bool bare = !which.diffraction && !which.scattering;
   if (row["tick_ms"]["count"] > 0)
@@ -183,12 +183,10 @@ nlohmann::json tick_row(const ScenarioOptions& scenario_options, const RunOption
 }
 
 nlohmann::json many_row(const ScenarioOptions& scenario_options, const RunOptions& run, uint32_t receivers) {
-  const sim::Scenario scenario = radio_only(scenario_options, tick_rows[0]);
-  const sim::World world = sim::load_world(scenario);
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, world.scene);
+  const sim::Experiment experiment = sim::make_experiment(radio_only(scenario_options, tick_rows[0]));
   gpu::Device device(run.device_options());
-  const std::vector<dvec3> points = draw_receivers(world.scene, scenario.seed, receivers);
-  sim::ChannelSnapshot snapshot(device, scenario, world, plan, sim::gpu_scene_options(plan), 0, {});
+  const std::vector<dvec3> points = draw_receivers(experiment.scene(), experiment.scenario.seed, receivers);
+  sim::ChannelSnapshot snapshot(device, experiment, 0, {});
   uint64_t paths = 0;
   const auto take = [&](sim::ChannelSnapshot::Link link) {
     paths += link.paths.size();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rows of `greatx bench --radio`: each measures one thing and returns {"ms" or distributions, "target", "ratio", ...}.
-// Every row runs in a process of its own.
+// The rows of `greatx bench --radio`: each measures one thing and returns {"ms" or distributions, "target",
+// "ratio", ...}. Every row runs in a process of its own.
 #pragma once
 
 #include <nlohmann/json.hpp>

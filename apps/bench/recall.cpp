@@ -13,15 +13,17 @@
 
 #include "apps/bench/measure.h"
 #include "apps/bench/recall_scene.h"
-#include "apps/commands.h"
-#include "apps/json_text.h"
-#include "apps/progress.h"
+#include "apps/console/exit_code.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "sim/channel/channel_paths.h"
-#include "sim/moment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/receiver_list.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/receiver_list.h"
+#include "sim/world/moment.h"
 
 namespace greatx::apps {
 
@@ -30,8 +32,7 @@ namespace {
 using rf::reference::Comparison;
 /// A scene with its transmitter and receivers, and what the reference says.
 struct Case {
-  sim::Scenario scenario;
-  sim::World world;
+  sim::Experiment experiment;
   std::vector<dvec3> receivers;  ///< world coordinates
   rf::reference::ExhaustiveResult reference;
   double reference_s = 0.0;
@@ -45,18 +46,23 @@ struct Answer {
   double solve_s = 0.0;   ///< every receiver: geometry, what stands in the way, fields
 };
 
+sim::Moment beginning_of(const sim::Experiment& experiment) {
+  const sim::Courses courses = sim::make_courses(experiment.scenario, *experiment.world, 0);
+  return sim::moment_at(*experiment.world, courses, sim::Clock(experiment.scenario.tick_rate_hz), 0);
+}
+
 /// The channel's own way through a tick, with the receivers as points. `rays` 0: the guaranteed search.
 Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
-  sim::Scenario scenario = c.scenario;
-  scenario.channels[0].candidates = rays == 0 ? "beams" : "rays";
+  sim::Scenario scenario = c.experiment.scenario;
+  scenario.channels[0].candidates =
+      rays == 0 ? sim::ChannelConfig::Candidates::beams : sim::ChannelConfig::Candidates::rays;
   if (rays > 0) scenario.channels[0].rays = rays;
-  const sim::EffectPlan plan = sim::make_effect_plan(scenario, c.world.scene);
-  scene::GpuScene gpu_scene(device, c.world.scene, sim::gpu_scene_options(plan));
-  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(c.world.scene, sim::radio_effects(plan, scenario)));
-  sim::ChannelPaths paths(gpu_scene, crossings, plan, scenario, c.world, 0);
+  const sim::Experiment experiment = sim::make_experiment(std::move(scenario), c.experiment.world);
+  scene::GpuScene gpu_scene(device, experiment.scene(), sim::gpu_scene_options(experiment.plan));
+  rf::CrossingPass crossings(gpu_scene, rf::facet_kinds(experiment.scene(), sim::radio_effects(experiment)));
+  sim::ChannelPaths paths(gpu_scene, crossings, experiment, 0);
   paths.set_points(c.receivers);
-  const sim::Courses motions = sim::make_courses(scenario, c.world, 0);
-  const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(scenario.tick_rate_hz), 0);
+  const sim::Moment moment = beginning_of(experiment);
 
   Answer answer;
   Clock::time_point begin = Clock::now();
@@ -78,7 +84,7 @@ Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
 }
 
 Comparison compare(const Case& c, const Answer& answer) {
-  Comparison comparison(c.scenario.channels[0].max_depth);
+  Comparison comparison(c.experiment.scenario.channels[0].limits.max_depth);
   for (uint32_t r = 0; r < answer.links.size(); ++r)
     comparison.add(r, rf::reference::polylines(c.reference.paths[r]),
                    rf::reference::polylines(answer.links[r].paths));
@@ -88,18 +94,19 @@ Comparison compare(const Case& c, const Answer& answer) {
 Case make_case(const RecallOptions& options, const std::string& name) {
   ScenarioOptions chosen = options.scenario;
   chosen.scenario = name;
-  Case c{frozen_for_recall(load_scenario(chosen), options.max_depth, options.max_transmissions), {}, {}, {}};
-  c.world = sim::load_world(c.scenario);
+  Case c{sim::make_experiment(
+             frozen_for_recall(load_scenario(chosen), options.max_depth, options.max_transmissions)),
+         {},
+         {}};
+  const scene::Scene& scene = c.experiment.scene();
   c.receivers = options.receiver_file.empty()
-                    ? draw_receivers(c.world.scene, c.scenario.seed, options.receivers)
+                    ? draw_receivers(scene, c.experiment.scenario.seed, options.receivers)
                     : sim::load_receiver_list(options.receiver_file);
-  const sim::EffectPlan plan = sim::make_effect_plan(c.scenario, c.world.scene);
-  const rf::FacetKinds kinds = rf::facet_kinds(c.world.scene, sim::radio_effects(plan, c.scenario));
-  const rf::FacetWorld world(c.world.scene);
-  const sim::Courses motions = sim::make_courses(c.scenario, c.world, 0);
-  const sim::Moment moment = sim::moment_at(c.world, motions, sim::Clock(c.scenario.tick_rate_hz), 0);
+  const rf::FacetKinds kinds = rf::facet_kinds(scene, sim::radio_effects(c.experiment));
+  const rf::FacetWorld world(scene);
+  const sim::Moment moment = beginning_of(c.experiment);
   std::vector<dvec3> local;
-  for (const dvec3& receiver : c.receivers) local.push_back(c.world.scene.to_local(receiver));
+  for (const dvec3& receiver : c.receivers) local.push_back(scene.to_local(receiver));
 
   Progress progress(fmt::format("{}: reference", name), 1000, options.json, "");
   rf::reference::ExhaustiveOptions exhaustive;
@@ -107,9 +114,9 @@ Case make_case(const RecallOptions& options, const std::string& name) {
   exhaustive.max_transmissions = options.max_transmissions;
   exhaustive.progress = [&](double done) { progress.update(static_cast<int64_t>(1000.0 * done)); };
   const Clock::time_point begin = Clock::now();
-  c.reference =
-      rf::reference::exhaustive_paths(c.world.scene, world, moment.bodies, kinds,
-                                      transmitter_position(c.scenario, c.world, moment), local, exhaustive);
+  c.reference = rf::reference::exhaustive_paths(
+      scene, world, moment.bodies, kinds,
+      transmitter_position(c.experiment.scenario, *c.experiment.world, moment), local, exhaustive);
   c.reference_s = seconds_since(begin);
   return c;
 }
@@ -217,8 +224,8 @@ void run_recall(const RecallOptions& options) {
   for (const std::string& name : names) {
     const Case c = make_case(options, name);
     nlohmann::json& result = results.emplace_back();
-    result = {{"scene", c.scenario.name},
-              {"facets", c.world.scene.facets.size()},
+    result = {{"scene", c.experiment.scenario.name},
+              {"facets", c.experiment.scene().facets.size()},
               {"receivers", c.receivers.size()},
               {"max_depth", options.max_depth},
               {"max_transmissions", options.max_transmissions},
@@ -227,8 +234,8 @@ void run_recall(const RecallOptions& options) {
     if (!options.json)
       std::cout << fmt::format(
                        "{}: {} facets, {} receivers, {} interactions, of them {} walls; reference {:.1f} s\n",
-                       c.scenario.name, c.world.scene.facets.size(), c.receivers.size(), options.max_depth,
-                       options.max_transmissions, c.reference_s)
+                       c.experiment.scenario.name, c.experiment.scene().facets.size(), c.receivers.size(),
+                       options.max_depth, options.max_transmissions, c.reference_s)
                 << std::flush;
     perfect = measure_beams(device, c, options.json, result) && perfect;
     measure_rays(device, c, options, result);

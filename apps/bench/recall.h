@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --recall`: are greatx's specular paths all there, and each once? Held against the exhaustive reference
-// (rf/reference/exhaustive_paths.h), for the guaranteed search and for plain shoot and bounce over the number of rays.
+// `greatx bench --recall`: are greatx's specular paths all there, and each once? Held against the exhaustive
+// reference (rf/reference/exhaustive_paths.h), for the guaranteed search and for plain shoot and bounce over
+// the number of rays.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "apps/session.h"
+#include "apps/console/session.h"
 
 namespace greatx::apps {
 

@@ -45,7 +45,8 @@ std::vector<Level> levels_at(const scene::Scene& scene, const dvec2& at) {
   return levels;
 }
 
-/// The point `share` of the way from 1.5 m above the ground to the top, if there is ground below it and no solid around.
+/// The point `share` of the way from 1.5 m above the ground to the top, if there is ground below it and no
+/// solid around.
 std::optional<dvec3> place(const scene::Scene& scene, const dvec2& at, double share) {
   const std::vector<Level> levels = levels_at(scene, at);
   const auto ground = std::find_if(levels.begin(), levels.end(), [](const Level& level) { return level.up; });
@@ -66,10 +67,10 @@ sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint
         scenario.name);
   scenario.channels.resize(1);
   sim::ChannelConfig& channel = scenario.channels[0];
-  channel.max_depth = max_depth;
-  channel.max_transmissions = max_transmissions;
-  channel.search = "auto";
-  const auto paths = sim::make_paths(scenario, 0);
+  channel.limits.max_depth = max_depth;
+  channel.limits.max_transmissions = max_transmissions;
+  channel.search = sim::ChannelConfig::Search::automatic;
+  const auto paths = sim::make_node_courses(scenario, 0);
   for (size_t i = 0; i < scenario.nodes.size(); ++i) {
     sim::NodeConfig& node = scenario.nodes[i];
     node.parts.clear();

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "apps/bench/measure.h"
-#include "io/dataset_writer.h"
-#include "sim/simulator.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::apps {
 
@@ -19,16 +21,12 @@ namespace {
 /// A scenario that is run a block at a time.
 class Row {
  public:
-  /// `folder`: where it writes; empty: nothing is written. `world` fits the scenario and all that leave out sensors of it.
-  Row(gpu::Device& device, std::string name, sim::Scenario scenario, const sim::World& world,
-      const std::filesystem::path& folder)
-      : name_(std::move(name)),
-        scenario_(std::make_unique<sim::Scenario>(std::move(scenario))),
-        plan_(sim::make_effect_plan(*scenario_, world.scene)),
-        simulator_(device, *scenario_, world, plan_) {
+  /// `folder`: where it writes; empty: nothing is written.
+  Row(gpu::Device& device, std::string name, sim::Experiment experiment, const std::filesystem::path& folder)
+      : name_(std::move(name)), experiment_(std::move(experiment)), simulator_(device, experiment_) {
     if (!folder.empty()) {
-      writer_ = std::make_unique<io::DatasetWriter>(
-          folder, dataset_info(*scenario_, world, plan_, device, simulator_.sensors()));
+      writer_ = std::make_unique<io::DatasetWriter>(folder,
+                                                    dataset_info(experiment_, device, simulator_.sensors()));
       writer_->begin_sequence(0);
     }
     simulator_.start(0);
@@ -65,8 +63,7 @@ class Row {
   }
 
   std::string name_;
-  std::unique_ptr<sim::Scenario> scenario_;
-  sim::EffectPlan plan_;
+  sim::Experiment experiment_;
   sim::Simulator simulator_;
   std::unique_ptr<io::DatasetWriter> writer_;
   Discard discard_;
@@ -74,23 +71,12 @@ class Row {
   std::vector<double> wall_, cpu_;
 };
 
-/// Antennas fire with their channel: they cost nothing by themselves, and radars may look at them.
-bool fires(const sim::SensorConfig& sensor) {
-  return !std::holds_alternative<sim::AntennaConfig>(sensor.config);
-}
-
-const char* kind_of(const sim::SensorConfig& sensor) {
-  constexpr const char* kinds[] = {"camera", "event camera", "LiDAR", "radar", "antenna"};
-  static_assert(std::variant_size_v<decltype(sensor.config)> == std::size(kinds));
-  return kinds[sensor.config.index()];
-}
-
 class Bench {
  public:
   Bench(const ScenarioOptions& options, const RunOptions& run, const RigBenchOptions& bench)
       : options_(bench),
         scenario_(load_scenario(options)),
-        world_(sim::load_world(scenario_)),
+        world_(std::make_shared<const sim::World>(sim::load_world(scenario_))),
         device_(run.device_options()) {
     const int64_t least = options_.warm_up + options_.block;
     if (scenario_.ticks < least)
@@ -107,14 +93,15 @@ class Bench {
     for (size_t n = 0; n < scenario_.nodes.size(); ++n)
       for (size_t s = 0; s < scenario_.nodes[n].sensors.size(); ++s) {
         const sim::SensorConfig& sensor = scenario_.nodes[n].sensors[s];
-        if (!fires(sensor)) continue;
+        if (!sim::sensor_kind(sensor).fires) continue;  // it costs nothing by itself, and radars may use it
         sim::Scenario without = scenario_;
         without.nodes[n].sensors.erase(without.nodes[n].sensors.begin() + static_cast<std::ptrdiff_t>(s));
         for (sim::SensorConfig& other :
              without.nodes[n].sensors)  // that had its pixels: they render themselves
           if (auto* events = std::get_if<sim::EventCameraConfig>(&other.config))
             if (events->camera == sensor.name) events->camera.clear();
-        add(fmt::format("without {} {}/{}", kind_of(sensor), scenario_.nodes[n].name, sensor.name),
+        add(fmt::format("without {} {}/{}", sim::sensor_kind(sensor).words, scenario_.nodes[n].name,
+                        sensor.name),
             std::move(without), true);
       }
     for (size_t c = 0; c < scenario_.channels.size(); ++c) {
@@ -146,12 +133,13 @@ class Bench {
   void add(std::string name, sim::Scenario scenario, bool written) {
     const std::filesystem::path folder =
         written ? scratch_.path() / std::to_string(rows_.size()) : std::filesystem::path();
-    rows_.push_back(std::make_unique<Row>(device_, std::move(name), std::move(scenario), world_, folder));
+    rows_.push_back(std::make_unique<Row>(device_, std::move(name),
+                                          sim::make_experiment(std::move(scenario), world_), folder));
   }
 
   RigBenchOptions options_;
   sim::Scenario scenario_;
-  sim::World world_;
+  std::shared_ptr<const sim::World> world_;  ///< it fits all scenarios that leave out a sensor, too
   gpu::Device device_;
   ScratchFolder scratch_;
   std::vector<std::unique_ptr<Row>> rows_;

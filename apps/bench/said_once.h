@@ -13,7 +13,8 @@
 
 namespace greatx::apps {
 
-/// As long as this lives, the default logger says nothing twice. A process forked meanwhile knows what was said before.
+/// As long as this lives, the default logger says nothing twice. A process forked meanwhile knows what was
+/// said before.
 class SaidOnce {
  public:
   SaidOnce();

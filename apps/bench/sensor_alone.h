@@ -4,27 +4,23 @@
 // One sensor of a scenario on a device, with everything it needs, for the rows of its benchmark.
 #pragma once
 
-#include <memory>
 #include <utility>
 
 #include "gpu/tick_ring.h"
-#include "sim/moment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/world/moment.h"
 
 namespace greatx::apps {
 
 template <typename Sensor>
 class SensorAlone {
  public:
-  /// `world` fits the scenario and outlives this, as the device does.
-  SensorAlone(gpu::Device& device, sim::Scenario scenario, const sim::World& world,
-              const sim::SensorPlace& place)
-      : scenario_(std::make_unique<sim::Scenario>(std::move(scenario))),
-        plan_(sim::make_effect_plan(*scenario_, world.scene)),
-        gpu_(device, world.scene, sim::gpu_scene_options(plan_)),
-        sensor_(gpu_, plan_, *scenario_, world, place.node, place.sensor),
+  /// The device outlives this.
+  SensorAlone(gpu::Device& device, sim::Experiment experiment, const sim::SensorPlace& place)
+      : experiment_(std::move(experiment)),
+        gpu_(device, experiment_.scene(), sim::gpu_scene_options(experiment_.plan)),
+        sensor_(gpu_, experiment_.plan, experiment_.scenario, *experiment_.world, place.node, place.sensor),
         ring_(device, 2, 4u << 20, 16u << 20) {}
 
   /// Records the moment's tick, and waits until the device is done with it.
@@ -36,14 +32,15 @@ class SensorAlone {
     ring_.wait(slot);
     return slot;
   }
-  const sim::Scenario& scenario() const { return *scenario_; }
-  const sim::EffectPlan& plan() const { return plan_; }
+  SensorAlone(const SensorAlone&) = delete;  // the sensor refers to the experiment
+  SensorAlone& operator=(const SensorAlone&) = delete;
+  const sim::Scenario& scenario() const { return experiment_.scenario; }
+  const sim::EffectPlan& plan() const { return experiment_.plan; }
   Sensor& sensor() { return sensor_; }
   const Sensor& sensor() const { return sensor_; }
 
  private:
-  std::unique_ptr<sim::Scenario> scenario_;  ///< in its place, since the sensor refers to it
-  sim::EffectPlan plan_;
+  sim::Experiment experiment_;
   scene::GpuScene gpu_;
   Sensor sensor_;
   gpu::TickRing ring_;

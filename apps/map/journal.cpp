@@ -8,8 +8,8 @@
 #include <sys/file.h>
 
 #include "core/hash.h"
-#include "io/inside.h"
-#include "io/untrusted_json.h"
+#include "io/files/inside.h"
+#include "io/files/untrusted_json.h"
 
 namespace greatx::apps {
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An unfinished radio map: the links of its cells in the order in which they were solved, so that a map that was stopped goes
-// on where it was.
+// An unfinished radio map: the links of its cells in the order in which they were solved, so that a map that
+// was stopped goes on where it was.
 #pragma once
 
 #include <filesystem>
@@ -11,18 +11,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "rf/channel/statistics.h"
 
 namespace greatx::apps {
 
-/// FOLDER/links.part: a line of text, what was asked for (JSON, with its length in front), then blocks of links, each with
-/// its number of links and a hash: a torn block at the end is seen and dropped.
+/// FOLDER/links.part: a line of text, what was asked for (JSON, with its length in front), then blocks of
+/// links, each with its number of links and a hash: a torn block at the end is seen and dropped.
 class MapJournal {
  public:
-  /// A new folder (or an empty one), or with `resume` one whose map was stopped and asked for the same. Throws UserError
-  /// naming the folder: it holds something else, a map that is finished, one that is not and `resume` is off, or one that
-  /// asked for something else (the first difference is named, as a JSON pointer).
+  /// A new folder (or an empty one), or with `resume` one whose map was stopped and asked for the same.
+  /// Throws UserError naming the folder: it holds something else, a map that is finished, one that is not and
+  /// `resume` is off, or one that asked for something else (the first difference is named, as a JSON
+  /// pointer).
   MapJournal(const std::filesystem::path& folder, const nlohmann::ordered_json& request, bool resume);
 
   /// There is nothing left to do.

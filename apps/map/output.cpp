@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/units.h"
-#include "io/npy.h"
-#include "io/png.h"
+#include "io/formats/npy.h"
+#include "io/formats/png.h"
 
 namespace greatx::apps {
 
@@ -128,22 +128,18 @@ std::string MapTotals::text(const std::vector<MapMarker>& transmitters) const {
 
 Json write_map_files(const fs::path& folder, const sim::RadioMap& map, const MapStage& stage,
                      const MapFiles& files) {
-  const std::vector<int64_t> shape{map.cells->grid.rows, map.cells->grid.columns};
   Json arrays = Json::array();
   for (const sim::MapQuantity* quantity : chosen(files))
     arrays.push_back(write_array(folder, quantity->name, quantity->unit, quantity->description,
                                  sim::map_array(map, *quantity)));
   arrays.push_back(write_array(folder, "z", "m",
                                "world height of the cell's middle; NaN: nothing lies beneath it",
-                               Array::of<double>(shape, map.cells->z_m)));
-  std::vector<uint8_t> placement;
-  for (const sim::CellPlacement value : map.cells->placement)
-    placement.push_back(static_cast<uint8_t>(value));
+                               sim::map_heights(*map.cells)));
   arrays.push_back(
       write_array(folder, "placement", "1",
                   "0 free, 1 inside a solid, 2 nothing beneath, 3 inside foliage, 4 on a surface, "
                   "5 beneath an open surface",
-                  Array::of<uint8_t>(shape, placement)));
+                  sim::map_placement(*map.cells)));
   Json json{{"arrays", std::move(arrays)}};
   json["pictures"] = files.pictures ? write_pictures(folder, map, stage, files) : Json::array();
   return json;

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/map/draw.h"
+#include "draw/map/draw.h"
 #include "sim/channel/radio_map_values.h"
 
 namespace greatx::apps {
@@ -31,8 +31,8 @@ struct MapFiles {
   bool each_transmitter = false;  ///< pictures of each transmitter as well
 };
 
-/// Writes NAME.npy of each quantity, z.npy and placement.npy into the folder, NAME.png and map.png, each file whole or not at
-/// all, and returns what map.json says of them.
+/// Writes NAME.npy of each quantity, z.npy and placement.npy into the folder, NAME.png and map.png, each file
+/// whole or not at all, and returns what map.json says of them.
 nlohmann::ordered_json write_map_files(const std::filesystem::path& folder, const sim::RadioMap& map,
                                        const MapStage& stage, const MapFiles& files);
 

@@ -4,30 +4,35 @@
 
 #include <spdlog/spdlog.h>
 
-#include "io/npy.h"
-#include "sim/channel/antennas.h"
+#include "io/formats/npy.h"
+#include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 
 namespace greatx::apps {
 
-CfrFile::CfrFile(const std::filesystem::path& file, const sim::Scenario& scenario, const sim::World& world,
-                 const sim::EffectPlan& plan, uint32_t channel, uint32_t transmitter,
-                 std::optional<size_t> points, const rf::RadioModel& model)
-    : path_(file) {
-  const sim::ChannelConfig& config = scenario.channels[channel];
-  transmitter_ = sim::antenna_array(scenario, config.transmitters[transmitter], config.carrier_hz);
+CfrFile::CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot,
+                 uint32_t transmitter, std::optional<size_t> points)
+    : path_(file),
+      scenario_(snapshot.experiment().scenario),
+      config_(scenario_.channels[snapshot.channel()]) {
+  const sim::Experiment& experiment = snapshot.experiment();
+  transmitter_ = sim::antenna_array(scenario_, config_.transmitters[transmitter], config_.carrier_hz);
   if (points)
     receivers_.emplace_back();
   else
-    for (const std::string& name : config.receivers)
-      receivers_.push_back(sim::antenna_array(scenario, name, config.carrier_hz));
+    for (const std::string& name : config_.receivers)
+      receivers_.push_back(sim::antenna_array(scenario_, name, config_.carrier_hz));
   for (const rf::AntennaArray& receiver : receivers_)
     if (receiver.port_count() != receivers_[0].port_count())
       throw_user_error("--cfr: channel '{}': expected receivers with one number of ports, found {} and {}",
-                       config.name, receivers_[0].port_count(), receiver.port_count());
+                       config_.name, receivers_[0].port_count(), receiver.port_count());
   count_ = points.value_or(receivers_.size());
-  grid_ = {config.carrier_hz, config.subcarrier_spacing_hz, config.subcarriers, config.time_samples,
-           plan.doppler.on ? config.time_spacing_s : 0.0};
-  if (plan.dispersion.on) dispersion_.emplace(world.scene, model.field_model(), model.effects.weather, grid_);
+  grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
+           experiment.plan.doppler.on ? config_.time_spacing_s : 0.0};
+  if (experiment.plan.dispersion.on) {
+    const rf::RadioModel& model = snapshot.model();
+    dispersion_.emplace(experiment.scene(), model.field_model(), model.effects.weather, grid_);
+  }
 
   io::create_folder_of(path_);
   file_ = io::File::open_for_writing(io::part_name(path_));
@@ -47,23 +52,24 @@ void CfrFile::add(const sim::ChannelSnapshot::Link& link) {
       receiver{receivers_[receivers_.size() == 1 ? 0 : link.receiver], link.receiver_state.orientation};
   response_.resize(rf::response_size(transmitter, receiver, grid_));
   std::vector<rf::TransferSpectrum> spectra;
-  if (dispersion_) spectra = dispersion_->spectra(link.paths);
+  if (dispersion_) spectra = dispersion_->spectra(link.paths, *link.world);
   rf::frequency_response_into(link.paths, spectra, transmitter, receiver, grid_, response_);
   const std::span<const std::byte> bytes = std::as_bytes(std::span(response_));
   file_.write_at(io::npy_header_bytes + link.receiver * bytes.size(), bytes);
   ++added_;
-  near_ += link.distance_m < rf::far_field_distance_m(transmitter_, receiver.array, grid_.carrier_hz);
+  near_ += link.distance_m < sim::every_element_within_m(scenario_, config_, transmitter_, receiver.array);
 }
 
 void CfrFile::finish() {
   if (added_ != count_)
     throw_user_error("{}: expected the responses of {} receivers, found {}", path_.string(), count_, added_);
+  const bool forced = sim::every_element_asked(scenario_) == sim::Switch::on;
   if (near_ > 0)
     spdlog::warn(
-        "{}: {} of {} receivers are nearer than the far field of the arrays, 2 D^2/lambda: a plane wave "
-        "passes "
-        "over each array here; a run solves every element",
-        path_.string(), near_, count_);
+        "{}: {} of {} receivers {}: a plane wave passes over each array here; a run solves every element",
+        path_.string(), near_, count_,
+        forced ? "have arrays and every_element is on"
+               : "are nearer than the far field of the arrays, 2 D^2/lambda");
   file_.close();
   io::rename_file(io::part_name(path_), path_);
   finished_ = true;

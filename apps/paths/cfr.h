@@ -6,22 +6,22 @@
 #include <optional>
 #include <vector>
 
-#include "io/file.h"
+#include "io/files/file.h"
 #include "rf/channel/dispersion.h"
 #include "rf/channel/frequency_response.h"
 #include "sim/channel/channel_snapshot.h"
 
 namespace greatx::apps {
 
-/// Frequency responses of any number of receivers as one .npy, complex64 [receivers, rx_ant, tx, tx_ant, time, subcarrier],
-/// written receiver by receiver, and removed if it is not finished: the memory does not grow with their number.
+/// Frequency responses of any number of receivers as one .npy, complex64 [receivers, rx_ant, tx, tx_ant,
+/// time, subcarrier], written receiver by receiver, and removed if it is not finished: the memory does not
+/// grow with their number.
 class CfrFile {
  public:
-  /// `points`: how many points at rest take the place of the channel's receivers, each with one vertical isotropic antenna;
-  /// none: its own. All but `file` outlive this. The file is `file` + ".part" until finish().
-  CfrFile(const std::filesystem::path& file, const sim::Scenario& scenario, const sim::World& world,
-          const sim::EffectPlan& plan, uint32_t channel, uint32_t transmitter, std::optional<size_t> points,
-          const rf::RadioModel& model);
+  /// `points`: how many points at rest take the place of the channel's receivers, each with one vertical
+  /// isotropic antenna; none: its own. `snapshot` outlives this. The file is `file` + ".part" until finish().
+  CfrFile(const std::filesystem::path& file, const sim::ChannelSnapshot& snapshot, uint32_t transmitter,
+          std::optional<size_t> points);
   ~CfrFile();
   CfrFile(const CfrFile&) = delete;
   CfrFile& operator=(const CfrFile&) = delete;
@@ -32,6 +32,8 @@ class CfrFile {
 
  private:
   std::filesystem::path path_;
+  const sim::Scenario& scenario_;
+  const sim::ChannelConfig& config_;
   io::File file_;
   rf::AntennaArray transmitter_;
   std::vector<rf::AntennaArray> receivers_;  ///< one for all points

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/srgb.h"
-#include "io/glb_writer.h"
+#include "io/formats/glb_writer.h"
 
 namespace greatx::apps {
 
@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json triple(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
 /// Vertex colours are linear, colours on a screen are sRGB (IEC 61966-2-1).
 vec3 linear(io::Color color) {
   const auto channel = [](uint8_t byte) { return linear_from_srgb(byte / 255.0f); };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
-
-Json json_of(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// An octahedron added to triangles.
 void add_marker(io::GlbPrimitive& markers, const dvec3& center, double radius, const vec3& color) {
@@ -76,7 +76,7 @@ void Exporter::links(std::span<const PathLink> links) {
                                      .extras_json = Json{{"carrier_hz", scene_.carrier_hz},
                                                          {"tick", options_.tick},
                                                          {"time_s", options_.time_s},
-                                                         {"local_origin_m", json_of(scene_.scene->origin)}}
+                                                         {"local_origin_m", triple(scene_.scene->origin)}}
                                                         .dump()});
   for (const PathLink& each : links) link(each, root);
   if (!links.empty()) end("transmitter", links[0].transmitter_m, linear({255, 92, 92}));
@@ -86,7 +86,7 @@ void Exporter::links(std::span<const PathLink> links) {
 void Exporter::link(const PathLink& link, int root) {
   const LinkFigures figures = figures_of(link, scene_.carrier_hz);
   Json extras{{"index", link.index},
-              {"position_m", json_of(link.receiver_m)},
+              {"position_m", triple(link.receiver_m)},
               {"distance_m", link.distance_m},
               {"paths", figures.paths},
               {"line_of_sight", figures.line_of_sight}};
@@ -98,8 +98,8 @@ void Exporter::link(const PathLink& link, int root) {
 }
 
 void Exporter::path(const rf::Path& path, size_t number, int parent) {
-  const double gain = gain_db(path_gain(path, scene_.carrier_hz));
-  const vec3 color = linear(options_.colors == PathColors::gain ? color_of_gain(scale_, gain)
+  const double path_gain_db = gain_db(path_gain(path, scene_.carrier_hz));
+  const vec3 color = linear(options_.colors == PathColors::gain ? color_of_gain(scale_, path_gain_db)
                                                                 : color_of_kind(kind_of(path)));
   io::GlbPrimitive lines, markers;
   lines.mode = io::GlbPrimitive::Mode::lines;
@@ -124,7 +124,7 @@ void Exporter::path(const rf::Path& path, size_t number, int parent) {
               {"length_m", path.length_m},
               {"delay_s", path.delay_s},
               {"doppler_hz", path.doppler_hz}};
-  if (std::isfinite(gain)) extras["gain_db"] = gain;
+  if (std::isfinite(path_gain_db)) extras["gain_db"] = path_gain_db;
   writer_.add_node({.name = name,
                     .mesh = writer_.add_mesh(name, primitives),
                     .parent = parent,
@@ -145,7 +145,7 @@ int Exporter::scene_material(uint32_t material) {
   if (found != scene_materials_.end()) return found->second;
   const scene::Material& source = scene_.scene->materials[material];
   const int index = writer_.add_material({.name = source.name,
-                                          .base_color = vec3(source.pbr.base_color),
+                                          .base_color = dvec3(source.pbr.base_color),
                                           .metallic = source.pbr.metallic,
                                           .roughness = source.pbr.roughness,
                                           .double_sided = source.pbr.double_sided});
@@ -194,7 +194,7 @@ void Exporter::scene() {
 }
 
 io::Bytes Exporter::finish() {
-  return writer_.finish(options_.name, Json{{"local_origin_m", json_of(scene_.scene->origin)},
+  return writer_.finish(options_.name, Json{{"local_origin_m", triple(scene_.scene->origin)},
                                             {"tick", options_.tick},
                                             {"time_s", options_.time_s}}
                                            .dump());

@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "apps/paths/draw.h"
 #include "core/vec.h"
-#include "io/file.h"
+#include "draw/paths/draw.h"
+#include "io/files/file.h"
 
 namespace greatx::apps {
 

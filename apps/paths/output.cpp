@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/paths/text.h"
-#include "io/file.h"
+#include "io/files/file.h"
 
 namespace greatx::apps {
 

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/paths/facts.h"
+#include "draw/paths/facts.h"
 
 namespace greatx::apps {
 

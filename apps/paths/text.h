@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/paths/facts.h"
+#include "draw/paths/facts.h"
 
 namespace greatx::apps {
 
@@ -18,11 +18,13 @@ std::string table_of(const PathLink& link, const PathScene& scene);
 std::string brief_head();
 std::string brief_row(const PathLink& link, double carrier_hz);
 
-/// Everything about a receiver: figures of the link and all paths; positions in world coordinates, SI units, radians.
+/// Everything about a receiver: figures of the link and all paths; positions in world coordinates, SI units,
+/// radians.
 nlohmann::ordered_json json_of(const PathLink& link, const PathScene& scene);
 
-/// The compact form: receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns.
-/// Cells that mean nothing without a path are empty.
+/// The compact form:
+/// receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns. Cells
+/// that mean nothing without a path are empty.
 std::string csv_head();
 std::string csv_row(const PathLink& link, double carrier_hz);
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A data set as a DeepMIMO scenario, and back into a channel: by NumPy, and by DeepMIMO itself if it is there.
+"""A data set as a DeepMIMO scenario, and back into a channel: by NumPy, and by DeepMIMO itself if it is
+there.
 
     greatx generate room -o out/room
     python3 python/examples/convert_deepmimo.py out/room
@@ -31,8 +32,8 @@ matrices = [{key: np.load(out / f"{key}_t000_tx{tx:03}_r001.npz")[key] for key i
 for key, value in matrices[0].items():
     print(f"  {key:6} {value.shape} {value.dtype}: user 0: {value[0, :4]}")
 
-# %% H(f) between upright isotropic antennas, as DeepMIMO sums it: subcarrier 0 is the carrier, and paths that are longer
-# than a symbol are left out
+# %% H(f) between upright isotropic antennas, as DeepMIMO sums it: subcarrier 0 is the carrier, and paths that
+# are longer than a symbol are left out
 f = np.arange(max(csi.subcarriers // 2, 1)) * csi.subcarrier_spacing_hz
 channels = []
 for matrix in matrices:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a data set holds: the CSI tensor, line of sight or not, paths, pictures of the same tick, the delay profile.
+"""What a data set holds: the CSI tensor, line of sight or not, paths, pictures of the same tick, the delay
+profile.
 
     greatx generate canyon -o out/canyon
     python3 python/examples/load_dataset.py out/canyon

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A simulation in the loop: every tick's channel and picture straight from memory, no files; a base station that keeps the
-beam of the tick before, and what that costs it.
+"""A simulation in the loop: every tick's channel and picture straight from memory, no files; a base station
+that keeps the beam of the tick before, and what that costs it.
 
     PYTHONPATH=build/release/python python3 python/examples/stream.py [SCENARIO]
 """

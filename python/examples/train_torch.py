@@ -5,8 +5,9 @@
     greatx generate room -o out/room
     python3 python/examples/train_torch.py out/room
 
-The model goes to the delay domain, weighs every delay, and comes back; it has to find out which delays hold the channel
-and which noise alone. Toy-sized: it shows how complex tensors get from a data set into a training loop.
+The model goes to the delay domain, weighs every delay, and comes back; it has to find out which delays hold
+the channel and which noise alone. Toy-sized: it shows how complex tensors get from a data set into a training
+loop.
 """
 import sys
 
@@ -22,7 +23,8 @@ SNR_DB = 5.0
 
 
 def links(item):
-    """complex64 [links, subcarrier] of unit mean power: all port pairs of a tick's first receiver and transmitter."""
+    """complex64 [links, subcarrier] of unit mean power: all port pairs of a tick's first receiver and
+    transmitter."""
     h = item[name][0, :, 0].flatten(0, -2)
     return h / h.abs().square().mean().sqrt().clamp_min(1e-20)
 

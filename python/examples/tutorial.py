@@ -5,8 +5,8 @@
     greatx generate assets/examples/tutorial.yaml -o street
     python3 python/examples/tutorial.py street
 
-The pictures come from a camera on the mast, the best beam from the channel matrix of the same tick. Every fourth drive is
-held out: the network never sees a tick of it.
+The pictures come from a camera on the mast, the best beam from the channel matrix of the same tick. Every
+fourth drive is held out: the network never sees a tick of it.
 """
 import sys
 
@@ -53,7 +53,7 @@ def report(name, beam):
 
 report("always the same", best[~held_out].mode().values.expand(int(held_out.sum())))
 
-# %% For comparison: the beam of the car's true direction. The array's axis points to its left, to the south-east
+# %% For comparison: the beam of the car's true direction. The array's axis points to the south-east
 car = torch.stack([item["poses/position"][1] for item in items]) + torch.tensor([0, 0, 1.6])
 to_car = car - torch.tensor([13 - 2 ** 0.5, 13 - 2 ** 0.5, 25])
 sine = (to_car @ to_car.new_tensor([0.5 ** 0.5, -(0.5 ** 0.5), 0])) / to_car.norm(dim=1)

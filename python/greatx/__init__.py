@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """greatx from Python.
 
-`greatx.load(DIR)` opens a generated data set with nothing but NumPy (docs/python.md); `greatx.convert` writes it in the
-conventions of other tools. What computes (`greatx.Simulation`: scenes, paths, channels) stands on the compiled module
-greatx._native, which is imported when one of its names is first used.
+`greatx.load(DIR)` opens a generated data set with nothing but NumPy (docs/python.md); `greatx.convert` writes
+it in the conventions of other tools. What computes (`greatx.Simulation`: scenes, paths, channels) stands on
+the compiled module greatx._native, which is imported when one of its names is first used.
 """
 from __future__ import annotations
 

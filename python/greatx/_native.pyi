@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The compiled module, python/src/module.cpp. Texts are scenarios (YAML or JSON) on the way in and JSON on the way out.
+# The compiled module, python/src/module.cpp. Texts are scenarios (YAML or JSON) on the way in and JSON on the
+# way out.
 from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np

@@ -11,11 +11,12 @@ from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 @dataclasses.dataclass(frozen=True)
 class Array:
-    """An array of equal elements that all look along +x (boresight), as a scenario's `type: antenna` (docs/scenario.md).
+    """An array of equal elements that all look along +x (boresight), as a scenario's `type: antenna`
+    (docs/scenario.md).
 
-    Lengths are in wavelengths at the channel's carrier. Port p = element * polarizations + polarization, element = row *
-    columns + column. What is not given is the scenario format's default, and that checks everything when the array is
-    placed: no array is silently made of what it is not.
+    Lengths are in wavelengths at the channel's carrier. Port p = element * polarizations + polarization,
+    element = row * columns + column. What is not given is the scenario format's default, and that checks
+    everything when the array is placed: no array is silently made of what it is not.
 
     pattern             of one element: "isotropic" (default), "short_dipole", "half_wave_dipole", "tr38901"
     pattern_file        a CSV in place of `pattern`
@@ -52,6 +53,7 @@ class Array:
 
 
 def look_from_to(position_m: Any, target_m: Any) -> Tuple[float, float, float]:
-    """Yaw, pitch, roll in degrees of what is at `position_m` and has its +x towards `target_m`; positive pitch is down."""
+    """Yaw, pitch, roll in degrees of what is at `position_m` and has its +x towards `target_m`; positive
+    pitch is down."""
     x, y, z = (float(b) - float(a) for a, b in zip(position_m, target_m))
     return math.degrees(math.atan2(y, x)), -math.degrees(math.atan2(z, math.hypot(x, y))), 0.0

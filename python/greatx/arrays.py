@@ -29,7 +29,8 @@ def open_stack(path: pathlib.Path, array: ArrayInfo, records: int) -> np.ndarray
 
 
 class Ragged:
-    """Records of different lengths, joined along their first axis. ragged[i] is record i, a view [rows, ...]."""
+    """Records of different lengths, joined along their first axis. ragged[i] is record i, a view [rows,
+    ...]."""
 
     def __init__(self, values: np.ndarray, offsets: np.ndarray):
         self.values = values  #: [rows of all records, ...], memory-mapped
@@ -70,8 +71,8 @@ class Ragged:
 
 
 class Frames:
-    """One file a record. frames[i] reads and decodes the file of record i: an array, or a dict of arrays by name for
-    the files that hold several. A slice gives a list."""
+    """One file a record. frames[i] reads and decodes the file of record i: an array, or a dict of arrays by
+    name for the files that hold several. A slice gives a list."""
 
     def __init__(self, folder: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo], samples: np.ndarray):
         self.folder = folder

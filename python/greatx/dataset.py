@@ -27,9 +27,9 @@ INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
 def load(folder: Union[str, "os.PathLike[str]"], incomplete: bool = False) -> "Dataset":
     """Opens the data set in `folder` without reading its arrays.
 
-    A data set without manifest.json was not finished (`greatx generate --resume` finishes it): that is a DatasetError
-    unless `incomplete` is set; then a warning is given and the sequences that are whole are opened.
-    Raises DatasetError, whose message names the file, for whatever is not as docs/dataset.md has it.
+    A data set without manifest.json was not finished (`greatx generate --resume` finishes it): that is a
+    DatasetError unless `incomplete` is set; then a warning is given and the sequences that are whole are
+    opened. Raises DatasetError, whose message names the file, for whatever is not as docs/dataset.md has it.
     """
     return Dataset(folder, incomplete)
 
@@ -75,12 +75,14 @@ class Dataset:
 
     @property
     def materials(self) -> List[str]:
-        """Names of the materials: the id k of `material` and `object_material` arrays is materials[k - 1]; 0: none."""
+        """Names of the materials: the id k of `material` and `object_material` arrays is materials[k - 1]; 0:
+        none."""
         return self._names("materials")
 
     @property
     def instances(self) -> List[Dict[str, str]]:
-        """Name and class of the instances: the id k of `instance` and `object` arrays is instances[k - 1]; 0: none."""
+        """Name and class of the instances: the id k of `instance` and `object` arrays is instances[k - 1]; 0:
+        none."""
         return self._run_list("instances", dict)
 
     @property
@@ -141,7 +143,8 @@ class Sequence:
         self.dataset = dataset
         self.number = number
         self.path = dataset.path / f"sequence_{number:04d}"
-        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), in order of tick, then sensor
+        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), in order of tick, then
+        #: sensor
         self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
         #: int64 [ticks]: at which something was recorded, ascending
         self.ticks: np.ndarray = np.unique(self.index[:, 0])
@@ -171,8 +174,8 @@ class Sequence:
             raise KeyError(f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}") from None
 
     def first(self, kind: str, arrays: Iterable[str] = ()) -> "Sensor":
-        """The first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of these arrays; DatasetError if
-        there is none."""
+        """The first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of these
+        arrays; DatasetError if there is none."""
         wanted = list(arrays)
         for sensor in self.sensors.values():
             if sensor.kind == kind and len(sensor) and all(name in sensor for name in wanted):
@@ -183,8 +186,8 @@ class Sequence:
 
     @property
     def poses(self) -> "Sensor":
-        """The poses of all nodes: arrays `position` [records, nodes, 3] m, `orientation` [records, nodes, 4] (w, x, y, z),
-        `velocity`, ...; metadata `nodes` has the names."""
+        """The poses of all nodes: arrays `position` [records, nodes, 3] m, `orientation` [records, nodes, 4]
+        (w, x, y, z), `velocity`, ...; metadata `nodes` has the names."""
         for sensor in self.sensors.values():
             if sensor.kind == "pose":
                 return sensor
@@ -231,8 +234,8 @@ class Sensor:
       npy_ragged  a Ragged: [i] is the view [rows of record i, ...];
       files       Frames: [i] reads and decodes the file of record i;
       hdf5_events, text_events  the path of the sequence's file, for h5py and the like.
-    NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). Names that are
-    neither are looked for in `metadata`: csi.carrier_hz.
+    NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). Names
+    that are neither are looked for in `metadata`: csi.carrier_hz.
     """
 
     def __init__(self, sequence: Sequence, number: int, info: SensorInfo):
@@ -278,7 +281,8 @@ class Sensor:
         return self.sequence.at(tick)[self.name]
 
     def events(self, first: int = 0, last: Optional[int] = None) -> "Events":
-        """Of an event camera: the events of records first to last - 1, of all of them by default; views of the files."""
+        """Of an event camera: the events of records first to last - 1, of all of them by default; views of
+        the files."""
         from .events import Events
         return Events.of(self, first, len(self) if last is None else last)
 
@@ -362,7 +366,8 @@ class Record:
         raise AttributeError(f"a record of {sensor.name if sensor is not None else 'a sensor'} has no array {name!r}")
 
     def paths(self, rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see greatx.links)."""
+        """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see
+        greatx.links)."""
         from .links import paths_of
         return paths_of(self, rx, tx)
 

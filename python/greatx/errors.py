@@ -4,8 +4,10 @@
 
 
 class Error(ValueError):
-    """Bad input to a simulation: the message names the file or argument, what was expected and what was found."""
+    """Bad input to a simulation: the message names the file or argument, what was expected and what was
+    found."""
 
 
 class DatasetError(Error):
-    """A data set that cannot be read as asked: the message names the file, what was expected and what was found."""
+    """A data set that cannot be read as asked: the message names the file, what was expected and what was
+    found."""

@@ -67,14 +67,16 @@ class Events:
         return np.bincount(bins, minlength=2 * self.height * self.width).reshape(2, self.height, self.width).astype(np.int32)
 
     def frame(self) -> np.ndarray:
-        """int32 [height, width]: brighter less darker. Times the threshold it is the change of ln(luminance)."""
+        """int32 [height, width]: brighter less darker. Times the threshold it is the change of
+        ln(luminance)."""
         darker, brighter = self.counts()
         return brighter - darker
 
     def voxel_grid(self, bins: int, span_ns: Optional[Tuple[int, int]] = None) -> np.ndarray:
-        """float32 [bins, height, width]: polarities (1, -1) shared between the two bins nearest in time (A. Zhu et al.,
-        "Unsupervised Event-based Learning", CVPR 2019, eq. 1-2). `span_ns`: times of the first and the last bin, by default
-        those of the first and the last event. torch.from_numpy takes it as it is."""
+        """float32 [bins, height, width]: polarities (1, -1) shared between the two bins nearest in time (A.
+        Zhu et al., "Unsupervised Event-based Learning", CVPR 2019, eq. 1-2). `span_ns`: times of the first
+        and the last bin, by default those of the first and the last event. torch.from_numpy takes it as it
+        is."""
         grid = np.zeros(bins * self.height * self.width)
         if len(self):
             begin, end = span_ns or (int(self.t[0]), int(self.t[-1]))
@@ -89,8 +91,8 @@ class Events:
         return grid.reshape(bins, self.height, self.width).astype(np.float32)
 
     def picture(self) -> np.ndarray:
-        """uint8 [height, width, 3] for people: red where it got brighter, blue where darker, grey where nothing happened;
-        the stronger the more events, full from three on."""
+        """uint8 [height, width, 3] for people: red where it got brighter, blue where darker, grey where
+        nothing happened; the stronger the more events, full from three on."""
         frame = self.frame()
         strength = np.minimum(np.abs(frame), 3)[..., None] / 3.0
         color = np.where((frame > 0)[..., None], ON, OFF)

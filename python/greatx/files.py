@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way to the files of a data set, which is not believed what it says of itself: its paths stay below its folder, nothing on
-the way is a symbolic link, what is opened is a plain file, and whatever a parser makes of damaged data is a DatasetError
-that names the file."""
+"""The way to the files of a data set, which is not believed what it says of itself: its paths stay below its
+folder, nothing on the way is a symbolic link, what is opened is a plain file, and whatever a parser makes of
+damaged data is a DatasetError that names the file."""
 from __future__ import annotations
 
 import contextlib
@@ -34,7 +34,8 @@ NONSENSE = (ArithmeticError, AttributeError, EOFError, LookupError, MemoryError,
 
 @contextlib.contextmanager
 def interpreting(what: Any) -> Iterator[None]:
-    """Around whatever interprets data: what it raises of nonsense becomes a DatasetError that begins with `what`, the file."""
+    """Around whatever interprets data: what it raises of nonsense becomes a DatasetError that begins with
+    `what`, the file."""
     try:
         yield
     except (Error, OSError):
@@ -110,8 +111,8 @@ def _show(value: Any) -> str:
 
 
 class Field:
-    """A value of JSON that somebody else may have written. Getters raise DatasetError with file, field, what was expected and
-    what was found."""
+    """A value of JSON that somebody else may have written. Getters raise DatasetError with file, field, what
+    was expected and what was found."""
 
     def __init__(self, file: Any, value: Any, name: str = ""):
         self.file = file

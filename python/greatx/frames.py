@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Readers of one file a frame: PNG, OpenEXR and PLY as greatx writes them, with nothing but NumPy and zlib.
 
-They read what a data set holds (docs/dataset.md), not every file of these formats; whatever else is met is an error
-that says so.
+They read what a data set holds (docs/dataset.md), not every file of these formats; whatever else is met is an
+error that says so.
 """
 from __future__ import annotations
 
@@ -70,7 +70,8 @@ def read_png(path: Path, expected: Shape = None) -> np.ndarray:
 
 
 def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
-    """Takes the filters None, Sub and Up off lines [h, w, bytes of a pixel]; sums wrap at 256 as they must."""
+    """Takes the filters None, Sub and Up off lines [h, w, bytes of a pixel]; sums wrap at 256 as they
+    must."""
     if np.all(filters == 2):  # Up in every line, as greatx writes it
         return np.cumsum(lines, axis=0, dtype=np.uint8)
     out = np.empty_like(lines)
@@ -83,15 +84,15 @@ def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
 
 
 def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
-    """float32 [h, w] metres from uint8 [h, w, 3]: 1000 m (R + 256 G + 65536 B)/(2^24 - 1), CARLA's coding. 1000 m
-    stands for everything beyond, the sky too."""
+    """float32 [h, w] metres from uint8 [h, w, 3]: 1000 m (R + 256 G + 65536 B)/(2^24 - 1), CARLA's coding.
+    1000 m stands for everything beyond, the sky too."""
     code = rgb[..., 0].astype(np.uint32) + (rgb[..., 1].astype(np.uint32) << 8) + (rgb[..., 2].astype(np.uint32) << 16)
     return (1000.0 * code / (2**24 - 1)).astype(np.float32)
 
 
 def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
-    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2, single
-    part, scan lines, ZIP or uncompressed."""
+    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2,
+    single part, scan lines, ZIP or uncompressed."""
     data = read_bytes(path)
     with reading(path):
         header, at = _exr_header(data)
@@ -181,7 +182,8 @@ def _rows(data: bytes, kind: np.dtype, count: int, begin: int) -> np.ndarray:
 
 
 def read_ply(path: Path) -> np.ndarray:
-    """A structured array [n] with a field for each property of the element "vertex": binary, little endian."""
+    """A structured array [n] with a field for each property of the element "vertex": binary, little
+    endian."""
     data = read_bytes(path)
     end = data.find(b"end_header\n")
     lines = data[:max(end, 0)].decode("ascii", "replace").splitlines()
@@ -195,7 +197,8 @@ def read_ply(path: Path) -> np.ndarray:
 
 
 def read_pcd(path: Path) -> np.ndarray:
-    """A structured array [n] with a field for each field of a PCD file, version 0.7, binary, one value a field."""
+    """A structured array [n] with a field for each field of a PCD file, version 0.7, binary, one value a
+    field."""
     data = read_bytes(path)
     end = data.find(b"\nDATA binary\n")
     if end < 0:

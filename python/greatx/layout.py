@@ -15,7 +15,8 @@ from .files import LARGEST, MOST_ARRAYS, MOST_AXES, MOST_SENSORS, Field, bytes_o
 
 FORMAT = "greatx-dataset"
 FORMAT_VERSION = 1
-#: The file formats of an output, from the one to read first to the one to read last where several hold one array.
+#: The file formats of an output, from the one to read first to the one to read last where several hold one
+#: array.
 FORMATS = ("npy_stack", "npy_ragged", "npy_frame", "exr", "png", "ply", "pcd", "kitti", "png_depth24", "hdf5_events",
            "text_events")
 #: The types of arrays, by NumPy's names.
@@ -80,8 +81,9 @@ class SensorInfo:
     metadata: Dict[str, Any]
 
     def locate(self, name: str) -> Optional[Tuple[OutputInfo, Optional[ArrayInfo]]]:
-        """The output to read `name` from and the array in it (None: all of a file of several). `name` is an output or
-        an array; None if it is neither. Of several outputs that hold an array, the exact one is taken."""
+        """The output to read `name` from and the array in it (None: all of a file of several). `name` is an
+        output or an array; None if it is neither. Of several outputs that hold an array, the exact one is
+        taken."""
         if name in self.outputs:
             output = self.outputs[name]
             return output, output.arrays[0] if len(output.arrays) == 1 else None

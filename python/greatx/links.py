@@ -78,8 +78,9 @@ def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray,
 
 
 def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
-    """The arrays below paths/ of a record by name (docs/dataset.md), each [path, ...]: of all links, or of the
-    receiver rx and transmitter tx alone. Views, not copies, where a link's paths lie together, as they do."""
+    """The arrays below paths/ of a record by name (docs/dataset.md), each [path, ...]: of all links, or of
+    the receiver rx and transmitter tx alone. Views, not copies, where a link's paths lie together, as they
+    do."""
     sensor = check_channel(record.sensor)
     for what, number, ends in (("receiver", rx, receivers(sensor)), ("transmitter", tx, transmitters(sensor))):
         if number is not None and not 0 <= number < len(ends):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Objects of the engine belong to the process that made them: the threads and the device behind them do not survive fork()."""
+"""Objects of the engine belong to the process that made them: the threads and the device behind them do not
+survive fork()."""
 from __future__ import annotations
 
 import os
@@ -10,7 +11,8 @@ from .errors import Error
 
 
 class Owned:
-    """Passes everything on to an object of the engine, unless this process is a fork of its maker: that would wait for ever."""
+    """Passes everything on to an object of the engine, unless this process is a fork of its maker: that would
+    wait for ever."""
 
     def __init__(self, native: Any):
         self._native = native

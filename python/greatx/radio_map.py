@@ -10,10 +10,12 @@ from .tables import Arrays
 
 
 class RadioMap(Arrays):
-    """Arrays [tx, row, column] by name: path_gain, rss (dBm), sinr (dB), mean_delay, delay_spread (s), k_factor, angle spreads
-    (rad), line_of_sight, paths; best_server [row, column] (-1: none). Row 0 is the southernmost, column 0 the westernmost:
-    x [column], y [row], z [row, column] (m, world) are the cells' middles, `placement` [row, column] where they stand (0: free,
-    1: inside a solid, ...); cells without values are NaN. transmitter_position [tx, xyz]."""
+    """Arrays [tx, row, column] by name: path_gain, rss (dBm), sinr (dB), mean_delay, delay_spread (s),
+    k_factor, angle spreads
+    (rad), line_of_sight, paths; best_server [row, column] (-1: none). Row 0 is the southernmost, column 0 the
+    westernmost: x [column], y [row], z [row, column] (m, world) are the cells' middles, `placement` [row,
+    column] where they stand (0: free, 1: inside a solid, ...); cells without values are NaN.
+    transmitter_position [tx, xyz]."""
 
     def __init__(self, facts: str, named: Any):
         super().__init__(named)
@@ -23,6 +25,7 @@ class RadioMap(Arrays):
 
     @property
     def extent(self) -> Tuple[float, float, float, float]:
-        """West, east, south, north edges in metres: matplotlib's imshow(rss[0], origin="lower", extent=map.extent)."""
+        """West, east, south, north edges in metres: matplotlib's imshow(rss[0], origin="lower",
+        extent=map.extent)."""
         half = self.facts["cell_m"] / 2
         return self["x"][0] - half, self["x"][-1] + half, self["y"][0] - half, self["y"][-1] + half

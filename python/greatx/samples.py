@@ -15,17 +15,20 @@ if TYPE_CHECKING:
 
 
 class Samples:
-    """A sequence of dicts of NumPy arrays: one for every tick at which all the sensors asked for have a record.
+    """A sequence of dicts of NumPy arrays: one for every tick at which all the sensors asked for have a
+    record.
 
-    arrays: names "SENSOR/ARRAY", as in "csi/cfr", "uav/cam/rgb", "csi/paths/delay", "poses/position"; or "SENSOR" for
+    arrays: names "SENSOR/ARRAY", as in "csi/cfr", "uav/cam/rgb", "csi/paths/delay", "poses/position"; or
+    "SENSOR" for
       all its arrays of fixed shape. One name or several.
     sequences: numbers (places in Dataset.sequences); None: all, one behind the other.
-    pad: arrays whose length differs from tick to tick (paths, point clouds) are filled up with zeros to the longest of
-      all ticks, and "SENSOR/ARRAY_count" says how many rows are valid, so that items can be batched. Not for arrays
-      kept as one file a record, whose lengths are not known beforehand.
+    pad: arrays whose length differs from tick to tick (paths, point clouds) are filled up with zeros to the
+    longest of
+      all ticks, and "SENSOR/ARRAY_count" says how many rows are valid, so that items can be batched. Not for
+      arrays kept as one file a record, whose lengths are not known beforehand.
 
-    An item has, beside the arrays, "sequence" and "tick" (int) and "time_s" (float). Arrays are read-only views of the
-    files where these are memory-mapped. Picklable.
+    An item has, beside the arrays, "sequence" and "tick" (int) and "time_s" (float). Arrays are read-only
+    views of the files where these are memory-mapped. Picklable.
     """
 
     def __init__(self, dataset: "Dataset", arrays: Union[str, Iterable[str]],

@@ -37,7 +37,8 @@ _PLACES = [(r"^(\w+):1: ", r"\1: "), (r"nodes\[0\]\.sensors\[0\]\.mount\.rotatio
 
 
 def _call(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Of the engine, whose log goes to logging's "greatx" and whose faults are told in the words of the arguments."""
+    """Of the engine, whose log goes to logging's "greatx" and whose faults are told in the words of the
+    arguments."""
     try:
         return function(*arguments)
     except Error as error:
@@ -75,19 +76,21 @@ def _turn(name: str, position_m: Position, orientation_deg: Any, look_at: Option
 class Simulation:
     """A scenario that can be asked for paths, channels, maps and records, and added to.
 
-    scenario    the name of an embedded scenario ("city"), a YAML file, or a dict of what such a file has (docs/scenario.md)
-    assets      folder in which relative paths are looked for, beside the scenario's own (a dict: the current one)
-    seed, ticks, sequences, tolerance_db, effects, environment
-                in place of the scenario's; of effects and environment only what is named, e.g. effects={"diffraction": "on"},
-                environment={"time": "2026-12-21T08:30:00+01:00"}. Where a scenario's place and time say where sun and moon
-                are, both angles of a sun by hand take their place; one angle alone is an error
+    scenario    the name of an embedded scenario ("city"), a YAML file, or a dict of what such a file has
+    (docs/scenario.md) assets      folder in which relative paths are looked for, beside the scenario's own (a
+    dict: the current one) seed, ticks, sequences, tolerance_db, effects, environment
+                in place of the scenario's; of effects and environment only what is named, e.g.
+                effects={"diffraction": "on"}, environment={"time": "2026-12-21T08:30:00+01:00"}. Where a
+                scenario's place and time say where sun and moon are, both angles of a sun by hand take their
+                place; one angle alone is an error
     device      index or part of the name of a Vulkan device; empty: $GREATX_DEVICE, else the best
     validation  run under the Vulkan validation layer; a message is a RuntimeError
 
-    The scene is loaded, and the device opened, when they are first needed. What is wrong with the input is a greatx.Error
-    (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between batches. A process that is forked
-    cannot use its parent's Simulation, which says so; it makes its own. Positions are metres in
-    the world: x east, y north, z up; orientations yaw, pitch, roll in degrees, positive yaw left, positive pitch down.
+    The scene is loaded, and the device opened, when they are first needed. What is wrong with the input is a
+    greatx.Error (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between
+    batches. A process that is forked cannot use its parent's Simulation, which says so; it makes its own.
+    Positions are metres in the world: x east, y north, z up; orientations yaw, pitch, roll in degrees,
+    positive yaw left, positive pitch down.
     """
 
     def __init__(self, scenario: Union[PathLike, Mapping[str, Any]] = "city", *, assets: Optional[PathLike] = None,
@@ -111,14 +114,15 @@ class Simulation:
 
     @classmethod
     def from_scene(cls, file: PathLike, *, radio_materials: Optional[PathLike] = None, **options: Any) -> "Simulation":
-        """A glTF scene and nothing else in it, to be placed into. `radio_materials`: YAML with the radio properties of its
-        materials. `options` are those of Simulation."""
+        """A glTF scene and nothing else in it, to be placed into. `radio_materials`: YAML with the radio
+        properties of its materials. `options` are those of Simulation."""
         scene = {"file": os.path.abspath(file)}
         if radio_materials is not None:
             scene["radio_materials"] = os.path.abspath(radio_materials)
         return cls({"greatx": 1, "name": "scene", "ticks": 1, "scene": scene}, **options)
 
-    # ------------------------------------------------------------------------------------------------ what there is
+    # ------------------------------------------------------------------------------------------------ what
+    # there is
 
     @property
     def _facts(self) -> Dict[str, Any]:
@@ -138,7 +142,8 @@ class Simulation:
 
     @property
     def scene(self) -> Dict[str, Any]:
-        """Of the loaded scene: triangles, facets, bounds_m [[x, y, z], [x, y, z]], origin_m, materials, instances, sha256."""
+        """Of the loaded scene: triangles, facets, bounds_m [[x, y, z], [x, y, z]], origin_m, materials,
+        instances, sha256."""
         return json.loads(_call(self._native.scene_facts))
 
     @property
@@ -161,7 +166,8 @@ class Simulation:
             lines += [f"channel {channel!r}, candidates:", *(f"  {name:<18} {text}" for name, text in notes.items())]
         return "\n".join(lines)
 
-    # ----------------------------------------------------------------------------------------------- what is added
+    # ----------------------------------------------------------------------------------------------- what is
+    # added
 
     def _parsed(self, function: Callable[..., Any], where: str, text: Mapping[str, Any], *more: Any) -> None:
         """Hands a part of a scenario to the parser."""
@@ -169,8 +175,8 @@ class Simulation:
         _call(function, _text(whole), where, *more)
 
     def _beside(self, environment: Mapping[str, Any]) -> Mapping[str, Any]:
-        """A change of the environment with what the parser needs beside it: the scenario's place and time, unless a sun by
-        hand takes their place."""
+        """A change of the environment with what the parser needs beside it: the scenario's place and time,
+        unless a sun by hand takes their place."""
         place = self.place
         sun = environment.get("sun")
         angles = {"azimuth_deg", "elevation_deg"} & set(sun if isinstance(sun, Mapping) else ())
@@ -200,7 +206,8 @@ class Simulation:
             self._parsed(self._native.change, "Simulation", given, keys)
 
     def add_node(self, node: Mapping[str, Any]) -> None:
-        """Any node, as an item of a scenario's `nodes`: with a trajectory, a mesh, cameras, LiDARs, antennas."""
+        """Any node, as an item of a scenario's `nodes`: with a trajectory, a mesh, cameras, LiDARs,
+        antennas."""
         self._parsed(self._native.add_nodes, "add_node", {"nodes": [node]})
 
     def _place(self, role: str, placed: Sequence[Tuple[str, Position, Any]], array: Optional[Array]) -> List[str]:
@@ -214,9 +221,11 @@ class Simulation:
 
     def place_transmitter(self, name: str, position_m: Position, *, array: Optional[Array] = None,
                           orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
-        """Puts an antenna at rest (by default one isotropic, vertical element) and gives its name, "NAME/array".
+        """Puts an antenna at rest (by default one isotropic, vertical element) and gives its name,
+        "NAME/array".
 
-        position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a position.
+        position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a
+        position.
         """
         return self._place("transmitter", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array)[0]
 
@@ -227,15 +236,17 @@ class Simulation:
 
     def place_receivers(self, positions_m: np.ndarray, *, array: Optional[Array] = None, names: str = "rx{}",
                         orientation_deg: Optional[Sequence[float]] = None) -> List[str]:
-        """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is quicker."""
+        """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is
+        quicker."""
         return self._place("receiver", [(names.format(i), position, orientation_deg)
                                         for i, position in enumerate(np.asarray(positions_m))], array)
 
     def add_channel(self, name: str, *, transmitters: Optional[Sequence[str]] = None, receivers: Optional[Sequence[str]] = None,
                     carrier_hz: float = 3.5e9, **fields: Any) -> str:
-        """A channel between antennas ("node/sensor"), by default all that were placed as transmitters and as receivers; with
-        no receivers at all it is for paths(receivers=points). `fields` are those of a scenario's channel: bandwidth_hz or
-        subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, max_depth, max_transmissions, candidates, ..."""
+        """A channel between antennas ("node/sensor"), by default all that were placed as transmitters and as
+        receivers; with no receivers at all it is for paths(receivers=points). `fields` are those of a
+        scenario's channel: bandwidth_hz or subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s,
+        max_depth, max_transmissions, candidates, ..."""
         tx = list(self._placed["transmitters"] if transmitters is None else transmitters)
         rx = list(self._placed["receivers"] if receivers is None else receivers)
         if not tx:
@@ -255,7 +266,8 @@ class Simulation:
         self._parsed(self._native.add_channels, "add_channel", {"nodes": nodes, "channels": [channel]}, not rx)
         return name
 
-    # -------------------------------------------------------------------------------------------- what is computed
+    # -------------------------------------------------------------------------------------------- what is
+    # computed
 
     def _channel(self, name: Optional[str]) -> str:
         channels = self.channels
@@ -278,11 +290,13 @@ class Simulation:
               orientation_deg: Optional[Sequence[float]] = None, progress: Optional[Callable[[int], None]] = None) -> Paths:
         """Every path of a channel (None: the only one) at a tick, from all transmitters to all receivers.
 
-        receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers, each with `array`
-                          (by default one isotropic, vertical element) turned by orientation_deg. The points have the paths
-                          that antennas there would have, to the bit; of other points a path depends only in so far as the
-                          farthest one decides which effects of the air matter (docs/paths.md). The search from the
-                          transmitters is done once and kept for further calls.
+        receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers,
+        each with `array`
+                          (by default one isotropic, vertical element) turned by orientation_deg. The points
+                          have the paths that antennas there would have, to the bit; of other points a path
+                          depends only in so far as the farthest one decides which effects of the air matter
+                          (docs/paths.md). The search from the transmitters is done once and kept for further
+                          calls.
         progress          called now and then with the number of receivers that are done
         """
         name = self._channel(channel)
@@ -303,12 +317,13 @@ class Simulation:
                   noise_figure_db: float = 0.0, array: Optional[Array] = None, orientation_deg: Optional[Sequence[float]] = None,
                   inside_solids: bool = False, beyond_scene: bool = False, tick: int = 0, sequence: int = 0,
                   progress: Optional[Callable[[int], None]] = None) -> RadioMap:
-        """A map of a channel's transmitters, as `greatx map`: each cell has the paths of a receiver put in its middle.
+        """A map of a channel's transmitters, as `greatx map`: each cell has the paths of a receiver put in
+        its middle.
 
         cell_m            side of the cells
         min_m, max_m      [x, y] corners; by default the scene's bounds
-        z_m               height of the plane; None: draped, height_m above what `over` says: "ground", or "roofs"
-        power_dbm         of each transmitter, or one for all; by default the channel's, else 30
+        z_m               height of the plane; None: draped, height_m above what `over` says: "ground", or
+        "roofs" power_dbm         of each transmitter, or one for all; by default the channel's, else 30
         bandwidth_hz, noise_figure_db   of the noise, k 290 K B F; the bandwidth is the channel's by default
         array, orientation_deg          of the receiver, by default one isotropic, vertical element
         inside_solids     cells inside solids have values, too
@@ -326,7 +341,8 @@ class Simulation:
                                inside_solids, beyond_scene, self._antenna(array, orientation_deg), progress))
 
     def run(self, sequence: int = 0, first_tick: int = 0) -> Run:
-        """Steps the whole scenario in memory: an iterator over ticks, each a mapping of the sensors that fired to their
+        """Steps the whole scenario in memory: an iterator over ticks, each a mapping of the sensors that
+        fired to their
         records, with the arrays (and the bytes) that `greatx generate` would write:
 
             for tick in sim.run():

@@ -20,7 +20,8 @@ class Run:
         self._native = native
         self._call = call
         self.tick_rate_hz = tick_rate_hz
-        #: every sensor's description: name, kind, rate_hz, metadata (as in dataset.json), arrays (name, unit, description)
+        #: every sensor's description: name, kind, rate_hz, metadata (as in dataset.json), arrays (name, unit,
+        #: description)
         self.sensors: Dict[str, Dict[str, Any]] = {s["name"]: s for s in json.loads(native.sensors())}
         self._names = list(self.sensors)
 
@@ -49,7 +50,8 @@ class RunTick(TickRecords["RunRecord"]):
 
 
 class RunRecord(Arrays):
-    """What one sensor measured at one tick: record["NAME"], or record.NAME, the arrays that a data set would have."""
+    """What one sensor measured at one tick: record["NAME"], or record.NAME, the arrays that a data set would
+    have."""
 
     def __init__(self, sensor: Dict[str, Any], tick: int, sample: int, arrays: List[np.ndarray]):
         super().__init__((a["name"], a["unit"], a["description"], array) for a, array in zip(sensor["arrays"], arrays))

@@ -12,8 +12,9 @@
 
 namespace greatx::python {
 
-/// Copies what `key` names, "fog_g_m3" or "sun.azimuth_deg". A place and a time say where sun and moon are, so a sun by
-/// hand takes their place, and the other way round: whoever names one of the sun's angles names both.
+/// Copies what `key` names, "fog_g_m3" or "sun.azimuth_deg". A place and a time say where sun and moon are,
+/// so a sun by hand takes their place, and the other way round: whoever names one of the sun's angles names
+/// both.
 void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key);
 
 /// place and time as a scenario writes them, {latitude_deg, longitude_deg, height_m, time}; null: none.

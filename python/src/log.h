@@ -8,8 +8,8 @@
 
 namespace greatx::python {
 
-/// From now on what the engine logs is kept, from whatever thread, until it is taken: Python's logging cannot be called
-/// from threads that may not wait for the interpreter.
+/// From now on what the engine logs is kept, from whatever thread, until it is taken: Python's logging cannot
+/// be called from threads that may not wait for the interpreter.
 void keep_log();
 /// (level as Python's logging has it, text), in order; those are forgotten here.
 std::vector<std::pair<int, std::string>> take_log();

@@ -6,9 +6,10 @@
 
 namespace greatx::python {
 
-MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitters,
+MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatistics> links,
                      const sim::ChannelConfig& config) {
-  const sim::MapCells& cells = *map.cells;
+  const sim::RadioMap map = run.map(links);
+  const sim::MapCells& cells = run.cells();
   const int64_t rows = cells.grid.rows, columns = cells.grid.columns;
   MapResult result;
   for (const sim::MapQuantity& quantity : sim::map_quantities())
@@ -21,21 +22,19 @@ MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitte
     x.push_back(cells.grid.center(static_cast<size_t>(column)).x);
   for (int64_t row = 0; row < rows; ++row)
     y.push_back(cells.grid.center(static_cast<size_t>(row * columns)).y);
-  for (const dvec3& end : transmitters) ends.insert(ends.end(), {end.x, end.y, end.z});
-  std::vector<uint8_t> placement;
-  for (const sim::CellPlacement of : cells.placement) placement.push_back(static_cast<uint8_t>(of));
+  for (const dvec3& end : run.transmitters()) ends.insert(ends.end(), {end.x, end.y, end.z});
   result.arrays.push_back(
       {"x", "m", "[column] of the cells' middles, world", Array::of<double>({columns}, x)});
   result.arrays.push_back({"y", "m", "[row] of the cells' middles, world; row 0 is the southernmost",
                            Array::of<double>({rows}, y)});
   result.arrays.push_back({"z", "m", "[row, column] of the cells' middles, world; NaN: nothing beneath",
-                           Array::of<double>({rows, columns}, cells.z_m)});
+                           sim::map_heights(cells)});
   result.arrays.push_back(
       {"placement", "1",
        "[row, column] 0: free, 1: inside a solid, 2: nothing beneath, 3: in foliage, 4: on a surface",
-       Array::of<uint8_t>({rows, columns}, placement)});
+       sim::map_placement(cells)});
   result.arrays.push_back({"transmitter_position", "m", "[tx, xyz] world",
-                           Array::of<double>({static_cast<int64_t>(transmitters.size()), 3}, ends)});
+                           Array::of<double>({static_cast<int64_t>(run.transmitters().size()), 3}, ends)});
   result.facts = nlohmann::ordered_json{{"channel", config.name},
                                         {"carrier_hz", config.carrier_hz},
                                         {"transmitters", config.transmitters},

@@ -5,13 +5,13 @@
 #include <span>
 
 #include "python/src/session.h"
-#include "sim/channel/radio_map_values.h"
+#include "sim/channel/radio_map_run.h"
 
 namespace greatx::python {
 
 /// All quantities, and of the cells: z [rows, columns], placement [rows, columns], x [columns], y [rows];
 /// transmitter_position [tx, 3].
-MapResult map_result(const sim::RadioMap& map, std::span<const dvec3> transmitters,
+MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatistics> links,
                      const sim::ChannelConfig& config);
 
 }  // namespace greatx::python

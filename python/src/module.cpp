@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer protocol, so that any
-// version of NumPy takes them and nothing is copied; descriptions go as JSON.
+// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer
+// protocol, so that any version of NumPy takes them and nothing is copied; descriptions go as JSON.
 #include <chrono>
 #include <cstring>
 #include <pybind11/functional.h>
@@ -16,6 +16,7 @@
 #include "python/src/path_set.h"
 #include "python/src/session.h"
 #include "python/src/stream.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::python {
 
@@ -93,8 +94,8 @@ std::vector<dvec3> points_of(const py::buffer& buffer) {
   return points;
 }
 
-/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in the midst of
-/// long work, too (core/watch.h).
+/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in
+/// the midst of long work, too (core/watch.h).
 class CallWatch : public Watch {
  public:
   explicit CallWatch(py::object progress = py::none()) : progress_(std::move(progress)) {}
@@ -169,14 +170,19 @@ py::object radio_map(Session& session, const std::string& channel, uint32_t sequ
                      const std::vector<double>& power_dbm, std::optional<double> bandwidth_hz,
                      double noise_figure_db, bool inside_solids, bool beyond_scene,
                      const std::string& antenna, const py::object& progress) {
-  MapRequest request{std::nullopt, std::nullopt,    cell_m,        {},           power_dbm,
-                     bandwidth_hz, noise_figure_db, inside_solids, beyond_scene, antenna};
+  sim::MapRequest request;
+  request.cell_m = cell_m;
+  request.power_dbm = power_dbm;
+  request.bandwidth_hz = bandwidth_hz;
+  request.noise_figure_db = noise_figure_db;
+  request.inside_solids = inside_solids;
+  request.beyond_scene = beyond_scene;
   if (min_m) request.min_m = dvec2((*min_m)[0], (*min_m)[1]);
   if (max_m) request.max_m = dvec2((*max_m)[0], (*max_m)[1]);
   request.height = {z_m, height_m, over_roofs ? sim::MapOver::roofs : sim::MapOver::ground};
-  std::optional<MapResult> result =
-      watched([&](const GoOn& go_on) { return session.radio_map(channel, sequence, tick, request, go_on); },
-              progress);
+  std::optional<MapResult> result = watched(
+      [&](const GoOn& go_on) { return session.radio_map(channel, sequence, tick, request, antenna, go_on); },
+      progress);
   return py::make_tuple(result->facts, numpy(std::move(result->arrays)));
 }
 
@@ -200,8 +206,9 @@ py::object next(Stream& stream) {
   return py::make_tuple(packet->tick, packet->time_ns, records);
 }
 
-/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the process that
-/// made the object nothing is deleted: the device's threads and whoever held its locks are not there, it would wait for ever.
+/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the
+/// process that made the object nothing is deleted: the device's threads and whoever held its locks are not
+/// there, it would wait for ever.
 struct ReleasedDelete {
   pid_t maker = ::getpid();
   template <typename T>

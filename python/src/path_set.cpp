@@ -3,6 +3,7 @@
 #include "python/src/path_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -14,8 +15,9 @@
 #include "rf/channel/dispersion.h"
 #include "rf/channel/received.h"
 #include "rf/channel/taps.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/columns.h"
+#include "sim/plan/antennas.h"
+#include "sim/plan/array_plan.h"
 
 namespace greatx::python {
 
@@ -68,31 +70,29 @@ rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig
 
 }  // namespace
 
-PathSet::PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
+PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
                  std::vector<rf::AntennaArray> receiver_arrays)
-    : stage_(std::move(stage)),
+    : experiment_(std::move(experiment)),
       channel_(channel),
-      config_(stage_->scenario.channels[channel]),
+      config_(experiment_->scenario.channels[channel]),
       receivers_(std::move(receiver_arrays)) {
   for (const std::string& name : config_.transmitters)
-    transmitters_.push_back(sim::antenna_array(stage_->scenario, name, config_.carrier_hz));
+    transmitters_.push_back(sim::antenna_array(experiment_->scenario, name, config_.carrier_hz));
   one_number_of_ports(transmitters_, "transmitters", config_.name);
   one_number_of_ports(receivers_, "receivers", config_.name);
 }
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  const auto wish = stage_->scenario.effects.find("every_element");
-  // As sim/plan/array_plan.h.
-  const double far_m =
-      rf::far_field_distance_m(transmitter(link).array, receiver(link).array, config_.carrier_hz);
-  link.near = link.solved.distance_m < far_m &&
-              (wish == stage_->scenario.effects.end() || wish->second != sim::Switch::off);
+  if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // nothing asks for the facets again
+  link.near =
+      link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
+                                                           transmitter(link).array, receiver(link).array);
   links_.push_back(std::move(link));
 }
 
 void PathSet::finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before) {
-  if (stage_->plan.dispersion.on) radio_ = snapshot.radio();
+  if (experiment_->plan.dispersion.on) radio_ = snapshot.radio();
   fill_arrays(snapshot);
   describe(snapshot, before);
 }
@@ -112,9 +112,9 @@ std::vector<double> PathSet::powers(const Link& link) const {
 
 void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
   sim::ChannelConfig config;  // what scenarios may ask for beyond a path's own has functions here
-  config.max_depth = config_.max_depth;
+  config.limits.max_depth = config_.limits.max_depth;
   const int64_t rx_ports = receivers_[0].port_count(), tx_ports = transmitters_[0].port_count();
-  const sim::ColumnContext context{&stage_->world.scene, &snapshot.model(), &config, rx_ports, tx_ports};
+  const sim::ColumnContext context{&experiment_->scene(), &snapshot.model(), &config, rx_ports, tx_ports};
   const std::vector<sim::PathColumn> columns = sim::path_columns(context);
 
   std::vector<int64_t> offsets{0};
@@ -162,7 +162,7 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
                   Array(DType::f64, {static_cast<int64_t>(transmitters()), 3})};
   NamedArray to{"receiver_position", "m", "[rx, xyz] world",
                 Array(DType::f64, {static_cast<int64_t>(receivers()), 3})};
-  const dvec3& origin = stage_->world.scene.origin;
+  const dvec3& origin = experiment_->scene().origin;
   uint64_t near = 0;
   sim::LinkLeftOut left_out;
   for (size_t i = 0; i < links_.size(); ++i) {
@@ -180,21 +180,25 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
   for (NamedArray* more : {&distance, &from, &to}) arrays_.push_back(std::move(*more));
 
   const sim::TickContext& moment = snapshot.moment().context;
-  Json json{{"channel", config_.name},
-            {"tick", moment.tick},
-            {"time_s", moment.time_s},
-            {"carrier_hz", config_.carrier_hz},
-            {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
-            {"subcarriers", config_.subcarriers},
-            {"time_samples", config_.time_samples},
-            {"time_spacing_s", config_.time_spacing_s},
-            {"transmitters", config_.transmitters},
-            {"near_links", near},
-            {"counters", Json::object()},
-            {"notes", Json::object()}};
+  Json json{
+      {"channel", config_.name},
+      {"tick", moment.tick},
+      {"time_s", moment.time_s},
+      {"carrier_hz", config_.carrier_hz},
+      {"subcarrier_spacing_hz", config_.subcarrier_spacing_hz},
+      {"subcarriers", config_.subcarriers},
+      {"time_samples", config_.time_samples},
+      {"time_spacing_s", config_.time_spacing_s},
+      {"transmitters", config_.transmitters},
+      {"every_element",
+       std::array{"auto", "on", "off"}[static_cast<size_t>(sim::every_element_asked(experiment_->scenario))]},
+      {"near_links", near},
+      {"counters", Json::object()},
+      {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
-  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths are a run's.
+  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths
+  // are a run's.
   for (const auto& [name, count] : counters)
     if (name.starts_with("candidate"))
       json["counters"][name] = count;
@@ -239,18 +243,19 @@ Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
 }
 
 Array PathSet::response(const ResponseRequest& request, const GoOn& go_on) const {
-  const rf::ChannelGrid grid = grid_of(request, config_, stage_->plan.doppler.on);
+  const rf::ChannelGrid grid = grid_of(request, config_, experiment_->plan.doppler.on);
   std::optional<rf::Dispersion> dispersion;
   if (radio_)
-    dispersion.emplace(stage_->world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid);
-  return blocks({grid.time_samples, grid.subcarriers}, go_on,
-                [&](const Link& link, std::span<Complex64> out) {
-                  const std::vector<rf::Path>& paths = link.solved.paths;
-                  const std::vector<rf::TransferSpectrum> spectra =
-                      dispersion ? dispersion->spectra(paths) : std::vector<rf::TransferSpectrum>{};
-                  rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
-                                              request.selection);
-                });
+    dispersion.emplace(experiment_->scene(), radio_->model().field_model(), radio_->model().effects.weather,
+                       grid);
+  return blocks(
+      {grid.time_samples, grid.subcarriers}, go_on, [&](const Link& link, std::span<Complex64> out) {
+        const std::vector<rf::Path>& paths = link.solved.paths;
+        const std::vector<rf::TransferSpectrum> spectra =
+            dispersion ? dispersion->spectra(paths, *link.solved.world) : std::vector<rf::TransferSpectrum>{};
+        rf::frequency_response_into(paths, spectra, transmitter(link), receiver(link), grid, out,
+                                    request.selection);
+      });
 }
 
 NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {
@@ -278,7 +283,7 @@ NamedArrays PathSet::taps(const TapsRequest& request, const GoOn& go_on) const {
 
 NamedArrays PathSet::statistics() const {
   const sim::ChannelConfig config;
-  const sim::ColumnContext context{&stage_->world.scene, nullptr, &config, receivers_[0].port_count(),
+  const sim::ColumnContext context{&experiment_->scene(), nullptr, &config, receivers_[0].port_count(),
                                    transmitters_[0].port_count()};
   const std::vector<sim::LinkColumn> columns = sim::link_columns(context);
   NamedArrays arrays;

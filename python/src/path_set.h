@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of all links of a channel at a tick, and what is made of them. Links are in the order of receivers, then
-// transmitters; paths of a link in canonical order.
+// The paths of all links of a channel at a tick, and what is made of them. Links are in the order of
+// receivers, then transmitters; paths of a link in canonical order.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ struct ReceivedRequest {
 class PathSet {
  public:
   /// `receiver_arrays`: one for each receiver, or one for all.
-  PathSet(std::shared_ptr<const Stage> stage, uint32_t channel,
+  PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
           std::vector<rf::AntennaArray> receiver_arrays);
 
   void add(sim::ChannelSnapshot::Link link);
@@ -51,10 +51,12 @@ class PathSet {
   /// Number, carrier, tick, grid, notes, counters, ... as JSON.
   const std::string& facts() const { return facts_; }
 
-  /// As the data set has them below paths/, [path, ...], and `offsets` int64 [links + 1]. Theirs is the memory: once.
+  /// As the data set has them below paths/, [path, ...], and `offsets` int64 [links + 1]. Theirs is the
+  /// memory: once.
   NamedArrays take_arrays() { return std::move(arrays_); }
 
-  /// complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]. Without a request of its own the bytes of the data set.
+  /// complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]. Without a request of its own the bytes of the data
+  /// set.
   Array response(const ResponseRequest& request, const GoOn& go_on) const;
   /// `taps` complex64 [rx, rx_ant, tx, tx_ant, time, tap]; `power_outside`, `paths_outside` [rx, tx].
   NamedArrays taps(const TapsRequest& request, const GoOn& go_on) const;
@@ -67,11 +69,12 @@ class PathSet {
  private:
   struct Link {
     sim::ChannelSnapshot::Link solved;
-    bool near = false;  ///< nearer than the far field of its arrays
+    bool near = false;  ///< a run solves every element
   };
   /// of(link, its number) for all of them, on all cores, some at a time; false: stopped.
   bool for_links(const GoOn& go_on, const std::function<void(const Link&, size_t)>& of) const;
-  /// The same where each link has a block [rx_ant, tx_ant, columns] of an array [rx, rx_ant, tx, tx_ant, columns...].
+  /// The same where each link has a block [rx_ant, tx_ant, columns] of an array [rx, rx_ant, tx, tx_ant,
+  /// columns...].
   Array blocks(std::vector<int64_t> columns, const GoOn& go_on,
                const std::function<void(const Link&, std::span<std::complex<float>>)>& of) const;
   /// An f64 array [rx, tx, width...] of one row a link.
@@ -83,7 +86,7 @@ class PathSet {
   void fill_arrays(const sim::ChannelSnapshot& snapshot);
   void describe(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
 
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const sim::Experiment> experiment_;
   uint32_t channel_;
   sim::ChannelConfig config_;
   std::vector<rf::AntennaArray> transmitters_, receivers_;

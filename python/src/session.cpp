@@ -11,10 +11,11 @@
 #include "python/src/map_result.h"
 #include "python/src/path_set.h"
 #include "python/src/stream.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/notes.h"
-#include "sim/plan/plan_options.h"
-#include "sim/scenario/override.h"
+#include "sim/plan/antennas.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/override.h"
+#include "sim/scenario/sensor_kinds.h"
 
 namespace greatx::python {
 
@@ -29,12 +30,6 @@ std::vector<std::string> antennas_of(const sim::Scenario& scenario) {
       if (std::holds_alternative<sim::AntennaConfig>(sensor.config))
         names.push_back(node.name + "/" + sensor.name);
   return names;
-}
-
-const char* kind_of(const sim::SensorConfig& sensor) {
-  constexpr const char* kinds[] = {"camera", "event_camera", "lidar", "radar", "antenna"};
-  static_assert(std::size(kinds) == std::variant_size_v<decltype(sensor.config)>);
-  return kinds[sensor.config.index()];
 }
 
 void check_name_is_free(const sim::Scenario& scenario, const std::string& name, const SourceLocation& where) {
@@ -67,9 +62,9 @@ void Gpu::check_validation() {
 
 /// A snapshot and what it was made for.
 struct Session::Kept {
-  std::shared_ptr<const Stage> stage;
+  std::shared_ptr<const sim::Experiment> session;  ///< of the session at that time
   std::shared_ptr<Gpu> gpu;
-  sim::EffectPlan plan;
+  std::shared_ptr<const sim::Experiment> experiment;  ///< the same, or with a plan for the points
   uint32_t channel = 0, sequence = 0;
   int64_t tick = 0;
   bool points = false;
@@ -89,7 +84,7 @@ void Session::drop_snapshot() {
 
 void Session::changed() {
   drop_snapshot();
-  stage_.reset();
+  experiment_.reset();
 }
 
 sim::Scenario Session::parse(const std::string& text, const std::string& where) const {
@@ -156,7 +151,7 @@ std::string Session::facts() const {
   for (const sim::NodeConfig& node : scenario_.nodes) {
     json["nodes"][node.name] = Json::object();
     for (const sim::SensorConfig& sensor : node.sensors)
-      json["nodes"][node.name][sensor.name] = kind_of(sensor);
+      json["nodes"][node.name][sensor.name] = sim::sensor_kind(sensor).type;
   }
   for (const sim::ChannelConfig& channel : scenario_.channels)
     json["channels"][channel.name] = {{"transmitters", channel.transmitters},
@@ -167,7 +162,7 @@ std::string Session::facts() const {
                                       {"subcarriers", channel.subcarriers},
                                       {"time_samples", channel.time_samples},
                                       {"time_spacing_s", channel.time_spacing_s},
-                                      {"max_depth", channel.max_depth},
+                                      {"max_depth", channel.limits.max_depth},
                                       {"max_transmissions", channel.walls()},
                                       {"candidates", channel.candidates}};
   return json.dump();
@@ -175,8 +170,8 @@ std::string Session::facts() const {
 
 std::string Session::scene_facts() {
   const std::lock_guard lock(mutex_);
-  const std::shared_ptr<const Stage> now = stage();
-  const scene::Scene& scene = now->world.scene;
+  const std::shared_ptr<const sim::Experiment> now = experiment();
+  const scene::Scene& scene = now->scene();
   Json json{{"sha256", scene.hash},
             {"triangles", scene.triangle_count()},
             {"facets", scene.facets.size()},
@@ -198,7 +193,7 @@ std::string Session::scene_facts() {
 
 std::string Session::explain() {
   const std::lock_guard lock(mutex_);
-  const std::shared_ptr<const Stage> now = stage();
+  const std::shared_ptr<const sim::Experiment> now = experiment();
   Json json{{"effects", Json::array()}, {"channels", Json::object()}};
   for (const sim::Effect* effect : now->plan.all())
     json["effects"].push_back({{"name", effect->name},
@@ -208,8 +203,7 @@ std::string Session::explain() {
                                {"bound", effect->bound}});
   for (uint32_t channel = 0; channel < now->scenario.channels.size(); ++channel) {
     Json& notes = json["channels"][now->scenario.channels[channel].name] = Json::object();
-    for (const auto& [name, text] : sim::channel_notes(now->scenario, now->world, now->plan, channel))
-      notes[name] = text;
+    for (const auto& [name, text] : sim::channel_notes(*now, channel)) notes[name] = text;
   }
   return json.dump();
 }
@@ -221,15 +215,10 @@ std::string Session::device_facts() {
       .dump();
 }
 
-std::shared_ptr<const Stage> Session::stage() {
-  if (stage_ == nullptr) {
-    const auto made = std::make_shared<Stage>();
-    made->scenario = scenario_;
-    made->world = sim::load_world(made->scenario);
-    made->plan = sim::make_effect_plan(made->scenario, made->world.scene);
-    stage_ = made;
-  }
-  return stage_;
+std::shared_ptr<const sim::Experiment> Session::experiment() {
+  if (experiment_ == nullptr)
+    experiment_ = std::make_shared<const sim::Experiment>(sim::make_experiment(scenario_));
+  return experiment_;
 }
 
 std::shared_ptr<Gpu> Session::gpu() {
@@ -254,25 +243,27 @@ void Session::check_instant(uint32_t sequence, int64_t tick) const {
     throw_user_error("sequence: expected 0 to {}, found {}", scenario_.sequences - 1, sequence);
 }
 
-sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const Stage>& stage,
+sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const sim::Experiment>& experiment,
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
                                         const std::optional<scene::Bounds>& points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own. With dispersion results go on
-  // looking at the bodies (PathSet), which then stay where they are. Where the points are may decide effects.
-  const sim::EffectPlan plan =
-      points ? sim::make_effect_plan(stage->scenario, stage->world.scene, *points) : stage->plan;
-  const bool same = kept_ != nullptr && kept_->stage == stage && kept_->channel == channel &&
-                    kept_->points == points.has_value() && sim::same_effects(kept_->plan, plan);
+  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the
+  // points may decide effects.
+  const std::shared_ptr<const sim::Experiment> with_points =
+      points ? std::make_shared<const sim::Experiment>(
+                   sim::make_experiment(experiment->scenario, experiment->world, *points))
+             : experiment;
+  const bool same = kept_ != nullptr && kept_->session == experiment && kept_->channel == channel &&
+                    kept_->points == points.has_value() &&
+                    sim::same_effects(kept_->experiment->plan, with_points->plan);
   const bool there = same && kept_->sequence == instant.sequence && kept_->tick == instant.tick;
-  if (same && !there && !stage->plan.dispersion.on) {
+  if (same && !there) {
     kept_->snapshot->move(instant.sequence, instant.tick);
   } else if (!there) {
     kept_.reset();
-    auto kept = std::make_unique<Kept>(Kept{stage, gpu, plan, channel, 0, 0, points.has_value(), nullptr});
-    kept->snapshot =
-        std::make_unique<sim::ChannelSnapshot>(gpu->device, stage->scenario, stage->world, kept->plan,
-                                               sim::gpu_scene_options(kept->plan), channel, instant);
+    auto kept = std::make_unique<Kept>(
+        Kept{experiment, gpu, with_points, channel, 0, 0, points.has_value(), nullptr});
+    kept->snapshot = std::make_unique<sim::ChannelSnapshot>(gpu->device, *kept->experiment, channel, instant);
     kept_ = std::move(kept);
   }
   kept_->sequence = instant.sequence;
@@ -300,7 +291,7 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
       arrays.push_back(sim::antenna_array(scenario_, end, config.carrier_hz));
   }
 
-  const std::shared_ptr<const Stage> now = stage();
+  const std::shared_ptr<const sim::Experiment> now = experiment();
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   auto set = std::make_shared<PathSet>(now, channel, std::move(arrays));
@@ -335,42 +326,32 @@ std::shared_ptr<PathSet> Session::solve(const std::string& name, uint32_t sequen
 }
 
 std::optional<MapResult> Session::radio_map(const std::string& name, uint32_t sequence, int64_t tick,
-                                            const MapRequest& request, const GoOn& go_on) {
+                                            const sim::MapRequest& request, const std::string& antenna,
+                                            const GoOn& go_on) {
   const std::lock_guard lock(mutex_);
   const uint32_t channel = find_channel(name);
   check_instant(sequence, tick);
   const sim::ChannelConfig& config = scenario_.channels[channel];
-  const sim::MapPower power =
-      sim::map_power(request.power_dbm, request.bandwidth_hz, request.noise_figure_db, config);
-  sim::MapReceiver receiver = antenna_at_points(request.antenna, config.carrier_hz);
+  sim::check_map_request(request, config);
+  sim::MapReceiver receiver = antenna_at_points(antenna, config.carrier_hz);
 
-  const std::shared_ptr<const Stage> now = stage();
-  const sim::MapGrid grid = sim::map_grid_of(request.min_m, request.max_m, request.cell_m, now->world.scene,
-                                             config.transmitters.size());
+  const std::shared_ptr<const sim::Experiment> now = experiment();
+  const scene::Bounds bounds = sim::map_bounds(request, config, now->scene());
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   try {
-    sim::ChannelSnapshot& snapshot =
-        this->snapshot(now, gpu, channel, {sequence, tick, std::nullopt},
-                       sim::bounds_of_cells(grid, request.height, now->world.scene));
-    const sim::Moment& moment = snapshot.moment();
-    std::vector<dvec3> ends;
-    for (const std::string& end : config.transmitters)
-      ends.push_back(sim::world_position(sim::antenna_end(now->scenario, now->world, end), moment.context));
-    sim::MapCells cells = sim::place_cells(grid, request.height, now->world.scene, snapshot.model().kinds,
-                                           moment.bodies, ends, request.beyond_scene);
-    cells.solve_inside = request.inside_solids;
+    sim::RadioMapRun run(snapshot(now, gpu, channel, {sequence, tick, std::nullopt}, bounds), request,
+                         std::move(receiver));
     std::vector<rf::LinkStatistics> links;
     bool stopped = false;
-    sim::RadioMapSolver(snapshot, now->scenario, channel, std::move(receiver))
-        .solve(cells, 0, [&](std::span<const rf::LinkStatistics> more) {
-          links.insert(links.end(), more.begin(), more.end());
-          stopped = !go_on(links.size() / ends.size());
-          return !stopped;
-        });
+    run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+      links.insert(links.end(), more.begin(), more.end());
+      stopped = !go_on(links.size() / run.transmitters().size());
+      return !stopped;
+    });
     gpu->check_validation();
     if (stopped) return std::nullopt;
-    return map_result({&cells, links, power}, ends, config);
+    return map_result(run, links, config);
   } catch (...) {
     kept_.reset();
     throw;
@@ -383,7 +364,7 @@ std::unique_ptr<Stream> Session::stream(uint32_t sequence, int64_t first_tick) {
   for (const sim::ChannelConfig& channel : scenario_.channels)
     if (channel.receivers.empty())
       throw_user_error("channel '{}': has no receivers: expected some for a run", channel.name);
-  const std::shared_ptr<const Stage> now = stage();
+  const std::shared_ptr<const sim::Experiment> now = experiment();
   const std::shared_ptr<Gpu> gpu = this->gpu();
   const std::lock_guard device(gpu->mutex);
   return std::make_unique<Stream>(now, gpu, sequence, first_tick);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they are needed.
-// Nothing here knows Python; every call may come from any thread.
+// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they
+// are needed. Nothing here knows Python; every call may come from any thread.
 #pragma once
 
 #include <atomic>
@@ -18,18 +18,17 @@
 #include "core/record.h"
 #include "gpu/device.h"
 #include "sim/channel/channel_snapshot.h"
-#include "sim/channel/radio_map.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/channel/radio_map_run.h"
+#include "sim/experiment/experiment.h"
 #include "sim/scenario/scenario.h"
-#include "sim/world.h"
 
 namespace greatx::python {
 
 class PathSet;
 class Stream;
 
-/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something would wait for
-/// itself for ever.
+/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something
+/// would wait for itself for ever.
 class SessionMutex {
  public:
   void lock() {
@@ -46,13 +45,6 @@ class SessionMutex {
  private:
   std::mutex mutex_;
   std::atomic<std::thread::id> owner_;
-};
-
-/// What was asked at one time, and never changes: what is computed of it may outlive the next change of the session.
-struct Stage {
-  sim::Scenario scenario;
-  sim::World world;
-  sim::EffectPlan plan;
 };
 
 /// The device of a session. One call at a time has it.
@@ -79,17 +71,6 @@ struct PointReceivers {
   std::string antenna;        ///< a scenario whose first sensor is the antenna at each of them
 };
 
-/// A radio map (sim/channel/radio_map.h).
-struct MapRequest {
-  std::optional<dvec2> min_m, max_m;  ///< none: the scene's bounds
-  double cell_m = 1.0;
-  sim::MapHeight height;
-  std::vector<double> power_dbm;  ///< one, or one a transmitter; empty: the channel's
-  std::optional<double> bandwidth_hz;
-  double noise_figure_db = 0.0;
-  bool inside_solids = false, beyond_scene = false;
-  std::string antenna;  ///< as PointReceivers'
-};
 struct MapResult {
   NamedArrays arrays;
   std::string facts;  ///< JSON
@@ -100,7 +81,8 @@ class Session {
   Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device);
   ~Session();
 
-  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in messages.
+  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in
+  /// messages.
   void add_nodes(const std::string& text, const std::string& where);
   /// Its channels; their antennas are by name those of this scenario. `no_receivers`: points only.
   void add_channels(const std::string& text, const std::string& where, bool no_receivers);
@@ -116,14 +98,15 @@ class Session {
   /// All paths of a channel. Null: `go_on` said that it is enough.
   std::shared_ptr<PathSet> solve(const std::string& channel, uint32_t sequence, int64_t tick,
                                  const std::optional<PointReceivers>& points, const GoOn& go_on);
-  /// Null: stopped.
+  /// `antenna`: as PointReceivers'. None: stopped.
   std::optional<MapResult> radio_map(const std::string& channel, uint32_t sequence, int64_t tick,
-                                     const MapRequest& request, const GoOn& go_on);
+                                     const sim::MapRequest& request, const std::string& antenna,
+                                     const GoOn& go_on);
   std::unique_ptr<Stream> stream(uint32_t sequence, int64_t first_tick);
 
  private:
   struct Kept;
-  std::shared_ptr<const Stage> stage();
+  std::shared_ptr<const sim::Experiment> experiment();
   std::shared_ptr<Gpu> gpu();
   void drop_snapshot();
   void changed();
@@ -131,15 +114,17 @@ class Session {
   void check_instant(uint32_t sequence, int64_t tick) const;
   sim::Scenario parse(const std::string& text, const std::string& where) const;
   sim::MapReceiver antenna_at_points(const std::string& text, double carrier_hz) const;
-  sim::ChannelSnapshot& snapshot(const std::shared_ptr<const Stage>& stage, const std::shared_ptr<Gpu>& gpu,
-                                 uint32_t channel, const sim::ChannelSnapshot::Instant& instant,
+  sim::ChannelSnapshot& snapshot(const std::shared_ptr<const sim::Experiment>& experiment,
+                                 const std::shared_ptr<Gpu>& gpu, uint32_t channel,
+                                 const sim::ChannelSnapshot::Instant& instant,
                                  const std::optional<scene::Bounds>& points);
 
   mutable SessionMutex mutex_;
   sim::Scenario scenario_;
   std::string assets_;
   gpu::DeviceOptions device_options_;
-  std::shared_ptr<const Stage> stage_;  ///< null: to be made of scenario_
+  std::shared_ptr<const sim::Experiment>
+      experiment_;  ///< null: to be made of scenario_; results may outlive a change
   std::shared_ptr<Gpu> gpu_;
   std::unique_ptr<Kept> kept_;  ///< the last snapshot: other points of it need no search
 };

@@ -6,12 +6,11 @@
 
 namespace greatx::python {
 
-Stream::Stream(std::shared_ptr<const Stage> stage, std::shared_ptr<Gpu> gpu, uint32_t sequence,
+Stream::Stream(std::shared_ptr<const sim::Experiment> experiment, std::shared_ptr<Gpu> gpu, uint32_t sequence,
                int64_t first_tick)
-    : stage_(std::move(stage)),
+    : experiment_(std::move(experiment)),
       gpu_(std::move(gpu)),
-      simulator_(
-          std::make_unique<sim::Simulator>(gpu_->device, stage_->scenario, stage_->world, stage_->plan)) {
+      simulator_(std::make_unique<sim::Simulator>(gpu_->device, *experiment_)) {
   simulator_->start(sequence, first_tick);
 }
 

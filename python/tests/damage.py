@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Damages a data set: one random change after another, each a function (folder, random.Random) -> str that says what it did.
-For the tests here, and for whoever wants to try a program on many damaged data sets."""
+"""Damages a data set: one random change after another, each a function (folder, random.Random) -> str that
+says what it did. For the tests here, and for whoever wants to try a program on many damaged data sets."""
 import json
 import os
 import pathlib
@@ -92,7 +92,8 @@ def _places(tree, place=()):
 
 
 def change_json(folder: pathlib.Path, rng: random.Random) -> str:
-    """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to fit."""
+    """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to
+    fit."""
     names = [n for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt") if folder / n in files_of(folder)]
     if not names:
         return "nothing"

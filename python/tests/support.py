@@ -14,7 +14,8 @@ import numpy as np
 
 C = 299792458.0
 
-# A street with everything: two panels, two receivers, time samples with Doppler, a camera and a LiDAR at half the rate.
+# A street with everything: two panels, two receivers, time samples with Doppler, a camera and a LiDAR at half
+# the rate.
 STREET = """
 greatx: 1
 name: street
@@ -155,8 +156,8 @@ def edit_json(path: pathlib.Path, change) -> None:
 
 
 def two_transmitters() -> pathlib.Path:
-    """A data set written by hand: two transmitters, three receivers, one of them (number 1) without any path; two ticks,
-    of which the second has no path at all."""
+    """A data set written by hand: two transmitters, three receivers, one of them (number 1) without any path;
+    two ticks, of which the second has no path at all."""
     out = pathlib.Path(tempfile.mkdtemp(dir=_folder()))
     links = np.array([[0, 0], [0, 1], [0, 1], [2, 0], [2, 0], [2, 1]], np.int32)  # rx, tx of each path
     n = len(links)

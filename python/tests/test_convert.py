@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The converters against closed forms and against the data set's own response. That DeepMIMO itself reads the result is
-checked by tests/peer/deepmimo.py, outside of these tests."""
+"""The converters against closed forms and against the data set's own response. That DeepMIMO itself reads the
+result is checked by tests/peer/deepmimo.py, outside of these tests."""
 import contextlib
 import io
 import json
@@ -69,7 +69,8 @@ class DeepMimo(Converted):
             paths = csi.record(user // 2).paths(user % 2, 0)
             n = len(paths["delay"])
             self.assertEqual(np.count_nonzero(~np.isnan(power[user])), n)
-            # Each path of theirs is one of ours: its interactions are in its digits, its vertices are where they were.
+            # Each path of theirs is one of ours: its interactions are in its digits, its vertices are where
+            # they were.
             by_delay = np.argsort(paths["delay"])
             mine = np.argsort(self.matrix("delay")[user, :n])
             for p, q in zip(mine, by_delay):

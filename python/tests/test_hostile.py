@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Data sets that lie: whatever is wrong with them is a greatx.Error that names the file, and nothing hangs."""
+"""Data sets that lie: whatever is wrong with them is a greatx.Error that names the file, and nothing
+hangs."""
 import copy
 import os
 import pathlib

@@ -469,6 +469,20 @@ class Facts(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "far field"):
             sim.paths().cfr()
 
+    def test_every_element_is_as_in_runs(self):
+        for asked, distance_m, near in ("auto", 3, 1), ("auto", 300, 0), ("on", 300, 1), ("off", 3, 0):
+            sim = greatx.Simulation({**EMPTY, "effects": {"every_element": asked}}, validation=True)
+            sim.place_transmitter("bs", [0, 0, 10], array=greatx.Array(rows=16, columns=16))
+            sim.place_receiver("ue", [distance_m, 0, 10])
+            sim.add_channel("csi", subcarriers=4)
+            paths = sim.paths()
+            self.assertEqual(paths.facts["near_links"], near, (asked, distance_m))
+            self.assertEqual(paths.facts["every_element"], asked)
+            if asked == "on":
+                with self.assertWarnsRegex(UserWarning, "every_element is on"):
+                    paths.cfr()
+            self.assertEqual(next(iter(sim.run()))["csi"].every_element.item(), near, (asked, distance_m))
+
     def test_nodes_of_any_kind(self):
         sim = greatx.Simulation({**EMPTY, "ticks": 3, "tick_rate_hz": 10}, validation=True)
         sim.add_node({"name": "uav", "trajectory": {"type": "waypoints", "points": [

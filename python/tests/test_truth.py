@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A camera's ground truth as a data set holds it, against itself in NumPy: flow by depth and poses, boxes by the 3-D
-box's corners and the picture of ids, depth along the ray by planar depth."""
+"""A camera's ground truth as a data set holds it, against itself in NumPy: flow by depth and poses, boxes by
+the 3-D box's corners and the picture of ids, depth along the ray by planar depth."""
 import unittest
 
 import numpy as np

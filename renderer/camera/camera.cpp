@@ -9,10 +9,18 @@
 #include "renderer/camera/camera_view.h"
 #include "renderer/camera/develop.h"
 #include "renderer/camera/edges.h"
+#include "renderer/camera/lamps.h"
 #include "renderer/camera/meter.h"
-#include "renderer/light/lamps.h"
+#include "shaders/shared/film.h"
 
 namespace greatx::render {
+
+namespace {
+
+constexpr VkFormat visibility_format = VK_FORMAT_R32_UINT;
+constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
+
+}  // namespace
 
 LensGeometry lens_geometry(const CameraDesc& desc) {
   return {desc.name, desc.width, desc.height, desc.fx, desc.fy, desc.cx, desc.cy, desc.distortion};
@@ -54,6 +62,194 @@ CameraPass::CameraPass(const SceneLighting& lighting, const CameraDesc& desc)
 
 CameraPass::~CameraPass() = default;
 
+// These functions check the camera and build its pipelines, images and buffers before the first picture.
+
+void CameraPass::check() const {
+  const auto require = [&](bool holds, const char* field, const char* expected, double found) {
+    if (!holds) throw_user_error("camera {}: {}: expected {}, found {}", desc_.name, field, expected, found);
+  };
+  const double most = scene_->device().limits().maxImageDimension2D;
+  require(desc_.width >= 1 && desc_.width <= most, "width", "1 to the device's largest image", desc_.width);
+  require(desc_.height >= 1 && desc_.height <= most, "height", "1 to the device's largest image",
+          desc_.height);
+  const uint64_t pixels = uint64_t{desc_.width} * desc_.height,
+                 most_pixels = scene_->device().limits().maxStorageBufferRange / sizeof(uvec2);
+  if (pixels > most_pixels)
+    throw_user_error("camera {}: width, height: expected at most {} pixels on '{}', found {} x {}",
+                     desc_.name, most_pixels, scene_->device().info().name, desc_.width, desc_.height);
+  require(std::isfinite(desc_.fx) && desc_.fx > 0.0, "fx", "a positive number of pixels", desc_.fx);
+  require(std::isfinite(desc_.fy) && desc_.fy > 0.0, "fy", "a positive number of pixels", desc_.fy);
+  require(std::isfinite(desc_.cx), "cx", "a number of pixels", desc_.cx);
+  require(std::isfinite(desc_.cy), "cy", "a number of pixels", desc_.cy);
+  require(std::isfinite(desc_.near_m) && desc_.near_m > 0.0, "near_m", "a positive number of metres",
+          desc_.near_m);
+  require(desc_.msaa == 1 || desc_.msaa == 4, "msaa", "1 or 4", desc_.msaa);
+  require(desc_.msaa == 1 || !desc_.smooth_edges, "msaa", "1, for edges are smoothed", desc_.msaa);
+  require(desc_.exposure_ev100 >= -20.0 && desc_.exposure_ev100 <= 24.0, "exposure_ev100", "-20 to 24",
+          desc_.exposure_ev100);
+  require(desc_.outputs.color() || desc_.outputs.luminance || desc_.outputs.ids(), "outputs", "at least one",
+          0);
+  const size_t materials = scene_->scene().materials.size();
+  require(!desc_.outputs.material || materials < 65535, "outputs.material",
+          "a scene of at most 65534 materials", double(materials));
+}
+
+void CameraPass::bound_primitives() {
+  const scene::Scene& scene = scene_->scene();
+  spheres_.reserve(scene.primitives.size());
+  for (const scene::Primitive& primitive : scene.primitives) {
+    scene::Bounds bounds;
+    for (uint32_t i = 0; i < primitive.index_count; ++i)
+      bounds.add(dvec3(scene.positions[scene.indices[primitive.first_index + i]]));
+    spheres_.push_back({bounds.center(), 0.5 * glm::length(bounds.size())});
+  }
+}
+
+void CameraPass::sort_primitives() {
+  const scene::Scene& scene = scene_->scene();
+  for (uint32_t i = 0; i < scene.primitives.size(); ++i) {
+    const scene::Primitive& primitive = scene.primitives[i];
+    const uint32_t body = scene.instances[primitive.instance].body;
+    if (desc_.excluded_body && scene.owner_of(body) == *desc_.excluded_body) continue;
+    const scene::PbrMaterial& pbr = scene.materials[primitive.material].pbr;
+    const bool masked = effects_.alpha_mask && pbr.alpha_mode == scene::AlphaMode::mask;
+    const bool moves = body != 0;
+    (masked ? masked_ : moves ? moving_ : still_).push_back(i);
+    textured_ |=
+        pbr.base_color_texture >= 0 || pbr.metallic_roughness_texture >= 0 || pbr.emissive_texture >= 0;
+    normal_mapped_ |= pbr.normal_texture >= 0;
+    emissive_ |= pbr.emissive != vec3(0.0f);
+  }
+}
+
+void CameraPass::build_pipelines() {
+  gpu::Device& device = scene_->device();
+  gpu::GraphicsDesc draw;
+  draw.bindings = scene::GpuScene::bindings(false);
+  draw.push_constant_bytes = sizeof(shared::CameraConstants);
+  draw.color_formats = {visibility_format};
+  draw.depth_format = depth_format;
+  draw.samples = static_cast<VkSampleCountFlagBits>(desc_.msaa);
+  draw.specialization.resize(shared::shade_spec_count);
+  draw.vertex_shader = "camera/visibility.vert";
+  draw.fragment_shader = "camera/visibility.frag";
+  if (!still_.empty()) visibility_still_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility");
+  draw.specialization[shared::spec_moving_bodies] = 1;
+  if (!moving_.empty())
+    visibility_moving_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility of bodies");
+  if (!masked_.empty()) {
+    draw.vertex_shader = "camera/visibility_masked.vert";
+    draw.fragment_shader = "camera/visibility_masked.frag";
+    draw.textures = &scene_->textures().table();
+    draw.specialization[shared::spec_base_color_arrays] =
+        scene_->textures().arrays_of(&scene::MaterialTextures::base_color);
+    visibility_masked_ = gpu::GraphicsPipeline(device, draw, desc_.name + " visibility masked");
+  }
+
+  gpu::ComputeDesc shade;
+  shade.shader = multisampled() ? "camera/shade_multisampled.comp" : "camera/shade.comp";
+  shade.bindings = scene::GpuScene::bindings(false);
+  for (const gpu::Binding& binding : SceneLighting::bindings()) shade.bindings.push_back(binding);
+  for (const gpu::Binding& binding : SurfaceTables::bindings()) shade.bindings.push_back(binding);
+  shade.bindings.push_back({shared::lights_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  shade.bindings.push_back({shared::lens_binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
+  shade.bindings.push_back({shared::visibility_binding, multisampled()
+                                                            ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                            : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE});
+  for (const uint32_t slot :
+       {shared::shade_color_binding, shared::shade_luminance_binding, shared::shade_seen_binding})
+    shade.bindings.push_back({slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  shade.push_constant_bytes = sizeof(shared::CameraConstants);
+  shade.textures = &scene_->textures().table();
+  shade.specialization.resize(shared::shade_spec_count);
+  shade.specialization[shared::spec_color] = desc_.outputs.color();
+  shade.specialization[shared::spec_triangle_address] = lighting_->surfaces().by_address();
+  shade.specialization[shared::spec_luminance] = desc_.outputs.luminance;
+  shade.specialization[shared::spec_ids] = desc_.outputs.ids();
+  shade.specialization[shared::spec_sun] = effects_.sun;
+  shade.specialization[shared::spec_sky] = effects_.sky;
+  shade.specialization[shared::spec_static_shadows] = effects_.static_shadows;
+  shade.specialization[shared::spec_moving_shadows] = effects_.moving_shadows;
+  shade.specialization[shared::spec_textures] = effects_.textures && textured_;
+  shade.specialization[shared::spec_normal_maps] = effects_.normal_maps && normal_mapped_;
+  shade.specialization[shared::spec_emissive] = effects_.emissive && emissive_;
+  shade.specialization[shared::spec_lights] = effects_.punctual_lights && !scene_->scene().lights.empty();
+  shade.specialization[shared::spec_specular] = effects_.specular;
+  shade.specialization[shared::spec_haze] = effects_.haze;
+  shade.specialization[shared::spec_night_sky] = effects_.night_sky;
+  shade.specialization[shared::spec_ambient_occlusion] = effects_.ambient_occlusion;
+  shade.specialization[shared::spec_distortion] = desc_.distortion.any();
+  shade.specialization[shared::spec_blend] = desc_.parts;
+  const auto arrays_of = [&](scene::TextureReference scene::MaterialTextures::*use) {
+    return scene_->textures().arrays_of(use);
+  };
+  shade.specialization[shared::spec_base_color_arrays] = arrays_of(&scene::MaterialTextures::base_color);
+  shade.specialization[shared::spec_metallic_roughness_arrays] =
+      arrays_of(&scene::MaterialTextures::metallic_roughness);
+  shade.specialization[shared::spec_normal_arrays] = arrays_of(&scene::MaterialTextures::normal);
+  shade.specialization[shared::spec_emissive_arrays] = arrays_of(&scene::MaterialTextures::emissive);
+  shade_ = gpu::ComputePipeline(device, shade, desc_.name + " shade");
+}
+
+void CameraPass::create_images() {
+  const auto image = [&](VkFormat format, VkImageUsageFlags usage, const char* what) {
+    return gpu::Image(scene_->device(),
+                      {.format = format,
+                       .width = pinhole_->width,
+                       .height = pinhole_->height,
+                       .mip_levels = 1,
+                       .samples = static_cast<VkSampleCountFlagBits>(desc_.msaa),
+                       .usage = usage},
+                      fmt::format("{} {}", desc_.name, what));
+  };
+  const VkImageUsageFlags read = multisampled() ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_STORAGE_BIT;
+  visibility_ = image(visibility_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | read, "visibility");
+  depth_ = image(depth_format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth");
+  texel_sampler_ =
+      gpu::Sampler(scene_->device(), {.linear = false, .repeat_u = false, .repeat_v = false}, "texels");
+}
+
+void CameraPass::create_pictures() {
+  constexpr size_t pad = shared::develop_pixels;
+  const size_t pixels = (size_t{desc_.width} * desc_.height + pad - 1) / pad * pad;
+  std::vector<gpu::Buffer*> all;
+  const auto buffer = [&](gpu::Buffer& to, bool wanted, size_t bytes, const char* what) {
+    to = gpu::Buffer(scene_->device(), wanted ? bytes * pixels : 0, gpu::Memory::device,
+                     fmt::format("{} {}", desc_.name, what));
+    all.push_back(&to);
+  };
+  const CameraOutputs& outputs = desc_.outputs;
+  buffer(picture_.color, outputs.color(), sizeof(uvec2), "radiance");
+  buffer(picture_.luminance, outputs.luminance, sizeof(float), "luminance");
+  buffer(shaded_.color, outputs.color() && desc_.smooth_edges, sizeof(uvec2), "radiance with edges");
+  buffer(shaded_.luminance, outputs.luminance && desc_.smooth_edges, sizeof(float), "luminance with edges");
+  buffer(seen_, outputs.ids(), sizeof(uvec2), "seen");
+  gpu::submit_setup(scene_->device(), [&](gpu::Cmd& cmd) {
+    for (const gpu::Buffer* each : all) cmd.fill(each->slice(), 0);
+  });
+}
+
+void CameraPass::upload_lens() {
+  gpu::Device& device = scene_->device();
+  std::vector<vec2> places(1);
+  const bool distorts = desc_.distortion.any();
+  if (distorts) {
+    const std::vector<dvec2> exact =
+        Lens(lens_geometry(desc_)).centers({pinhole_->fx, pinhole_->fy}, {pinhole_->cx, pinhole_->cy});
+    places.assign(exact.begin(), exact.end());
+  }
+  lens_ = gpu::Image(device,
+                     {.format = VK_FORMAT_R32G32_SFLOAT,
+                      .width = distorts ? desc_.width : 1,
+                      .height = distorts ? desc_.height : 1,
+                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+                     fmt::format("{} lens", desc_.name));
+  const std::span<const std::byte> texels = std::as_bytes(std::span(places));
+  gpu::upload_image(device, lens_, std::span(&texels, 1));
+}
+
+// These functions record one picture.
+
 std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, const CameraView& view) {
   const scene::Scene& scene = scene_->scene();
   struct Drawn {
@@ -70,7 +266,8 @@ std::vector<uint32_t> CameraPass::visible(std::span<const uint32_t> primitives, 
   }
   culled_ += static_cast<uint32_t>(primitives.size() - drawn.size());
   drawn_ += static_cast<uint32_t>(drawn.size());
-  // Front to back: what is hidden costs a depth test only. The order is total, so ties come out the same every time.
+  // The order is front to back, so that hidden triangles cost only a depth test. It is total, so that ties
+  // come out the same every time.
   std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) {
     return a.nearest != b.nearest ? a.nearest < b.nearest : a.primitive < b.primitive;
   });
@@ -137,8 +334,8 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
-  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // who reads the picture before
-  const Picture& picture = edges_ ? shaded_ : picture_;
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // for the readers of the picture before
+  const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);
   for (const gpu::Descriptor& descriptor : lighting_->surfaces().descriptors())

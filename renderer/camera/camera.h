@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pinhole camera. The scene is drawn once, into a picture of which triangle each sample sees; a compute pass turns
-// that into radiance, planar depth and ids; another develops and packs them. docs/camera.md has the conventions.
+// Defines a pinhole camera. The scene is drawn once, into a picture that says which triangle each sample
+// sees. A compute pass turns that picture into radiance, planar depth and ids. Another pass develops and
+// packs them. docs/camera.md has the conventions.
 #pragma once
 
 #include <array>
@@ -16,20 +17,21 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "renderer/camera/lens.h"
 #include "renderer/camera/picture.h"
+#include "renderer/lens/lens.h"
 #include "renderer/light/lighting.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
 
-/// What to deliver. Colour is rendered only for rgb or hdr, depth and ids only if one of them is wanted.
+/// Selects the arrays to deliver. Colour is rendered only for rgb or hdr, depth and ids only if one of them
+/// is wanted.
 struct CameraOutputs {
   bool rgb = true, depth = true, instance = true, semantic = true, material = true;
   bool hdr = false;
-  // What stays on the GPU for another pass (CameraPass::luminance, CameraPass::seen).
+  // These outputs stay on the GPU for another pass (CameraPass::luminance, CameraPass::seen).
   bool luminance = false, seen = false;
-  /// Nothing for the host: what an event camera looks at.
+  /// Returns the outputs for an event camera, which sends nothing to the host.
   static CameraOutputs of_luminance(bool seen) {
     return {.rgb = false,
             .depth = false,
@@ -44,7 +46,8 @@ struct CameraOutputs {
   bool arrays() const { return rgb || hdr || depth || instance || semantic || material; }
 };
 
-/// Of a sensor of light (docs/film.md). Every draw is a function of (seed, stream, sequence, tick, pixel) alone.
+/// Describes the noise of a sensor of light (docs/film.md). Every draw is a function of (seed, stream,
+/// sequence, tick, pixel) only.
 struct SensorNoise {
   double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
@@ -53,7 +56,7 @@ struct SensorNoise {
   uint32_t stream = 0;  ///< of the sensor: no two of a run share one
 };
 
-/// Which picture of a run: noise differs from one to the next.
+/// Names one picture of a run. Noise differs from one picture to the next.
 struct FrameNumber {
   uint32_t sequence = 0;
   int64_t tick = 0;
@@ -63,8 +66,8 @@ struct CameraDesc {
   std::string name = "camera";  ///< for labels, timestamps and messages
   uint32_t width = 640, height = 480;
   double fx = 0.0, fy = 0.0;  ///< focal lengths, pixels
-  double cx = 0.0,
-         cy = 0.0;  ///< principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5)
+  /// Principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5).
+  double cx = 0.0, cy = 0.0;
   double near_m = 0.1;              ///< planar depth of the nearest visible point; there is no far plane
   uint32_t msaa = 4;                ///< samples a pixel: 1 or 4
   bool smooth_edges = false;        ///< of one sample a pixel: renderer/camera/edges.h
@@ -76,40 +79,42 @@ struct CameraDesc {
   Vignetting vignetting;             ///< of rgb
   std::optional<SensorNoise> noise;  ///< of rgb
   CameraOutputs outputs;
-  std::optional<uint32_t>
-      excluded_body;  ///< the body that carries the camera, if it shall not see it and its parts
+  /// The body that carries the camera, if the camera shall see neither it nor its parts.
+  std::optional<uint32_t> excluded_body;
 };
 
 LensGeometry lens_geometry(const CameraDesc& desc);
 
-/// A part of the exposure time: pictures of several instants add up to one with motion blur.
+/// Describes a part of the exposure time. Pictures of several instants add up to one with motion blur.
 struct ExposurePart {
-  float weight = 1.0f;  ///< those of a picture sum to 1
+  float weight = 1.0f;  ///< the weights of a picture sum to 1
   bool first = true;
-  bool last = true;  ///< this one's depth and ids are the picture's; then it is developed
+  bool last = true;  ///< this part's depth and ids are those of the picture, which is then developed
 };
 
-/// What a camera saw at one tick; arrays that were not asked for are empty. C order, row 0 on top.
+/// Holds the arrays that a camera delivers at one tick. Arrays that were not asked for are empty. The arrays
+/// are in C order, row 0 on top.
 struct CameraImages {
   uint32_t width = 0, height = 0;
   float ev100 = 0.0f;        ///< of the exposure that rgb was developed with
   std::vector<uint8_t> rgb;  ///< [height, width, 3], sRGB
-  std::vector<float>
-      hdr;  ///< [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 stored_luminance()
+  /// [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 stored_luminance().
+  std::vector<float> hdr;
   std::vector<float> depth;        ///< [height, width], planar metres at the pixel's centre; sky: +inf
   std::vector<uint32_t> instance;  ///< [height, width], instance index + 1; 0: nothing
   std::vector<uint8_t> semantic;   ///< [height, width], SemanticClass; 0: nothing or unlabeled
   std::vector<uint16_t> material;  ///< [height, width], material index + 1; 0: nothing
 };
 
-/// Luminance that saturates the sensor at an exposure value: 1.2 * 2^EV100 cd/m^2 (ISO 12232 with a lens
-/// transmission of .65; Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH course 2014, section 5.1.2).
+/// Returns the luminance that saturates the sensor at an exposure value: 1.2 * 2^EV100 cd/m^2 (ISO 12232 with
+/// a lens transmission of .65; Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH course 2014,
+/// section 5.1.2).
 double saturation_luminance(double ev100);
-/// cd/m^2 that a stored radiance of 1 stands for: L_max of a fixed exposure; of an automatic one what suits the light
-/// of the scene, so that halves hold day and night (docs/film.md).
+/// Returns the cd/m^2 that a stored radiance of 1 stands for. With a fixed exposure it is L_max. With an
+/// automatic one it suits the light of the scene, so that halves hold day and night (docs/film.md).
 double stored_luminance(const CameraDesc& desc, const SceneLighting& lighting);
 
-/// Lamps of one picture (renderer/light/lamps.h).
+/// Counts the lamps of one picture (renderer/camera/lamps.h).
 struct LampCounts {
   uint32_t seen = 0;     ///< lamps in at least one cluster
   uint32_t entries = 0;  ///< lamps summed over clusters
@@ -122,35 +127,37 @@ struct PinholeView;
 
 class CameraPass {
  public:
-  /// Builds only the pipelines that this scene, these outputs and the lighting's effects need. `lighting` and its
-  /// scene outlive the pass. Throws UserError naming the camera and the field if `desc` is not sensible.
+  /// Builds only the pipelines that this scene, these outputs and the lighting's effects need. `lighting` and
+  /// its scene outlive the pass. Throws UserError naming the camera and the field if `desc` is not sensible.
   CameraPass(const SceneLighting& lighting, const CameraDesc& desc);
   ~CameraPass();
 
-  /// Records one picture into the slot; after GpuScene::record_update and SceneLighting::record of the same tick.
-  /// `local_from_sensor`: x forward, y left, z up, in local coordinates.
+  /// Records one picture into the slot. GpuScene::record_update and SceneLighting::record of the same tick
+  /// come before. `local_from_sensor` is in local coordinates: x forward, y left, z up.
   void record(gpu::TickSlot& slot, const Pose& local_from_sensor, const FrameNumber& frame = {},
               const ExposurePart& part = {});
-  /// The picture that was recorded into `slot`, once its submission is done.
+  /// Returns the picture that was recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
 
   const CameraDesc& desc() const { return desc_; }
-  // Of the last record(), written by a compute shader: who reads them puts a barrier before.
-  /// Stored radiance: four halves a pixel, red, green, blue, which times stored_luminance() are cd/m^2, and the share of
-  /// the pixel that shows the scene and not the sky.
+  // The buffers below are those of the last record(). A compute shader writes them, so a reader puts a
+  // barrier before.
+  /// The stored radiance, four halves a pixel. Red, green and blue times stored_luminance() are cd/m^2. The
+  /// fourth is the share of the pixel that shows the scene and not the sky.
   const gpu::Buffer& color() const { return picture_.color; }
   /// Of `outputs.luminance`: float [height * width], cd/m^2.
   const gpu::Buffer& luminance() const { return picture_.luminance; }
-  /// What pixels' centres see: uvec2 [height * width], planar depth's bits (sky: +inf), triangle + 1 (0: nothing).
+  /// The view of the pixels' centres: uvec2 [height * width], the bits of planar depth (sky: +inf),
+  /// triangle + 1 (0: nothing).
   const gpu::Buffer& seen() const { return seen_; }
-  /// Primitives drawn, and left out because they lie outside the view, by the last record().
+  /// The numbers of primitives that the last record() drew, and left out because they lie outside the view.
   uint32_t drawn() const { return drawn_; }
   uint32_t culled() const { return culled_; }
-  /// Lamps of the last record().
+  /// The lamps of the last record().
   const LampCounts& lamps() const { return lamps_; }
 
  private:
-  /// Bounding sphere of a primitive in its body's frame.
+  /// Holds the bounding sphere of a primitive in its body's frame.
   struct Sphere {
     dvec3 center{0.0};
     double radius = 0.0;
@@ -174,15 +181,15 @@ class CameraPass {
   CameraEffects effects_;
   std::vector<Sphere> spheres_;
   std::vector<uint32_t> still_, moving_, masked_;                     ///< primitives; the first two opaque
-  bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< what their materials need
+  bool textured_ = false, normal_mapped_ = false, emissive_ = false;  ///< the needs of their materials
   gpu::GraphicsPipeline visibility_still_, visibility_moving_, visibility_masked_;
   gpu::ComputePipeline shade_;
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
   std::unique_ptr<PinholeView> pinhole_;
-  gpu::Image lens_;  ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
-  Picture shaded_;   ///< before its edges are smoothed; nothing if they are not
-  Picture picture_;
+  gpu::Image lens_;        ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
+  PictureBuffers shaded_;  ///< before its edges are smoothed; nothing if they are not
+  PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted
   std::unique_ptr<DevelopPass> develop_;  ///< null if no array is wanted

@@ -34,7 +34,7 @@ CameraView::CameraView(const PinholeView& pinhole_view, double near_m, const Pos
       // Optical axes: right = -left, down = -up.
       right(local_from_sensor.rotate({0.0, -1.0, 0.0})),
       down(local_from_sensor.rotate({0.0, 0.0, -1.0})) {
-  // u = cx + fx x / z: in Vulkan's clip space, y down, -w to w over the width.
+  // In Vulkan's clip space u = cx + fx x / z, with y down and -w to w over the width.
   const double width = pinhole.width, height = pinhole.height;
   const dvec3 clip_x = right * (2.0 * pinhole.fx / width) + forward * (2.0 * pinhole.cx / width - 1.0);
   const dvec3 clip_y = down * (2.0 * pinhole.fy / height) + forward * (2.0 * pinhole.cy / height - 1.0);
@@ -60,7 +60,7 @@ CameraView::CameraView(const PinholeView& pinhole_view, double near_m, const Pos
 }
 
 bool CameraView::outside(const dvec3& center, double radius) const {
-  // A little more than the sphere: vertices are rounded to floats.
+  // The sphere is taken a little larger, since vertices are rounded to floats.
   const double reach = radius + 1e-3 + 1e-6 * glm::length(center);
   return std::ranges::any_of(
       planes_, [&](const Plane& plane) { return glm::dot(plane.normal, center) < plane.offset - reach; });

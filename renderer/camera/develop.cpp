@@ -19,7 +19,7 @@ std::vector<T> copied(const gpu::Slice& slice, size_t count) {
   return std::vector<T>(values.begin(), values.begin() + static_cast<ptrdiff_t>(count));
 }
 
-/// Invocations of the developing pass.
+/// Returns the invocations of the developing pass.
 uint32_t groups_of(const CameraDesc& desc) {
   return (desc.width * desc.height + shared::develop_pixels - 1) / shared::develop_pixels;
 }
@@ -28,7 +28,7 @@ uint32_t groups_of(const CameraDesc& desc) {
 
 shared::SensorConstants sensor_constants(const SensorNoise& noise, const FrameNumber& frame) {
   GREATX_CHECK(frame.tick >= 0 && frame.tick <= std::numeric_limits<uint32_t>::max(), "tick {}", frame.tick);
-  // A key of its own for each sensor and sequence, so that the counter is left for ticks and pixels.
+  // Each sensor and sequence has a key of its own, so that the counter is left for ticks and pixels.
   const shared::uvec4 key = shared::philox4x32(
       shared::uvec4(noise.stream, frame.sequence, 0x66696c6du, 0u),
       shared::uvec2(static_cast<uint32_t>(noise.seed), static_cast<uint32_t>(noise.seed >> 32)));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last stage of a camera: from radiance and what the pixels see to arrays in the tick's readback arena. Exposure,
-// vignetting, sensor noise, tone curve: docs/film.md.
+// This is the last stage of a camera. It turns radiance and the view of the pixels into arrays in the tick's
+// readback arena. docs/film.md describes exposure, vignetting, sensor noise and tone curve.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@
 
 namespace greatx::render {
 
-/// What a sensor's noise is drawn from, as shaders read it. `frame.tick` must fit 32 bits.
+/// Returns the constants from which shaders draw a sensor's noise. `frame.tick` must fit 32 bits.
 shared::SensorConstants sensor_constants(const SensorNoise& noise, const FrameNumber& frame);
 
 class DevelopPass {
  public:
-  /// Builds the pipelines for the outputs and effects of `desc`. `lighting` outlives this. Throws UserError naming the
-  /// camera if the vignetting, the noise or the compensation is not sensible.
+  /// Builds the pipelines for the outputs and effects of `desc`. `lighting` outlives this. Throws UserError
+  /// naming the camera if the vignetting, the noise or the compensation is not sensible.
   DevelopPass(const SceneLighting& lighting, const CameraDesc& desc);
-  /// `color` and `seen` as CameraPass keeps them (Picture::color, CameraPass::seen).
+  /// `color` and `seen` are the buffers of CameraPass (PictureBuffers::color, CameraPass::seen).
   void record(gpu::TickSlot& slot, const gpu::Buffer& color, const gpu::Buffer& seen,
               const FrameNumber& frame);
-  /// What was recorded into `slot`, once its submission is done.
+  /// Returns the arrays that were recorded into `slot`, once its submission is done.
   CameraImages collect(const gpu::TickSlot& slot) const;
 
  private:

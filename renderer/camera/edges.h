@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Smooth edges of a picture that was shaded once a pixel (shaders/camera/edges.comp.glsl): a quarter of what four samples
-// a pixel cost on a CPU. What is thinner than a pixel stays as coarse as without.
+// Smooths the edges of a picture that was shaded once a pixel (shaders/camera/edges.comp.glsl). On a CPU this
+// costs a quarter of four samples a pixel. Objects thinner than a pixel stay as coarse as before.
 #pragma once
 
 #include <string>
@@ -16,13 +16,13 @@ struct CameraView;
 
 class EdgePass {
  public:
-  /// For colour, luminance or both, as `desc` delivers them. `lighting` outlives this.
+  /// Smooths colour, luminance or both, as `desc` delivers them. `lighting` outlives this.
   EdgePass(const SceneLighting& lighting, const CameraDesc& desc);
-  /// A picture, what its pixels see (CameraPass::seen), and where its smooth version goes.
+  /// Names a picture, the view of its pixels (CameraPass::seen), and the buffers of its smooth version.
   struct Pictures {
-    const Picture& from;
+    const PictureBuffers& from;
     const gpu::Buffer& seen;
-    const Picture& to;
+    const PictureBuffers& to;
   };
   void record(gpu::TickSlot& slot, const CameraView& view, const gpu::Descriptor& lens,
               const Pictures& pictures);

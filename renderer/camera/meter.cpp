@@ -50,10 +50,11 @@ gpu::Slice MeterPass::record(gpu::TickSlot& slot, const gpu::Buffer& color) {
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(scope_);
-  cmd.barrier(gpu::sync::compute_read, gpu::sync::transfer_write);  // the picture before
+  // waits for the copy of the picture before
+  cmd.barrier(gpu::sync::compute_read, gpu::sync::transfer_write);
   cmd.fill(bins_.slice(), 0);
   cmd.barrier(gpu::sync::transfer_write, gpu::sync::compute);
-  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);  // the colour
+  cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);  // waits for the colour
   cmd.bind(histogram_);
   cmd.push({gpu::Descriptor::buffer(shared::meter_color_binding, color)});
   cmd.constants(constants);

@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "core/error.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 
 namespace greatx::render {
 
 namespace {
 
-/// Right, down, forward of a sensor.
+/// The axes right, down, forward of a sensor.
 dmat3 local_from_optical(const Pose& local_from_sensor) {
   return {local_from_sensor.rotate({0.0, -1.0, 0.0}), local_from_sensor.rotate({0.0, 0.0, -1.0}),
           local_from_sensor.rotate({1.0, 0.0, 0.0})};
@@ -34,8 +34,8 @@ shared::GpuBodyMotion body_motion(const Pose& local_from_sensor, const Pose& loc
   const dmat3 turn = glm::mat3_cast(next_local_from_body.orientation) *
                      glm::transpose(glm::mat3_cast(local_from_body.orientation));
   const dmat3 change = next_optical_from_local * turn * now - dmat3(1.0);
-  // From the eye now to the body, turned with it, back from its next origin to the next eye: differences of positions
-  // first, so that large coordinates cancel exactly.
+  // The shift goes from the eye now to the body, turns with it, and goes back from its next origin to the
+  // next eye. Differences of positions come first, so that large coordinates cancel exactly.
   const dvec3 to_eye = local_from_sensor.position - local_from_body.position;
   const dvec3 shift = next_optical_from_local *
                       (turn * to_eye + (next_local_from_body.position - next_local_from_sensor.position));
@@ -55,7 +55,8 @@ TruthPass::TruthPass(const SceneLighting& lighting, const CameraDesc& desc, cons
   truth.push_constant_bytes = sizeof(shared::TruthConstants);
   const Distortion& lens = desc.distortion;
   const auto bits = [](double value) { return std::bit_cast<uint32_t>(static_cast<float>(value)); };
-  // A little within the fold, where the picture would turn back; finite, for shaders need not know infinities.
+  // The radius is a little within the fold, where the picture would turn back. It is finite, since shaders
+  // need not support infinities.
   const double fold = std::min(lens.fold_radius(), 1e15);
   truth.specialization.resize(shared::truth_spec_count);
   truth.specialization[shared::truth_spec_normals] = outputs.normals;

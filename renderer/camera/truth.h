@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ground truth of a camera's pixels besides planar depth and ids (which DevelopPass unpacks): surface normals, distance
-// along the ray, optical flow. docs/truth.md has conventions, formulas and accuracy.
+// Computes ground truth of a camera's pixels besides planar depth and ids (which DevelopPass unpacks):
+// surface normals, distance along the ray, optical flow. docs/truth.md has conventions, formulas and
+// accuracy.
 #pragma once
 
 #include <span>
@@ -20,15 +21,16 @@ struct TruthOutputs {
   bool any() const { return normals || depth_ray || flow; }
 };
 
-/// Arrays that were not asked for are empty. C order, row 0 on top.
+/// Arrays that were not asked for are empty. They are in C order, row 0 on top.
 struct TruthImages {
-  std::vector<float>
-      normals;  ///< [height, width, 3] unit, local (= world) axes, on the eye's side; 0 where nothing is
+  /// [height, width, 3] unit, local (= world) axes, on the eye's side; 0 where there is no surface.
+  std::vector<float> normals;
   std::vector<float> depth_ray;  ///< [height, width] distance from the eye, m; sky: +inf
-  std::vector<float> flow;       ///< [height, width, 2] to the right and down, pixels; NaN: out of sight then
+  /// [height, width, 2] to the right and down, pixels; NaN: out of sight at the next picture
+  std::vector<float> flow;
 };
 
-/// A camera and the bodies it looks at, at one instant; local coordinates.
+/// Describes a camera and the bodies that it looks at, at one instant, in local coordinates.
 struct TruthInstant {
   Pose local_from_sensor;
   std::span<const Pose> bodies;  ///< by body; [0] is ignored: the static world stays
@@ -36,14 +38,14 @@ struct TruthInstant {
 
 class TruthPass {
  public:
-  /// Builds the pipeline for `outputs`, at least one, of the camera `desc`, whose `outputs.seen` is set. `lighting`
-  /// outlives this.
+  /// Builds the pipeline for `outputs`, at least one, of the camera `desc`, whose `outputs.seen` is set.
+  /// `lighting` outlives this.
   TruthPass(const SceneLighting& lighting, const CameraDesc& desc, const TruthOutputs& outputs);
-  /// After CameraPass::record of the same tick; `seen` is its seen(). `next`: where all is when the camera takes
-  /// its next picture; read only for the flow.
+  /// Is called after CameraPass::record of the same tick; `seen` is its seen(). `next` says where everything
+  /// is when the camera takes its next picture. It is read only for the flow.
   void record(gpu::TickSlot& slot, const gpu::Buffer& seen, const TruthInstant& now,
               const TruthInstant& next);
-  /// What was recorded into `slot`, once its submission is done.
+  /// Returns the arrays that were recorded into `slot`, once its submission is done.
   TruthImages collect(const gpu::TickSlot& slot) const;
 
  private:
@@ -61,7 +63,7 @@ class TruthPass {
   std::string scope_;
 };
 
-/// How a body moves against the camera from one instant to the other (shared::GpuBodyMotion).
+/// Returns how a body moves against the camera from one instant to the other (shared::GpuBodyMotion).
 shared::GpuBodyMotion body_motion(const Pose& local_from_sensor, const Pose& local_from_body,
                                   const Pose& next_local_from_sensor, const Pose& next_local_from_body);
 

@@ -15,11 +15,11 @@ namespace greatx::render {
 
 namespace {
 
-constexpr uint32_t pattern_sequence = ~0u;  ///< draws that are the sensor's, not a sequence's
+constexpr uint32_t pattern_sequence = ~0u;  ///< for draws that belong to the sensor, not to a sequence
 
 constexpr uint32_t groups(uint32_t count, uint32_t size) { return (count + size - 1) / size; }
 
-/// Rounded down, so that k thresholds are never more than k times the number that was asked for.
+/// Rounds down, so that k thresholds are never more than k times the number that was asked for.
 int32_t fixed_threshold(double c) { return static_cast<int32_t>(std::floor(c * shared::log_one)); }
 
 glm::uvec2 key_of(const EventDesc& desc, uint32_t sequence) {
@@ -27,7 +27,7 @@ glm::uvec2 key_of(const EventDesc& desc, uint32_t sequence) {
   return {static_cast<uint32_t>(bits), static_cast<uint32_t>(bits >> 32)};
 }
 
-/// Thresholds leaked by then, 32.32 fixed point.
+/// Returns the thresholds leaked by then, in 32.32 fixed point.
 uint64_t turns_at(double rate_hz, int64_t t_ns) {
   __extension__ using Wide = unsigned __int128;
   const auto rate = static_cast<uint64_t>(std::llround(rate_hz * 0x1p32));
@@ -54,7 +54,7 @@ void EventPass::check() const {
   constexpr uint32_t largest_edge = 16384;  // 14 bits of an event's place
   require(desc_.width >= 1 && desc_.width <= largest_edge, "width", "1 to 16384", desc_.width);
   require(desc_.height >= 1 && desc_.height <= largest_edge, "height", "1 to 16384", desc_.height);
-  constexpr uint64_t pixel_bytes = 8;  // of the largest that is kept of each
+  constexpr uint64_t pixel_bytes = 8;  // of the largest value that is kept of each pixel
   const uint64_t pixels = uint64_t{desc_.width} * desc_.height,
                  most_pixels = scene_->device().limits().maxStorageBufferRange / pixel_bytes;
   if (pixels > most_pixels)
@@ -178,7 +178,7 @@ void EventPass::upload_thresholds() {
   std::vector<glm::ivec2> values(wanted ? size_t(desc_.width) * desc_.height : 0);
   for (uint32_t pixel = 0; pixel < values.size(); ++pixel) {
     const glm::uvec4 words = shared::random_bits(key.x, key.y, 0, pixel, 0);
-    // Box and Muller's two normal numbers: one for each threshold.
+    // Box and Muller's method gives two normal numbers, one for each threshold.
     const double radius = std::sqrt(-2.0 * std::log((words.x + 0.5) * 0x1p-32));
     const double angle = 2.0 * pi * words.y * 0x1p-32;
     const auto threshold = [&](double c, double normal) {

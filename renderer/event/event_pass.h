@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From linear luminance to events and difference images (docs/events.md). A camera takes pictures at several instants of
-// each interval between two samples; this pass turns each step from one picture to the next into events, on the GPU, and
-// keeps every pixel's state from tick to tick. The model of a pixel is shaders/shared/events.h.
+// Turns linear luminance into events and difference images (docs/events.md). A camera takes pictures at
+// several instants of each interval between two samples. This pass turns each step from one picture to the
+// next into events, on the GPU, and keeps the state of every pixel from tick to tick. The model of a pixel is
+// shaders/shared/events.h.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,12 @@
 
 #include "gpu/tick_ring.h"
 #include "renderer/event/event_sort.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/shared/events.h"
 
 namespace greatx::render {
 
-/// When pictures are taken within an interval.
+/// Names the rule by which pictures are taken within an interval.
 enum class EventSteps {
   fixed,          ///< at each of `substeps` even instants
   by_flow,        ///< at those of them that keep motion from picture to picture to `wanted` pixels
@@ -41,7 +42,7 @@ struct EventDesc {
   double cutoff_hz = 0.0;       ///< 0: unlimited bandwidth
   double dark_cd_m2 = 1e-3;     ///< added before the logarithm
   double bright_cd_m2 = 1e3;    ///< of relative intensity 1: bandwidth and shot noise
-  uint32_t capacity = 1 << 20;  ///< events an interval that there is room for
+  uint32_t capacity = 1 << 20;  ///< room for this many events, an interval
   bool events = true, instance = false, differences = false;
   double difference_on_cd_m2 = 1.0, difference_off_cd_m2 = 1.0;
   uint64_t seed = 0;
@@ -49,60 +50,61 @@ struct EventDesc {
   bool adaptive() const { return steps != EventSteps::fixed; }
 };
 
-/// Thresholds of a pixel are no smaller and no larger than this, whatever the mismatch draws (0.01: v2e, ESIM).
+/// Thresholds of a pixel stay within these bounds, whatever the mismatch draws (0.01: v2e, ESIM).
 inline constexpr double least_threshold = 0.01, largest_threshold = 2.0;
 
-/// From the sample before to this one.
+/// Holds the interval from the sample before to this one.
 struct EventInterval {
   int64_t begin_ns = 0, end_ns = 0;  ///< after the beginning of the sequence
   int64_t sample = 0;
   uint32_t sequence = 0;
 };
 
-/// What happened in an interval, in order of (t, y, x, p).
+/// Holds the events and pictures of an interval, in order of (t, y, x, p).
 struct EventFrame {
   std::vector<uint32_t> t_ns;  ///< after the interval's start, 1 to its length
   std::vector<uint16_t> x, y;  ///< column, row
   std::vector<uint8_t> p;      ///< 1: brighter, 0: darker
   std::vector<uint32_t> instance;
   uint64_t dropped = 0;            ///< events beyond the capacity
-  uint32_t pictures = 0;           ///< taken, without the one that the interval begins with
-  uint32_t coarse = 0;             ///< of those, how many moved or changed more than wanted
-  double largest = 0.0;            ///< motion or change from picture to picture; adaptive steps alone
+  uint32_t pictures = 0;           ///< pictures taken, without the one that the interval begins with
+  uint32_t coarse = 0;             ///< the number of those that moved or changed more than wanted
+  double largest = 0.0;            ///< motion or change from picture to picture; only with adaptive steps
   std::vector<int8_t> difference;  ///< [height, width]: 1, 0, -1
   size_t size() const { return t_ns.size(); }
 };
 
 class EventPass {
  public:
-  /// Builds the pipelines that `desc` needs. `scene` outlives this. Throws UserError naming the sensor and the field if a
-  /// value is out of its range or the device cannot do adaptive steps.
+  /// Builds the pipelines that `desc` needs. `scene` outlives this. Throws UserError naming the sensor and
+  /// the field if a value is out of its range or the device cannot do adaptive steps.
   EventPass(const scene::GpuScene& scene, const EventDesc& desc);
 
-  /// Forgets everything: the next interval's picture sets the references.
+  /// Forgets everything: the picture of the next interval sets the references.
   void restart() { first_ = true; }
   bool first() const { return first_; }
 
-  /// Begins an interval in the slot's command buffer. If it is the first, step() takes one picture, of index 0; otherwise
-  /// one for each index from 1 to substeps, in order.
+  /// Begins an interval in the slot's command buffer. In the first interval, step() takes one picture, of
+  /// index 0. Otherwise it takes one for each index from 1 to substeps, in order.
   void begin(gpu::TickSlot& slot, const EventInterval& interval);
-  /// Whether the picture is taken: for gpu::Condition around everything that makes it, step() included. An empty slice: it
-  /// is, whatever happens.
+  /// Returns the word that says whether the picture is taken. gpu::Condition uses it around everything that
+  /// makes the picture, step() included. If the slice is empty, the picture is always taken.
   gpu::Slice condition(uint32_t index) const;
-  /// Instant of the picture, after the beginning of the sequence.
+  /// Returns the instant of the picture, after the beginning of the sequence.
   int64_t time_ns(uint32_t index) const;
-  /// `luminance`: float [height * width], cd/m^2; `seen`: as CameraPass::seen(), of `instance` and by_flow, else null;
-  /// both written by a compute shader, and read by one until end(). `motions`: by body, of by_flow.
+  /// `luminance` is float [height * width], cd/m^2. `seen` is as CameraPass::seen(), for `instance` and
+  /// by_flow, else null. A compute shader writes both, and one reads them until end(). `motions` has one
+  /// element a body, for by_flow.
   void step(gpu::TickSlot& slot, uint32_t index, const gpu::Buffer& luminance, const gpu::Buffer* seen,
             std::span<const shared::EventMotion> motions);
-  /// Ends it; `luminance`: of the last picture.
+  /// Ends the interval; `luminance` is that of the last picture.
   void end(gpu::TickSlot& slot, const gpu::Buffer& luminance);
 
-  /// The interval that was recorded into `slot`, once its submission is done.
+  /// Returns the interval that was recorded into `slot`, once its submission is done.
   EventFrame collect(const gpu::TickSlot& slot);
 
   const EventDesc& desc() const { return desc_; }
-  /// Whether step() reads what pixels see.
+  /// Returns whether step() reads the view of the pixels.
   bool needs_seen() const { return desc_.instance || desc_.steps == EventSteps::by_flow; }
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Puts events in order of (t, y, x, p). The GPU writes each step's events row by row, so a stable sort by time alone is
-// enough; a radix sort takes one pass over them for each 13 bits of the interval.
+// Puts events in order of (t, y, x, p). The GPU writes the events of each step row by row, so a stable sort
+// by time is enough. A radix sort takes one pass over them for each 13 bits of the interval.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace greatx::render {
 
-/// As the GPU writes it.
+/// Describes an event as the GPU writes it.
 struct ListedEvent {
   uint32_t t_ns;
   uint32_t place;  ///< row << 15 | column << 1 | p
@@ -26,11 +26,11 @@ struct ListedEventOfInstance : ListedEvent {
   uint32_t instance;
 };
 
-/// Sorts, keeping its memory from one interval to the next.
+/// Sorts events and keeps its memory from one interval to the next.
 template <typename Event>
 class EventSorter {
  public:
-  /// Events of one time must be in order of their pixels beforehand. None is later than interval_ns.
+  /// Events of one time must be in order of their pixels beforehand. No event is later than interval_ns.
   void sort(std::span<const Event> events, uint32_t interval_ns) {
     const auto bits = static_cast<uint32_t>(std::bit_width(interval_ns | 1u));
     const uint32_t passes = (bits + most_digit_bits - 1) / most_digit_bits,
@@ -50,7 +50,7 @@ class EventSorter {
       sorted_.swap(scratch_);
       from = sorted_;
     }
-    // A pixel's events of the same nanosecond, one of them noise: by polarity.
+    // Two events of a pixel in the same nanosecond, of which one is noise, are ordered by polarity.
     for (size_t i = 1; i < sorted_.size(); ++i)
       for (size_t j = i; j > 0 && sorted_[j] < sorted_[j - 1]; --j) std::swap(sorted_[j], sorted_[j - 1]);
   }

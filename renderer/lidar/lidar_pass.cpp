@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
+#include "renderer/lidar/scan/footprint.h"
 
 namespace greatx::render {
 
@@ -26,7 +26,7 @@ void check(const LidarDesc& desc) {
                receiver.backscatter_per_m_sr);
 }
 
-/// Rows of local_from_sensor, fp64 until the last moment.
+/// Returns the rows of local_from_sensor, which stay in fp64 until the last moment.
 shared::GpuBody rows_of(const Pose& pose) {
   const dmat3 r = glm::mat3_cast(pose.orientation);
   const auto row = [&](int i) { return vec4(dvec4(r[0][i], r[1][i], r[2][i], pose.position[i])); };
@@ -153,7 +153,7 @@ LidarPass::Pending LidarPass::record(gpu::TickSlot& slot, std::span<const Pose> 
 
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(name_);
-  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // the copy of the sweep before
+  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // waits for the copy of the sweep before
   cmd.bind(pipeline_);
   // Bindings that this pipeline does not use get some buffer.
   const auto some = [&](const gpu::Buffer& buffer) {

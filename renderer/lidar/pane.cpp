@@ -16,7 +16,7 @@ bool is_air(const scene::RadioMedium& medium) {
                      [](const scene::RadioRow& row) { return row.a == 1.0 && row.b == 0.0 && row.c == 0.0; });
 }
 
-/// Sheets of glass; 0: something else is there, or no end of it.
+/// Returns the number of sheets of glass, or 0 if the material has other layers or no end.
 uint32_t sheets_of(const scene::RadioMaterial& radio) {
   if (radio.foliage) return 0;
   uint32_t sheets = 0;

@@ -8,7 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/units.h"
-#include "renderer/octahedral.h"
+#include "renderer/surface/octahedral.h"
 
 namespace greatx::render {
 
@@ -21,8 +21,8 @@ double radical_inverse(uint32_t bits) {
   return value;
 }
 
-/// Radiance around `direction`, weighted as GGX reflects it when looked at head-on (Karis, "Real Shading in Unreal
-/// Engine 4", 2013: n = v = r).
+/// Returns the radiance around `direction`, weighted as GGX reflects it when looked at head-on (Karis, "Real
+/// Shading in Unreal Engine 4", 2013: n = v = r).
 dvec3 blurred(const std::vector<dvec3>& base, uint32_t size, const dvec3& direction, double roughness,
               uint32_t samples) {
   const double alpha = roughness * roughness;

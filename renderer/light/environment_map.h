@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sky as a picture: octahedral (renderer/octahedral.h).
+// Defines the sky as an octahedral picture (renderer/surface/octahedral.h).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace greatx::render {
 
-/// Octahedral environment map, RGBA half floats, one vector a mip level. Texels hold radiance / scale.
+/// Describes an octahedral environment map, RGBA half floats, one vector a mip level. Texels hold radiance /
+/// scale.
 struct EnvironmentMap {
   double scale = 1.0;
   std::vector<std::vector<uint16_t>> levels;

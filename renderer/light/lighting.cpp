@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "renderer/daylight/haze.h"
 #include "renderer/light/environment_map.h"
-#include "renderer/light/haze.h"
 #include "renderer/light/night_sky.h"
 #include "renderer/light/sky.h"
 #include "renderer/light/sky_view.h"
@@ -17,7 +17,8 @@ namespace greatx::render {
 
 namespace {
 
-/// Of the ground's radiance, what hides the sky sends on: an albedo of 0.2, seen half in the shade.
+/// The share of the ground's radiance that the objects which hide the sky send on: an albedo of 0.2, seen
+/// half in the shade.
 constexpr float bounce_share = 0.1f;
 
 void check(const Lighting& lighting) {

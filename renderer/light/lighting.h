@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sun, sky and shadows of a scene, shared by all its cameras: made once, only moving bodies' shadows change.
+// Defines sun, sky and shadows of a scene, which all its cameras share. They are made once, and only the
+// shadows of moving bodies change.
 #pragma once
 
 #include <span>
@@ -11,8 +12,8 @@
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
 #include "renderer/light/shadow.h"
-#include "renderer/surface_tables.h"
-#include "scene/gpu_scene.h"
+#include "renderer/surface/surface_tables.h"
+#include "scene/device/gpu_scene.h"
 
 namespace greatx::render {
 
@@ -22,31 +23,32 @@ enum class SkyModel {
   uniform,   ///< the same white radiance from everywhere, ground included: a closed form for tests, a furnace
 };
 
-/// Light that reaches the scene from outside, photometric: lux. The sun's and the sky's colours are scaled so that
-/// 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is sun sin(elevation) + sky exactly.
+/// Describes the light that reaches the scene from outside. It is photometric, in lux. The sun's and the
+/// sky's colours are scaled so that 0.2126 R + 0.7152 G + 0.0722 B of a horizontal plane's irradiance is
+/// exactly sun sin(elevation) + sky.
 struct Lighting {
   dvec3 sun_direction{0.0, 0.0, 1.0};  ///< unit, local axes (x east, y north, z up), to the sun
-  double sun_illuminance_lux =
-      100000.0;  ///< on a surface facing the sun; no light while the sun is below the horizon
+  /// On a surface facing the sun. There is no light while the sun is below the horizon.
+  double sun_illuminance_lux = 100000.0;
   dvec3 moon_direction{0.0, 0.0, -1.0};
   double moon_illuminance_lux = 0.0;     ///< on a surface facing the moon
-  double moon_phase_angle = 0.0;         ///< rad: 0 full, pi new; of the disc alone
+  double moon_phase_angle = 0.0;         ///< rad: 0 full, pi new; changes only the disc
   double sky_illuminance_lux = 15000.0;  ///< on level ground from the sky alone
-  double sky_glow_cd_m2 = 0.0;           ///< of a city, at the zenith: a night sky's colour and gradient
+  double sky_glow_cd_m2 = 0.0;  ///< of a city, at the zenith: it has a night sky's colour and gradient
   SkyModel sky_model = SkyModel::clear;
   double turbidity = 2.0;              ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
-  double ground_albedo = 0.15;         ///< of what lies below the horizon beyond the scene; clear sky only
-  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/light/haze.h
+  double ground_albedo = 0.15;         ///< of the ground below the horizon beyond the scene; clear sky only
+  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/daylight/haze.h
   double haze_depth = 0.0;             ///< their optical depth between scene and sky, vertically
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 128;   ///< edge of a moving body's tile, at most
 
-  /// To the sun at `azimuth` from x towards y and `elevation` above the horizon, rad.
+  /// Returns the direction to the sun at `azimuth` from x towards y and `elevation` above the horizon, rad.
   static dvec3 direction(double azimuth, double elevation);
 };
 
-/// The one light that casts shadows: the sun while it is up, else the moon.
+/// Describes the one light that casts shadows: the sun while it is up, else the moon.
 struct KeyLight {
   enum class Body { none, sun, moon };
   dvec3 direction{0.0, 0.0, 1.0};  ///< unit
@@ -55,10 +57,11 @@ struct KeyLight {
 };
 KeyLight key_light(const Lighting& lighting);
 
-/// What the effect plan switches on. Off: not in the pipelines, not rendered, not uploaded. Textures, normal maps and
-/// alpha masks need GpuSceneOptions::textures.
+/// Holds the effects that the effect plan switches on; names that the plan has, too, are the same
+/// (sim/plan/effect_list.h). An effect that is off is not in the pipelines, not rendered and not uploaded.
+/// Textures, normal maps and alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
-  bool sun = true;             ///< the key light, be it sun or moon
+  bool sun = true;             ///< the key light: sun or moon
   bool sky = true;             ///< as background, ambient light and reflection
   bool static_shadows = true;  ///< only with the key light
   bool moving_shadows = true;  ///< only with the key light
@@ -69,7 +72,7 @@ struct CameraEffects {
   bool punctual_lights = true;
   bool haze = false;               ///< fog and rain
   bool night_sky = false;          ///< stars, the moon's disc
-  bool ambient_occlusion = false;  ///< of the sky's light, by what never moves
+  bool ambient_occlusion = false;  ///< of the sky's light, by bodies that never move
   bool specular = true;            ///< off: every surface is Lambertian
 };
 
@@ -77,23 +80,24 @@ class Sky;
 
 class SceneLighting {
  public:
-  /// Bakes the sky and renders the static shadow map (set-up submissions). `scene` outlives this.
-  /// Throws UserError if a value of `lighting` is out of its range.
+  /// Bakes the sky and renders the static shadow map (set-up submissions). `scene` outlives this. Throws
+  /// UserError if a value of `lighting` is out of its range.
   SceneLighting(const scene::GpuScene& scene, const Lighting& lighting, const CameraEffects& effects);
 
-  /// Once a tick, after the scene's update and before the cameras: the moving bodies' shadows. Poses as given to
-  /// GpuScene::record_update.
+  /// Records the moving bodies' shadows, once a tick, after the scene's update and before the cameras. The
+  /// poses are those given to GpuScene::record_update.
   void record(gpu::TickSlot& slot, std::span<const Pose> body_poses);
 
   const CameraEffects& effects() const { return effects_; }
   const scene::GpuScene& scene() const { return *scene_; }
-  /// Poses of the tick being recorded; [0] is the identity.
+  /// The poses of the tick that is being recorded; [0] is the identity.
   const std::vector<Pose>& body_poses() const { return body_poses_; }
   const ShadowMaps& shadows() const { return shadows_; }
-  /// On level ground from sun and sky, less what an effect leaves out.
+  /// The illuminance of level ground from sun and sky, less the part that an effect leaves out.
   double ground_illuminance_lux() const { return ground_illuminance_lux_; }
   const SurfaceTables& surfaces() const { return surfaces_; }
-  /// Bindings and descriptors that every camera's shading shares, without the lamps (each camera has its own).
+  /// The bindings and descriptors that every camera's shading shares. The lamps are not among them, since
+  /// each camera has its own.
   static std::vector<gpu::Binding> bindings();
   std::vector<gpu::Descriptor> descriptors() const;
 
@@ -102,7 +106,7 @@ class SceneLighting {
   void bake_sky_view(shared::GpuLighting& block);
 
   const scene::GpuScene* scene_;
-  CameraEffects effects_;  ///< what was asked, less what this light cannot cast
+  CameraEffects effects_;  ///< the effects asked for, less those that this light cannot cast
   ShadowMaps shadows_;
   double ground_illuminance_lux_ = 0.0;
   gpu::Image environment_;

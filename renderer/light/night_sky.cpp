@@ -10,9 +10,9 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "renderer/light/almanac.h"
+#include "renderer/daylight/almanac.h"
 #include "renderer/light/sky.h"
-#include "renderer/octahedral.h"
+#include "renderer/surface/octahedral.h"
 
 namespace greatx::render {
 
@@ -22,7 +22,7 @@ constexpr double faintest = 6.0;
 constexpr double log_counts[] = {0.301, 0.602, 1.176, 1.681, 2.233, 2.710, 3.205, 3.681};  // at -1, 0, ... 6
 constexpr uint32_t star_stream = 0x57a125;
 
-/// Magnitude than which `count` stars are brighter.
+/// Returns the magnitude than which `count` stars are brighter.
 double magnitude_of(double count) {
   const double log_count = std::log10(count);
   size_t i = 0;
@@ -45,8 +45,9 @@ std::vector<Star> draw_stars(uint64_t seed) {
   RandomStream random(seed, star_stream);
   const auto count = static_cast<uint32_t>(stars_brighter_than(faintest));
   for (uint32_t i = 0; i < count; ++i) {
-    // The i-th brightest has the magnitude than which i + 1/2 stars are brighter; its place is uniform on the sphere.
-    // Bright stars take their cells first: a faint one that falls on one is drawn anew, which moves a fifth of them.
+    // The i-th brightest star has the magnitude than which i + 1/2 stars are brighter. Its place is uniform
+    // on the sphere. Bright stars take their cells first. A faint one that falls on a taken cell is drawn
+    // anew, which moves a fifth of them.
     for (bool placed = false; !placed;) {
       const double z = random.uniform(-1.0, 1.0), phi = random.uniform(-pi, pi),
                    level = std::sqrt(1.0 - z * z);
@@ -66,7 +67,7 @@ std::vector<shared::GpuStar> gpu_stars(const std::vector<Star>& stars, double ha
   for (size_t i = 0; i < stars.size(); ++i) {
     const double z = stars[i].direction.z;
     if (!std::isfinite(stars[i].magnitude) || z <= 0.0) continue;
-    // Air mass: F. Kasten and A. Young, Applied Optics 28 (1989), eq. 3.
+    // The air mass is that of F. Kasten and A. Young, Applied Optics 28 (1989), eq. 3.
     const double h = degrees(std::asin(z)), mass = 1.0 / (z + 0.50572 * std::pow(h + 6.07995, -1.6364));
     const double lux = magnitude_0_lux * std::pow(10.0, -0.4 * (stars[i].magnitude + 0.19 * mass)) *
                        std::exp(-haze_depth * mass);

@@ -100,7 +100,7 @@ void ShadowMaps::build_static(bool alpha_mask) {
       bounds.add(frame_.from_local({corner & 1 ? scene.bounds.max.x : scene.bounds.min.x,
                                     corner & 2 ? scene.bounds.max.y : scene.bounds.min.y,
                                     corner & 4 ? scene.bounds.max.z : scene.bounds.min.z}));
-    // Four texels of nothing around, so that points outside are lit; square texels.
+    // Four empty texels surround the map, so that points outside are lit. The texels are square.
     const double edge = std::max({bounds.size().x, bounds.size().y, 1e-3}) * size / (size - 8.0);
     const dvec3 half(0.5 * edge, 0.5 * edge, 0.5 * bounds.size().z + 0.01 * edge);
     static_min_ = bounds.center() - half;
@@ -156,7 +156,7 @@ void ShadowMaps::build_moving(bool alpha_mask) {
   uint32_t size = 1;
   if (!casters_.empty()) {
     tiles_across_ = static_cast<uint32_t>(std::ceil(std::sqrt(double(casters_.size()))));
-    // At most 2048 texels a side: many bodies share, each with a smaller tile.
+    // A side has at most 2048 texels. If there are many bodies, each has a smaller tile.
     size = std::min(tiles_across_ * options_.moving_tile_texels, std::max(2048u, 16u * tiles_across_));
   }
   moving_map_ = depth_map(scene_->device(), size, "moving shadow map");
@@ -193,7 +193,7 @@ void ShadowMaps::record(gpu::TickSlot& slot, std::span<const Pose> body_poses, c
     tile.center = vec3(frame_.from_local(body_poses[caster.body].apply(caster.center)));
     tile.radius = float(caster.radius);
     tile.uv_center = vec2((i % tiles_across_ + 0.5) * tile_uv, (i / tiles_across_ + 0.5) * tile_uv);
-    // Three empty texels around each tile, so that filtering never reaches its neighbour.
+    // Three empty texels surround each tile, so that filtering never reaches its neighbour.
     tile.uv_radius = float(0.5 * tile_uv - 3.0 * texel_uv);
     tile.texel_m = float(caster.radius * texel_uv / tile.uv_radius);
     header.min = glm::min(header.min, vec2(tile.center) - tile.radius);

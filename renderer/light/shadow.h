@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sun's shadow maps: one over everything that never moves, rendered once; one atlas with a tile for each moving
-// body, rendered every tick. Depth is reversed: nearer the sun is larger, nothing is 0.
+// Defines the sun's shadow maps. One map holds everything that never moves and is rendered once. One atlas
+// has a tile for each moving body and is rendered every tick. Depth is reversed: nearer the sun is larger,
+// and nothing is 0.
 #pragma once
 
 #include <span>
@@ -11,12 +12,12 @@
 #include "core/vec.h"
 #include "gpu/cmd.h"
 #include "gpu/tick_ring.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/shared/camera.h"
 
 namespace greatx::render {
 
-/// Right-handed axes in the local frame, z to the sun.
+/// Holds right-handed axes in the local frame, with z to the sun.
 struct SunFrame {
   dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   static SunFrame of(const dvec3& to_sun);
@@ -31,16 +32,16 @@ struct ShadowOptions {
 class ShadowMaps {
  public:
   ShadowMaps() = default;
-  /// Renders the static map in a set-up submission. What `options` leave out is never built.
+  /// Renders the static map in a set-up submission. Parts that `options` leave out are never built.
   ShadowMaps(const scene::GpuScene& scene, const SunFrame& frame, const ShadowOptions& options);
 
   /// Fills in the map's part of the lighting block.
   void describe(shared::GpuLighting& block) const;
-  /// The tiles of this tick's poses, and their content. `block`: the lighting block.
+  /// Records the tiles of this tick's poses, and their content. `block` is the lighting block.
   void record(gpu::TickSlot& slot, std::span<const Pose> body_poses, const gpu::Slice& block);
   std::vector<gpu::Descriptor> descriptors() const;
   const SunFrame& frame() const { return frame_; }
-  /// Bodies that cast moving shadows.
+  /// The number of bodies that cast moving shadows.
   size_t tile_count() const { return casters_.size(); }
 
  private:

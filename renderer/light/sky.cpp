@@ -5,20 +5,21 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/light/atmosphere.h"
-#include "renderer/light/haze.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/haze.h"
+#include "renderer/daylight/twilight.h"
 
 namespace greatx::render {
 
 namespace {
 
-/// Calls visit(direction, solid angle) over a product rule of the sphere that has the horizon on a cell border.
+/// Calls visit(direction, solid angle) over a product rule of the sphere that has the horizon on a cell
+/// border.
 template <typename F>
 void over_sphere(F&& visit) {
   constexpr int rings = 96, sectors = 128;
   for (int i = 0; i < rings; ++i) {
-    // Equal steps of z: every cell has the same solid angle.
+    // The steps of z are equal, so every cell has the same solid angle.
     const double z = 1.0 - (2.0 * i + 1.0) / rings, r = std::sqrt(1.0 - z * z);
     for (int k = 0; k < sectors; ++k) {
       const double phi = 2.0 * pi * (k + 0.5) / sectors;
@@ -36,12 +37,13 @@ double elevation_of(const dvec3& direction) { return std::asin(glm::clamp(direct
 
 dvec3 of_luminance(const dvec3& color, double value) { return color * (value / luminance(color)); }
 
-/// CIE standard overcast sky (P. Moon and D. Spencer, 1942): 7/9 pi times the zenith's luminance.
+/// The CIE standard overcast sky (P. Moon and D. Spencer, 1942). Its illuminance is 7/9 pi times the zenith's
+/// luminance.
 double overcast_shape(double z) { return (1.0 + 2.0 * z) / 3.0; }
 constexpr double overcast_shape_lux = 7.0 / 9.0 * pi;
 
-/// Lunar soil is redder than sunlight: B - V 0.92 against 0.65 (Allen's Astrophysical Quantities, 4th ed., 2000), that
-/// is, 0.78 of the sun's blue for the same green; the red from the same slope.
+/// Lunar soil is redder than sunlight: B - V 0.92 against 0.65 (Allen's Astrophysical Quantities, 4th ed.,
+/// 2000). It thus has 0.78 of the sun's blue for the same green. The red follows from the same slope.
 constexpr dvec3 moon_tint{1.14, 1.0, 0.78};
 const dvec3 airglow{1.0, 1.0, 0.85}, city_glow{1.35, 0.95, 0.45};
 
@@ -138,8 +140,9 @@ dvec3 Sky::airlight(const dvec3& direction) const {
 }
 
 void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
-  // The air scatters what comes to it from everywhere: the mean over the sphere, and the key light by its phase function
-  // (Henyey and Greenstein 1941). The whole is scaled so that level ground gets what the layer lets through.
+  // The air scatters the light that comes to it from everywhere: the mean over the sphere, and the key light
+  // by its phase function (Henyey and Greenstein 1941). The whole is scaled so that level ground gets the
+  // light that the layer lets through.
   const bool uniform = model_ == SkyModel::uniform;
   const double clear_lux = illuminance_;
   const LayerLight below = through_layer(key.lux, key.direction.z, clear_lux, lighting.haze_depth,
@@ -152,7 +155,8 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
     mean += (d.z > 0.0 ? clear(d) : ground_) * (solid_angle / (4.0 * pi));
     if (d.z > 0.0) on_ground += clear(d) * (d.z * solid_angle);
   });
-  // Scattered many times over: the colour of all light that came in, less what goes straight through.
+  // Light scattered many times has the colour of all light that came in, less the part that goes straight
+  // through.
   if (key.lux > 0.0) on_ground += key_color * (std::max(key.direction.z, 0.0) * (key.lux - below.direct_lux));
   haze_ambient_ = luminance(on_ground) > 0.0 ? of_luminance(on_ground, luminance(mean)) : dvec3(0.0);
   haze_directed_ = key_illuminance_ * ((1.0 - haze_asymmetry * haze_asymmetry) / (4.0 * pi));
@@ -175,7 +179,7 @@ void Sky::add_haze(const Lighting& lighting, const KeyLight& key) {
 
 dvec3 Sky::radiance(const dvec3& direction) const {
   const bool up = direction.z > 0.0;
-  // Haze over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
+  // Haze lies over the horizon: the sky's lowest ring fades into the ground over twelve degrees.
   const double level = std::hypot(direction.x, direction.y);
   const dvec3 horizon = level > 1e-6 ? dvec3(direction.x / level, direction.y / level, 0.0) : dvec3(1, 0, 0);
   const dvec3 d = up ? direction : horizon;
@@ -187,8 +191,8 @@ dvec3 Sky::radiance(const dvec3& direction) const {
 }
 
 std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
-  // Y_lm without their polynomials, and the cosine lobe's A_l / pi = 1, 2/3, 1/4 (Ramamoorthi and Hanrahan,
-  // "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001, eq. 3 and 9).
+  // The factors are Y_lm without their polynomials, and the cosine lobe's A_l / pi = 1, 2/3, 1/4 (Ramamoorthi
+  // and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001, eq. 3 and 9).
   constexpr double y[9] = {0.282095, 0.488603, 0.488603, 0.488603, 1.092548,
                            1.092548, 0.315392, 1.092548, 0.546274};
   constexpr double lobe[9] = {1.0, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25, 0.25, 0.25, 0.25, 0.25};
@@ -224,7 +228,7 @@ std::array<dvec3, 9> sky_irradiance(const Sky& sky) {
     result[i] *= y[i] * y[i] * lobe[i];
     upwards += luminance(result[i]) * polynomial(i, dvec3(0, 0, 1));
   }
-  // Order 2 is a few per cent off; level ground shall be exact.
+  // Order 2 is a few per cent off, but level ground shall be exact.
   if (upwards > 0.0)
     for (dvec3& coefficient : result) coefficient *= sky.illuminance() / pi / upwards;
   return result;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radiance of sky and air as functions of direction, and the key light: docs/light.md. Colours are linear Rec. 709.
+// Defines the radiance of sky and air as functions of direction, and the key light (docs/light.md). Colours
+// are linear Rec. 709.
 #pragma once
 
 #include <array>
@@ -12,37 +13,40 @@
 
 namespace greatx::render {
 
-/// 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
+/// Returns 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
 double luminance(const dvec3& color);
 
-/// Angular radius of the sun's disc, rad, and of the moon's, at their mean distances.
+/// The angular radii of the sun's and the moon's discs, rad, at their mean distances.
 inline constexpr double sun_radius = 0.004652, moon_radius = 0.004520;
 
-/// The colour that pictures show as white: of a white card on the ground under a clear sky (turbidity 2, albedo 0.15),
-/// the sun 45 degrees high. Daylight thus looks neutral, evening warm and shade blue.
+/// The colour that pictures show as white. It is that of a white card on the ground under a clear sky
+/// (turbidity 2, albedo 0.15), with the sun 45 degrees high. Daylight thus looks neutral, evening warm and
+/// shade blue.
 inline constexpr dvec3 daylight_white{1.114954, 0.977658, 0.882823};
 
 class Sky {
  public:
-  /// `haze`: whether fog and rain count.
+  /// `haze` says whether fog and rain count.
   Sky(const Lighting& lighting, bool haze);
-  /// cd/m^2 per channel from a unit direction, z up; without discs and stars.
+  /// Returns cd/m^2 per channel from a unit direction, z up, without discs and stars.
   dvec3 radiance(const dvec3& direction) const;
-  /// lux per channel of the key light on a surface that faces it, below fog and rain; zero without one.
+  /// lux per channel of the key light on a surface that faces it, below fog and rain; zero without a key
+  /// light.
   const dvec3& key_illuminance() const { return key_illuminance_; }
-  /// lux of all else on level ground, below fog and rain.
+  /// lux of all other light on level ground, below fog and rain.
   double illuminance() const { return illuminance_; }
-  /// Radiance of endless haze: `ambient` + `directed` (1 + g^2 - 2 g cos)^-1.5, cos of the angle from the key light.
+  /// The radiance of endless haze is `ambient` + `directed` (1 + g^2 - 2 g cos)^-1.5, with the cosine of the
+  /// angle from the key light.
   const dvec3& haze_ambient() const { return haze_ambient_; }
   const dvec3& haze_directed() const { return haze_directed_; }
 
  private:
-  /// A clear sky lit by one body.
+  /// Describes a clear sky lit by one body.
   struct Lit;
   dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
   void add_haze(const Lighting& lighting, const KeyLight& key);
   dvec3 airlight(const dvec3& direction) const;
-  double haze_share(double z) const;  ///< of what is seen in a direction above the horizon
+  double haze_share(double z) const;  ///< of a view in a direction above the horizon
 
   std::shared_ptr<const Lit> sun_, moon_;
   SkyModel model_;
@@ -52,8 +56,9 @@ class Sky {
   dvec3 haze_ambient_{0.0}, haze_directed_{0.0};
 };
 
-/// Irradiance over pi in real spherical harmonics to order 2, with the basis' constants multiplied in, in the order of
-/// light.glsl; its luminance straight up is exactly the sky's illuminance over pi.
+/// Returns the irradiance over pi in real spherical harmonics to order 2, with the basis' constants
+/// multiplied in, in the order of light.glsl. Its luminance straight up is exactly the sky's illuminance over
+/// pi.
 std::array<dvec3, 9> sky_irradiance(const Sky& sky);
 
 }  // namespace greatx::render

@@ -19,8 +19,8 @@ constexpr double least_cell_m = 0.5;
 constexpr double step_growth = 1.25;  ///< of the distances at which a horizon is looked up
 constexpr double farthest_m = 200.0;
 
-/// Raises the cells whose centres a triangle covers from above, and those of its corners and edges, so that walls
-/// (which cover no centre) count.
+/// Raises the cells whose centres a triangle covers from above. It also raises those of the triangle's
+/// corners and edges, so that walls (which cover no centre) count.
 class Raiser {
  public:
   explicit Raiser(HeightField& field) : field_(field) {}
@@ -72,7 +72,8 @@ class Raiser {
   HeightField& field_;
 };
 
-/// Where a horizon is looked up, from a cell's middle: the same for all cells of a field.
+/// Holds the places where a horizon is looked up, from a cell's middle. They are the same for all cells of a
+/// field.
 struct Looks {
   explicit Looks(double cell_m) {
     for (double distance = cell_m; distance < farthest_m; distance = distance * step_growth + 0.1)
@@ -86,7 +87,7 @@ struct Looks {
   std::array<dvec2, azimuths> along;
 };
 
-/// Shares of the sky at several heights above a cell's floor: 1 - mean of sin^2 of the horizon.
+/// Returns the shares of the sky at several heights above a cell's floor: 1 - mean of sin^2 of the horizon.
 template <size_t N>
 std::array<double, N> shares(const HeightField& field, const Looks& looks, uint32_t column, uint32_t row,
                              const std::array<double, N>& above) {
@@ -158,7 +159,7 @@ void describe_sky_view(const HeightField& field, shared::GpuLighting& block) {
   const dvec2 scale = 1.0 / (field.cell_m * dvec2(field.width, field.height));
   block.sky_view_uv = vec4(vec2(scale), vec2(-field.corner * scale));
   block.sky_view_floor = float(field.floor);
-  // Out of the wall's own cell.
+  // The step leads out of the wall's own cell.
   block.sky_view_step = float(1.5 * field.cell_m);
 }
 

@@ -12,16 +12,17 @@
 
 namespace greatx::rf {
 
-/// Samples of (F_theta, F_phi) on a regular grid of the sphere: zenith i * pi/(zeniths - 1), both poles included; azimuth
-/// first_azimuth + j * 2 pi/azimuths, once around.
+/// Samples of (F_theta, F_phi) on a regular grid of the sphere: zenith i * pi/(zeniths - 1), both poles
+/// included; azimuth first_azimuth + j * 2 pi/azimuths, once around.
 ///
-/// Between them each component is interpolated bilinearly, as a complex amplitude, over zenith and azimuth. For a
-/// component that is twice differentiable the error is at most
+/// Between them each component is interpolated bilinearly, as a complex amplitude, over zenith and azimuth.
+/// For a component that is twice differentiable the error is at most
 ///     (dtheta^2 max|d^2 F/dtheta^2| + dphi^2 max|d^2 F/dphi^2|) / 8,
-/// steps and derivatives in rad: halving the steps quarters it. At a bend of the pattern (TR 38.901's element where its
-/// attenuation meets the floor) it falls with the step alone. The poles need no rule of their own: components are smooth in
-/// (theta, phi) up to them, and on the z axis azimuth is 0, as everywhere in rf/antenna. Amplitudes whose phase turns by
-/// much of a turn from sample to sample (a phase centre wavelengths off the origin) interpolate badly: the bound says so.
+/// steps and derivatives in rad: halving the steps quarters it. At a bend of the pattern (TR 38.901's element
+/// where its attenuation meets the floor) it falls with the step alone. The poles need no rule of their own:
+/// components are smooth in (theta, phi) up to them, and on the z axis azimuth is 0, as everywhere in
+/// rf/antenna. Amplitudes whose phase turns by much of a turn from sample to sample (a phase centre
+/// wavelengths off the origin) interpolate badly: the bound says so.
 class PatternTable {
  public:
   struct Grid {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions and field vectors on the spherical basis of a frame: zenith theta from +z, azimuth phi = atan2(y, x) (3GPP
-// TR 38.901, section 7.1).
+// Directions and field vectors on the spherical basis of a frame: zenith theta from +z, azimuth phi =
+// atan2(y, x) (3GPP TR 38.901, section 7.1).
 #pragma once
 
 #include <complex>
@@ -18,8 +18,8 @@ struct Jones {
   Complex theta{0.0}, phi{0.0};
 };
 
-/// The angles of a direction by their functions: from the components, so that nothing is lost near the poles; phi = 0 on
-/// the z axis.
+/// The angles of a direction by their functions: from the components, so that nothing is lost near the poles;
+/// phi = 0 on the z axis.
 struct Angles {
   double cos_theta, sin_theta, cos_phi, sin_phi;
   dvec3 theta_hat() const { return {cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta}; }
@@ -28,7 +28,8 @@ struct Angles {
 /// `direction` need not be a unit vector, but must have a length.
 Angles angles_of(const dvec3& direction);
 
-/// theta = atan2(hypot(x, y), z), phi = atan2(y, x); phi = 0 on the z axis. `direction` need not be a unit vector.
+/// theta = atan2(hypot(x, y), z), phi = atan2(y, x); phi = 0 on the z axis. `direction` need not be a unit
+/// vector.
 dvec2 theta_phi(const dvec3& direction);
 /// The unit vectors theta-hat and phi-hat at a direction; at the poles the limit along phi = 0.
 dvec3 theta_hat(const dvec3& direction);

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The most that each part of the air can take over a distance, whatever a path's directions and polarization. An effect
-// whose bound is within the tolerance may stay off. Each throws UserError where its model does not cover the frequency
-// (gas_model_covers, rain_model_covers, fog_model_covers, foliage_model_covers tell beforehand).
+// The most that each part of the air can take over a distance, whatever a path's directions and polarization.
+// An effect whose bound is within the tolerance may stay off. Each throws UserError where its model does not
+// cover the frequency (gas_model_covers, rain_model_covers, fog_model_covers, foliage_model_covers tell
+// beforehand).
 #pragma once
 
 #include "rf/atmosphere/weather.h"
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 namespace greatx::rf {
 

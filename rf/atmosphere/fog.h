@@ -11,8 +11,8 @@ constexpr bool fog_model_covers(double frequency_hz) {
   return frequency_hz > 0.0 && frequency_hz <= fog_max_hz;
 }
 
-/// K_l in (dB/km)/(g/m3): 0.819 f / (eps'' (1 + eta^2)), eta = (2 + eps')/eps'', with the double-Debye permittivity
-/// of liquid water (P.840-8, section 2, eq. 2 to 11). Throws UserError above 200 GHz.
+/// K_l in (dB/km)/(g/m3): 0.819 f / (eps'' (1 + eta^2)), eta = (2 + eps')/eps'', with the double-Debye
+/// permittivity of liquid water (P.840-8, section 2, eq. 2 to 11). Throws UserError above 200 GHz.
 double fog_coefficient(double frequency_hz, double temperature_k);
 
 /// gamma = K_l M dB/km, M g/m3 of liquid water (P.840-8, eq. 1); 0 without fog, at any frequency.

@@ -58,8 +58,8 @@ double water_vapour(double f, const Air& air) {
   return sum;
 }
 
-/// N''_D (P.676-13, eq. 8 and 9): Debye spectrum of oxygen below 10 GHz, nitrogen under pressure above 100 GHz. The
-/// first term is 6.14e-5 / (d (1 + (f/d)^2)), written so that a vacuum (d = 0) has none.
+/// N''_D (P.676-13, eq. 8 and 9): Debye spectrum of oxygen below 10 GHz, nitrogen under pressure above 100
+/// GHz. The first term is 6.14e-5 / (d (1 + (f/d)^2)), written so that a vacuum (d = 0) has none.
 double dry_continuum(double f, const Air& air) {
   const double d = 5.6e-4 * (air.p + air.e) * std::pow(air.theta, 0.8);
   const double debye = 6.14e-5 * d / (d * d + f * f);

@@ -11,9 +11,9 @@ constexpr bool gas_model_covers(double frequency_hz) {
   return frequency_hz >= gas_min_hz && frequency_hz <= gas_max_hz;
 }
 
-/// Specific attenuation by gases, dB/km: 0.182 f (N''_oxygen + N''_water vapour) (P.676-13, eq. 1), with 44 lines of
-/// oxygen, 35 of water vapour and the dry continuum. `dry_pressure_hpa` is that of dry air alone: the barometer's
-/// less the vapour's. Finite at every line's centre, in dry air and in vacuum.
+/// Specific attenuation by gases, dB/km: 0.182 f (N''_oxygen + N''_water vapour) (P.676-13, eq. 1), with 44
+/// lines of oxygen, 35 of water vapour and the dry continuum. `dry_pressure_hpa` is that of dry air alone:
+/// the barometer's less the vapour's. Finite at every line's centre, in dry air and in vacuum.
 /// Throws UserError outside 1 to 1000 GHz.
 double gas_db_per_km(double frequency_hz, double temperature_k, double dry_pressure_hpa,
                      double water_vapour_g_m3);

@@ -21,8 +21,8 @@ struct RainCoefficients {
 /// P.838-3, eq. 2 and 3 with Tables 1 to 4. Throws UserError outside 1 to 1000 GHz.
 RainCoefficients rain_coefficients(double frequency_hz);
 
-/// P.838-3, eq. 1, 4 and 5, dB/km. `elevation`: of the path over the horizon, rad; `tilt`: of the polarization
-/// against the horizontal, rad (0 horizontal, pi/2 vertical, pi/4 also stands for circular).
+/// P.838-3, eq. 1, 4 and 5, dB/km. `elevation`: of the path over the horizon, rad; `tilt`: of the
+/// polarization against the horizontal, rad (0 horizontal, pi/2 vertical, pi/4 also stands for circular).
 double rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double elevation, double tilt);
 
 /// Attenuation of the two linear polarizations of one direction, dB/km.

@@ -47,8 +47,8 @@ double normalise(std::vector<Weighted>& samples) {
   return std::sqrt(second);
 }
 
-/// The first x > 0 with |sum w e^{j 2 pi v x}| <= level. The slope of the modulus is at most 2 pi sum w |v| <= 2 pi rms, so
-/// that a step of (modulus - level)/(2 pi rms) jumps over no crossing, however narrow.
+/// The first x > 0 with |sum w e^{j 2 pi v x}| <= level. The slope of the modulus is at most 2 pi sum w |v|
+/// <= 2 pi rms, so that a step of (modulus - level)/(2 pi rms) jumps over no crossing, however narrow.
 double decorrelation(std::vector<Weighted> samples, double level) {
   GREATX_CHECK(level > 0.0 && level < 1.0, "level {} of a correlation", level);
   if (samples.empty()) return not_a_number;

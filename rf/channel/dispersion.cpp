@@ -26,11 +26,12 @@ Dispersion::Dispersion(const scene::Scene& scene, const FieldModel& carrier, con
   }
 }
 
-TransferSpectrum Dispersion::spectrum(const Path& path) const {
+TransferSpectrum Dispersion::spectrum(const Path& path, const FacetWorld& world) const {
   const GeometricPath geometry{path.interactions, path.vertices, path.length_m, path.foliage_m,
                                path.patch_area_m2};
   TransferSpectrum spectrum(subcarriers_.size());
   FieldModel model = carrier_;
+  model.world = &world;
   for (size_t k = 0; k < subcarriers_.size(); ++k) {
     model.surfaces = &subcarriers_[k].surfaces;
     model.attenuation = subcarriers_[k].attenuation;
@@ -41,10 +42,11 @@ TransferSpectrum Dispersion::spectrum(const Path& path) const {
   return spectrum;
 }
 
-std::vector<TransferSpectrum> Dispersion::spectra(std::span<const Path> paths) const {
+std::vector<TransferSpectrum> Dispersion::spectra(std::span<const Path> paths,
+                                                  const FacetWorld& world) const {
   std::vector<TransferSpectrum> result;
   result.reserve(paths.size());
-  for (const Path& path : paths) result.push_back(spectrum(path));
+  for (const Path& path : paths) result.push_back(spectrum(path, world));
   return result;
 }
 

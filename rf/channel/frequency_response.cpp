@@ -3,32 +3,30 @@
 #include "rf/channel/frequency_response.h"
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "rf/channel/link_sum.h"
 #include "rf/channel/pair_amplitudes.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {
-
-constexpr size_t lanes = sum_lanes;
 
 void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> spectra) {
   GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
 }
 
-/// e^{-j 2 pi f tau} at all subcarriers. A block's subcarriers are (first of the block) x (place in the block): two
-/// phasors, each from exactly reduced turns, and one product; no recurrence whose error grows.
+/// e^{-j 2 pi f tau} at all subcarriers. A block's subcarriers are (first of the block) x (place in the
+/// block): two phasors, each from exactly reduced turns, and one product; no recurrence whose error grows.
 void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFactors& factors) {
-  Complex place[lanes];
-  for (size_t lane = 0; lane < lanes; ++lane)
+  Complex place[sum_lanes];
+  for (size_t lane = 0; lane < sum_lanes; ++lane)
     place[lane] = unit_phasor(-turns_of(static_cast<double>(lane), grid.subcarrier_spacing_hz, delay_s));
   for (size_t block = 0; block < factors.blocks(); ++block) {
-    const double number = grid.subcarrier_number(static_cast<uint32_t>(block * lanes));
+    const double number = grid.subcarrier_number(static_cast<uint32_t>(block * sum_lanes));
     const Complex first = unit_phasor(-turns_of(number, grid.subcarrier_spacing_hz, delay_s));
     double* out = factors.at(block, term);
-    for (size_t lane = 0; lane < lanes; ++lane) {
+    for (size_t lane = 0; lane < sum_lanes; ++lane) {
       out[lane] = first.real() * place[lane].real() - first.imag() * place[lane].imag();
-      out[lanes + lane] = first.real() * place[lane].imag() + first.imag() * place[lane].real();
+      out[sum_lanes + lane] = first.real() * place[lane].imag() + first.imag() * place[lane].real();
     }
   }
 }

@@ -13,7 +13,7 @@
 
 #include "core/vec.h"
 #include "rf/antenna/antenna.h"
-#include "rf/path.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "rf/channel/phase.h"
+#include "core/phase.h"
 #include "rf/channel/summing_order.h"
 
 namespace greatx::rf {
@@ -17,7 +17,6 @@ constexpr size_t term_chunk = 128;  // terms summed at a time: their factors sta
 constexpr size_t most_factors = size_t{1}
                                 << 20;  // of all columns; the number of terms at a time changes no bit
 constexpr size_t row_tile = 64;         // rows summed at a time: as their amplitudes and sums do
-constexpr size_t lanes = sum_lanes;
 
 std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
                                      PathSelection selection) {
@@ -29,9 +28,9 @@ std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<cons
 /// A block's sums, rounded, to the row's columns from `first` on.
 template <typename Part>
 void store(const double* sums, size_t first, size_t columns, std::complex<Part>* row) {
-  const size_t count = std::min(lanes, columns - first);
+  const size_t count = std::min(sum_lanes, columns - first);
   for (size_t lane = 0; lane < count; ++lane)
-    row[first + lane] = {static_cast<Part>(sums[lane]), static_cast<Part>(sums[lanes + lane])};
+    row[first + lane] = {static_cast<Part>(sums[lane]), static_cast<Part>(sums[sum_lanes + lane])};
 }
 
 }  // namespace
@@ -71,7 +70,7 @@ template <typename Part>
 void LinkSum::write(std::complex<Part>* out) {
   if (terms_ == 0) std::fill_n(out, size(), std::complex<Part>{});
   // Sums live from chunk to chunk only where there are several.
-  if (terms_ > chunk_) sums_.assign(factors_.blocks() * rows_ * 2 * lanes, 0.0);
+  if (terms_ > chunk_) sums_.assign(factors_.blocks() * rows_ * 2 * sum_lanes, 0.0);
   size_t summed = 0;
   for (const uint32_t index : order_) {
     load(index);
@@ -92,10 +91,10 @@ void LinkSum::load(uint32_t index) {
     unit[entry] = 1.0;
     load(path, unit);
     for (size_t column = 0; column < columns_; ++column) {
-      double* factor = factors_.at(column / lanes, loaded_ - 1) + column % lanes;
-      const Complex value = Complex(factor[0], factor[lanes]) * spectra_[index][column][entry];
+      double* factor = factors_.at(column / sum_lanes, loaded_ - 1) + column % sum_lanes;
+      const Complex value = Complex(factor[0], factor[sum_lanes]) * spectra_[index][column][entry];
       factor[0] = value.real();
-      factor[lanes] = value.imag();
+      factor[sum_lanes] = value.imag();
     }
   }
 }
@@ -117,15 +116,15 @@ void LinkSum::load(const Path& path, const Complex* transfer) {
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
   const AddRows add_chunk = add_rows();
-  double tile[row_tile * 2 * lanes];
+  double tile[row_tile * 2 * sum_lanes];
   for (size_t first = 0; first < rows_; first += row_tile)
     for (size_t block = 0; block < factors_.blocks(); ++block) {
       const size_t count = std::min(row_tile, rows_ - first);
-      double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * lanes;
-      if (sums_.empty()) std::fill_n(tile, count * 2 * lanes, 0.0);
+      double* sums = sums_.empty() ? tile : sums_.data() + (block * rows_ + first) * 2 * sum_lanes;
+      if (sums_.empty()) std::fill_n(tile, count * 2 * sum_lanes, 0.0);
       add_chunk(amplitudes_.data() + first * chunk_, chunk_, count, factors_.block(block), loaded_, sums);
       for (size_t row = 0; out != nullptr && row < count; ++row)
-        store(sums + row * 2 * lanes, block * lanes, columns_, out + (first + row) * columns_);
+        store(sums + row * 2 * sum_lanes, block * sum_lanes, columns_, out + (first + row) * columns_);
     }
   loaded_ = 0;
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sum over a link's paths that the frequency response and the taps are: a matrix product of what the paths
-// contribute at pairs of ports and times (rows) and of what each of them is at a subcarrier or tap (columns).
+// The sum over a link's paths that the frequency response and the taps are: a matrix product of what the
+// paths contribute at pairs of ports and times (rows) and of what each of them is at a subcarrier or tap
+// (columns).
 #pragma once
 
 #include <complex>
@@ -17,7 +18,8 @@
 
 namespace greatx::rf {
 
-/// The factors of a chunk of terms at each column, in blocks of sum_lanes columns: [block][term][re, im][lane].
+/// The factors of a chunk of terms at each column, in blocks of sum_lanes columns: [block][term][re,
+/// im][lane].
 class ColumnFactors {
  public:
   ColumnFactors(size_t columns, size_t terms)
@@ -26,7 +28,8 @@ class ColumnFactors {
         values_(blocks_ * terms * 2 * sum_lanes) {}
   size_t blocks() const { return blocks_; }
   const double* block(size_t index) const { return values_.data() + index * terms_ * 2 * sum_lanes; }
-  /// A term's real parts in a block; its imaginary parts follow. Lanes beyond the last column may hold anything finite.
+  /// A term's real parts in a block; its imaginary parts follow. Lanes beyond the last column may hold
+  /// anything finite.
   double* at(size_t block, size_t term) { return values_.data() + (block * terms_ + term) * 2 * sum_lanes; }
 
  private:
@@ -41,15 +44,15 @@ struct RowTimes {
   double spacing_s = 0.0;
 };
 
-/// sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the column); in fp64, in
-/// summing_order(). Each link has its own, so that threads share nothing.
+/// sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the column); in fp64,
+/// in summing_order(). Each link has its own, so that threads share nothing.
 class LinkSum {
  public:
   /// Writes a path's factors at all columns into the term's place.
   using SetFactors = std::function<void(const Path& path, size_t term, ColumnFactors& factors)>;
 
-  /// `spectra`: [paths] of one transfer per column, or none for the paths' own transfers. What is passed must outlive
-  /// this.
+  /// `spectra`: [paths] of one transfer per column, or none for the paths' own transfers. What is passed must
+  /// outlive this.
   LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
           const ArrayPose& transmitter, const ArrayPose& receiver, const RowTimes& times, size_t columns,
           PathSelection selection, SetFactors set_factors);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "core/units.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 

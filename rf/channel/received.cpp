@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "rf/channel/pair_amplitudes.h"
-#include "rf/channel/phase.h"
 #include "rf/channel/summing_order.h"
 
 namespace greatx::rf {

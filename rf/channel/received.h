@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From amplitudes to what instruments show: volts, volts per metre, watts. Fields and voltages are rms phasors about
-// e^{+j omega t}; their peak is sqrt(2) times that.
+// From amplitudes to what instruments show: volts, volts per metre, watts. Fields and voltages are rms
+// phasors about e^{+j omega t}; their peak is sqrt(2) times that.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/units.h"
+#include "rf/antenna/field_vector.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field_vector.h"
-#include "rf/path.h"
+#include "rf/geometry/path.h"
 
 namespace greatx::rf {
 
@@ -32,16 +32,17 @@ struct RadioLink {
 struct ReceivedPath {
   /// a, as in ImpulseResponse, in fp64: a = (lambda/4 pi) C_R^H T C_T e^{-j 2 pi f_c tau}.
   Complex amplitude{0.0};
-  /// E = sqrt(eta_0 P_t/4 pi) T C_T e^{-j 2 pi f_c tau}, V/m rms along theta-hat and phi-hat (world axes) of the direction of
-  /// arrival, which points back along the path. A line of sight: |E| = sqrt(eta_0 P_t G_t/4 pi)/d, which Rec. ITU-R P.525-4,
-  /// eq. 1 rounds to sqrt(30 P_t G_t)/d (0.003 dB more). In the air: before the receiving antenna, whose port
-  /// counts by its position alone.
+  /// E = sqrt(eta_0 P_t/4 pi) T C_T e^{-j 2 pi f_c tau}, V/m rms along theta-hat and phi-hat (world axes) of
+  /// the direction of arrival, which points back along the path. A line of sight: |E| = sqrt(eta_0 P_t G_t/4
+  /// pi)/d, which Rec. ITU-R P.525-4, eq. 1 rounds to sqrt(30 P_t G_t)/d (0.003 dB more). In the air: before
+  /// the receiving antenna, whose port counts by its position alone.
   Jones field_v_per_m;
   /// At a matched load: P_r = P_t |a|^2 (Friis; Balanis, "Antenna Theory", 4th ed., eq. 2-118).
   double power_w = 0.0;
-  /// V_oc = sqrt(4 R P_t) a, V rms: the Thevenin voltage whose available power |V_oc|^2/4R is P_r (in peak values sqrt(8 R
-  /// P_r), Balanis, 2.13). It is h^H E with the vector effective length h = lambda sqrt(R/(pi eta_0)) C_R (Balanis, 2.15; a
-  /// half-wave dipole, R = 73.08 ohm: lambda/pi), up to a constant phase of the antenna.
+  /// V_oc = sqrt(4 R P_t) a, V rms: the Thevenin voltage whose available power |V_oc|^2/4R is P_r (in peak
+  /// values sqrt(8 R P_r), Balanis, 2.13). It is h^H E with the vector effective length h = lambda sqrt(R/(pi
+  /// eta_0)) C_R (Balanis, 2.15; a half-wave dipole, R = 73.08 ohm: lambda/pi), up to a constant phase of the
+  /// antenna.
   Complex open_circuit_v{0.0};
 };
 
@@ -61,13 +62,15 @@ struct Received {
 Received received(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
                   const RadioLink& link);
 
-/// Of every path and every transmit port the field before the receiver, V/m rms on theta-hat and phi-hat of the arrival, with
-/// the phase at the receiver's origin: out [paths, tx_ant, 2]; `power_w` into each port. Thread-safe.
+/// Of every path and every transmit port the field before the receiver, V/m rms on theta-hat and phi-hat of
+/// the arrival, with the phase at the receiver's origin: out [paths, tx_ant, 2]; `power_w` into each port.
+/// Thread-safe.
 void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, double carrier_hz,
                      double power_w, std::span<std::complex<float>> out);
 
-/// -10 log10 of a power gain; +inf of 0. With isotropic antennas: basic transmission loss; with patterns: transmission loss,
-/// antennas included (Rec. ITU-R P.341), which is what path_powers() and LinkStatistics::path_gain give.
+/// -10 log10 of a power gain; +inf of 0. With isotropic antennas: basic transmission loss; with patterns:
+/// transmission loss, antennas included (Rec. ITU-R P.341), which is what path_powers() and
+/// LinkStatistics::path_gain give.
 double path_loss_db(double power_gain);
 /// 10 log10(P / 1 mW); -inf of 0.
 double dbm(double power_w);

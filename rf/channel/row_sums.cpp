@@ -5,8 +5,8 @@
 namespace greatx::rf {
 namespace {
 
-/// Vectors of doubles of the width that the processor has: in registers, and in memory, where they lie as doubles do. The
-/// operators round lane by lane as double's.
+/// Vectors of doubles of the width that the processor has: in registers, and in memory, where they lie as
+/// doubles do. The operators round lane by lane as double's.
 struct TwoDoubles {
   using Vec [[gnu::vector_size(16)]] = double;
   using Stored [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;

@@ -63,8 +63,8 @@ Moments moments(std::span<const Sample> samples, double total, const Value& valu
   return {mean, std::sqrt(second / total)};
 }
 
-/// sqrt(-2 ln R) with 1 - R = sum p 2 sin^2(off / 2) / sum p, off from the mean direction: R itself would lose what is
-/// small to its rounding, and give 1e-8 rad for one path.
+/// sqrt(-2 ln R) with 1 - R = sum p 2 sin^2(off / 2) / sum p, off from the mean direction: R itself would
+/// lose what is small to its rounding, and give 1e-8 rad for one path.
 template <typename Angle>
 double circular_spread(std::span<const Sample> samples, double total, const Angle& angle) {
   const double origin = angle(samples.front());

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "core/units.h"
 #include "rf/channel/link_sum.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf {
 namespace {
@@ -19,8 +19,8 @@ void check_grid(const TapGrid& grid) {
                "{} taps at a bandwidth of {} Hz", grid.taps, grid.bandwidth_hz);
 }
 
-/// sinc(l - B tau) at whole numbers l: with B tau = nearest + fraction, sin(pi (l - B tau)) = -(-1)^(l - nearest)
-/// sin(pi fraction), so that one sine serves all taps.
+/// sinc(l - B tau) at whole numbers l: with B tau = nearest + fraction, sin(pi (l - B tau)) = -(-1)^(l -
+/// nearest) sin(pi fraction), so that one sine serves all taps.
 class Sinc {
  public:
   Sinc(double bandwidth_hz, double delay_s) {

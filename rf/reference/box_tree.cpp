@@ -57,8 +57,8 @@ bool BoxTree::outside(const Node& node, std::span<const HalfSpace> half_spaces) 
   });
 }
 
-/// Separating axes: the box's own, then their products with the segment (C. Ericson, "Real-Time Collision Detection",
-/// 2005, section 5.3.3).
+/// Separating axes: the box's own, then their products with the segment (C. Ericson, "Real-Time Collision
+/// Detection", 2005, section 5.3.3).
 bool BoxTree::missed(const Node& node, const dvec3& a, const dvec3& b) {
   const dvec3 half_way = 0.5 * (b - a), middle = 0.5 * (a + b) - node.center;
   const dvec3 reach = absolute(half_way);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference's own hierarchy of boxes (fp64, host): over triangles, facets and receivers. Plain on purpose, since
-// it stands beside nothing of what it checks.
+// The reference's own hierarchy of boxes (fp64, host): over triangles, facets and receivers. Plain on
+// purpose, since it stands beside nothing of what it checks.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -25,8 +25,8 @@ class BoxTree {
  public:
   explicit BoxTree(const std::vector<scene::Bounds>& boxes);
 
-  /// visit(index) for every box (and perhaps some more) of which something lies in each half-space. In an order that
-  /// depends on the boxes alone.
+  /// visit(index) for every box (and perhaps some more) of which something lies in each half-space. In an
+  /// order that depends on the boxes alone.
   template <typename Visit>
   void within(std::span<const HalfSpace> half_spaces, const Visit& visit) const {
     uint32_t stack[64], size = 0;

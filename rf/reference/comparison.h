@@ -30,8 +30,9 @@ struct ComparisonTolerance {
   double vertex_m = 1e-4, length_m = 1e-6;
 };
 
-/// Sums over receivers. Each path of the reference takes the first of the others that is the same within the tolerance
-/// (found, else missing); another one that is the same as one already taken is doubled, what is left is extra.
+/// Sums over receivers. Each path of the reference takes the first of the others that is the same within the
+/// tolerance (found, else missing); another one that is the same as one already taken is doubled, what is
+/// left is extra.
 class Comparison {
  public:
   struct Counts {

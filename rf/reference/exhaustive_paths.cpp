@@ -135,8 +135,8 @@ void Enumeration::pop(Chain& chain) {
   chain.images.pop_back();
 }
 
-/// What the chain's last image sees through its facet, which has come through the facets before as well. To be called
-/// at each of the chain's lengths.
+/// What the chain's last image sees through its facet, which has come through the facets before as well. To
+/// be called at each of the chain's lengths.
 const std::vector<HalfSpace>& Enumeration::view(const Chain& chain, Worker& worker) const {
   const size_t depth = chain.facets.size();
   const uint32_t last = chain.facets.back();
@@ -162,8 +162,8 @@ void Enumeration::descend(Chain& chain, uint32_t levels, Worker& worker) const {
   });
 }
 
-/// Where the path of this chain is reflected: the receiver is mirrored from the last facet to the first, and the lines
-/// to its images are cut from the transmitter on (the other way round than the enumeration goes).
+/// Where the path of this chain is reflected: the receiver is mirrored from the last facet to the first, and
+/// the lines to its images are cut from the transmitter on (the other way round than the enumeration goes).
 bool Enumeration::reflect(const Chain& chain, const dvec3& receiver, GeometricPath& path) const {
   const size_t count = chain.facets.size();
   std::vector<dvec3> targets(count + 1, receiver);
@@ -239,8 +239,8 @@ void Enumeration::try_receiver(const Chain& chain, uint32_t receiver, Worker& wo
   if (pass_walls(path)) worker.found.push_back({receiver, std::move(path)});
 }
 
-/// All sequences of two facets, in an order without rhyme, so that the time of what is left can be told from what is
-/// done. Tries the receivers for one reflection on the way.
+/// All sequences of two facets, in an order without rhyme, so that the time of what is left can be told from
+/// what is done. Tries the receivers for one reflection on the way.
 std::vector<std::pair<uint32_t, uint32_t>> Enumeration::first_pairs(Worker& worker) const {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   Chain chain{{}, {}, {transmitter_}};

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference that greatx's specular paths are held against: every sequence of facets is tried, host, fp64. It shares
-// no code with the searches (rf/search/, rf/candidate_search.h), the image tree (rf/geometry.h) or the GPU passes; only
-// FacetWorld's planes and its test of a point in a facet are the same.
+// The reference that greatx's specular paths are held against: every sequence of facets is tried, host, fp64.
+// It shares no code with the searches (rf/search/, rf/search/candidate_search.h), the image tree
+// (rf/geometry/geometry.h) or the GPU passes; only FacetWorld's planes and its test of a point in a facet are
+// the same.
 //
 // Sequences are pruned by two bounds alone, neither of which can lose a path:
-// - pyramids: what an image sees through the convex hull of the facet that it was mirrored at, and of those before as
+// - pyramids: what an image sees through the convex hull of the facet that it was mirrored at, and of those
+//   before as
 //   the mirrors show them; a facet (or a receiver) wholly outside of one side of one of them cannot be next;
 // - sides: each of two consecutive facets must have a corner on the side of the other that reflects.
-// Nothing is pruned by occlusion: what stands in the way is worked out for whole paths, against all triangles.
+// Nothing is pruned by occlusion: what stands in the way is worked out for whole paths, against all
+// triangles.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +21,10 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
-#include "rf/path.h"
-#include "scene/scene.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/path.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -41,12 +44,14 @@ struct ExhaustiveResult {
   uint64_t geometric_paths = 0;  ///< of these, with occlusion not looked at, duplicates included
 };
 
-/// What counts as a path is what rf/geometry.h says: reflections on either side of a facet; facets closed within
-/// PosedFacet::tolerance_m; an end in a facet's plane is not reflected by it; two reflections in one point only in an
-/// inner corner; paths with one polyline (reflection points within 1e-6 m, 1e-9 of the length beyond 1 km) are one, the
-/// first sequence in canonical order. What blocks: rf/reference/occluders.h.
+/// What counts as a path is what rf/geometry/geometry.h says: reflections on either side of a facet; facets
+/// closed within PosedFacet::tolerance_m; an end in a facet's plane is not reflected by it; two reflections
+/// in one point only in an inner corner; paths with one polyline (reflection points within 1e-6 m, 1e-9 of
+/// the length beyond 1 km) are one, the first sequence in canonical order. What blocks:
+/// rf/reference/occluders.h.
 ///
-/// `body_poses` [bodies] is what `world` was posed with. Throws UserError naming the receiver if a position is not finite.
+/// `body_poses` [bodies] is what `world` was posed with. Throws UserError naming the receiver if a position
+/// is not finite.
 ExhaustiveResult exhaustive_paths(const scene::Scene& scene, const FacetWorld& world,
                                   std::span<const Pose> body_poses, const FacetKinds& kinds,
                                   const dvec3& transmitter, std::span<const dvec3> receivers,

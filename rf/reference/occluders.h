@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
 #include "rf/reference/box_tree.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -33,18 +33,20 @@ struct WallPassed {
 
 class Occluders {
  public:
-  /// `world` with every body posed as in `body_poses` ([bodies], local_from_body, [0] the identity); all are read
-  /// later too, `world` and `kinds` must outlive this.
+  /// `world` with every body posed as in `body_poses` ([bodies], local_from_body, [0] the identity); all are
+  /// read later too, `world` and `kinds` must outlive this.
   Occluders(const scene::Scene& scene, const FacetWorld& world, std::span<const Pose> body_poses,
             const FacetKinds& kinds);
 
-  /// Whether the stretch is free but for `budget` walls at most, which `passed` then has in order (appended). Rules, the
-  /// same as rf/crossings.h states for greatx:
+  /// Whether the stretch is free but for `budget` walls at most, which `passed` then has in order (appended).
+  /// Rules, the same as rf/paths/crossings.h states for greatx:
   /// - facets and bodies that the stretch names are never in its way;
-  /// - nor is a facet whose plane one of the ends lies in, within 0.1 mm + 2^-22 of the largest coordinate of the end
+  /// - nor is a facet whose plane one of the ends lies in, within 0.1 mm + 2^-22 of the largest coordinate of
+  ///   the end
   ///   and of the facet's first corner;
   /// - opaque facets always block, foliage and what is absent never does;
-  /// - a facet of kind wall is passed once however many of its triangles meet in the point, and walls in one plane met in
+  /// - a facet of kind wall is passed once however many of its triangles meet in the point, and walls in one
+  ///   plane met in
   ///   one point (within 1e-6 m) are one, the first by index;
   /// - triangles are closed: edges and corners block.
   bool free_but_for(const Stretch& stretch, uint32_t budget, std::vector<WallPassed>& passed) const;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_world.h"
+#include "rf/facets/facet_world.h"
 #include "rf/reference/box_tree.h"
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::reference {
 
@@ -22,9 +22,9 @@ struct Hull {
 /// Of `corners` (any number, anywhere near the plane of `facet`).
 Hull convex_hull(const PosedFacet& facet, const std::vector<dvec3>& corners);
 
-/// Half-spaces whose intersection holds every point that a straight line from `image` reaches through the facet, beyond
-/// it. `side`: +1 if the paths are on the side of the facet's normal, -1 otherwise; the image is on the other. Sides of
-/// the pyramid that roundings could turn are left out.
+/// Half-spaces whose intersection holds every point that a straight line from `image` reaches through the
+/// facet, beyond it. `side`: +1 if the paths are on the side of the facet's normal, -1 otherwise; the image
+/// is on the other. Sides of the pyramid that roundings could turn are left out.
 void pyramid(const dvec3& image, const PosedFacet& facet, const Hull& hull, double side,
              std::vector<HalfSpace>& half_spaces);
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which facets does a beam meet, and where on them? The window is cut in two (J. E. Warnock, 1969) until few facets are left
-// in a cell; there, what stands before a facet is taken away from it as polygons (K. Weiler, P. Atherton, 1977). Planes
-// that cross need no order of their own: the side on which one is in front of the other is a half-plane of slopes.
+// Which facets does a beam meet, and where on them? The window is cut in two (J. E. Warnock, 1969) until few
+// facets are left in a cell; there, what stands before a facet is taken away from it as polygons (K. Weiler,
+// P. Atherton, 1977). Planes that cross need no order of their own: the side on which one is in front of the
+// other is a half-plane of slopes.
 #pragma once
 
 #include <array>
@@ -34,8 +35,8 @@ struct BeamHit {
 
 class BeamCells {
  public:
-  /// All facets and wedges that the beam of `view` may meet behind at most `walls` walls. `hits`: by facet, then walls;
-  /// `wedges`: indices in the list of wedges, ascending, each once. Both are appended to.
+  /// All facets and wedges that the beam of `view` may meet behind at most `walls` walls. `hits`: by facet,
+  /// then walls; `wedges`: indices in the list of wedges, ascending, each once. Both are appended to.
   void settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
               std::vector<uint32_t>& wedges);
   uint64_t cells() const { return cells_; }  ///< looked at since the start

@@ -14,8 +14,6 @@
 namespace greatx::rf {
 namespace {
 
-constexpr uint32_t facets_per_box = 4;
-
 /// A corner of a triangle on its way to being welded.
 struct Corner {
   dvec3 position{0.0};
@@ -25,8 +23,8 @@ struct Corner {
 
 bool same_place(const Corner& a, const Corner& b) { return a.body == b.body && a.position == b.position; }
 
-/// Numbers the places that corners stand at: equal coordinates of one body are one vertex, for the mesh that is traced
-/// has no gap there. Corners that merely stand near each other are not welded.
+/// Numbers the places that corners stand at: equal coordinates of one body are one vertex, for the mesh that
+/// is traced has no gap there. Corners that merely stand near each other are not welded.
 std::vector<uint32_t> weld(std::vector<Corner>& corners, std::vector<dvec3>& vertices) {
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
     return std::tie(a.body, a.position.x, a.position.y, a.position.z, a.place) <
@@ -50,7 +48,8 @@ class Pieces {
     if (doubled < 0.0) std::swap(triangle[1], triangle[2]);
     loops_.emplace_back(triangle.begin(), triangle.end());
   }
-  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn, 1983).
+  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn,
+  /// 1983).
   void join();
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 
@@ -141,11 +140,10 @@ BeamScene::BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span
     add(world, index, kinds[index], triangles);
   }
   add_wedges(wedges);
-  order_.resize(facets_.size());
-  std::iota(order_.begin(), order_.end(), 0u);
-  boxes_.reserve(facets_.size() + 1);
-  boxes_.emplace_back();
-  build_boxes(0, 0, facet_count());
+  std::vector<scene::Bounds> boxes;
+  boxes.reserve(facets_.size());
+  for (const BeamFacet& facet : facets_) boxes.push_back(facet.bounds);
+  boxes_ = scene::BoxTree(boxes);
 }
 
 void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
@@ -160,7 +158,6 @@ void BeamScene::add(const FacetWorld& world, uint32_t index, FacetKind kind,
   facet.tolerance_m = posed.tolerance_m;
   facet.reference =
       posed.offset * posed.normal + posed.offset_u * posed.axis_u + posed.offset_v * posed.axis_v;
-  facet.low = dvec3(1e300), facet.high = dvec3(-1e300);
   facet.axis_a = posed.axis_u;
   add_polygons(facet, triangles);
   facet.axis_b = glm::cross(facet.normal, facet.axis_a);
@@ -188,8 +185,7 @@ void BeamScene::add_polygons(BeamFacet& facet, std::span<const std::array<uint32
     for (size_t i = 0; i < loop.size(); ++i) {
       const dvec3 &from = vertices_[loop[i]], &to = vertices_[loop[(i + 1) % loop.size()]];
       corners_.push_back(loop[i]);
-      facet.low = glm::min(facet.low, from);
-      facet.high = glm::max(facet.high, from);
+      facet.bounds.add(from);
       const dvec3 along = (to - from) - glm::dot(to - from, facet.normal) * facet.normal;
       if (const double length = glm::length(along); length > longest) {
         longest = length;
@@ -224,57 +220,20 @@ void BeamScene::add_wedges(std::span<const scene::Wedge> wedges) {
   }
 }
 
-void BeamScene::build_boxes(uint32_t node, uint32_t first, uint32_t count) {
-  Box box;
-  dvec3 low(1e300), high(-1e300);  // of the centres
-  for (uint32_t i = first; i < first + count; ++i) {
-    const BeamFacet& facet = facets_[order_[i]];
-    box.low = glm::min(box.low, facet.low);
-    box.high = glm::max(box.high, facet.high);
-    low = glm::min(low, facet.low + facet.high);
-    high = glm::max(high, facet.low + facet.high);
-  }
-  box.first = first, box.count = count;
-  if (count > facets_per_box) {
-    const dvec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto begin = order_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count, [&](uint32_t a, uint32_t b) {
-      const double at_a = facets_[a].low[axis] + facets_[a].high[axis];
-      const double at_b = facets_[b].low[axis] + facets_[b].high[axis];
-      return at_a != at_b ? at_a < at_b : a < b;
-    });
-    box.first = static_cast<uint32_t>(boxes_.size()), box.count = 0;
-    boxes_.resize(boxes_.size() + 2);
-    build_boxes(box.first, first, count / 2);
-    build_boxes(box.first + 1, first + count / 2, count - count / 2);
-  }
-  boxes_[node] = box;
-}
-
 void BeamScene::gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const {
-  const auto outside = [&](const dvec3& low, const dvec3& high) {
+  const auto outside = [&](const scene::Bounds& box) {
     return std::any_of(region.begin(), region.end(), [&](const HalfSpace& half) {
-      const double most = std::max(half.normal.x * low.x, half.normal.x * high.x) +
-                          std::max(half.normal.y * low.y, half.normal.y * high.y) +
-                          std::max(half.normal.z * low.z, half.normal.z * high.z);
+      const double most = std::max(half.normal.x * box.min.x, half.normal.x * box.max.x) +
+                          std::max(half.normal.y * box.min.y, half.normal.y * box.max.y) +
+                          std::max(half.normal.z * box.min.z, half.normal.z * box.max.z);
       return most < half.offset;
     });
   };
   const size_t begin = facets.size();
-  std::vector<uint32_t> stack{0};
-  while (!stack.empty()) {
-    const Box& box = boxes_[stack.back()];
-    stack.pop_back();
-    if (outside(box.low, box.high)) continue;
-    if (box.count == 0 && box.first != 0) {
-      stack.push_back(box.first);
-      stack.push_back(box.first + 1);
-      continue;
-    }
-    for (uint32_t i = box.first; i < box.first + box.count; ++i)
-      if (!outside(facets_[order_[i]].low, facets_[order_[i]].high)) facets.push_back(order_[i]);
-  }
+  boxes_.visit_until(outside, [&](uint32_t facet) {
+    if (!outside(facets_[facet].bounds)) facets.push_back(facet);
+    return false;
+  });
   std::sort(facets.begin() + static_cast<ptrdiff_t>(begin), facets.end());
 }
 

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/facet_kind.h"
-#include "rf/facet_world.h"
-#include "scene/wedges.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/facets/facet_world.h"
+#include "scene/description/box_tree.h"
+#include "scene/description/wedges.h"
 
 namespace greatx::rf {
 
@@ -35,7 +36,7 @@ struct BeamFacet {
   dvec3 axis_a{0.0}, axis_b{0.0};         ///< in the plane, unit, axis_a along the longest edge
   double offset_a = 0.0, offset_b = 0.0;  ///< a = axis_a . x - offset_a
   double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
-  dvec3 low{0.0}, high{0.0};
+  scene::Bounds bounds;
 };
 
 /// An edge that diffracts, in local coordinates.
@@ -53,8 +54,8 @@ struct HalfSpace {
 
 class BeamScene {
  public:
-  /// Foliage is left out; so are facets of bodies other than 0, which move, unless `moving_bodies`; and wedges that
-  /// have no face among the rest.
+  /// Foliage is left out; so are facets of bodies other than 0, which move, unless `moving_bodies`; and
+  /// wedges that have no face among the rest.
   BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
             bool moving_bodies);
 
@@ -80,16 +81,10 @@ class BeamScene {
   void gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const;
 
  private:
-  struct Box {
-    dvec3 low{1e300}, high{-1e300};
-    uint32_t first = 0,
-             count = 0;  ///< into order_; count 0: an inner node, its children are first and first + 1
-  };
   void add(const FacetWorld& world, uint32_t index, FacetKind kind,
            std::span<const std::array<uint32_t, 3>> triangles);
   void add_polygons(BeamFacet& facet, std::span<const std::array<uint32_t, 3>> triangles);
   void add_wedges(std::span<const scene::Wedge> wedges);
-  void build_boxes(uint32_t node, uint32_t first, uint32_t count);
 
   const FacetWorld* world_;
   std::vector<dvec3> vertices_;
@@ -97,8 +92,7 @@ class BeamScene {
   std::vector<BeamPolygon> polygons_;
   std::vector<uint32_t> corners_;
   std::vector<BeamWedge> wedges_;
-  std::vector<Box> boxes_;
-  std::vector<uint32_t> order_;
+  scene::BoxTree boxes_;  ///< of facets_
   double largest_coordinate_ = 0.0;
 };
 

@@ -216,8 +216,8 @@ void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
   result.list.windows.push_back(index == 0 ? PlaneWindow{0.0, 0.0, 0.0, 0.0} : window_of(nodes_[index]));
 }
 
-/// How many will have been expanded in the end, if each level grows by what this one has grown by so far: nodes of this
-/// level are [level, level_end), `expanded` of all are done.
+/// How many will have been expanded in the end, if each level grows by what this one has grown by so far:
+/// nodes of this level are [level, level_end), `expanded` of all are done.
 double Tree::expected_nodes(size_t expanded, size_t level, size_t level_end, uint32_t depth) const {
   const auto of_level = static_cast<double>(level_end - level);
   const double growth = static_cast<double>(nodes_.size() - level_end) /

@@ -94,7 +94,8 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
   for (const BeamPolygon& polygon : scene_->polygons(facet))
     above = add_polygon(view, scene_->corners(polygon), least_depth, least_rise) || above;
   view.polygon_count = static_cast<uint32_t>(polygons_.size()) - view.first_polygon;
-  // What lies in the mirror's plane, or rises from it by less than the clearance: no path, or none that is clear.
+  // What lies in the mirror's plane, or rises from it by less than the clearance: no path, or none that is
+  // clear.
   if (view.polygon_count == 0 || !above) {
     polygons_.resize(view.first_polygon);
     return;
@@ -104,7 +105,8 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
   facets_.push_back(view);
 }
 
-/// Projects what is deeper than the mirror; true: there is some, and it rises above the mirror by more than `least_rise`.
+/// Projects what is deeper than the mirror; true: there is some, and it rises above the mirror by more than
+/// `least_rise`.
 bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                            double least_rise) {
   constexpr size_t most = Convex::capacity;

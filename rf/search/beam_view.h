@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A beam, and the facets as its apex sees them: projected onto slopes (a, b), so that straight edges stay straight and
-// the inverse depth of a plane is an affine function.
+// A beam, and the facets as its apex sees them: projected onto slopes (a, b), so that straight edges stay
+// straight and the inverse depth of a plane is an affine function.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace greatx::rf {
 
-/// All rays from the apex with slopes inside the window: direction a * right + b * up + forward. They start at depth
-/// near_m (the mirror), depth being counted along `forward`.
+/// All rays from the apex with slopes inside the window: direction a * right + b * up + forward. They start
+/// at depth near_m (the mirror), depth being counted along `forward`.
 struct Beam {
   static constexpr uint32_t no_mirror = ~0u;
   dvec3 apex{0.0};
@@ -58,8 +58,8 @@ struct ViewFacet {
 class BeamView {
  public:
   explicit BeamView(const BeamScene& scene) : scene_(&scene) {}
-  /// Forgets the beam before. `clearance_m`: see BeamSearchOptions; `transparent_body`: its facets hide nothing;
-  /// `wedges`: look at them, too.
+  /// Forgets the beam before. `clearance_m`: see BeamSearchOptions; `transparent_body`: its facets hide
+  /// nothing; `wedges`: look at them, too.
   void look(const Beam& beam, double clearance_m, uint32_t transparent_body, bool wedges);
 
   const BeamScene& scene() const { return *scene_; }
@@ -78,8 +78,8 @@ class BeamView {
   /// shared::visibility_tolerance.
   double room_m() const { return room_m_; }
   double rounding_m() const { return rounding_m_; }
-  /// How far behind a plane something must be to be hidden by what lies in it, metres. Planes that meet at an angle need
-  /// no room, for what they hide too much lies within the clearance of the edge that they meet in.
+  /// How far behind a plane something must be to be hidden by what lies in it, metres. Planes that meet at an
+  /// angle need no room, for what they hide too much lies within the clearance of the edge that they meet in.
   double room_between(const dvec3& normal, const dvec3& other) const;
 
  private:

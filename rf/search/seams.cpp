@@ -7,7 +7,7 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double least_sine = 0.1;
+constexpr double least_seam_sine = 0.1;
 /// Nearer than this, the facet is met at the point itself.
 constexpr double touching_m = 1e-7;
 constexpr uint32_t dark = 1u << 16;
@@ -53,7 +53,7 @@ uint32_t Seams::passed(const BeamScene& scene, const dvec3& point, const dvec3& 
   for (const uint32_t index : near) {
     const BeamFacet& cover = scene.facet(index);
     if (cover.index == facet || (ignored_body != 0 && cover.owner == ignored_body)) continue;
-    if (glm::length(glm::cross(cover.normal, world.facet(facet).normal)) < least_sine) continue;
+    if (glm::length(glm::cross(cover.normal, world.facet(facet).normal)) < least_seam_sine) continue;
     const double a = glm::dot(cover.normal, point) - cover.offset;
     const double b = glm::dot(cover.normal, other) - cover.offset;
     if (a * b >= 0.0) continue;

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths that only roundings make. The visibility test lets a segment end a tolerance behind a surface, so along an edge
-// where two facets meet, a strip of the one behind counts as lit. A search by beams knows that it is dark; a search by
-// bounds alone (MovingSearch) does not, and asks here, in fp64.
+// Paths that only roundings make. The visibility test lets a segment end a tolerance behind a surface, so
+// along an edge where two facets meet, a strip of the one behind counts as lit. A search by beams knows that
+// it is dark; a search by bounds alone (MovingSearch) does not, and asks here, in fp64.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "rf/facet_world.h"
-#include "rf/geometry.h"
+#include "rf/facets/facet_world.h"
+#include "rf/geometry/geometry.h"
 #include "rf/search/beam_scene.h"
 
 namespace greatx::rf {
@@ -25,9 +25,10 @@ class Seams {
         max_depth_(max_depth),
         max_transmissions_(max_transmissions) {}
 
-  /// Removes paths of reflections alone one of whose legs passes, within `reach_m` before its point of reflection, a facet
-  /// that stands at an angle to the one it is reflected at: an opaque one, or more walls than the path may have. Legs run
-  /// from the source; not facets of `source_body`, which carries it (0: none), on the first one.
+  /// Removes paths of reflections alone one of whose legs passes, within `reach_m` before its point of
+  /// reflection, a facet that stands at an angle to the one it is reflected at: an opaque one, or more walls
+  /// than the path may have. Legs run from the source; not facets of `source_body`, which carries it (0:
+  /// none), on the first one.
   void drop_behind(std::vector<GeometricPath>& paths, Source source, uint32_t source_body) const;
 
  private:

@@ -322,8 +322,8 @@ void SearchCache::store(const std::string& key, const BeamSearchResult& result) 
   spdlog::warn("candidates are not kept: cannot write {}: {}", target.string(), std::strerror(error));
 }
 
-/// Removes what was not used for longest until the rest is within the limit, and drafts that nobody will finish. Others may
-/// do the same at the same time: what is gone is gone.
+/// Removes what was not used for longest until the rest is within the limit, and drafts that nobody will
+/// finish. Others may do the same at the same time: what is gone is gone.
 void SearchCache::trim(const fs::path& newest) const {
   struct Kept {
     fs::file_time_type used;

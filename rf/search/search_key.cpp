@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+#include "rf/search/search_key.h"
+
 #include <vector>
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "rf/search/search_cache.h"
 
 namespace greatx::rf {
 
@@ -36,8 +37,8 @@ class Numbers {
   std::vector<double> values_;
 };
 
-/// Every fact of a facet that beams, their windows and their rectangles are made of (BeamScene); numbers of 32 bits are exact
-/// in a double.
+/// Every fact of a facet that beams, their windows and their rectangles are made of (BeamScene); numbers of
+/// 32 bits are exact in a double.
 void add_facet(const FacetWorld& world, uint32_t index, FacetKind kind, Numbers& numbers) {
   const PosedFacet& facet = world.facet(index);
   numbers.add(index), numbers.add(static_cast<double>(kind)), numbers.add(facet.owner);
@@ -55,7 +56,8 @@ void add_facet(const FacetWorld& world, uint32_t index, FacetKind kind, Numbers&
 
 std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
                        const dvec3& source, const BeamSearchOptions& options) {
-  // By name, so that a new option is a compiler's error here until it is decided whether it changes the result.
+  // By name, so that a new option is a compiler's error here until it is decided whether it changes the
+  // result.
   const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
                stop_depth] = options;
   static_cast<void>(threads);

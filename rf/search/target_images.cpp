@@ -9,15 +9,15 @@
 namespace greatx::rf {
 namespace {
 
-/// Rooms for roundings, metres, and per metre of what is computed with. Far more than fp64 needs: what is let in for
-/// nothing costs one exact solve.
+/// Rooms for roundings, metres, and per metre of what is computed with. Far more than fp64 needs: what is let
+/// in for nothing costs one exact solve.
 constexpr double room_m = 1e-5, relative_room = 1e-12;
 constexpr double side_room_m = 1e-3, most_side_room_m = 1.0;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Along a line that crosses a plane at distances `a` and `b` of its two ends, the point that is in the plane, and how
-/// much roundings can move it.
+/// Along a line that crosses a plane at distances `a` and `b` of its two ends, the point that is in the
+/// plane, and how much roundings can move it.
 struct Crossing {
   dvec3 point{0.0};
   double room = 0.0;
@@ -57,8 +57,8 @@ void add_side(Pyramid& pyramid, const dvec3& from, const dvec3& to, double exten
   const double inside = glm::dot(normal, pyramid.center - pyramid.apex);
   if (std::abs(inside) <= 1e-9 * glm::length(pyramid.center - pyramid.apex)) return;
   if (inside < 0.0) normal = -normal;
-  // How far the plane may be turned, times how far away anything can be. Images of targets lie up to three times as far
-  // as the scene.
+  // How far the plane may be turned, times how far away anything can be. Images of targets lie up to three
+  // times as far as the scene.
   const double coordinate = largest(pyramid.apex) + extent_m;
   const double turned =
       relative_room * coordinate * (length_u * length_v / length) / std::min(length_u, length_v);
@@ -234,7 +234,8 @@ std::array<float, TargetImages::lanes> TargetImages::within(const Node& node, co
   return least;
 }
 
-/// Does the straight line from the apex to the target's image pass the pyramid's rectangle, and then the facet's?
+/// Does the straight line from the apex to the target's image pass the pyramid's rectangle, and then the
+/// facet's?
 bool TargetImages::joins(const Pyramid& pyramid, const Image& image) const {
   const BeamFacet& facet = scene_->facet(image.facet);
   const dvec3 along = image.position - pyramid.apex;

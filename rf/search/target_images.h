@@ -15,8 +15,8 @@
 
 namespace greatx::rf {
 
-/// Everything that is reached on straight lines from `apex` through a rectangle in a mirror's plane, beyond it; or, without
-/// a mirror, everything.
+/// Everything that is reached on straight lines from `apex` through a rectangle in a mirror's plane, beyond
+/// it; or, without a mirror, everything.
 struct Pyramid {
   dvec3 apex{0.0};
   bool mirror = false;
@@ -29,7 +29,8 @@ struct Pyramid {
   std::span<const HalfSpace> region() const { return std::span(sides).first(side_count); }
 };
 
-/// `extent_m`: no coordinate of the scene is larger. None: the image lies in its mirror, nothing is reflected.
+/// `extent_m`: no coordinate of the scene is larger. None: the image lies in its mirror, nothing is
+/// reflected.
 std::optional<Pyramid> make_pyramid(const SequenceBeam& beam, const BeamFacet& mirror, double extent_m);
 
 /// What of a facet's rectangle lies in a pyramid, as the beam that goes on from there; none: nothing.
@@ -40,8 +41,8 @@ class TargetImages {
  public:
   TargetImages(const BeamScene& scene, const dvec3& target);
 
-  /// visit(facet) for every facet (BeamScene's) by which a path from the pyramid may reach the target, in an order that
-  /// depends on the scene and the target alone.
+  /// visit(facet) for every facet (BeamScene's) by which a path from the pyramid may reach the target, in an
+  /// order that depends on the scene and the target alone.
   template <typename Visit>
   void reached_from(const Pyramid& pyramid, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -67,8 +68,8 @@ class TargetImages {
     dvec3 position{0.0};
     uint32_t facet = 0;
   };
-  /// Boxes around up to eight children, or images: boxes without size. In fp32 and side by side, as most of the time of a
-  /// search is spent on them.
+  /// Boxes around up to eight children, or images: boxes without size. In fp32 and side by side, as most of
+  /// the time of a search is spent on them.
   struct Node {
     float center[3][lanes] = {}, half[3][lanes] = {};
     uint32_t first = 0, count = 0;  ///< children, or images of a leaf

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two plain scenes for radio: a street between two rows of houses, and a closed room.
+#include "scene/generator/canyon.h"
+
 #include <array>
 #include <vector>
 
@@ -9,9 +11,8 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "scene/generator/kinds.h"
-#include "scene/generator/materials.h"
-#include "scene/generator/mesh_builder.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/mesh_builder.h"
 
 namespace greatx::scene::generator {
 
@@ -44,7 +45,7 @@ std::vector<Section> street_section() {
           {{-yard, z}, {-frontage, z}, "asphalt_lot", 3}};
 }
 
-void add_ground(GlbWriter& writer, double half_length) {
+void add_ground(SceneWriter& writer, double half_length) {
   std::array<MeshBuilder, 4> meshes;
   for (const Section& s : street_section())
     meshes[s.node].quad(material(s.material), {s.from.x, -half_length, s.from.y},
@@ -104,7 +105,7 @@ MeshBuilder make_house(double width, double depth, int floors, RandomStream& ran
 
 }  // namespace
 
-void write_canyon(GlbWriter& writer, double size_m, uint64_t seed) {
+void write_canyon(SceneWriter& writer, double size_m, uint64_t seed) {
   const double half_length = snap(0.5 * size_m);
   add_ground(writer, half_length);
   RandomStream random(seed, 5);
@@ -127,7 +128,7 @@ void write_canyon(GlbWriter& writer, double size_m, uint64_t seed) {
   }
 }
 
-void write_room(GlbWriter& writer) {
+void write_room(SceneWriter& writer) {
   MeshBuilder mesh;
   const double x = 6.0, y = 4.0, z = 3.2;
   const int wall = material("blind_plaster"), glass = material("shopfront"), stone = material("concrete");

@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "scene/generator/kinds.h"
-#include "scene/generator/objects.h"
-#include "scene/generator/vehicles.h"
+#include "scene/generator/canyon.h"
+#include "scene/generator/city/city.h"
+#include "scene/generator/country/country.h"
+#include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/vehicles.h"
 
 namespace greatx::scene {
 
@@ -52,7 +54,7 @@ std::string checked_variant(const Kind& kind, const std::string& variant) {
   return variant;
 }
 
-void write_quadrotor(GlbWriter& writer, const std::string& variant) {
+void write_quadrotor(SceneWriter& writer, const std::string& variant) {
   const double diagonal = variant == "small" ? 0.35 : variant == "medium" ? 0.9 : 2.2;
   const Quadrotor parts = make_quadrotor(diagonal);
   const int body = writer.add_node({.name = "quadrotor",
@@ -85,7 +87,7 @@ std::vector<std::byte> generate_glb(const GenerateOptions& options) {
   if (kind.max_size_m > 0 && !(size >= kind.min_size_m && size <= kind.max_size_m))
     throw_user_error("scene generator: size of \"{}\": expected {} to {} m, found {}", kind.name,
                      kind.min_size_m, kind.max_size_m, size);
-  GlbWriter writer;
+  SceneWriter writer;
   if (options.kind == "city") {
     write_city(writer, size, options.seed);
   } else if (options.kind == "country") {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scene of another program holds, before it is written as glTF (apps/scene_import.h).
+// Defines the content of another program's scene, before it is written as glTF (apps/files/scene_import.h).
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct ImportedMaterial {
   std::string radio_json;  ///< one JSON object: the fields of GREATX_radio_material (docs/materials.md)
 };
 
-/// Triangles of one material, in world coordinates (z up, metres).
+/// Holds triangles of one material, in world coordinates (z up, metres).
 struct ImportedObject {
   std::string name;
   int material = 0;             ///< index into ImportedScene::materials
@@ -30,7 +30,7 @@ struct ImportedObject {
 struct ImportedScene {
   std::vector<ImportedMaterial> materials;
   std::vector<ImportedObject> objects;
-  std::vector<std::string> notes;  ///< what was ignored or chosen
+  std::vector<std::string> notes;  ///< the parts that were ignored, and the choices made
 
   size_t triangle_count() const {
     size_t corners = 0;

@@ -8,7 +8,7 @@
 #include "core/activity.h"
 #include "core/budget.h"
 #include "core/text.h"
-#include "scene/asset_folder.h"
+#include "scene/files/asset_folder.h"
 #include "scene/import/mitsuba_materials.h"
 #include "scene/import/mitsuba_xml.h"
 #include "scene/import/ply_mesh.h"
@@ -18,10 +18,11 @@ namespace greatx::scene {
 namespace {
 
 std::string id_of(const pugi::xml_node& node) { return node.attribute("id").value(); }
-/// As messages say it.
+/// Returns the id as messages show it.
 std::string shown_id(const pugi::xml_node& node) { return printable(node.attribute("id").value()); }
 
-/// The folder's reader knows URIs: a per cent sign in a file name is no escape.
+/// Returns a file name as a URI. The folder's reader knows URIs, and a per cent sign in a file name is not an
+/// escape.
 std::string uri_of(const std::string& filename) {
   std::string uri;
   for (const char character : filename) uri += character == '%' ? "%25" : std::string(1, character);
@@ -53,8 +54,8 @@ class MitsubaImporter {
 
   void add_shape(const pugi::xml_node& shape) {
     const std::string type = shape.attribute("type").value();
-    if (type ==
-        "merge") {  // Sionna RT's way to make one mesh of all: the shapes inside keep their names here
+    // Sionna RT makes one mesh of all shapes in this way. The shapes inside keep their names here.
+    if (type == "merge") {
       for (const pugi::xml_node& inner : shape.children("shape")) add_shape(inner);
       return;
     }
@@ -71,7 +72,7 @@ class MitsubaImporter {
       scene_.notes.push_back(fmt::format("shape '{}': its emitter is left out", shown_id(shape)));
   }
 
-  /// The shape's own <bsdf>, or the one that its <ref> names.
+  /// Returns the shape's own <bsdf>, or the one that its <ref> names.
   int material_of(const pugi::xml_node& shape) {
     pugi::xml_node bsdf = shape.child("bsdf");
     if (!bsdf) {
@@ -89,7 +90,7 @@ class MitsubaImporter {
     return entry->second;
   }
 
-  /// A sidecar finds materials by name, so that a name must mean one material.
+  /// Adds a material. A sidecar finds materials by name, so a name must mean one material.
   int add_material(const pugi::xml_node& bsdf) {
     ImportedMaterial material = read_mitsuba_material(xml_, bsdf, options_);
     for (size_t i = 0; i < scene_.materials.size(); ++i) {
@@ -126,7 +127,8 @@ class MitsubaImporter {
     normalize(shape, object);
   }
 
-  /// In fp64, rounded once. True if the transform mirrors, so that the winding must be turned.
+  /// Places the object. It computes in fp64 and rounds once. Returns true if the transform mirrors, so that
+  /// the winding must be turned.
   bool place(const pugi::xml_node& node, ImportedObject& object) const {
     const dmat4 world_from_shape = xml_.transform(node);
     for (vec3& position : object.positions) {

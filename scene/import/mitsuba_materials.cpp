@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 namespace greatx::scene {
 
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a medium looks like where the file does not say.
+/// Describes the look of a medium where the file gives none.
 struct Look {
   const char* itu;
   vec3 color;
@@ -40,7 +40,7 @@ const Look looks[] = {
     {"wet_ground", {0.14f, 0.10f, 0.07f}},
 };
 
-/// The canonical name of a medium ("Wet-Ground.001" -> "wet_ground"), or empty.
+/// Returns the canonical name of a medium ("Wet-Ground.001" -> "wet_ground"), or an empty text.
 std::string itu_name(std::string name) {
   if (const size_t dot = name.find('.'); dot != std::string::npos) name.resize(dot);
   const std::optional<RadioMedium> medium = itu_medium(name);
@@ -50,7 +50,7 @@ std::string itu_name(std::string name) {
   return {};
 }
 
-/// The first of the colours that a BSDF, or one nested in it, has.
+/// Returns the first colour that a BSDF, or one nested in it, has.
 std::optional<vec3> color_of(const MitsubaXml& xml, const pugi::xml_node& bsdf) {
   for (const char* name : {"color", "reflectance", "base_color"}) {
     const pugi::xml_node found = bsdf.find_node([&](const pugi::xml_node& node) {
@@ -67,7 +67,7 @@ double thickness_of(const MitsubaXml& xml, const pugi::xml_node& bsdf, const Mit
   return thickness;
 }
 
-/// What the plugins call by other names than GREATX_radio_material.
+/// Adds the fields that the plugins call by other names than GREATX_radio_material.
 void add_scattering(const MitsubaXml& xml, const pugi::xml_node& bsdf, Json& radio) {
   if (const auto value = xml.real(bsdf, "scattering_coefficient"); value && *value != 0.0)
     radio["scattering_coefficient"] = *value;

@@ -8,10 +8,11 @@
 
 namespace greatx::scene {
 
-/// "mat-itu_wood" -> "itu_wood": the name without the prefix that exporters and Sionna RT give it.
+/// Returns the name without the prefix that exporters and Sionna RT give it: "mat-itu_wood" -> "itu_wood".
 std::string without_prefix(std::string name, const std::string& prefix);
 
-/// The material of an outermost <bsdf> (others may be nested in it). Throws UserError if it says nothing of radio.
+/// Reads the material of an outermost <bsdf> (others may be nested in it). Throws UserError if it has no
+/// radio fields.
 ImportedMaterial read_mitsuba_material(const MitsubaXml& xml, const pugi::xml_node& bsdf,
                                        const MitsubaOptions& options);
 

@@ -17,7 +17,8 @@ namespace greatx::scene {
 
 namespace {
 
-/// Whoever walks down the elements may do so by recursion, and names may go into glTF and JSON.
+/// Checks depth and text, so that code may walk down the elements by recursion, and names may go into glTF
+/// and JSON.
 class Checker : public pugi::xml_tree_walker {
  public:
   explicit Checker(const MitsubaXml& xml) : xml_(xml) {}

@@ -13,10 +13,11 @@
 
 namespace greatx::scene {
 
-/// A Mitsuba document and where its elements stand. Messages begin with file:line.
+/// Represents a Mitsuba document and the places of its elements. Messages begin with file:line.
 class MitsubaXml {
  public:
-  /// Throws UserError: not readable, not well-formed, nested deeper than 64, not UTF-8, no root element <scene>.
+  /// Throws UserError if the file is not readable, not well-formed, nested deeper than 64, not UTF-8, or has
+  /// no root element <scene>.
   explicit MitsubaXml(const std::filesystem::path& file);
 
   pugi::xml_node scene() const { return document_.child("scene"); }
@@ -29,21 +30,23 @@ class MitsubaXml {
     throw_user_error_at(where(node), format, std::forward<Args>(args)...);
   }
 
-  /// The attribute's text; an error if it is missing, empty or a parameter ($name).
+  /// Returns the attribute's text. It is an error if the attribute is missing, empty or a parameter ($name).
   std::string text(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute) const;
-  /// Numbers parted by blanks or commas.
+  /// Returns numbers separated by blanks or commas.
   std::vector<double> numbers(const pugi::xml_node& node, const char* attribute) const;
 
-  /// The child <type name="name">, or an empty node.
+  /// Returns the child <type name="name">, or an empty node.
   static pugi::xml_node property(const pugi::xml_node& parent, const char* type, const std::string& name);
-  /// Values of such children; empty where there is none.
+  /// Returns the values of such children, or nothing where there is none.
   std::optional<std::string> string(const pugi::xml_node& parent, const std::string& name) const;
   std::optional<double> real(const pugi::xml_node& parent, const std::string& name) const;
   bool flag(const pugi::xml_node& parent, const std::string& name) const;  ///< false where there is none
-  /// An <rgb>'s value: three numbers, one for all, or #rrggbb (taken as it is: linear, as Mitsuba does).
+  /// Returns an <rgb>'s value: three numbers, one for all, or #rrggbb (which is taken as linear, as in
+  /// Mitsuba).
   vec3 rgb(const pugi::xml_node& node) const;
-  /// Of a <transform>: translate, rotate, scale and matrix, each applied after those before it.
+  /// Returns the matrix of a <transform>: translate, rotate, scale and matrix, each applied after those
+  /// before it.
   dmat4 transform(const pugi::xml_node& node) const;
 
  private:

@@ -106,7 +106,7 @@ class HeaderReader {
   std::string_view next_line() {
     ++line_;
     const size_t end = text_.find('\n', at_);
-    // A header of a megabyte is none.
+    // A text of a megabyte without an end is not a header.
     if (end == std::string_view::npos || end > (1u << 20)) fail("the header has no end_header");
     std::string_view line = text_.substr(at_, end - at_);
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -193,7 +193,7 @@ class BodyReader {
     const char* const last = reinterpret_cast<const char*>(file_.data()) + end;
     if (first == last) fail("the file ends early");
     double value = 0.0;
-    float narrow = 0.0f;  // a float is parsed as one, so that it is rounded once
+    float narrow = 0.0f;  // a float is parsed as a float, so that it is rounded once
     const auto [stopped, error] =
         type == Type::f32 ? std::from_chars(first, last, narrow) : std::from_chars(first, last, value);
     if (error != std::errc{} || stopped != last)
@@ -252,12 +252,12 @@ class MeshReader {
   MeshReader(BodyReader& body, PlyMesh& mesh) : body_(body), mesh_(mesh) {}
 
   void read(const Element& element) {
-    // Each value takes a byte at least: a count that lies must not allocate.
+    // Each value takes at least a byte. The check keeps a false count from allocating memory.
     const uint64_t least = std::max<uint64_t>(1, element.properties.size());
     if (element.count > body_.left() / least)
       body_.fail(fmt::format("{} elements '{}' do not fit into the {} bytes that are left", element.count,
                              element.name, body_.left()));
-    // Position and normal; two triangles.
+    // Memory is counted for position and normal of a vertex, and for two triangles of a face.
     if (element.name == "vertex" || element.name == "face")
       memory_.plan(fmt::format("{}: with {} elements '{}'", body_.name(), element.count, element.name),
                    saturating_product({element.count, 6 * sizeof(float)}));

@@ -5,8 +5,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Develops the picture, which is padded to whole invocations as the arrays are, and unpacks depth and ids into tightly packed arrays, eight pixels an invocation and in words of
-// 64 bits, so that the host only copies: on a CPU driver each lane's access to memory costs, whatever its width.
+// Develops the picture and unpacks depth and ids into tightly packed arrays, so that the host only copies.
+// The picture is padded to whole invocations, as the arrays are. An invocation handles eight pixels, in words
+// of 64 bits: on a CPU driver each lane's access to memory costs the same, whatever its width.
 #include "camera/stored_color.glsl"
 #include "lib/linear.glsl"
 #include "shared/develop.h"
@@ -23,7 +24,7 @@ layout(constant_id = develop_spec_metered) const bool metered = true;
 layout(constant_id = develop_spec_flat_field) const bool flat_field_on = true;
 layout(constant_id = develop_spec_noise) const bool noise_on = true;
 
-// Two pixels an element.
+// Each element holds two pixels.
 layout(set = 0, binding = develop_color_binding, scalar) readonly buffer ColorBlock { uvec4 picture_color[]; };
 layout(set = 0, binding = develop_seen_binding, scalar) readonly buffer SeenBlock { uvec4 picture_seen[]; };
 layout(set = 0, binding = develop_triangle_ids_binding, scalar) readonly buffer TriangleIdsBlock {

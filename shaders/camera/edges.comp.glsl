@@ -3,9 +3,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Smooth edges from one sample a pixel: where neighbours see different triangles, the nearer one's outline is known
-// exactly, and how far it reaches between the two centres says what share of each pixel it covers (after E. Persson,
-// "Geometry Buffer Anti-Aliasing", 2011).
+// Smooths edges from one sample a pixel. Where neighbours see different triangles, the outline of the nearer
+// one is known exactly. The length by which it reaches between the two centres gives the share that it covers
+// of each pixel (after E. Persson, "Geometry Buffer Anti-Aliasing", 2011).
 #include "camera/effects.glsl"
 #include "camera/lens_ray.glsl"
 #include "camera/picture.glsl"
@@ -22,7 +22,7 @@ layout(set = 0, binding = edges_luminance_to_binding, scalar) writeonly buffer T
   float to_luminance[];
 };
 
-/// What is wanted of a pixel; the other is nothing.
+/// Holds colour and luminance of a pixel. A member that is not wanted is 0.
 struct Shaded {
   vec4 color;
   float luminance;
@@ -36,7 +36,8 @@ Shaded shaded(ivec2 at) {
   return pixel;
 }
 
-/// How far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the first.
+/// Returns how far from `ray` along `step` the triangle is left, in steps; 2 if it is not left within the
+/// first.
 float reach(Seen seen, vec3 ray, vec3 step) {
   float side = dot(ray, seen.normal) < 0.0 ? -1.0 : 1.0;
   vec3 here = side * vec3(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator), dot(ray, seen.normal));
@@ -52,7 +53,8 @@ float reach(Seen seen, vec3 ray, vec3 step) {
 ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }
 uint neighbor(ivec2 at, int k) { return picture_element(clamp(at + step_to(k), ivec2(0), picture_size() - 1)); }
 
-/// The pixel when the triangles of those neighbours whose bits are set in `differing` have their share of it.
+/// Returns the pixel after the triangles of those neighbours whose bits are set in `differing` got their
+/// share of it.
 Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
   vec3 ray = pixel_ray(pinhole_place(at));
   Shaded across = Shaded(vec4(0.0), 0.0), down = across;
@@ -79,7 +81,7 @@ Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
       share += part;
     }
   }
-  // An edge crosses both ways: the axis that it is steeper to tells the share.
+  // An edge crosses both axes. The axis to which it is steeper gives the share.
   bool steep = share.y > share.x;
   float rest = 1.0 - (steep ? share.y : share.x);
   return Shaded(pixel.color * rest + (steep ? down.color : across.color),

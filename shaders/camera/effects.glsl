@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The effects of the plan as specialization constants of the shading pipeline.
+// The effects of the plan are specialization constants of the shading pipeline.
 #ifndef GREATX_CAMERA_EFFECTS_GLSL
 #define GREATX_CAMERA_EFFECTS_GLSL
 #include "shared/camera.h"

@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fog and rain between a surface and the eye (docs/light.md).
+// Adds fog and rain between a surface and the eye (docs/light.md).
 #ifndef GREATX_CAMERA_HAZE_GLSL
 #define GREATX_CAMERA_HAZE_GLSL
 #include "camera/light.glsl"
 
-/// Radiance of endless haze from a unit direction.
+/// Returns the radiance of endless haze from a unit direction.
 vec3 airlight(vec3 direction) {
   float g = lighting.haze_asymmetry;
   float root = inversesqrt(1.0 + g * g - 2.0 * g * dot(direction, lighting.sun_direction));
   return lighting.haze_ambient + lighting.haze_directed * (root * root * root);
 }
 
-/// What is left of `radiance` after `distance` metres along `direction` (unit, from the eye), and the air's own light.
+/// Returns the rest of `radiance` after `distance` metres along `direction` (unit, from the eye), plus the
+/// light of the air.
 vec3 through_haze(vec3 radiance, vec3 direction, float distance) {
   return mix(airlight(direction), radiance, exp(-lighting.haze_extinction * distance));
 }

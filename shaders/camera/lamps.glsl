@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lamps: each pixel looks at those of its cluster alone (renderer/light/lamps.h makes the clusters).
+// Adds the light of lamps. Each pixel looks only at the lamps of its cluster (renderer/camera/lamps.h makes
+// the clusters).
 #ifndef GREATX_CAMERA_LAMPS_GLSL
 #define GREATX_CAMERA_LAMPS_GLSL
 #include "camera/light.glsl"
@@ -11,10 +12,11 @@ layout(set = 0, binding = lights_binding, scalar) readonly buffer LampQuadsBlock
 
 float lamp_float(uint word) { return uintBitsToFloat(lamp_words[word]); }
 
-/// floor(x) for 0 <= x < 2^22 by the digits of a float: CPU drivers convert lane by lane.
+/// Returns floor(x) for 0 <= x < 2^22 from the digits of a float: CPU drivers convert lane by lane.
 uint whole(float x) { return floatBitsToUint(floor(x) + 8388608.0) & 0x7fffffu; }
 
-/// The word where the cluster of a point begins: its first entry, then how many.
+/// Returns the word where the cluster of a point begins. It holds the first entry, and the next word their
+/// number.
 uint cluster_of(vec3 p) {
   float depth = max(dot(camera.forward, p), 1e-3);
   vec2 place = vec2(dot(camera.clip_x, p), dot(camera.clip_y, p)) / depth * 0.5 + 0.5;
@@ -26,8 +28,8 @@ uint cluster_of(vec3 p) {
   return lamps_header_words + 2u * ((slice * rows + row) * columns + column);
 }
 
-/// Radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics show no highlight of a
-/// lamp, but give what their specular lobe would reflect as diffuse light.
+/// Returns the radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics
+/// show no highlight of a lamp. They give as diffuse light the part that their specular lobe would reflect.
 vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
   uint cluster = cluster_of(p_eye);
   uint entry = lamp_words[cluster], end = entry + lamp_words[cluster + 1u];

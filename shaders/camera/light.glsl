@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What arrives at a surface point: sun with its shadows, sky, lamps.
+// Computes the light that arrives at a surface point: sun with its shadows, sky, lamps.
 #ifndef GREATX_CAMERA_LIGHT_GLSL
 #define GREATX_CAMERA_LIGHT_GLSL
 #include "camera/effects.glsl"
@@ -19,14 +19,14 @@ layout(set = 0, binding = static_shadow_binding) uniform sampler2DShadow static_
 layout(set = 0, binding = moving_shadow_binding) uniform sampler2DShadow moving_shadow;
 layout(set = 0, binding = sky_view_binding) uniform sampler2D sky_view;
 
-/// Radiance from a direction, blurred for a roughness.
+/// Returns the radiance from a direction, blurred for a roughness.
 vec3 environment_radiance(vec3 direction, float roughness) {
   float level = roughness * float(environment_levels - 1u);
   return textureLod(environment, octahedral_uv(direction), level).rgb * lighting.environment_scale;
 }
 
-/// Irradiance of the sky on a plane, over pi (Ramamoorthi and Hanrahan, SIGGRAPH 2001; coefficients already
-/// convolved and scaled by the basis).
+/// Returns the irradiance of the sky on a plane, over pi (Ramamoorthi and Hanrahan, SIGGRAPH 2001). The
+/// coefficients are already convolved and scaled by the basis.
 vec3 sky_irradiance_over_pi(vec3 n) {
   vec3 e = lighting.irradiance[0].rgb;
   e += lighting.irradiance[1].rgb * n.y + lighting.irradiance[2].rgb * n.z + lighting.irradiance[3].rgb * n.x;
@@ -36,8 +36,8 @@ vec3 sky_irradiance_over_pi(vec3 n) {
   return max(e, vec3(0.0));
 }
 
-/// Share of the light that passes a shadow map at uv. `near`: four bilinear comparisons, a 3 x 3 texel tent; else one,
-/// where a pixel is no smaller than a texel.
+/// Returns the share of the light that passes a shadow map at uv. If `near`, it makes four bilinear
+/// comparisons, a 3 x 3 texel tent. Otherwise it makes one, since a pixel is then no smaller than a texel.
 float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv, bool near) {
   float r = near ? 0.5 : 0.0;
   float sum = texture(map, vec3(uv + texel_uv * vec2(-r, -r), depth));
@@ -50,13 +50,14 @@ float shadow_filter(sampler2DShadow map, vec2 uv, float depth, float texel_uv, b
   return sum;
 }
 
-/// Moves the point off its surface by what a texel can hide: along the normal where the light grazes.
+/// Moves the point off its surface by the length that a texel can hide; the move is along the normal where
+/// the light grazes.
 vec3 shadow_point(vec3 p, vec3 n_light, float texel_m) {
   float slope = sqrt(max(1.0 - n_light.z * n_light.z, 0.0));
   return p + n_light * (texel_m * (0.25 + 1.75 * slope)) + vec3(0.0, 0.0, 0.25 * texel_m);
 }
 
-/// Share of the sun that passes one moving body's tile.
+/// Returns the share of the sun that passes the tile of one moving body.
 float tile_visibility(uint i, vec3 p, vec3 n, float pixel_m) {
   float visible = 1.0;
   vec3 q = (p - shadow_tiles[i].center) / shadow_tiles[i].radius;
@@ -71,7 +72,8 @@ float tile_visibility(uint i, vec3 p, vec3 n, float pixel_m) {
   return visible;
 }
 
-/// Share of the sun that reaches a point; geometric normal in the local frame, facing the sun.
+/// Returns the share of the sun that reaches a point. The geometric normal is in the local frame and faces
+/// the sun.
 float sun_visibility(vec3 p_eye, vec3 normal) {
   float visible = 1.0;
   if (!static_shadows_on && !moving_shadows_on) return visible;
@@ -87,7 +89,7 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
                             pixel_m < shadow_near * lighting.static_texel_m);
   }
   if (moving_shadows_on) {
-    // The tiles' common bounds stand at fixed places: one load for all lanes.
+    // The common bounds of the tiles stand at fixed places, so one load serves all lanes.
     bool near = all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
     if (near) {
       for (uint i = 0u; i < shadow_tiles_header.count; ++i) visible *= tile_visibility(i, p, n, pixel_m);
@@ -96,7 +98,8 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
   return visible;
 }
 
-/// Radiance towards the eye of light from direction l with the given illuminance on a facing surface.
+/// Returns the radiance towards the eye of light from direction l with the given illuminance on a facing
+/// surface.
 vec3 reflect_light(Reflectance r, vec3 n, vec3 v, vec3 l, vec3 illuminance) {
   float n_dot_l = dot(n, l);
   if (n_dot_l <= 0.0) return vec3(0.0);
@@ -108,8 +111,9 @@ vec3 reflect_light(Reflectance r, vec3 n, vec3 v, vec3 l, vec3 illuminance) {
   return f * illuminance * n_dot_l;
 }
 
-/// Share of the sky that the static world leaves free over a point (renderer/light/sky_view.h): over level ground as
-/// seen from a height above the floor, over a wall twice as much, since the wall itself hides the other half.
+/// Returns the share of the sky that the static world leaves free over a point (renderer/light/sky_view.h).
+/// Over level ground it is the share as seen from a height above the floor. Over a wall it is twice as much,
+/// since the wall itself hides the other half.
 float sky_share(vec3 p_eye, vec3 n) {
   vec3 p = p_eye + camera.eye_high + n * lighting.sky_view_step;
   vec4 view = textureLod(sky_view, p.xy * lighting.sky_view_uv.xy + lighting.sky_view_uv.zw, 0.0);
@@ -120,8 +124,8 @@ float sky_share(vec3 p_eye, vec3 n) {
   return min(share * mix(2.0, 1.0, abs(n.z)), 1.0);
 }
 
-/// Radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by the roughness. What the
-/// world hides of the sky sends what the ground throws back instead.
+/// Returns the radiance towards the eye of the sky's light: the diffuse part, and a mirror image blurred by
+/// the roughness. The part of the sky that the world hides is replaced by light that the ground throws back.
 vec3 reflect_sky(Reflectance r, vec3 n, vec3 v, float roughness, vec3 p_eye) {
   float share = ambient_occlusion_on ? sky_share(p_eye, n) : 1.0;
   vec3 hidden = ambient_occlusion_on ? (1.0 - share) * lighting.bounce : vec3(0.0);

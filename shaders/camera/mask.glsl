@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Alpha masks (glTF 2.0, 3.9.4).
+// Applies alpha masks (glTF 2.0, 3.9.4).
 #ifndef GREATX_CAMERA_MASK_GLSL
 #define GREATX_CAMERA_MASK_GLSL
 #include "lib/scene.glsl"

@@ -4,7 +4,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Histogram of log2 of the luminance on a grid over the picture. Whole numbers are added, so their order does not matter.
+// Makes a histogram of log2 of the luminance on a grid over the picture. It adds whole numbers, so their
+// order does not matter.
 #include "camera/stored_color.glsl"
 #include "lib/linear.glsl"
 #include "shared/film.h"
@@ -22,7 +23,7 @@ void main() {
   float luminance = dot(seen.rgb, vec3(0.2126, 0.7152, 0.0722));
   if (!(luminance > 0.0)) return;  // black has no logarithm
   float above = max(log2(luminance) - meter_least_ev, 0.0);
-  // Whole numbers by the last bits of a float, as in srgb_byte().
+  // The last bits of a float give the whole number, as in srgb_byte().
   uint steps = floatBitsToUint(above * meter_steps_per_ev + 8388608.0) & 0xffffu;
   uint weight = floatBitsToUint(mix(1.0, meter_scene_weight, clamp(seen.a, 0.0, 1.0)) + 8388608.0) & 0xffu;
   uint bin = min(steps * uint(meter_bins_per_ev) / uint(meter_steps_per_ev), meter_bins - 1u);

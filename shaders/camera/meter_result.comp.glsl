@@ -4,7 +4,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The exposure that the meter's histogram asks for: one group.
+// Finds the exposure that the meter's histogram asks for, in one group.
 #include "shared/film.h"
 
 layout(local_size_x = meter_bins) in;
@@ -22,7 +22,7 @@ void main() {
   float total = 0.0;
   for (uint i = 0u; i < meter_bins; ++i) total += float(bins[i].weight);
   float from = meter_trimmed * total, to = total - from;
-  // Of each bin what lies between the two fractions counts.
+  // The part of each bin that lies between the two fractions counts.
   float before = 0.0, counted = 0.0, sum = 0.0;
   for (uint i = 0u; i < meter_bins; ++i) {
     float weight = float(bins[i].weight);

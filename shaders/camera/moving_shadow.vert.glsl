@@ -3,7 +3,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moving casters, each body into its own tile of the atlas. Tile i is that of the i-th body that has triangles.
+// Draws moving casters, each body into its own tile of the atlas. Tile i belongs to the i-th body that has
+// triangles.
 #include "lib/scene.glsl"
 #include "shared/camera.h"
 

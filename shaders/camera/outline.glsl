@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A triangle's outline in the pinhole picture: whether a place lies within it, and where it is entered on the way to a place
-// that does. Edges are functions linear in pixels, so nothing is projected: corners behind the eye do no harm.
+// Computes the outline of a triangle in the pinhole picture: whether a place lies within it, and where the
+// way to a place within enters it. Edges are functions linear in pixels, so nothing is projected, and corners
+// behind the eye do no harm.
 #ifndef GREATX_CAMERA_OUTLINE_GLSL
 #define GREATX_CAMERA_OUTLINE_GLSL
 #include "camera/triangle.glsl"
 
-/// Pixels: the step to which the rasteriser snaps corners. So far outside counts as inside, or neighbours had a gap.
+/// The step to which the rasteriser snaps corners, in pixels. A place this far outside counts as inside,
+/// since neighbours would otherwise have a gap.
 const float outline_slack = 1.0 / 256.0;
 
 struct Outline {
@@ -19,7 +21,7 @@ struct Outline {
   bool thin;       // less than a pixel across
 };
 
-/// Of a ray with planar depth 1: one value an edge, positive on the inner side.
+/// Returns one value an edge, positive on the inner side, for a ray with planar depth 1.
 vec3 edge_functions(Seen seen, float side, vec3 ray) {
   vec3 f = side * vec3(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator), dot(ray, seen.normal));
   f.z -= f.x + f.y;
@@ -34,28 +36,30 @@ Outline outline_of(Seen seen) {
   vec3 across = edge_functions(seen, outline.side, camera.ray_x),
        down = edge_functions(seen, outline.side, camera.ray_y);
   outline.slope = sqrt(across * across + down * down);
-  // Each corner's depth beside the edge that it does not lie on.
+  // Takes the depth of each corner beside the edge that the corner does not lie on.
   vec3 depths = dot(camera.forward, seen.p0) + vec3(dot(camera.forward, seen.e1), dot(camera.forward, seen.e2), 0.0);
   outline.nearest = max(min(depths.x, min(depths.y, depths.z)), camera.near_m);
   outline.farthest = max(depths.x, max(depths.y, depths.z));
-  // At its corner an edge function is offset / depth: over the slope, the corner's distance from the edge in pixels.
+  // At its corner an edge function is offset / depth. Divided by the slope, it is the corner's distance from
+  // the edge in pixels.
   outline.thin = any(greaterThan(depths * outline.slope, vec3(outline.offset)));
   return outline;
 }
 
-/// Planar depth where the edge functions have these values; on the triangle whatever the roundings.
+/// Returns the planar depth where the edge functions have these values. It lies on the triangle whatever the
+/// rounding.
 float outline_depth(Outline outline, vec3 f) {
   float depth = outline.offset / (f.x + f.y + f.z);
   return depth >= outline.nearest ? min(depth, outline.farthest) : outline.nearest;
 }
 
-/// Whether a ray meets the triangle beyond the near plane.
+/// Returns whether a ray meets the triangle beyond the near plane.
 bool outline_covers(Outline outline, vec3 f) {
   float sum = f.x + f.y + f.z;
   return all(greaterThanEqual(f, -outline_slack * outline.slope)) && sum > 0.0 && outline.offset >= camera.near_m * sum;
 }
 
-/// The edge functions where the way from a place outside (`from`) to one inside (`to`) enters.
+/// Returns the edge functions where the way from a place outside (`from`) to one inside (`to`) enters.
 vec3 outline_entered(vec3 from, vec3 to) {
   float way = 0.0;
   for (int i = 0; i < 3; ++i)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a pixel lies in a picture's buffers (renderer/camera/picture.h), and its colour there. Whoever uses the places
-// has the block `camera` of CameraConstants.
+// Finds the place of a pixel in a picture's buffers (renderer/camera/picture.h), and its colour there. A
+// shader that uses the places has the block `camera` of CameraConstants.
 #ifndef GREATX_CAMERA_PICTURE_GLSL
 #define GREATX_CAMERA_PICTURE_GLSL
 #include "camera/visibility_view.glsl"

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shades what the visibility pass found: each triangle that a pixel's samples saw once, weighed by its samples. Depth
-// and id are those of the triangle that the pixel's centre looks at. GREATX_MULTISAMPLED: four samples a pixel.
+// Shades the triangles that the visibility pass found. Each triangle that a pixel's samples saw is shaded
+// once and weighed by the number of these samples. Depth and id are those of the triangle that the pixel's
+// centre looks at. With GREATX_MULTISAMPLED a pixel has four samples.
 #include "camera/haze.glsl"
 #include "camera/lamps.glsl"
 #include "camera/lens_ray.glsl"
@@ -19,7 +20,7 @@ const uint sample_count = 4u;
 layout(set = 0, binding = visibility_binding, r32ui) uniform readonly uimage2D visibility;
 const uint sample_count = 1u;
 #endif
-/// What a sample of the pinhole picture sees: triangle + 1, 0: nothing.
+/// Returns triangle + 1 as a sample of the pinhole picture sees it; 0: nothing.
 uint visible_at(ivec2 at, uint s) {
 #ifdef GREATX_MULTISAMPLED
   return texelFetch(visibility, at, int(s)).r;
@@ -32,7 +33,7 @@ layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2
 layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
 layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock { float picture_luminance[]; };
 
-/// Radiance towards the eye of the triangle around the ray.
+/// Returns the radiance towards the eye of the triangle around the ray.
 vec3 surface_radiance(Seen seen, vec3 ray) {
   Surface s = surface_at(seen, ray);
   Reflectance r = lambertian_reflectance(s.base_color);
@@ -49,18 +50,19 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   return radiance;
 }
 
-/// Takes the triangle as what the centre sees if it covers the centre and is nearer than what did so far.
+/// Takes the triangle for the one that the centre sees if it covers the centre and is nearer than the one
+/// found so far.
 void look(inout Center center, Seen seen, vec3 ray) {
   float facing = dot(ray, seen.normal);
   float depth = dot(seen.p0, seen.normal) / facing;
   const float rim = 1e-4;  // on an edge both neighbours cover the centre
   vec2 b = vec2(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator)) / facing;
-  bool covers = sample_count == 1u ||  // which is the centre itself
+  bool covers = sample_count == 1u ||  // the sample is the centre itself
                 (b.x >= -rim && b.y >= -rim && b.x + b.y <= 1.0 + rim);
   if (covers && depth > 0.0 && depth < center.depth) center = Center(depth, seen.triangle + 1u);
 }
 
-/// The triangle's rim where it comes closest to the centre.
+/// Returns the point of the triangle's rim that comes closest to the centre.
 Center rim_of(Seen seen, vec3 ray) {
   vec2 b = inside(barycentrics(seen, ray));
   return Center(dot(camera.forward, seen.p0 + seen.e1 * b.x + seen.e2 * b.y), seen.triangle + 1u);
@@ -100,10 +102,11 @@ void main() {
       if (color_on || luminance_on) radiance += weight * surface_radiance(seen, ray);
     }
   }
-  // Samples around the centre hit, the centre itself slips through: the first sample stands for it.
+  // If samples around the centre hit and the centre itself slips through, the first sample stands for the
+  // centre.
   if (!distortion_on && center.id == 0u && sky == 0.0) center = first;
   radiance *= camera.weight;
-  bool adds = blend_on && camera.first == 0u;  // to what the parts of the exposure before this one left
+  bool adds = blend_on && camera.first == 0u;  // to the result of the earlier parts of the exposure
   if (color_on) {
     vec4 stored = vec4(min(radiance * camera.exposure, vec3(65504.0)), (1.0 - sky) * camera.weight);
     if (adds) stored = min(stored + unpack_color(picture_color[element]), vec4(65504.0));

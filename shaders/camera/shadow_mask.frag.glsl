@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Casters with holes: leaves out what the alpha mask cuts away.
+// Draws casters with holes: it leaves out the texels that the alpha mask cuts away.
 #include "shared/camera.h"
 layout(constant_id = shadow_spec_base_color_arrays) const uint base_color_arrays = 0u;
 #include "camera/mask.glsl"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pixel sees where there is no surface.
+// Computes the light that a pixel sees where there is no surface.
 #ifndef GREATX_CAMERA_SKY_GLSL
 #define GREATX_CAMERA_SKY_GLSL
 #include "camera/haze.glsl"
@@ -9,10 +9,12 @@
 
 layout(set = 0, binding = stars_binding, scalar) readonly buffer StarsBlock { GpuStar stars[]; };
 
-/// How a picture samples directions around one: gradients of the unit direction by pixel coordinates.
+/// Describes how a picture samples the directions around one: the gradients of the unit direction by pixel
+/// coordinates.
 struct PixelSpan {
   vec3 x, y;
-  float xx, xy, yy, determinant;  // of the gradients' products; the root of the determinant is a pixel's solid angle
+  // of the gradients' products; the root of the determinant is a pixel's solid angle
+  float xx, xy, yy, determinant;
 };
 
 PixelSpan pixel_span(vec3 direction, float inverse_length) {
@@ -26,7 +28,8 @@ PixelSpan pixel_span(vec3 direction, float inverse_length) {
   return s;
 }
 
-/// Share of a point's light that falls on the pixel, `away` from it: tents of two pixels add up to one over a picture.
+/// Returns the share of a point's light that falls on the pixel, `away` from it. Tents of two pixels add up
+/// to one over a picture.
 float pixel_share(PixelSpan s, vec3 away) {
   float x = dot(away, s.x), y = dot(away, s.y);
   vec2 pixels = vec2(x * s.yy - y * s.xy, y * s.xx - x * s.xy) / s.determinant;
@@ -34,7 +37,8 @@ float pixel_share(PixelSpan s, vec3 away) {
   return tent.x * tent.y;
 }
 
-/// Radiance of the stars of the four cells that are nearest to a direction, each spread over a pixel.
+/// Returns the radiance of the stars of the four cells that are nearest to a direction, each spread over a
+/// pixel.
 vec3 starlight(vec3 direction, PixelSpan span) {
   vec2 at = octahedral_uv(direction) * float(star_cells);
   ivec2 first = ivec2(floor(at - 0.5));
@@ -44,20 +48,20 @@ vec3 starlight(vec3 direction, PixelSpan span) {
     GpuStar star = stars[uint(cell.y) * star_cells + uint(cell.x)];
     vec2 light = unpackHalf2x16(star.light);
     vec3 to_star = octahedral_direction(2.0 * (vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells) - 1.0);
-    // Luminance 1 from bluish white to orange.
+    // The colour has luminance 1 and goes from bluish white to orange.
     vec3 color = mix(vec3(0.88, 0.99, 1.45), vec3(1.42, 0.93, 0.45), light.y);
     sum += color * (light.x * 1e-6 * pixel_share(span, to_star - direction));
   }
   return sum * inversesqrt(span.determinant);
 }
 
-/// Radiance of the moon's disc, its edges as soft as a pixel is wide.
+/// Returns the radiance of the moon's disc, whose edges are as soft as a pixel is wide.
 vec3 moonlight(vec3 direction, PixelSpan span) {
   vec3 away = (direction - lighting.moon_direction) / lighting.moon_radius;
   float pixel = sqrt(sqrt(span.determinant)) / lighting.moon_radius;  // in radii
   if (dot(away, away) > (1.0 + 2.0 * pixel) * (1.0 + 2.0 * pixel)) return vec3(0.0);
   float lit_share = 0.5 + 0.5 * lighting.moon_cos_phase;
-  // Smaller than a pixel: a star.
+  // A disc smaller than a pixel is drawn as a star.
   if (pixel > 1.0)
     return lighting.moon_disc * (3.14159265 * lit_share / (pixel * pixel) *
                                  pixel_share(span, lighting.moon_direction - direction));
@@ -67,12 +71,13 @@ vec3 moonlight(vec3 direction, PixelSpan span) {
   return lighting.moon_disc * (rim * clamp(terminator / pixel + 0.5, 0.0, 1.0));
 }
 
-/// Radiance along a ray (any length) that meets nothing.
+/// Returns the radiance along a ray (of any length) that meets nothing.
 vec3 sky_radiance(vec3 ray) {
   if (!sky_on) return vec3(0.0);
   float inverse_length = inversesqrt(dot(ray, ray));
   vec3 direction = ray * inverse_length;
-  // The map has the haze above the horizon in it. What lies below and beyond the scene drowns in haze.
+  // The map contains the haze above the horizon. Below the horizon and beyond the scene, haze hides
+  // everything.
   vec3 radiance = haze_on && direction.z <= 0.0 ? airlight(direction) : environment_radiance(direction, 0.0);
   if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius) radiance += lighting.sun_disc;
   if (night_sky_on && direction.z > 0.0) {

@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Static casters into the sun's orthographic map.
+// Draws static casters into the sun's orthographic map.
 #include "lib/scene.glsl"
 #include "shared/camera.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colour and share of the scene as a picture stores them: four halves.
+// A picture stores colour and the share of the scene as four halves.
 #ifndef GREATX_CAMERA_STORED_COLOR_GLSL
 #define GREATX_CAMERA_STORED_COLOR_GLSL
 uvec2 pack_color(vec4 color) { return uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)); }

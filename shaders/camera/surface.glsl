@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a triangle's material is around a ray.
+// Finds the material of a triangle around a ray.
 #ifndef GREATX_CAMERA_SURFACE_GLSL
 #define GREATX_CAMERA_SURFACE_GLSL
 #include "camera/effects.glsl"
@@ -15,7 +15,7 @@ layout(set = 0, binding = material_records_binding, scalar) readonly buffer Mate
 
 uvec4 material_record(uint material, uint quad) { return material_records[material * material_record_quads + quad]; }
 
-/// Where textures are read, and how wide a pixel is there.
+/// Holds the place where textures are read, and the width of a pixel there.
 struct Footprint {
   vec2 uv, dx, dy;
 };
@@ -31,14 +31,14 @@ struct Surface {
   float metallic, roughness;
 };
 
-/// The surface of a triangle around a ray.
+/// Returns the surface of a triangle around a ray.
 Surface surface_at(Seen seen, vec3 ray) {
   Surface s;
   vec2 center = barycentrics(seen, ray), b = inside(center);
   vec3 weights = vec3(1.0 - b.x - b.y, b);
   s.p = seen.p0 + seen.e1 * b.x + seen.e2 * b.y;
   s.v = -normalize(s.p);
-  // A surface is solid from both sides: its normals look at the side that the eye is on.
+  // A surface is solid from both sides: its normals point to the side that the eye is on.
   s.geometric = normalize(seen.normal);
   s.geometric = dot(s.geometric, s.v) < 0.0 ? -s.geometric : s.geometric;
 

@@ -1,21 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle a ray meets behind a lens that distorts. It passes between the samples of the pinhole picture, and the
-// nearest one may lie beyond an outline; what those of the four pixels around it see is held against the ray itself.
-// Whoever includes this has sample_count and visible_at().
+// Finds the triangle that a ray meets behind a lens that distorts. The ray passes between the samples of the
+// pinhole picture, and the nearest sample may lie beyond an outline. The triangles that the samples of the
+// four pixels around it see are therefore tested against the ray itself. The including shader has
+// sample_count and visible_at().
 #ifndef GREATX_CAMERA_THROUGH_LENS_GLSL
 #define GREATX_CAMERA_THROUGH_LENS_GLSL
 #include "camera/lens_ray.glsl"
 #include "camera/outline.glsl"
 
-/// What a pixel's centre looks at: planar depth, triangle + 1.
+/// Holds the view of a pixel's centre: planar depth, triangle + 1.
 struct Center {
   float depth;
   uint id;
 };
 
-/// One pixel of the pinhole picture: the place of its sample nearest to the ray, and what that sees.
+/// Holds one pixel of the pinhole picture: the place of its sample nearest to the ray, and the id that the
+/// sample sees.
 struct Sample {
   vec2 place;
   uint id;
@@ -47,7 +49,7 @@ Sample nearer(Sample a, Sample b, vec2 pixel) {
   return a;
 }
 
-/// `pixel`: the ray's place in the pinhole picture.
+/// `pixel` is the ray's place in the pinhole picture.
 Center through_lens(vec2 pixel, vec3 ray) {
   const Center nothing = Center(uintBitsToFloat(0x7f800000u), 0u);
   ivec2 first = ivec2(pixel - 0.5);
@@ -73,8 +75,9 @@ Center through_lens(vec2 pixel, vec3 ray) {
       Outline outline = outline_of(seen);
       vec3 f = edge_functions(seen, outline.side, ray);
       bool covers = outline_covers(outline, f);
-      // Of triangles narrower than a pixel most are seen by no sample, and where an alpha mask has holes its samples alone
-      // know: both go by the nearest sample, so that they cover their share of the picture.
+      // Most triangles narrower than a pixel are seen by no sample. Where an alpha mask has holes, only its
+      // samples know of them. In both cases the nearest sample decides, so that these triangles cover their
+      // share of the picture.
       bool by_sample = outline.thin;
       bool asks = covers != (id == own.id);
       if (asks) by_sample = by_sample || triangle_record(id - 1u, 5u).w != 0u;
@@ -88,7 +91,7 @@ Center through_lens(vec2 pixel, vec3 ray) {
       }
     }
   }
-  // The nearest sample also stands for what no sample sees.
+  // The nearest sample also decides where no sample sees a triangle.
   bool sky = any(equal(ids, uvec4(0u)));
   bool stays = missed.id != 0u && (keeps || (met.id == 0u && !sky));
   if (stays && missed.depth < met.depth) return missed;

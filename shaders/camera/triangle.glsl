@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A triangle as the eye sees it. What few pixels need (moving bodies) stands in branches: a device that masks its lanes
-// jumps over a branch that no lane takes, unless it is short.
+// Describes a triangle as the eye sees it. Code that few pixels need (moving bodies) stands in branches: a
+// device that masks its lanes jumps over a branch that no lane takes, unless it is short.
 #ifndef GREATX_CAMERA_TRIANGLE_GLSL
 #define GREATX_CAMERA_TRIANGLE_GLSL
 #include "camera/visibility_view.glsl"
@@ -20,8 +20,8 @@ uvec4 triangle_record(uint triangle, uint quad) {
   return triangle_records[at];
 }
 
-/// Planar depth and barycentrics of the second and third corner along a ray d with dot(d, forward) = 1 are quotients of
-/// functions linear in d (Moeller and Trumbore 1997, sorted by d).
+/// The planar depth and the barycentrics of the second and third corner along a ray d with dot(d, forward) =
+/// 1 are quotients of functions linear in d (Moeller and Trumbore 1997, sorted by d).
 struct Seen {
   uint triangle;
   uint body, material;
@@ -58,7 +58,8 @@ vec2 barycentrics(Seen seen, vec3 ray) {
   return vec2(dot(ray, seen.u_numerator), dot(ray, seen.v_numerator)) / dot(ray, seen.normal);
 }
 
-/// The nearest point of the triangle, roughly: a sample at the rim may see a triangle that the centre misses.
+/// Returns roughly the nearest point of the triangle: a sample at the rim may see a triangle that the centre
+/// misses.
 vec2 inside(vec2 b) {
   b = clamp(b, vec2(0.0), vec2(1.0));
   return b / max(b.x + b.y, 1.0);

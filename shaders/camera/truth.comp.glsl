@@ -3,8 +3,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ground truth of what each pixel's centre sees: surface normal, distance along the ray, optical flow to the camera's
-// next sample. Tightly packed, so that the host only copies.
+// Writes the ground truth of the point that each pixel's centre sees: surface normal, distance along the ray,
+// and optical flow to the camera's next sample. The arrays are tightly packed, so that the host only copies.
 #include "lib/scene.glsl"
 #include "lib/linear.glsl"
 #include "shared/truth.h"
@@ -35,7 +35,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Len
 
 const uint infinity_bits = 0x7f800000u, nan_bits = 0x7fc00000u;
 
-/// Interpolated vertex normal where the ray meets the triangle, local axes, unit, on the side that the eye is on.
+/// Returns the interpolated vertex normal where the ray meets the triangle: unit, in local axes, on the side
+/// that the eye is on.
 vec3 surface_normal(uint triangle, uint body, vec3 ray) {
   uvec3 vertices =
       uvec3(scene_index(3u * triangle), scene_index(3u * triangle + 1u), scene_index(3u * triangle + 2u));
@@ -51,18 +52,20 @@ vec3 surface_normal(uint triangle, uint body, vec3 ray) {
   }
   vec3 facing = cross(e1, e2);
   vec2 b = vec2(dot(ray, cross(e2, p0)), dot(ray, cross(p0, e1))) / dot(ray, facing);
-  // A sample at the rim may see a triangle that the centre misses; a NaN (seen edge-on) becomes a corner.
+  // A sample at the rim may see a triangle that the centre misses. A NaN (a triangle seen edge-on) becomes a
+  // corner.
   b = clamp(b, vec2(0.0), vec2(1.0));
   b /= max(b.x + b.y, 1.0);
   vec3 n = n0 * (1.0 - b.x - b.y) + n1 * b.x + n2 * b.y;
   if (moving && body != 0u) n = body_direction(body, n);
-  // Opposite vertex normals may cancel: the triangle's own then.
+  // Opposite vertex normals may cancel. The triangle's own normal is then used.
   if (dot(n, n) < 1e-12) n = facing;
   bool same_side = dot(n, facing) * dot(ray, facing) <= 0.0;
   return normalize(same_side ? n : -n);
 }
 
-/// distort(n + by) - distort(n), without subtracting what is nearly equal (renderer/camera/lens.h has the model).
+/// Returns distort(n + by) - distort(n) without subtracting nearly equal numbers (renderer/lens/lens.h has
+/// the model).
 vec2 distorted_difference(vec2 n, vec2 by) {
   vec2 m = n + by;
   float r2 = dot(n, n), s = dot(2.0 * n + by, by), q2 = r2 + s;  // q: radius of m
@@ -75,10 +78,11 @@ vec2 distorted_difference(vec2 n, vec2 by) {
   return by * radial + n * radial_difference + tangential;
 }
 
-/// Displacement in pixels until the next sample of what is seen at undistorted normalised coordinates n; NaN where it is
-/// nearer than the near plane, behind the camera or beyond the lens's fold then.
+/// Returns the displacement, in pixels until the next sample, of the point seen at undistorted normalised
+/// coordinates n. It is NaN where the point will be nearer than the near plane, behind the camera or beyond
+/// the lens's fold.
 uvec2 flow_bits(vec2 n, float inverse_depth, GpuBodyMotion motion) {
-  // X'/z = r + d: only the small d is worked out.
+  // X'/z = r + d, and only the small d is computed.
   vec4 r = vec4(n, 1.0, inverse_depth);
   vec3 d = vec3(dot(motion.row0, r), dot(motion.row1, r), dot(motion.row2, r));
   float w = 1.0 + d.z;

@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle a sample sees.
+// Writes the triangle that a sample sees.
 layout(location = 0) flat in uint in_triangle;
 layout(location = 0) out uint out_triangle;
 

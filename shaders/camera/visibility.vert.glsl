@@ -8,7 +8,7 @@ layout(constant_id = spec_moving_bodies) const bool moving_bodies_on = true;
 layout(location = 0) flat out uint out_triangle;
 
 void main() {
-  // Most of what is drawn never moves: it costs no look at its body.
+  // Most of the drawn triangles never move, and for them the shader does not read the body.
   uint body = moving_bodies_on ? scene_primitive(uint(gl_InstanceIndex)).body : 0u;
   uint vertex = scene_index(uint(gl_VertexIndex));
   gl_Position = clip_from_eye(from_eye(body, scene_position(vertex)));

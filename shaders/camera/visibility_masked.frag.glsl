@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle a sample sees, where the alpha mask leaves it.
+// Writes the triangle that a sample sees, where the alpha mask leaves it.
 #include "shared/camera.h"
 layout(constant_id = spec_base_color_arrays) const uint base_color_arrays = 0u;
 #include "camera/mask.glsl"

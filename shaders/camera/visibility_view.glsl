@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pulls a vertex of the scene for the visibility pass. gl_VertexIndex counts the scene's indices, so that every vertex
-// knows its triangle (drawn by its indices, with gl_PrimitiveID, a city takes a CPU driver a fifth longer); of what moves
-// gl_InstanceIndex is the primitive.
+// Pulls a vertex of the scene for the visibility pass. gl_VertexIndex counts the scene's indices, so that
+// every vertex knows its triangle. (With indexed draws and gl_PrimitiveID, a city takes a CPU driver a fifth
+// longer.) For moving bodies gl_InstanceIndex is the primitive.
 #ifndef GREATX_CAMERA_VISIBILITY_VIEW_GLSL
 #define GREATX_CAMERA_VISIBILITY_VIEW_GLSL
 #include "lib/scene.glsl"
@@ -11,7 +11,8 @@
 
 layout(push_constant, scalar) uniform Constants { CameraConstants camera; };
 
-/// From the eye, in local axes: the large parts are taken off before anything is rounded.
+/// Returns the position from the eye, in local axes. The large parts are taken off before anything is
+/// rounded.
 vec3 from_eye(uint body, vec3 position) {
   if (body == 0u) return (position - camera.eye_high) - camera.eye_low;
   vec3 origin = vec3(bodies[body].row0.w, bodies[body].row1.w, bodies[body].row2.w);

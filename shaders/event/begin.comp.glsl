@@ -3,7 +3,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Begins an interval: nothing counted yet; with adaptive steps, when its first picture is taken.
+// Begins an interval: nothing is counted yet. With adaptive steps it also decides when the first picture is
+// taken.
 #include "event/pixels.glsl"
 
 layout(local_size_x = 1) in;

@@ -3,8 +3,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The difference image: 1 where the picture is brighter than the one before by the threshold or more, -1 where it is
-// darker, else 0; a byte a pixel, four an invocation.
+// Makes the difference image: 1 where the picture is brighter than the one before by the threshold or more,
+// -1 where it is darker by as much, else 0. Each pixel is a byte, and an invocation writes four.
 #extension GL_EXT_buffer_reference : require
 #include "shared/events.h"
 #include "lib/linear.glsl"

@@ -3,12 +3,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes down the events that the step counted, each run's at its own place in the list.
+// Writes the events that the step counted, each run's at its own place in the list.
 #include "event/pixels.glsl"
 #include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
-/// An event as one number: ns after the interval's start, place above.
+/// An event is one number: ns after the interval's start, with the place above.
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer EventList { uint64_t v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer InstanceList { uint v[]; };
 
@@ -60,7 +60,7 @@ void main() {
         }
       } while (slot < end && events_left(walk, shot));
     } else {
-      do {  // crossings alone, and one at least
+      do {  // only crossings, and at least one
         int t = part_time(walk.part, walk.whole, walk.inverse, step.dt_ns);
         write(slot, step.from_ns + t, place, before.y > 0, instance);
         walk.part += uint(abs(walk.stride));

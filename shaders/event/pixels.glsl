@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the passes that count events and write them down share: so that they agree to the bit.
+// This is the common part of the pass that counts events and the pass that writes them, so that the two agree
+// to the bit.
 #ifndef GREATX_EVENT_PIXELS_GLSL
 #define GREATX_EVENT_PIXELS_GLSL
 #extension GL_EXT_buffer_reference : require
@@ -17,7 +18,8 @@ layout(constant_id = event_spec_bandwidth) const bool bandwidth_on = false;
 layout(constant_id = event_spec_instance) const bool instance_on = false;
 layout(constant_id = event_spec_adaptive) const uint adaptive = 0u;
 
-// Pairs of words are loaded and stored as one number of 64 bits: drivers for CPUs do that one lane after the other.
+// Pairs of words are loaded and stored as one number of 64 bits: CPU drivers access memory one lane after the
+// other.
 layout(set = 0, binding = event_model_binding, scalar) readonly buffer ModelBlock { EventModel model; };
 layout(set = 0, binding = event_control_binding, scalar) buffer ControlBlock { EventControl control; };
 layout(set = 0, binding = event_runs_binding, scalar) buffer RunsBlock { EventRun runs[]; };
@@ -35,7 +37,7 @@ layout(push_constant, scalar) uniform Constants { EventConstants interval; };
 ivec2 pair(uint64_t words) { return ivec2(unpack32(words)); }
 uint64_t words_of(int x, int y) { return pack64(u32vec2(uint(x), uint(y))); }
 
-/// The step that ends at this picture: from the picture before.
+/// Holds the step from the picture before to this picture.
 struct Step {
   int from_ns;
   int dt_ns;
@@ -43,7 +45,7 @@ struct Step {
   uint64_t leaked_to;
 };
 
-/// From the given picture before; of fixed steps that is known anyway.
+/// Makes the step from the given picture before. With fixed steps that picture is known anyway.
 Step this_step(int from_ns, uint64_t leaked_from) {
   Step step;
   step.from_ns = adaptive == 0u ? interval.from_ns : from_ns;
@@ -55,7 +57,7 @@ Step this_step(int from_ns, uint64_t leaked_from) {
 
 uint runs_per_row() { return (model.width + run_pixels - 1u) / run_pixels; }
 
-/// First pixel of a run; `count`: how many it has.
+/// Returns the first pixel of a run; `count` is the number of its pixels.
 uvec2 run_start(uint run, out uint count) {
   uint per_row = runs_per_row();
   uint row = run / per_row;
@@ -64,11 +66,11 @@ uvec2 run_start(uint run, out uint count) {
   return uvec2(column, row);
 }
 
-/// on and off of a pixel; `nominal`: without mismatch.
+/// Returns the on and off thresholds of a pixel. `nominal` holds those without mismatch.
 ivec2 thresholds_at(uint pixel, ivec2 nominal) { return mismatch_on ? pair(thresholds[pixel]) : nominal; }
 
-/// Events of shot noise, drawn one after the other: a Poisson process begun anew with each step, which changes nothing,
-/// since it has no memory.
+/// Draws events of shot noise one after the other. The Poisson process begins anew with each step,
+/// which changes nothing, since it has no memory.
 struct Shot {
   float mean_ns;
   uint pixel;
@@ -99,7 +101,7 @@ Shot begin_shot(uint pixel, float luminance, int dt_ns) {
   return shot;
 }
 
-/// No noise.
+/// Returns a Shot without noise.
 Shot no_shot() {
   Shot shot;
   shot.next_ns = never_ns;
@@ -108,7 +110,8 @@ Shot no_shot() {
 
 bool events_left(EventWalk walk, Shot shot) { return min(walk.crossing_ns, shot.next_ns) != never_ns; }
 
-/// Takes the next event, of those left: its time and polarity. False: the pixel is refractory and does not let it through.
+/// Takes the next of the events left: its time and polarity. Returns false if the pixel is refractory and
+/// drops it.
 bool next_event(inout EventWalk walk, inout Shot shot, out int t_ns, out bool on) {
   if (walk.crossing_ns <= shot.next_ns) {
     on = walk.stride > 0;

@@ -3,15 +3,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One workgroup: where in the interval's list each run's events begin, row by row behind those of the steps before. With
-// adaptive steps also when the next picture is taken.
+// One workgroup finds where in the interval's list the events of each run begin: row by row, behind those of
+// the steps before. With adaptive steps it also decides when the next picture is taken.
 #include "event/pixels.glsl"
 
 layout(local_size_x = event_scan_size) in;
 const uint block = 16u;  // lanes
 shared uint sums[event_scan_size], blocks[event_scan_size / block];
 
-/// What the pictures so far allow until the next one, ESIM's rule: what is wanted over how fast it moves or changes.
+/// Finds the time that the pictures so far allow until the next one, by ESIM's rule: the wanted change over
+/// its rate.
 void plan_next() {
   float measured = uintBitsToFloat(control.measured);
   float dt = float(this_step(control.last_ns, control.leaked_last).dt_ns), moved = measured, per_ns = measured;
@@ -24,7 +25,8 @@ void plan_next() {
     control.largest = max(control.largest, floatBitsToUint(moved));
     if (moved > model.wanted) control.coarse += 1u;
   }
-  // How fast it will change is only guessed from how fast it changed: no step is more than twice as long as the last.
+  // The future rate of change is only a guess from the past rate: no step is more than twice as long as the
+  // last.
   float longest = adaptive == adaptive_flow ? 1e30 : 2.0 * dt;
   if (interval.index > 0u || adaptive == adaptive_flow)
     control.allowed = floatBitsToUint(min(model.wanted / max(per_ns, 1e-30), longest));

@@ -3,14 +3,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes every pixel from the picture before to this one: its new state, what it was before if it fires, and how many
-// events each run of pixels has.
+// Takes every pixel from the picture before to this one. It writes the new state, the old state of each pixel
+// that fires, and the number of events of each run of pixels.
 #include "event/pixels.glsl"
 #include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
 
-/// How fast what the pixel sees moves over the picture, pixels per nanosecond; without the lens's distortion.
+/// Returns how fast the point that the pixel sees moves over the picture, in pixels per nanosecond, without
+/// the distortion of the lens.
 float flow_at(uvec2 at, uint pixel) {
   uvec2 seen = unpack32(seen_by_pixel[pixel]);
   bool sky = seen.y == 0u;
@@ -25,11 +26,12 @@ float flow_at(uvec2 at, uint pixel) {
   return length(flow) * 1e-9;
 }
 
-/// The first picture: nothing happens, the pixel looks at it.
+/// Handles the first picture: nothing happens, and the pixel takes its signal.
 void look(uint pixel, int signal, ivec2 nominal) {
   int reference = signal;
   if (leak_on) {
-    // Somewhere below the signal, or all pixels would leak at once.
+    // The reference begins at a random distance below the signal, since all pixels would otherwise leak at
+    // once.
     uint phase = random_bits(model.pattern_seed, model.pattern_stream, 0u, pixel, 0u).z;
     reference -= int(uint64_t(thresholds_at(pixel, nominal).x) * uint64_t(phase) >> 32);
   }
@@ -37,7 +39,8 @@ void look(uint pixel, int signal, ivec2 nominal) {
   if (bandwidth_on || refractory_on) extras[pixel] = words_of(bandwidth_on ? signal : 0, 0);
 }
 
-/// How many events a pixel gives; `alive_ns`: the end of its refractory time, before and after. As emit finds them.
+/// Counts the events of a pixel as emit finds them. `alive_ns` is the end of its refractory time, before and
+/// after.
 uint count_events(EventWalk walk, Shot shot, inout int alive_ns) {
   uint count = 0u;
   if (events_left(walk, shot)) {
@@ -108,6 +111,7 @@ void main() {
   }
   runs[run].count = events;
   runs[run].fired = fired;
-  // Of floats >= 0, in any order the same.
+  // The bits of floats >= 0 are ordered like the floats, so the maximum does not depend on the order of the
+  // pixels.
   if (adaptive != 0u && floatBitsToUint(measured) > control.measured) atomicMax(control.measured, floatBitsToUint(measured));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures where a ray meets a triangle: alpha masks (glTF 2.0, section 3.9.4) and base colour. Set 1 is the scene's
-// texture table.
+// Reads textures where a ray meets a triangle: alpha masks (glTF 2.0, section 3.9.4) and base colour. Set 1
+// is the scene's texture table.
 #ifndef GREATX_LIB_ALPHA_GLSL
 #define GREATX_LIB_ALPHA_GLSL
 #include "lib/scene.glsl"
@@ -14,7 +14,7 @@ vec2 hit_uv(uint triangle, vec2 barycentric) {
          barycentric.x * scene_uv(scene_index(first + 1u)) + barycentric.y * scene_uv(scene_index(first + 2u));
 }
 
-/// Linear base colour and alpha at a hit, mip 0.
+/// Returns the linear base colour and alpha at a hit, from mip 0.
 vec4 hit_base_color(GpuMaterial material, uint triangle, vec2 barycentric) {
   vec4 color = material.base_color;
   if (material.base_color_texture >= 0)
@@ -22,7 +22,7 @@ vec4 hit_base_color(GpuMaterial material, uint triangle, vec2 barycentric) {
   return color;
 }
 
-/// Whether the texel stops a ray: always, but for masked materials below their cut-off.
+/// Returns whether the texel stops a ray. It always does, except for masked materials below their cut-off.
 bool alpha_is_solid(GpuPrimitive primitive, uint triangle, vec2 barycentric) {
   GpuMaterial material = scene_material(primitive.material);
   if ((material.flags & material_flag_alpha_mask) == 0u) return true;

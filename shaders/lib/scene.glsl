@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Access to the scene's buffers.
+// Gives access to the buffers of the scene.
 #ifndef GREATX_LIB_SCENE_GLSL
 #define GREATX_LIB_SCENE_GLSL
 #extension GL_EXT_buffer_reference : require

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene's textures (scene/gpu_textures.h), known by references (texture_array_shift). `arrays` says which arrays the
-// texture may be in, a bit each, a specialization constant (GpuTextures::arrays_of); 0: any.
+// Samples the scene's textures (scene/device/gpu_textures.h), which are named by references
+// (texture_array_shift). `arrays` is a specialization constant with one bit for each array that the texture
+// may be in (GpuTextures::arrays_of); 0: any.
 #ifndef GREATX_LIB_TEXTURES_GLSL
 #define GREATX_LIB_TEXTURES_GLSL
 #extension GL_EXT_nonuniform_qualifier : require
@@ -13,14 +14,15 @@ layout(set = 1, binding = 0) uniform sampler2DArray textures[];
 
 uint texture_array(uint reference) { return reference >> texture_array_shift; }
 
-/// From a texture's own coordinates to those of its layer, where it may lie side by side: powers of two.
+/// Returns the scale from a texture's own coordinates to those of its layer, in which it may lie side by
+/// side. The scale is a power of two.
 vec2 texture_scale(uint reference) {
   uvec2 tiles = uvec2(reference >> texture_tiles_u_shift, reference >> texture_tiles_v_shift) & texture_most_log_tiles;
   return uintBitsToFloat((127u - tiles) << 23);
 }
 vec3 texture_place(uint reference, vec2 uv) { return vec3(uv, float(reference & (texture_most_layers - 1u))); }
 
-/// Trilinear, by gradients, so that lanes may differ in the texture.
+/// Samples trilinearly, by gradients, so that the lanes may differ in the texture.
 vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy) {
   uint array = texture_array(reference);
   vec2 scale = texture_scale(reference);
@@ -34,7 +36,7 @@ vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy)
   return value;
 }
 
-/// Bilinear, of the finest level.
+/// Samples the finest level bilinearly.
 vec4 texture_of_level_0(uint arrays, uint reference, vec2 uv) {
   uint array = texture_array(reference);
   vec3 at = texture_place(reference, uv * texture_scale(reference));

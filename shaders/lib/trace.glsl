@@ -1,24 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing rays: one interface and two back ends. The driver's ray query; and, with the specialization constant trace_tree, a
-// tree of our own for the static world in trace_closest, trace_closest_masked and trace_closest_except (lib/tree.glsl). The
-// driver is then asked for bodies that move alone, and only by rays that come near one.
+// Traces rays, with one interface and two back ends. One is the driver's ray query. The other, switched on by
+// the specialization constant trace_tree, is a tree of our own for the static world in trace_closest,
+// trace_closest_masked and trace_closest_except (lib/tree.glsl). The driver is then asked only for bodies
+// that move, and only by rays that come near one.
 //
-// What holds for every back end:
-// - t_min < t < t_max; a hit exactly at an end may or may not be reported, so callers leave room for rounding.
+// These rules hold for every back end:
+// - t_min < t < t_max. A hit exactly at an end may or may not be reported, so callers leave room for
+//   rounding.
 // - Both sides of a triangle are solid. Degenerate triangles and triangles in the ray's plane are never hit.
-// - direction need not be a unit vector, but must not be zero; nothing may be NaN.
-// - Where several triangles share the nearest t (an edge, a vertex, duplicates) one of them is returned.
+// - direction need not be a unit vector, but it must not be zero. Nothing may be NaN.
+// - Where several triangles share the nearest t (an edge, a vertex, duplicates), one of them is returned.
 //
-// Watertightness: Vulkan asks for it, but a traversal whose box test is not rounded outwards (T. Ize, "Robust BVH ray
-// traversal", JCGT 2(2), 2013) lets a ray slip between two triangles if it passes within roundings of where their boxes
-// touch. Mesa's lavapipe 25.0 does. A ray in a general direction has no more chance of that than of hitting a line (see
-// tests/gpu/trace_test.cpp), so the plain functions trust the driver; those called *_watertight look again along two
-// rays right beside the first, for whoever aims at edges and corners or must not let anything through.
+// Watertightness: Vulkan asks for it. However, a traversal whose box test is not rounded outwards (T. Ize,
+// "Robust BVH ray traversal", JCGT 2(2), 2013) lets a ray slip between two triangles if it passes within
+// rounding errors of the place where their boxes touch. Mesa's lavapipe 25.0 does. A ray in a general
+// direction has no more chance of that than of hitting a line (see tests/gpu/trace_test.cpp), so the plain
+// functions trust the driver. The functions called *_watertight look again along two rays right beside the
+// first. They are for rays that aim at edges and corners, and for callers that must not let anything through.
 //
-// With GREATX_TRACE_ALPHA defined (needs lib/alpha.glsl and the texture table), texels below the cut-off of a masked
-// material let rays through in the functions that say so; everywhere else masked triangles are solid.
+// With GREATX_TRACE_ALPHA defined (which needs lib/alpha.glsl and the texture table), texels below the
+// cut-off of a masked material let rays through in the functions that say so. Everywhere else masked
+// triangles are solid.
 #ifndef GREATX_LIB_TRACE_GLSL
 #define GREATX_LIB_TRACE_GLSL
 #extension GL_EXT_ray_query : require
@@ -28,7 +32,8 @@
 #endif
 layout(constant_id = trace_tree_id) const bool trace_tree = false;
 
-// Which bodies the rays of this shader may meet (static_mask, moving_mask); all of them unless the shader says otherwise.
+// The bodies that the rays of this shader may meet (static_mask, moving_mask). They are all bodies unless the
+// shader says otherwise.
 #ifndef GREATX_TRACE_MASK
 #define GREATX_TRACE_MASK 0xffu
 #endif
@@ -51,7 +56,7 @@ Hit no_hit(float t_max) { return Hit(false, t_max, 0u, 0u, vec2(0.0), true); }
 
 #include "lib/tree.glsl"
 
-/// What a query has found, else `hit`.
+/// Returns the hit that a query has found, else `hit`.
 Hit committed_hit(rayQueryEXT query, Hit hit) {
   if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionTriangleEXT) {
     hit.hit = true;
@@ -67,8 +72,8 @@ Hit committed_hit(rayQueryEXT query, Hit hit) {
 }
 Hit committed_hit(rayQueryEXT query, float t_max) { return committed_hit(query, no_hit(t_max)); }
 
-/// trace_tree: puts what the tree knows into `hit`, leaves in `mask` what it does not, and says whether the driver need not be
-/// asked any more. `body`, `facet`, `masks` as below.
+/// For trace_tree. Puts the answer of the tree into `hit` and leaves in `mask` the bodies that the tree does
+/// not hold. Returns whether the driver need not be asked. `body`, `facet` and `masks` are as below.
 bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks, inout uint mask, inout Hit hit) {
   if ((mask & static_mask) != 0u && body != 0u) hit = tree_closest(origin, t_min, direction, hit.t, facet, masks);
   mask &= moving_mask;
@@ -83,7 +88,7 @@ uint candidate_triangle(rayQueryEXT query, GpuPrimitive primitive) {
   return primitive.first_triangle + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
 }
 
-/// The first triangle along origin + t * direction. Masked texels count as solid.
+/// Returns the first triangle along origin + t * direction. Masked texels count as solid.
 Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   Hit hit = no_hit(t_max);
   uint mask = GREATX_TRACE_MASK;
@@ -94,8 +99,9 @@ Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   return committed_hit(query, hit);
 }
 
-/// The same without the triangles of one body, its parts included, and of one facet (no_body, no_facet: none), exactly: they
-/// are passed over one by one, whatever stands at the same distance. `masks`: masked texels are passed over as well (GREATX_TRACE_ALPHA).
+/// Does the same without the triangles of one body, its parts included, and of one facet (no_body, no_facet:
+/// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else stands
+/// at the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
 Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
   Hit hit = no_hit(t_max);
   uint mask = GREATX_TRACE_MASK;
@@ -114,7 +120,8 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
   return committed_hit(query, hit);
 }
 
-/// The first triangle of one body alone, which moves, without those of one facet (no_facet: none). `masks` as above.
+/// Returns the first triangle of one moving body, without those of one facet (no_facet: none). `masks` is as
+/// above.
 Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, moving_mask, origin, t_min, direction, t_max);
@@ -132,7 +139,8 @@ Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max,
 }
 
 #ifdef GREATX_TRACE_ALPHA
-/// The first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are looked at one by one.
+/// Returns the first solid texel. Only geometries that were uploaded as not opaque (those with a mask) are
+/// looked at one by one.
 Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) {
   Hit hit = no_hit(t_max);
   uint mask = GREATX_TRACE_MASK;
@@ -149,9 +157,10 @@ Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) 
 }
 #endif
 
-/// The given ray, then two beside it, some roundings of the traversal away at every distance: 2^-21 of the distance to
-/// the side plus 2^-22 of the origin's coordinates, 0.05 mm at 100 m. At a right angle, so that whatever edge the first
-/// ray runs along, one leaves it; and towards no axis in particular, since edges follow the axes.
+/// Returns the given ray, then two beside it. At every distance they lie some rounding errors of the
+/// traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's coordinates, which is 0.05 mm
+/// at 100 m. The two stand at a right angle, so that one of them leaves any edge that the first ray runs
+/// along. They point towards no axis in particular, since edges follow the axes.
 struct Ray {
   vec3 origin, direction;
 };
@@ -168,8 +177,8 @@ Ray look(vec3 origin, vec3 direction, uint which) {
   return Ray(origin + side * (reach * 2.3841858e-7), direction + side * (size * 4.7683716e-7));
 }
 
-/// trace_closest, watertight whatever the driver: something on another facet and clearly nearer along a ray beside it is
-/// what the ray has slipped past.
+/// Returns the hit of trace_closest, made watertight whatever the driver. If a ray beside the first meets
+/// another facet that is clearly nearer, then the first ray has slipped past that facet.
 Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_max) {
   Hit hit = no_hit(t_max);
   for (uint which = 0u; which < looks; ++which) {  // one query in a loop: drivers compile it once
@@ -182,8 +191,8 @@ Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_m
   return hit;
 }
 
-/// Whether anything stands between t_min and t_max, not counting triangles of two facets (those at the ends of a
-/// segment; no_facet: none). Masked texels count as solid.
+/// Returns whether anything stands between t_min and t_max. Triangles of two facets do not count (those at
+/// the ends of a segment; no_facet: none). Masked texels count as solid.
 bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
@@ -203,7 +212,7 @@ bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max,
   return false;
 }
 
-/// A triangle's corners in local coordinates.
+/// Holds the corners of a triangle in local coordinates.
 struct Corners {
   vec3 a, b, c;
 };
@@ -219,17 +228,19 @@ Corners triangle_corners(uint triangle, uint body) {
   return corners;
 }
 
-/// Unit normal on the side the winding faces (counter-clockwise); zero for a triangle without area.
+/// Returns the unit normal on the side that the winding faces (counter-clockwise), or zero for a triangle
+/// without area.
 vec3 geometric_normal(Corners corners) {
   vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
   float squared = dot(normal, normal);
   return squared > 0.0 ? normal * inversesqrt(squared) : vec3(0.0);
 }
 
-/// Where a hit is, from its barycentric coordinates: far more exact than origin + t * direction, whose error grows with
-/// the distance travelled. `error` bounds each coordinate by seven roundings: of the products, the sums and the first
-/// barycentric coordinate (M. Pharr et al., "Physically Based Rendering", 4th ed., section 6.8.5). The pose of a moving
-/// body adds some more, which trace_leaving makes good.
+/// Holds the place of a hit, from its barycentric coordinates. This is far more exact than origin + t *
+/// direction, whose error grows with the distance travelled. `error` bounds each coordinate by seven rounding
+/// errors: of the products, the sums and the first barycentric coordinate (M. Pharr et al., "Physically Based
+/// Rendering", 4th ed., section 6.8.5). The pose of a moving body adds some more, which trace_leaving makes
+/// good.
 struct HitPoint {
   vec3 position;
   vec3 error;
@@ -243,18 +254,20 @@ HitPoint hit_point(Corners corners, vec2 barycentric) {
   return point;
 }
 
-/// Start of a ray that leaves `point` on the side of `normal`: moved along it just beyond the error of the point, and
-/// rounded away from the surface. For queries only: lengths and delays never see it.
+/// Returns the start of a ray that leaves `point` on the side of `normal`. The start is moved along the
+/// normal just beyond the error of the point, and rounded away from the surface. It is for queries only:
+/// lengths and delays never use it.
 vec3 offset_origin(HitPoint point, vec3 normal) {
   vec3 start = point.position + normal * dot(abs(normal), point.error);
   vec3 bumped = intBitsToFloat(floatBitsToInt(start) + mix(ivec3(1), ivec3(-1), lessThan(start, vec3(0.0))) *
                                                            ivec3(sign(normal)));
-  // Next to zero the integer step would cross from -0 to NaN patterns; a denormal step is no step anyway.
+  // Next to zero the integer step would cross from -0 to NaN patterns. A denormal step is too small to matter
+  // anyway.
   return mix(bumped, start, lessThan(abs(start), vec3(1e-30)));
 }
-/// The first triangle of another facet along a ray that leaves `facet` from a start made by offset_origin. The offset
-/// deals with what lies in the same plane; passing over the facet by name deals with the rest, on triangles so large or
-/// so thin that a driver's own rounding exceeds the offset.
+/// Returns the first triangle of another facet along a ray that leaves `facet` from a start made by
+/// offset_origin. The offset deals with triangles in the same plane. Passing over the facet by name deals
+/// with the rest, on triangles so large or so thin that a driver's own rounding exceeds the offset.
 Hit trace_leaving(vec3 origin, vec3 direction, float t_max, uint facet) {
   Hit hit = trace_closest(origin, 0.0, direction, t_max);
   if (hit.hit && facet != no_facet && scene_facet(hit.triangle) == facet)

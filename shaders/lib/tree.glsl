@@ -1,22 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing without the driver: the tree of the static world (shared/tree.h), one ray an invocation. Made for drivers that
-// run eight invocations in a CPU's vector registers, to which a load is dear however few words it brings; hence two
-// quadruples a node. What holds for every back end (lib/trace.glsl) holds here, and:
+// Traces the tree of the static world (shared/tree.h) without the driver, one ray an invocation. It is made
+// for drivers that run eight invocations in a CPU's vector registers. There a load is expensive however few
+// words it brings, so a node is two quadruples. The rules for every back end (lib/trace.glsl) hold here, and
+// also these:
 //
-// - Watertight: the triangle test is S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013.
-//   A ray exactly on an edge is inside both of its triangles, which needs no fp64; the difference of two rounded products
-//   never has the wrong sign, so no ray between the triangles of an edge or a fan is outside all of them.
-// - Boxes are met with a margin above all roundings, of the box test and of the triangle test.
+// - The tracing is watertight: the triangle test is S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle
+//   intersection", JCGT 2(1), 2013. A ray exactly on an edge is inside both of its triangles, which needs no
+//   fp64. The difference of two rounded products never has the wrong sign, so no ray between the triangles of
+//   an edge or a fan is outside all of them.
+// - Boxes are met with a margin above all rounding errors, of the box test and of the triangle test.
 #ifndef GREATX_LIB_TREE_GLSL
 #define GREATX_LIB_TREE_GLSL
 #include "shared/tree.h"
 
 layout(set = 0, binding = tree_binding, scalar) readonly buffer TreeBlock { uvec4 tree[]; };
 
-/// The shear that takes the ray to the z axis at unit speed, as rows. Their elements are 0, 1 and ratios of the direction's, so
-/// that rows times a corner round as Woop's permuted corners do.
+/// Holds the rows of the shear that takes the ray to the z axis at unit speed. Their elements are 0, 1 and
+/// ratios of the direction's elements, so that rows times a corner round as Woop's permuted corners do.
 struct TreeShear {
   vec3 x, y, z;
 };
@@ -62,21 +64,23 @@ void tree_triangle(uint quad, vec3 origin, TreeShear shear, float t_min, uint fa
   }
 }
 
-// As selections, which are one instruction; min and max, which have to mind NaN, are three.
+// These are selections, which are one instruction. min and max must treat NaN and are three.
 float lower(float a, float b) { return a < b ? a : b; }
 float upper(float a, float b) { return a > b ? a : b; }
 vec3 lower(vec3 a, vec3 b) { return vec3(lower(a.x, b.x), lower(a.y, b.y), lower(a.z, b.z)); }
 vec3 upper(vec3 a, vec3 b) { return vec3(upper(a.x, b.x), upper(a.y, b.y), upper(a.z, b.z)); }
 
-/// A ray in steps of the tree's frame: t at step s of an axis = s * slope + near or far, which include the margin.
+/// Describes a ray in steps of the tree's frame: t at step s of an axis is s * slope + near or far, which
+/// include the margin.
 struct TreeRay {
   vec3 slope, near, far;
 };
 TreeRay tree_ray(vec3 origin, vec3 direction, vec3 low, vec3 step_size) {
-  // Along a plane: so steep that it is inside between both planes or nowhere.
+  // A ray along a plane gets so steep a slope that it is inside between both planes or nowhere.
   vec3 inverse = 1.0 / mix(direction, vec3(1e-30), lessThan(abs(direction), vec3(1e-30)));
   vec3 slope = step_size * inverse, start = (low - origin) * inverse;
-  // Each term is off by at most four roundings of 2^-24, the corners in the triangle test by as many; 2^-20 is twice that.
+  // Each term is off by at most four rounding errors of 2^-24, and the corners in the triangle test are off
+  // by as many. 2^-20 is twice that.
   vec3 margin = (abs(slope) * float(tree_steps) + abs(start)) * 9.5367432e-7;
   return TreeRay(slope, start - margin, start + margin);
 }
@@ -91,8 +95,8 @@ TreeSpan tree_span(uvec4 box, TreeRay ray, float t_min, float t_max) {
                   lower(lower(leave.x, leave.y), lower(leave.z, t_max)));
 }
 
-/// The first triangle of the static world that is not of `facet` (no_facet: any). `masks`: texels below the cut-off are
-/// passed over (GREATX_TRACE_ALPHA).
+/// Returns the first triangle of the static world that is not of `facet` (no_facet: any). If `masks`, texels
+/// below the cut-off are passed over (GREATX_TRACE_ALPHA).
 Hit tree_closest(vec3 origin, float t_min, vec3 direction, float t_max, uint facet, bool masks) {
   TreeShear shear = tree_shear(direction);
   uvec4 frame = tree[0];
@@ -130,7 +134,8 @@ Hit tree_closest(vec3 origin, float t_min, vec3 direction, float t_max, uint fac
   return hit;
 }
 
-/// Whether the ray comes near a body that moves and is not of `owner` (no_body: any), so that the driver has to be asked.
+/// Returns whether the ray comes near a moving body that is not of `owner` (no_body: any), so that the driver
+/// has to be asked.
 bool tree_near_moving(vec3 origin, float t_min, vec3 direction, float t_max, uint owner) {
   float squared = dot(direction, direction), size = sqrt(squared);
   uint count = tree[1].w;
@@ -139,9 +144,9 @@ bool tree_near_moving(vec3 origin, float t_min, vec3 direction, float t_max, uin
     vec4 sphere = uintBitsToFloat(tree[tree_bodies + 2u * i]);
     uvec4 whose = tree[tree_bodies + 2u * i + 1u];
     vec3 center = body_point(whose.x, sphere.xyz);
-    // Beside the radius some roundings of the coordinates and of the pose.
+    // Some rounding errors of the coordinates and of the pose are added to the radius.
     float radius = sphere.w * 1.000002 + 1.9073486e-6 * dot(abs(center) + abs(origin), vec3(1.0));
-    // By the cross product: differences of squares of hundreds of metres would lose the body.
+    // The cross product is used, since differences of squares of hundreds of metres would lose the body.
     vec3 to = center - origin, side = cross(to, direction);
     float along = dot(to, direction), reach = radius * size;
     meets = meets || (whose.y != owner && dot(side, side) <= reach * reach && along + reach >= t_min * squared &&

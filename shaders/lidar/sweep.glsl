@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray per invocation: from the sensor's pose at the shot's own time to the first surface, and through panes of glass
-// to the first that is none. Without divergence a shot is one ray.
-// Included by sweep.comp.glsl (all surfaces solid and of one reflectance per material) and sweep_textured.comp.glsl
-// (alpha masks let beams through, base-colour textures vary the reflectance).
+// Each invocation traces one ray. It goes from the sensor's pose at the shot's own time to the first surface,
+// and through panes of glass to the first surface that is not a pane. Without divergence a shot is one ray.
+// sweep.comp.glsl includes this with all surfaces solid and one reflectance a material.
+// sweep_textured.comp.glsl includes it with alpha masks that let beams through and base-colour textures that
+// vary the reflectance.
 #include "shared/lidar.h"
 uint trace_mask = 0xffu;
 #define GREATX_TRACE_MASK trace_mask
@@ -32,17 +33,17 @@ layout(push_constant, scalar) uniform Constants { LidarConstants constants; };
 vec3 turned(GpuBody body, vec3 d) { return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d)); }
 vec3 moved(GpuBody body, vec3 p) { return turned(body, p) + vec3(body.row0.w, body.row1.w, body.row2.w); }
 
-/// A hit, and how the ray was turned to where its body stands at the tick: what is known of a body's triangles holds
-/// there.
+/// Describes a hit, and the motion that took the ray to where its body stands at the tick. The data of a
+/// body's triangles hold there.
 struct ShotHit {
   Hit hit;
-  uint motion;  // lidar_still: not at all
+  uint motion;  // lidar_still: no motion
 };
 
-/// The first surface among the bodies of `trace_mask` where they stand at the tick. `behind`: the facet that the ray
-/// leaves.
+/// Returns the first surface among the bodies of `trace_mask` where they stand at the tick. `behind` is the
+/// facet that the ray leaves.
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
-  // Through the tree there is one way for all of it: passing over triangles costs nothing there.
+  // Through the tree there is one way for all cases: there it costs nothing to pass over triangles.
   if (trace_tree || (glass && behind != no_facet))
     return trace_closest_except(origin, t_min, direction, constants.max_range, exclude_body ? constants.excluded_body : no_body,
                                 behind, alpha_mask);
@@ -60,8 +61,8 @@ Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
   return hit;
 }
 
-/// Whether the ray comes near a body somewhere between its ends. By the cross product: differences of squares of hundreds
-/// of metres would lose the body.
+/// Returns whether the ray comes near a body somewhere between its ends. The cross product is used, since
+/// differences of squares of hundreds of metres would lose the body.
 bool may_meet(vec4 sphere, vec3 origin, float t_min, vec3 direction, float t_max) {
   vec3 to = sphere.xyz - origin;
   vec3 side = cross(to, direction);
@@ -69,8 +70,9 @@ bool may_meet(vec4 sphere, vec3 origin, float t_min, vec3 direction, float t_max
   return dot(side, side) <= sphere.w * sphere.w && along + sphere.w >= t_min && along - sphere.w <= t_max;
 }
 
-/// The first surface with every body where it is at the shot's time. The structure has them where they are at the tick:
-/// instead of the body the ray is moved, rigidly, which keeps lengths along it.
+/// Returns the first surface with every body where it is at the shot's time. The acceleration structure has
+/// the bodies where they are at the tick. Therefore the ray is moved instead of the body. The motion is
+/// rigid, which keeps lengths along the ray.
 ShotHit trace_shot(vec3 origin, float t_min, vec3 direction, uint instant, uint behind) {
   bool apart = target_motion && constants.apart != 0u;
   trace_mask = apart ? static_mask : 0xffu;
@@ -91,8 +93,8 @@ ShotHit trace_shot(vec3 origin, float t_min, vec3 direction, uint instant, uint 
   return found;
 }
 
-/// Lambertian reflectance at the sensor's wavelength. Where the file states none it is the luminance of the base colour
-/// (ITU-R BT.709's weights), with its texture if the effect is on.
+/// Returns the Lambertian reflectance at the sensor's wavelength. Where the file states none, it is the
+/// luminance of the base colour (ITU-R BT.709's weights), with its texture if the effect is on.
 float reflectance_at(Hit hit, GpuMaterial material) {
   bool near = constants.wavelength_nm == 905u;
 #ifdef GREATX_TRACE_ALPHA
@@ -103,7 +105,7 @@ float reflectance_at(Hit hit, GpuMaterial material) {
   return near ? material.reflectance_905nm : material.reflectance_1550nm;
 }
 
-/// What a pane gives back of the light that meets it, and what it lets through.
+/// Holds the shares of the light on a pane that the pane gives back and lets through.
 struct PaneLight {
   float back, through;
 };
@@ -111,7 +113,7 @@ PaneLight pane_light(LidarPane pane, vec3 normal, vec3 direction, float cosine, 
   float mirrored = pane_reflectance(cosine, constants.refractive_index, pane.sheets);
   float rest = 1.0 - mirrored;
   float back = rest * pane.scattering * cosine;
-  // Whether the mirrored beam finds back is a matter of the beam's own axis.
+  // Returns whether the mirrored beam finds back depends on the beam's own axis.
   float axis_cosine = min(abs(dot(normal, axis)), 1.0);
   if (constants.half_divergence > 0.0 && axis_cosine > 0.5)
     back += mirrored * glare_intensity(length(cross(normal, axis)), axis_cosine, constants.half_divergence);
@@ -140,7 +142,7 @@ void main() {
   uint stride = shots * constants.sub_rays;
   uint slot = shot * constants.sub_rays + ray;
   float t_min = constants.min_range;
-  float carried = 1.0;  // what is left of the ray, one way
+  float carried = 1.0;  // the share of the ray's light that is left, one way
   uint behind = no_facet;
   uint written = 0u;
   for (uint surface = 0u; surface < (glass ? lidar_most_panes + 1u : 1u); ++surface) {
@@ -164,7 +166,8 @@ void main() {
     } else {
       back = reflectance_at(found.hit, scene_material(primitive.material)) * cosine;
     }
-    // A clean pane gives nothing back and is no echo; the last slot is kept for what ends the ray.
+    // A clean pane gives nothing back and makes no echo. The last slot is kept for the surface that ends the
+    // ray.
     if (pane.sheets == 0.0 || (back > 0.0 && written + 1u < lidar_glass_slots)) {
       echoes[written * stride + slot] = LidarEcho(found.hit.t, carried * carried * back, carried * (1.0 - through),
                                                   primitive.instance + 1u, primitive.material + 1u);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traces a list of rays through the scene: what the consistency check holds the pictures against.
+// Traces a list of rays through the scene. The consistency check compares the pictures with the result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/trace.glsl"

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray per invocation, reflected specularly off every facet that it meets. It finds out what is where; where exactly,
-// and with which phase, is worked out in fp64 on the host.
+// Each invocation traces one ray, reflected specularly off every facet that it meets. The pass finds which
+// facets a path meets. The host computes in fp64 the exact points and the phase.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/radar.h"
 #include "lib/trace.glsl"
@@ -59,7 +59,7 @@ void main() {
     if (dot(normal, direction) > 0.0) normal = -normal;
     origin = offset_origin(hit_point(corners, hit.barycentric), normal);
     bool seen = monostatic && bounce == 0u;
-    // From behind the surface nothing is seen; the surface itself may be passed over by name.
+    // From behind the surface nothing is seen. The surface itself may be passed over by name.
     if (!monostatic && dot(constants.receiver - origin, normal) > 0.0) seen = sees_receiver(origin, facet);
     hits[bounce * constants.rays + ray] = facet | (seen ? radar_sees_receiver : 0u);
     direction = normalize(direction - 2.0 * dot(direction, normal) * normal);

@@ -2,13 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One ray per invocation, reflected specularly off every facet it meets: the sequence of facets is the ray's key. At a
-// wall it goes both ways, one after the other: reflected at once, and straight on when the way before has ended. The
-// keys hold reflections alone. Rays share nothing, each writes to its own slots.
+// Each invocation traces one ray, reflected specularly off every facet that it meets. The sequence of facets
+// is the ray's key. At a wall the ray goes both ways, one after the other: first reflected, and straight on
+// when the reflected way has ended. The keys hold only reflections. Rays share nothing, and each writes to
+// its own slots.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 
-layout(constant_id = 0) const uint search_mask = 0xffu;  // bodies that reflect: static_mask, or moving ones as well
+// bodies that reflect: static_mask, or moving ones as well
+layout(constant_id = 0) const uint search_mask = 0xffu;
 #define GREATX_TRACE_MASK search_mask
 #include "lib/trace.glsl"
 #include "lib/linear.glsl"
@@ -28,7 +30,7 @@ layout(push_constant, scalar) uniform Constants { CandidateConstants constants; 
 
 const float infinite_range = 1e30;
 
-/// A ray under way: where it starts next and what it has met.
+/// Describes a ray under way: its next start and the facets that it has met.
 struct Way {
   vec3 origin, direction;
   uint left_facet;
@@ -37,7 +39,7 @@ struct Way {
   uint transmissions;  // of them
 };
 
-/// What a way meets next. Foliage is passed over.
+/// Returns the next hit of a way. Foliage is passed over.
 Hit next_hit(Way way) {
   if (!has_foliage) return trace_leaving(way.origin, way.direction, infinite_range, way.left_facet);
   rayQueryEXT query;
@@ -50,7 +52,7 @@ Hit next_hit(Way way) {
   return committed_hit(query, infinite_range);
 }
 
-/// The two ways on from a hit.
+/// Splits a way at a hit into the two ways that go on from it.
 void part(Hit hit, inout Way reflected, out Way through) {
   Corners corners = triangle_corners(hit.triangle, scene_primitive(hit.primitive).body);
   vec3 normal = geometric_normal(corners);
@@ -66,7 +68,7 @@ void part(Hit hit, inout Way reflected, out Way through) {
   ++reflected.reflections;
 }
 
-/// First word of a ray's key in a slot.
+/// Returns the first word of a ray's key in a slot.
 uint row(uint ray, uint slot) { return (slot * constants.rays + ray) * constants.max_depth; }
 
 void reflect_only(uint ray, Way way) {
@@ -83,9 +85,9 @@ void reflect_only(uint ray, Way way) {
 
 void go_both_ways(uint ray, Way way) {
   uint key[way_capacity];
-  Way waiting[way_capacity];  // at most one for each facet met, the last of them excepted
+  Way waiting[way_capacity];  // at most one for each facet met, except the last of them
   uint waiting_count = 0u, written = 0u, left_out = 0u;
-  uint known = 0u;  // words of the key that a row written before begins with
+  uint known = 0u;  // words of the key that an earlier row already begins with
   while (true) {
     Hit hit = no_hit(infinite_range);
     if (way.met < constants.max_depth) hit = next_hit(way);
@@ -93,7 +95,7 @@ void go_both_ways(uint ray, Way way) {
       Way through;
       part(hit, way, through);
       key[way.reflections - 1u] = way.left_facet;
-      // Whoever passes the last facet of all reflects nowhere any more.
+      // A ray that passes the last facet of all reflects nowhere any more.
       if (kinds[way.left_facet] == facet_kind_wall && through.transmissions <= max_transmissions &&
           through.met < constants.max_depth)
         waiting[waiting_count++] = through;

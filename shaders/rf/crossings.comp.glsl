@@ -2,13 +2,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One segment per invocation: what stands between its ends? The facets and bodies that the ends belong to are passed
-// over by name. So is a surface on which an end lies as far as fp32 can tell (visibility_tolerance): measured as the
-// distance of the end to the surface's plane, not along the segment, so that grazing segments need no other bound and
-// nothing is cut off the segment itself.
+// Each invocation finds the obstacles between the ends of one segment. The facets and bodies that the ends
+// belong to are passed over by name. So is a surface on which an end lies as far as fp32 can tell
+// (visibility_tolerance). The measure is the distance of the end to the surface's plane, not the length along
+// the segment. Grazing segments then need no other bound, and nothing is cut off the segment itself.
 //
-// Walls are listed, opaque facets block. How much of a segment is inside foliage adds up on the way, as long as both ends
-// are outside for certain; else it needs the whole line, which is followed for those segments alone.
+// Walls are listed, and opaque facets block. The length of a segment inside foliage adds up on the way, as
+// long as both ends are certainly outside. Otherwise the whole line is needed, and it is followed for those
+// segments only.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rf.h"
 #include "lib/linear.glsl"
@@ -32,7 +33,7 @@ float largest(vec3 v) {
   return max(max(magnitude.x, magnitude.y), magnitude.z);
 }
 
-/// A facet's plane where its body stands.
+/// Returns a facet's plane where its body stands.
 GpuFacetPlane posed_plane(uint facet, uint body) {
   GpuFacetPlane plane = planes[facet];
   if (body != 0u) {
@@ -46,15 +47,16 @@ bool lies_on(vec3 end, GpuFacetPlane plane) {
   return abs(dot(plane.normal, end - plane.point)) <= visibility_tolerance(max(largest(end), largest(plane.point)));
 }
 
-/// The walls met so far, each once.
+/// Holds the walls met so far, each once.
 struct Walls {
   uint count;
   uint facets[crossings_max];
   float distances[crossings_max];  // from the segment's start
 };
 
-/// How much of a segment lies behind each crossing of a foliage's surface, + entering, - leaving, in units of
-/// 1 / crossings_foliage_one: integers, so that their order does not matter. `net`: times entered - times left.
+/// Holds the length of a segment behind each crossing of a foliage's surface, + entering, - leaving, in units
+/// of 1 / crossings_foliage_one. These are integers, so that their order does not matter. `net` is times
+/// entered - times left.
 struct Depth {
   int sum, net;
 };
@@ -64,13 +66,14 @@ void add_crossing(inout Depth depth, GpuFacetPlane plane, vec3 direction, float 
   depth.sum += entering ? behind : -behind;
   depth.net += entering ? 1 : -1;
 }
-/// From outside to outside a line leaves closed volumes as often as it enters them. One that does not has slipped through
-/// an edge, or met it twice.
+/// From outside to outside, a line leaves closed volumes as often as it enters them. A line that does not has
+/// slipped through an edge, or has met it twice.
 bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
 
-/// Whether two walls are passed in one place: parallel ones if they lie in one plane, which a segment passes but once
-/// (neighbours, duplicates); others if the segment meets their common edge. The three looks run beside each other, which
-/// shifts where they meet a wall: four times their offset allows for 60 degrees from the normal of both walls.
+/// Returns whether two walls are passed in one place. Parallel walls are if they lie in one plane, which a
+/// segment passes only once (neighbours, duplicates). Other walls are if the segment meets their common edge.
+/// The three looks run beside each other, which shifts the points where they meet a wall. Four times their
+/// offset allows for 60 degrees from the normal of both walls.
 bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance, float reach) {
   GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
   vec3 sine = cross(first_plane.normal, second_plane.normal);
@@ -79,7 +82,8 @@ bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, fl
   return abs(first_distance - second_distance) <= visibility_coplanar_m + 4.0 * offset;
 }
 
-/// Adds a wall; false if there are more than `most`. Of several in one place the lowest index stays.
+/// Adds a wall. Returns false if there are more than `most`. Of several walls in one place the lowest index
+/// stays.
 bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, float at, float reach) {
   for (uint i = 0u; i < walls.count; ++i) {
     if (walls.facets[i] == facet) return true;
@@ -95,7 +99,8 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
   return true;
 }
 
-/// Whether what is met at `at` along a ray, 0 to 1, ends the segment. Walls that do not are added, so is foliage.
+/// Returns whether the surface met at `at` along a ray, 0 to 1, ends the segment. Walls and foliage that do
+/// not end it are added.
 bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at, inout Walls walls,
            inout Depth depth) {
   if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) return false;
@@ -129,8 +134,9 @@ bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth dep
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-/// `depth`: of the last look that is closed. The first one counts least: crowns are met in their very top more often than
-/// chance would have it, and the others look past it.
+/// Returns whether the segment is blocked. `depth` is that of the last look that is closed. The first look
+/// counts least: it meets crowns in their very top more often than by chance, and the other looks go past the
+/// top.
 bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth) {
   walls.count = 0u;
   depth = Depth(0, 1);
@@ -142,7 +148,7 @@ bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth dept
   return false;
 }
 
-/// Where the line a + u d is inside a box, in its body's frame; x > y: nowhere.
+/// Returns where the line a + u d is inside a box, in its body's frame; x > y: nowhere.
 vec2 inside_box(GpuFoliageBox box, vec3 a, vec3 d) {
   if (box.body != 0u) {  // rigid: the inverse of its rotation is the transpose
     GpuBody body = bodies[box.body];
@@ -156,7 +162,8 @@ vec2 inside_box(GpuFoliageBox box, vec3 a, vec3 d) {
   return vec2(max(max(enter.x, enter.y), enter.z), min(min(leave.x, leave.y), leave.z));
 }
 
-/// Whether an end may be inside foliage: of the static world as the host has found, of what moves by its box.
+/// Returns whether an end may be inside foliage. The host has tested the static world; a moving body is
+/// tested by its box.
 bool ends_in_foliage(GpuSegment segment, vec3 direction) {
   if ((segment.walls & crossings_end_in_foliage) != 0u) return true;
   for (uint i = 0u; i < constants.foliage_boxes; ++i) {
@@ -169,7 +176,7 @@ bool ends_in_foliage(GpuSegment segment, vec3 direction) {
   return false;
 }
 
-/// The part of the line a + u d that holds every box it passes through.
+/// Returns the part of the line a + u d that holds every box that it passes through.
 vec2 line_through_foliage(GpuSegment segment, vec3 d) {
   vec2 part = vec2(0.0, 1.0);
   for (uint i = 0u; i < constants.foliage_boxes; ++i) {
@@ -196,8 +203,8 @@ Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   return depth;
 }
 
-/// The same along the whole line, from outside of all foliage to outside, beyond both ends of the segment: so ends inside,
-/// or on, a volume need no rule of their own.
+/// Returns the same for the whole line, from outside of all foliage to outside, beyond both ends of the
+/// segment. Ends inside a volume or on its surface then need no rule of their own.
 Depth depth_on_line(GpuSegment segment, vec3 direction) {
   vec2 part = line_through_foliage(segment, direction);
   vec3 origin = segment.a + part.x * direction;

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface reflects light: glTF 2.0 metallic-roughness (appendix B) with the height-correlated Smith term and
-// compensation for multiple scattering. Pure functions, read by C++ tests and shaders alike.
+// Describes how a surface reflects light: glTF 2.0 metallic-roughness (appendix B) with the height-correlated
+// Smith term and compensation for multiple scattering. C++ tests and shaders read the same pure functions.
 //
 //   f = diffuse (1 - E) / pi + D V F k
-//   E  directional albedo of the specular lobe, so that what the lobe takes the diffuse part does not give again
-//   k  1 + F0 (1/E_ss - 1): what a single bounce off the microfacets loses (Fdez-Aguera, "A Multiple-Scattering
-//      Microfacet Model for Real-Time Image-based Lighting", JCGT 8(1), 2019; Filament, section 4.7.2)
+//   E  directional albedo of the specular lobe; the diffuse part leaves out the light of the lobe
+//   k  1 + F0 (1/E_ss - 1), for the loss of a single bounce off the microfacets (Fdez-Aguera, "A Multiple-
+//      Scattering Microfacet Model for Real-Time Image-based Lighting", JCGT 8(1), 2019; Filament, section
+//      4.7.2)
 #ifndef GREATX_SHADERS_SHARED_BRDF_H
 #define GREATX_SHADERS_SHARED_BRDF_H
 #include "glsl.h"
@@ -25,25 +26,25 @@ using std::sqrt;
 
 GREATX_SHARED_BEGIN
 
-/// Reflectance at normal incidence of a dielectric with index 1.5 (glTF 2.0, 3.9.2).
+/// The reflectance at normal incidence of a dielectric with index 1.5 (glTF 2.0, 3.9.2).
 const float dielectric_f0 = 0.04f;
 const float inverse_pi = 0.31830988618f;
-/// Least alpha: a perfect mirror's highlight of the sun would not fit a half float.
+/// The least alpha. The highlight of the sun in a perfect mirror would not fit a half float.
 const float least_alpha = 0.002f;
 
-/// alpha = perceptual roughness squared (glTF 2.0, appendix B.2.3).
+/// Returns alpha = perceptual roughness squared (glTF 2.0, appendix B.2.3).
 GREATX_FUNCTION float alpha_from_roughness(float roughness) {
   return max(roughness * roughness, least_alpha);
 }
 
-/// GGX normal distribution, 1/sr (Walter et al., EGSR 2007, eq. 33).
+/// Returns the GGX normal distribution, 1/sr (Walter et al., EGSR 2007, eq. 33).
 GREATX_FUNCTION float ggx_distribution(float n_dot_h, float alpha) {
   float a2 = alpha * alpha;
   float f = (n_dot_h * a2 - n_dot_h) * n_dot_h + 1.0f;
   return a2 * inverse_pi / (f * f);
 }
 
-/// G / (4 (n.v) (n.l)), height-correlated Smith (Heitz, JCGT 3(2), 2014, eq. 99).
+/// Returns G / (4 (n.v) (n.l)), height-correlated Smith (Heitz, JCGT 3(2), 2014, eq. 99).
 GREATX_FUNCTION float smith_visibility(float n_dot_v, float n_dot_l, float alpha) {
   float a2 = alpha * alpha;
   float v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2);
@@ -51,15 +52,16 @@ GREATX_FUNCTION float smith_visibility(float n_dot_v, float n_dot_l, float alpha
   return 0.5f / (v + l);
 }
 
-/// Schlick's Fresnel term (1994) for 1 - cos of the half angle.
+/// Returns Schlick's Fresnel term (1994) for 1 - cos of the half angle.
 GREATX_FUNCTION vec3 schlick_fresnel(vec3 f0, float one_minus_cos) {
   float s = one_minus_cos * one_minus_cos;
   return f0 + (vec3(1.0f) - f0) * (s * s * one_minus_cos);
 }
 
-/// Scale of F0 and offset that give the directional albedo of a single bounce: E_ss(F0) = F0 x + y (the split sum of
-/// Karis, "Real Shading in Unreal Engine 4", 2013). Polynomials fitted by least squares to this header's own lobe on
-/// n.v = .02, .05, .1 ... 1 and roughness .05 ... 1: rms .01, at most .06 where both are small.
+/// Returns the scale of F0 and the offset that give the directional albedo of a single bounce:
+/// E_ss(F0) = F0 x + y (the split sum of Karis, "Real Shading in Unreal Engine 4", 2013). The polynomials
+/// were fitted by least squares to this header's own lobe on n.v = .02, .05, .1 ... 1 and roughness .05 ...
+/// 1. The rms error is .01, and the largest is .06 where both are small.
 GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   float r = roughness, u = 1.0f - n_dot_v, u2 = u * u, u5 = u2 * u2 * u;
   vec4 p = vec4(1.0f, r, r * r, r * r * r);
@@ -76,9 +78,9 @@ GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   return vec2(clamp(whole, 0.1f, 1.0f) - y, y);
 }
 
-/// What a surface is made of at a point and how it answers in the direction of the eye.
+/// Describes the material of a surface at a point, and its response in the direction of the eye.
 struct Reflectance {
-  vec3 diffuse;  ///< albedo of the diffuse part, E taken off
+  vec3 diffuse;  ///< albedo of the diffuse part, with E taken off
   vec3 f0;
   vec3 albedo;  ///< E: directional albedo of the specular lobe with its multiple scattering
   vec3 gain;    ///< k
@@ -101,7 +103,7 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   return r;
 }
 
-/// The same without a specular lobe: a Lambertian surface.
+/// Returns the same without a specular lobe: a Lambertian surface.
 GREATX_FUNCTION Reflectance lambertian_reflectance(vec3 base_color) {
   Reflectance r;
   r.n_dot_v = 1.0f;
@@ -113,7 +115,7 @@ GREATX_FUNCTION Reflectance lambertian_reflectance(vec3 base_color) {
   return r;
 }
 
-/// The specular lobe, 1/sr; all cosines in (0, 1].
+/// Returns the specular lobe, 1/sr. All cosines are in (0, 1].
 GREATX_FUNCTION vec3 specular_brdf(Reflectance r, float n_dot_l, float n_dot_h, float l_dot_h) {
   float dv = ggx_distribution(n_dot_h, r.alpha) * smith_visibility(r.n_dot_v, n_dot_l, r.alpha);
   return schlick_fresnel(r.f0, 1.0f - l_dot_h) * r.gain * dv;

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the camera's shaders and renderer/ agree on: bindings, specialization constants, per-tick constants, lighting.
+// The camera's shaders and renderer/ share these definitions: bindings, specialization constants, per-tick
+// constants, lighting.
 #ifndef GREATX_SHADERS_SHARED_CAMERA_H
 #define GREATX_SHADERS_SHARED_CAMERA_H
 #include "glsl.h"
 
 GREATX_SHARED_BEGIN
 
-// Set 0, beside the scene's own bindings.
+// These bindings of set 0 stand beside the scene's own.
 const uint lighting_binding = 4u;           // uniform: GpuLighting
 const uint shadow_tiles_binding = 5u;       // storage: GpuShadowTiles, this tick's
 const uint lights_binding = 6u;             // storage: words of lamps and their clusters, this tick's
@@ -16,15 +17,15 @@ const uint environment_binding = 7u;        // sampled: octahedral map of the sk
 const uint static_shadow_binding = 8u;      // sampled with comparison
 const uint moving_shadow_binding = 9u;      // sampled with comparison
 const uint visibility_binding = 10u;        // triangle + 1: storage image r32ui, or multisampled and sampled
-const uint triangle_records_binding = 11u;  // storage: what shading needs of each triangle
-const uint material_records_binding = 15u;  // storage: what it needs of each material
-// Storage, [pixels] (renderer/camera/picture.h).
+const uint triangle_records_binding = 11u;  // storage: data that shading needs of each triangle
+const uint material_records_binding = 15u;  // storage: data that shading needs of each material
+// These are storage buffers, [pixels] (renderer/camera/picture.h).
 const uint shade_color_binding = 12u;      // uvec2: four halves
 const uint shade_seen_binding = 13u;       // uvec2: planar depth's bits, triangle + 1
 const uint shade_luminance_binding = 14u;  // float, cd/m^2
 const uint sky_view_binding = 16u;         // sampled: floor, then shares of the sky at three heights above it
 const uint lens_binding = 17u;             // sampled: where the pinhole picture has the pixels' centres
-// Smoothing edges: storage as above.
+// The pass that smooths edges has storage buffers as above.
 const uint edges_seen_binding = 4u;
 const uint edges_from_binding = 5u;
 const uint edges_to_binding = 6u;
@@ -32,7 +33,8 @@ const uint edges_luminance_from_binding = 7u;
 const uint edges_luminance_to_binding = 8u;
 const uint stars_binding = 20u;  // storage: GpuStar [star_cells, star_cells]
 
-// Specialization constants of the shading pipeline: what is wanted, and one for each effect of the plan.
+// Specialization constants of the shading pipeline: the wanted outputs, and one constant for each effect of
+// the plan.
 const uint spec_color = 0u;
 const uint spec_ids = 1u;
 const uint spec_sun = 2u;
@@ -54,23 +56,24 @@ const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
 const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
-const uint spec_moving_bodies = 21u;  // of the visibility pass: off, it draws what never moves
-// The records of triangles are larger than a shader may see of a buffer at once: what is bound is their address.
+const uint spec_moving_bodies = 21u;  // of the visibility pass; off: it draws the bodies that never move
+// The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
+// is then bound.
 const uint spec_triangle_address = 22u;
 const uint shade_spec_count = 23u;
-// Of the shadow maps' masks.
+// This constant belongs to the masks of the shadow maps.
 const uint shadow_spec_base_color_arrays = 0u;
 
-/// Pixels of the static or moving shadow map's texels below which a pixel looks at nine of them.
+/// A pixel looks at nine texels of the static or moving shadow map if its size in texels is below this.
 const float shadow_near = 0.75f;
-/// Rougher than this a surface mirrors the sky's irradiance instead of the environment map.
+/// A surface rougher than this mirrors the sky's irradiance instead of the environment map.
 const float environment_most_roughness = 0.6f;
-/// Heights over the floor at which shares of the sky are known, m, beside 0.
+/// The heights over the floor at which shares of the sky are known, m, beside 0.
 const float sky_view_middle = 8.0f;
 const float sky_view_top = 24.0f;
 
-/// Clusters of lamps: tiles of the pinhole picture times slices of planar depth. The words: a header, (first entry,
-/// count) of each cluster, the entries (quadruples of words where lamps begin), the lamps.
+/// Clusters of lamps are tiles of the pinhole picture times slices of planar depth. The words are a header,
+/// (first entry, count) of each cluster, the entries (quadruples of words where lamps begin), and the lamps.
 const uint lamp_tile_pixels = 32u;
 const uint lamp_slices = 20u;
 const float lamp_slices_per_octave = 2.0f;
@@ -82,14 +85,16 @@ const uint lamps_down_word = 3u;
 const uint lamps_last_column_word = 4u;  // as floats
 const uint lamps_last_row_word = 5u;
 const uint lamps_header_words = 6u;
-/// Of a lamp, three quadruples of floats, which an entry counts from the words' beginning: position from the eye (of a
-/// directional light: unit, towards it) and 1 / range^2 (directional: -1); unit direction and the scale of the cone;
+/// A lamp is three quadruples of floats, and an entry counts the quadruples from the words' beginning. The
+/// first holds the position from the eye (of a directional light: unit, towards it) and 1 / range^2
+/// (directional: -1). The second holds the unit direction and the scale of the cone. The third holds the
 /// intensity, cd (directional: lux), and the offset of the cone.
 const uint lamp_record_quads = 3u;
-/// Rougher dielectrics show no highlights of lamps.
+/// Dielectrics rougher than this show no highlights of lamps.
 const float lamp_most_roughness = 0.6f;
 
-/// Quadruples of words of a triangle's record, corners in the body's frame, in fp32 unless said otherwise:
+/// A triangle's record has these quadruples of words. Corners are in the body's frame, in fp32 unless said
+/// otherwise:
 ///   0  first corner; body << 16 | material
 ///   1  edge to the second corner; normal at the first
 ///   2  edge to the third corner; normal at the second
@@ -98,12 +103,12 @@ const float lamp_most_roughness = 0.6f;
 ///   5  tangents at the three corners; 1 where its material has an alpha mask
 /// Normals and tangents are octahedral in two 16-bit words: 5e-5 rad.
 const uint triangle_record_quads = 6u;
-/// Of a material's record, low half first:
-///   0  base colour in halves: red, green; blue, where else its roughness stands (roughness_in_...; 0: nowhere); metallic,
-///      roughness as fractions of 65535; base-colour texture
+/// A material's record has these quadruples, low half first:
+///   0  base colour in halves: red, green; blue, other place of its roughness (roughness_in_...; 0: nowhere);
+///      metallic, roughness as fractions of 65535; base-colour texture
 ///   1  emission in floats; emissive texture
 ///   2  scale of the normal map; normal texture, metallic-roughness texture
-/// A texture is its reference (scene/texture_layers.h) + 1, 0 if there is none.
+/// A texture is stored as its reference (scene/device/texture_layers.h) + 1, or 0 if there is none.
 const uint material_record_quads = 3u;
 const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
 const uint roughness_in_alpha = 2u;    ///< of the base-colour texture
@@ -115,14 +120,15 @@ const uint shade_group_height = 8u;
 const uint environment_size = 256u;
 const uint environment_levels = 6u;
 
-/// Edge of the octahedral map of stars: at most one star a cell.
+/// The edge of the octahedral map of stars. A cell has at most one star.
 const uint star_cells = 128u;
 
-/// Radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
+/// The radiance over 1 cd/m^2 that an emissive factor of 1.0 stands for.
 const float emissive_nits = 1000.0f;
 
-/// Push constants of the visibility and shading pipelines. Positions are taken relative to the eye before anything is
-/// rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a float.
+/// Holds the push constants of the visibility and shading pipelines. Positions are taken relative to the eye
+/// before anything is rounded: eye_high + eye_low is the eye in local coordinates to twice the precision of a
+/// float.
 struct CameraConstants {
   vec3 eye_high;
   vec3 eye_low;
@@ -134,14 +140,15 @@ struct CameraConstants {
   vec3 ray_0;
   vec3 light_eye;  ///< the eye in the sun's frame (GpuLighting::light_x, light_y, sun_direction)
   float near_m;
-  float exposure;  ///< times radiance in cd/m^2 gives what is stored
+  float exposure;  ///< stored value = exposure times radiance in cd/m^2
   float weight;    ///< of this part of the exposure time; 1: the whole
   uint first;      ///< whether it is the first part
   uint size;       ///< of the picture: width | height << 16
 };
 
-/// Set at construction: key light (sun or moon), sky, haze, the static shadow map. Radiometric units are photometric: lux and cd/m^2 per
-/// linear Rec. 709 channel, such that 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance.
+/// Holds the lighting, which is set at construction: key light (sun or moon), sky, haze, the static shadow
+/// map. Radiometric units are photometric: lux and cd/m^2 per linear Rec. 709 channel, such that 0.2126 R +
+/// 0.7152 G + 0.0722 B is the illuminance or luminance.
 struct GpuLighting {
   vec3 sun_direction;         ///< unit, to the key light, local frame; also the third axis of its frame
   float sun_cos_radius;       ///< of the disc, cosine
@@ -159,38 +166,41 @@ struct GpuLighting {
   float moving_map_size;
   float pad1;
   float pad2;
-  vec3 haze_ambient;  ///< radiance of endless haze: haze_ambient + haze_directed (1 + g^2 - 2 g cos)^-1.5,
+  /// Radiance of endless haze: haze_ambient + haze_directed (1 + g^2 - 2 g cos)^-1.5, with the cosine of the
+  /// angle from the key light.
+  vec3 haze_ambient;
   float haze_extinction;  ///< 1/m
-  vec3 haze_directed;     ///< cos of the angle from the key light
-  float haze_asymmetry;   ///< g
-  vec3 moon_direction;    ///< unit
-  float moon_radius;      ///< rad
-  vec3 moon_bright;       ///< unit, across moon_direction: from the disc's middle to its bright limb
+  vec3 haze_directed;
+  float haze_asymmetry;  ///< g
+  vec3 moon_direction;   ///< unit
+  float moon_radius;     ///< rad
+  vec3 moon_bright;      ///< unit, across moon_direction: from the disc's middle to its bright limb
   float moon_cos_phase;
   vec3 moon_disc;  ///< radiance of its bright part
   float pad3;
   vec4 sky_view_uv;      ///< scale and offset of local x, y
-  float sky_view_floor;  ///< local z that heights are over
+  float sky_view_floor;  ///< local z from which heights are counted
   float sky_view_step;   ///< m along the normal at which a point is looked up
-  vec3 bounce;           ///< radiance of what hides the sky
+  vec3 bounce;           ///< radiance of the objects that hide the sky
   float pad4;
   vec4 irradiance[9];  ///< spherical harmonics of the sky's irradiance / pi (rgb), real basis, order 2
 };
 
-/// One cell of the map of stars.
+/// Holds one cell of the map of stars.
 struct GpuStar {
   uint place;  ///< octahedral coordinates within the cell, 16 bits each
   uint light;  ///< halves: illuminance / 1e-6 lux, 0 where there is none; warmth from 0 (blue) to 1
 };
 
-/// Before the tiles: how many, and the bounds of all in the sun's x, y.
+/// Holds the header before the tiles: their number, and the common bounds in the sun's x, y.
 struct ShadowTilesHeader {
   uint count;
   vec2 min;
   vec2 max;
 };
 
-/// Shadow of one moving body: a square of the sun's frame around it, and where that lies in the atlas.
+/// Holds the shadow of one moving body: a square of the sun's frame around it, and the place of that square
+/// in the atlas.
 struct GpuShadowTile {
   vec3 center;  ///< of the body's bounding sphere, the sun's frame
   float radius;
@@ -199,7 +209,7 @@ struct GpuShadowTile {
   float texel_m;
 };
 
-/// Push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
+/// Holds the push constants of the static shadow pipeline: clip = (dot(row, vec4(p, 1)), 1).
 struct ShadowConstants {
   vec4 row0;
   vec4 row1;

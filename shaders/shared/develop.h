@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From linear light to eight bits: tone curve, sRGB. Pure functions, read by C++ tests and shaders alike.
+// Takes linear light to eight bits by a tone curve and sRGB. C++ tests and shaders read the same pure
+// functions.
 #ifndef GREATX_SHADERS_SHARED_DEVELOP_H
 #define GREATX_SHADERS_SHARED_DEVELOP_H
 #include "glsl.h"
@@ -17,23 +18,24 @@ using std::sqrt;
 
 GREATX_SHARED_BEGIN
 
-/// The response of film to light: 1 - exp(-2.2 x) of the brightest channel, which lifts the middle and has no end; the
-/// others keep their ratio to it, and fade towards white as it saturates (as in Khronos' PBR Neutral tone mapper, 2024).
-/// Linear Rec. 709 in and out, [0, inf) to [0, 1].
+/// The response of film to light. It is 1 - exp(-2.2 x) of the brightest channel, which lifts the middle and
+/// has no end. The other channels keep their ratio to the brightest, and fade towards white as it saturates
+/// (as in Khronos' PBR Neutral tone mapper, 2024). Input and output are linear Rec. 709, from [0, inf) to
+/// [0, 1].
 GREATX_FUNCTION vec3 tone_map(vec3 color) {
   const float response = 2.2f;
   const float desaturation = 0.15f;
   float peak = max(max(color.x, max(color.y, color.z)), 1e-9f);
   float new_peak = 1.0f - exp(-response * peak);
-  // color new_peak / peak, mixed with white of that peak by 1 - 1 / fade.
+  // This is color new_peak / peak, mixed with white of that peak by 1 - 1 / fade.
   float fade = desaturation * max(peak - new_peak, 0.0f) + 1.0f;
   float both = new_peak / (peak * fade);
   return color * both + vec3(new_peak - peak * both);
 }
 
-/// IEC 61966-2-1, and rounding to nearest: a linear value in [0, 1] to its byte. The power 1/2.4 is a polynomial in the
-/// fourth root, 0.009 bytes off at most. The sum's last bits are the byte (fp32 has no fractions from 2^23 on): a
-/// conversion to an integer would be done lane by lane on some CPU drivers.
+/// Returns the byte of a linear value in [0, 1] by IEC 61966-2-1, rounded to nearest. The power 1/2.4 is a
+/// polynomial in the fourth root, 0.009 bytes off at most. The last bits of the sum are the byte (fp32 has no
+/// fractions from 2^23 on). Some CPU drivers would do a conversion to an integer lane by lane.
 GREATX_FUNCTION uint srgb_byte(float c) {
   float q = sqrt(sqrt(c));
   float curve = (((0.08132991f * q - 0.33550147f) * q + 1.1226816f) * q + 0.19613586f) * q - 0.064611533f;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pixel of an event camera, as pure functions that shaders and C++ tests read alike (docs/events.md).
+// Defines the pixel of an event camera, as pure functions that shaders and C++ tests read alike
+// (docs/events.md).
 //
-// Logarithms, references and thresholds are integers, multiples of 2^-24 of a natural logarithm: sums of thresholds are
-// exact however many there are, "on the threshold" is a comparison of integers, and a crossing's time is a quotient of
-// integers. Times within an interval are integer nanoseconds.
+// Logarithms, references and thresholds are integers, multiples of 2^-24 of a natural logarithm. Sums of
+// thresholds are exact however many there are, "on the threshold" is a comparison of integers, and a
+// crossing's time is a quotient of integers. Times within an interval are integer nanoseconds.
 #ifndef GREATX_SHADERS_SHARED_EVENTS_H
 #define GREATX_SHADERS_SHARED_EVENTS_H
 #include "random.h"
@@ -32,12 +33,13 @@ GREATX_SHARED_BEGIN
 
 /// 1.0 of a natural logarithm.
 const int log_one = 16777216;
-/// No event: later than any interval lasts.
+/// The time of no event. It is later than any interval lasts.
 const int never_ns = 0x7fffffff;
-/// Intervals last at most that long.
+/// The longest duration of an interval.
 const int longest_interval_ns = 2000000000;
 
-/// int(x), |x| < 2^31. Shifts and masks, since drivers for CPUs convert floats to integers one lane after the other.
+/// Returns int(x), |x| < 2^31. It uses shifts and masks, since CPU drivers convert floats to integers one
+/// lane after the other.
 GREATX_FUNCTION int whole_part(float x) {
   uint bits = floatBitsToUint(x);
   uint mantissa = (bits & 0x7fffffu) | 0x800000u;
@@ -46,11 +48,13 @@ GREATX_FUNCTION int whole_part(float x) {
   return x < 0.0f ? -int(size) : int(size);
 }
 
-/// A whole number beside x, 0 <= x < 2^23: the nearest, or where the device rounds towards zero the one below.
+/// Returns a whole number beside x, 0 <= x < 2^23: the nearest, or, on a device that rounds towards zero, the
+/// one below.
 GREATX_FUNCTION int near_whole(float x) { return int(floatBitsToUint(x + 8388608.0f) & 0x7fffffu); }
 
-/// ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7): ln 2 times the exponent, which is exact, and for the mantissa
-/// m in [sqrt 1/2, sqrt 2) the series 2 (s + s^3/3 + ... + s^9/9), s = (m - 1) / (m + 1), whose next term is below 1e-9.
+/// Returns ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7). It adds ln 2 times the exponent, which is
+/// exact, and a series for the mantissa m in [sqrt 1/2, sqrt 2): 2 (s + s^3/3 + ... + s^9/9), s = (m - 1) /
+/// (m + 1). The next term of the series is below 1e-9.
 GREATX_FUNCTION int fixed_log(float x) {
   const uint root_two = 0x3504f3u;  // mantissa bits of sqrt 2
   uint bits = floatBitsToUint(x);
@@ -66,44 +70,47 @@ GREATX_FUNCTION int fixed_log(float x) {
   return exponent * 11629080 + (scaled < 0.0f ? -part : part);
 }
 
-/// The photoreceptor's signal: ln(dark + luminance), both in cd/m^2. Black stays black, whatever the noise of zero.
+/// Returns the signal of the photoreceptor: ln(dark + luminance), both in cd/m^2. Luminances below 0 count as
+/// 0.
 GREATX_FUNCTION int event_signal(float luminance, float dark) {
   return fixed_log(dark + max(luminance, 0.0f));
 }
 
-/// Relative intensity that bandwidth and shot noise depend on: (255 L / bright + 20) / 275, at most 1 (v2e's
-/// scaling, with `bright` as its white).
+/// Returns the relative intensity on which bandwidth and shot noise depend: (255 L / bright + 20) / 275, at
+/// most 1 (v2e's scaling, with `bright` as its white).
 GREATX_FUNCTION float relative_intensity(float luminance, float bright) {
   return min((255.0f / 275.0f) * (max(luminance, 0.0f) / bright) + 20.0f / 275.0f, 1.0f);
 }
 
-/// A first-order low pass after a step of `x` time constants during which its input goes linearly from `u0` to `u1`: the
-/// exact answer to that input. `y0`: before.
+/// A first-order low pass after a step of `x` time constants, during which its input goes linearly from `u0`
+/// to `u1`. The result is the exact answer to that input. `y0` is the value before.
 GREATX_FUNCTION int low_pass(int y0, int u0, int u1, float x) {
   float decay = exp(-x);
   float lag = x < 1e-2f ? 1.0f - x * (0.5f - x * (1.0f / 6.0f)) : (1.0f - decay) / x;
   return u1 + whole_part(float(y0 - u0) * decay) - whole_part(floor(float(u1 - u0) * lag + 0.5f));
 }
 
-/// Crossings of a step that ends at `signal`: every reference + k on (k = 1, 2, ...) up to it, counted positive, or every
-/// reference - k off down to it, counted negative. Exactly on the threshold counts. Afterwards the signal lies less than
-/// one threshold from the new reference.
+/// Counts the crossings of a step that ends at `signal`. They are every reference + k on (k = 1, 2, ...) up
+/// to the signal, counted positive, or every reference - k off down to it, counted negative. A signal exactly
+/// on the threshold counts. Afterwards the signal lies less than one threshold from the new reference.
 GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) {
   int above = signal - reference;
   int size = abs(above), c = above > 0 ? on : off;
-  // The quotient, without the division of integers that vector units lack: from floats it is one off at most.
+  // The quotient is found without the division of integers, which vector units lack. From floats it is one
+  // off at most.
   int n = near_whole(float(size) / float(c));
   int rest = size - n * c;
   n += (rest >= c ? 1 : 0) - (rest < 0 ? 1 : 0);
   return above > 0 ? n : -n;
 }
 
-/// Nanoseconds after a step's start at which a signal that goes linearly has changed by `part` of the `whole`, rounded up:
-/// 1 to dt_ns. `inverse`: 1 / whole.
+/// Returns the nanoseconds, 1 to dt_ns, after a step's start at which a linear signal has changed by `part`
+/// of the `whole`. The time is rounded up. `inverse` is 1 / whole.
 GREATX_FUNCTION int part_time(uint part, uint whole, float inverse, int dt_ns) {
   uint64_t product = uint64_t(part) * uint64_t(dt_ns);
-  // Divided in two steps of floats, since vector units lack the division of integers. The first quotient is too small, by
-  // some 3000 at most; the second is one off at most, which comparisons of integers put right.
+  // The division takes two steps of floats, since vector units lack the division of integers. The first
+  // quotient is too small, by some 3000 at most. The second is one off at most, which comparisons of integers
+  // put right.
   uint first = uint(whole_part(float(part) * (float(dt_ns) * inverse) * (1.0f - 9.5367432e-7f)));
   uint64_t left = product - uint64_t(first) * uint64_t(whole);
   uint second = uint(near_whole((float(uint(left >> 32)) * 4294967296.0f + float(uint(left))) * inverse));
@@ -111,14 +118,16 @@ GREATX_FUNCTION int part_time(uint part, uint whole, float inverse, int dt_ns) {
   return int(first + second) + (rest > int64_t(0) ? 1 : 0) + (rest > int64_t(whole) ? 1 : 0);
 }
 
-/// The same for a signal that goes from `from` to `to` and reaches `level`, which lies between them, not at `from`.
+/// Returns the same for a signal that goes from `from` to `to` and reaches `level`, which lies between them
+/// and is not `from`.
 GREATX_FUNCTION int crossing_time(int from, int to, int level, int dt_ns) {
   uint whole = uint(abs(to - from));
   return part_time(uint(abs(level - from)), whole, 1.0f / float(whole), dt_ns);
 }
 
-/// Drift of a leaking reference between two instants, for a threshold: `turns` are thresholds leaked since the beginning,
-/// 32.32 fixed point. Sums over steps are exact: the fractions telescope.
+/// Returns the drift of a leaking reference between two instants, for a threshold. `turns` are thresholds
+/// leaked since the beginning, in 32.32 fixed point. Sums over steps are exact, since the fractions
+/// telescope.
 GREATX_FUNCTION int leak_between(uint64_t turns_from, uint64_t turns_to, int on) {
   int whole = int(uint(turns_to >> 32) - uint(turns_from >> 32));
   uint64_t c = uint64_t(on);
@@ -127,20 +136,21 @@ GREATX_FUNCTION int leak_between(uint64_t turns_from, uint64_t turns_to, int on)
   return on * whole + to - from;
 }
 
-/// Mean time between shot-noise events of both polarities, ns: v2e's rate, a quarter in bright light of what it is in the
-/// dark. At most 2e9.
+/// Returns the mean time between shot-noise events of both polarities, ns. By v2e's rate, bright light has a
+/// quarter of the rate of the dark. The time is at most 2e9.
 GREATX_FUNCTION float shot_mean_ns(float rate_hz, float intensity) {
   return min(1e9f / (rate_hz * (1.0f - 0.75f * intensity)), 2e9f);
 }
 
-/// Time to the next event of a Poisson process, ns, from 1 on: -ln(u) times the mean, u uniform from 24 bits.
+/// Returns the time to the next event of a Poisson process, ns, from 1 on: -ln(u) times the mean, u uniform
+/// from 24 bits.
 GREATX_FUNCTION int shot_gap_ns(uint bits, float mean_ns) {
   float u = (float(bits >> 8) + 0.5f) * (1.0f / 16777216.0f);
   float gap = float(-fixed_log(u)) * (1.0f / 16777216.0f) * mean_ns;
   return gap < 2e9f ? 1 + whole_part(gap) : 2000000001;
 }
 
-/// The crossings of one pixel within one step, one after the other in order of time.
+/// Holds the crossings of one pixel within one step, one after the other in order of time.
 struct EventWalk {
   int dt_ns;        ///< length of the step
   uint whole;       ///< size of the signal's change during it
@@ -149,10 +159,10 @@ struct EventWalk {
   int stride;       ///< from one crossing to the next, signed
   int left;         ///< crossings still to come
   int crossing_ns;  ///< the next; never_ns: none
-  int alive_ns;     ///< no event before this: the pixel is refractory
+  int alive_ns;     ///< the pixel is refractory before this time: no event
 };
 
-/// `crossings`: as count_crossings gives them for this reference.
+/// Begins a walk. `crossings` is the result of count_crossings for this reference.
 GREATX_FUNCTION EventWalk walk_crossings(int from, int to, int reference, int crossings, int on, int off,
                                          int dt_ns, int alive_ns) {
   EventWalk walk;
@@ -184,7 +194,7 @@ GREATX_FUNCTION int take_crossing(GREATX_INOUT(EventWalk) walk) {
   return t;
 }
 
-/// Whether an event at `t_ns` is let through, and if so, makes the pixel refractory from then on.
+/// Returns whether an event at `t_ns` is let through. If it is, the pixel is refractory from then on.
 GREATX_FUNCTION bool pass_refractory(GREATX_INOUT(EventWalk) walk, int t_ns, int refractory_ns) {
   if (t_ns < walk.alive_ns) return false;
   walk.alive_ns = t_ns > never_ns - refractory_ns ? never_ns : t_ns + refractory_ns;
@@ -194,12 +204,12 @@ GREATX_FUNCTION bool pass_refractory(GREATX_INOUT(EventWalk) walk, int t_ns, int
 /// Where dimension blocks of the shot noise's random words begin: step * this + the block of four arrivals.
 const uint shot_blocks_per_step = 65536u;
 
-// ---- what the passes share -----------------------------------------------------------------------------------------
+// ---- data that the passes share --------------------------------------------------------------------------
 
 const uint event_model_binding = 0u;    // storage: EventModel
 const uint event_control_binding = 1u;  // storage: EventControl
 const uint event_runs_binding = 2u;     // storage: EventRun [runs]
-// Pictures and what pixels keep: [height * width], row by row.
+// Pictures and the state of the pixels: [height * width], row by row.
 const uint event_luminance_binding = 3u;  // storage: float, cd/m^2
 const uint event_seen_binding = 4u;       // storage: uvec2: planar depth's bits, triangle + 1
 const uint event_pixel_binding = 5u;      // storage: ivec2: reference, signal
@@ -211,7 +221,7 @@ const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instanc
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
 const uint event_previous_binding = 0u;   // of the difference pass: storage: float, the picture before
 
-// Specialization constants: what is off is not compiled.
+// Specialization constants. An effect that is off is not compiled.
 const uint event_spec_mismatch = 0u;
 const uint event_spec_leak = 1u;
 const uint event_spec_shot = 2u;
@@ -223,13 +233,14 @@ const uint event_spec_count = 7u;
 const uint adaptive_flow = 1u;
 const uint adaptive_brightness = 2u;
 
-/// Pixels of a row that one invocation handles one after the other: a run. Runs are numbered row by row.
+/// A run is the pixels of a row that one invocation handles one after the other. Runs are numbered row by
+/// row.
 const uint run_pixels = 16u;
 const uint event_group_size = 64u;
 const uint event_scan_size = 256u;
 const uint most_substeps = 64u;
 
-/// What does not change.
+/// Holds the data that do not change.
 struct EventModel {
   uint width;
   uint height;
@@ -245,20 +256,20 @@ struct EventModel {
   float fy;
   float cx;
   float cy;
-  float
-      wanted;  ///< of adaptive steps: pixels of motion, or change over the threshold, from picture to picture
-  uint pattern_seed;  ///< of what is drawn once for each pixel
+  /// Of adaptive steps: pixels of motion, or change over the threshold, from picture to picture.
+  float wanted;
+  uint pattern_seed;  ///< of the numbers that are drawn once for each pixel
   uint pattern_stream;
 };
 
-/// A run of pixels in one step.
+/// Describes a run of pixels in one step.
 struct EventRun {
   uint first;  ///< the events before it in the interval; of the last step's scan
   uint count;  ///< its own
   uint fired;  ///< bit i: pixel i of the run has events
 };
 
-/// The buffer's head, kept from tick to tick.
+/// Holds the head of the buffer. It is kept from tick to tick.
 struct EventControl {
   uint64_t leaked_last;  ///< thresholds leaked at the last picture taken, 32.32
   uint64_t leaked_from;  ///< and at the one before it
@@ -275,7 +286,8 @@ struct EventControl {
 };
 const uint event_due_offset = 52u;  ///< bytes
 
-/// How a body moves as the camera sees it, optical axes: velocity of the point p is a + w x p, m/s and rad/s.
+/// Describes how a body moves as the camera sees it, in optical axes: the velocity of the point p is a + w x
+/// p, m/s and rad/s.
 struct EventMotion {
   vec3 a;
   vec3 w;
@@ -284,8 +296,8 @@ struct EventMotion {
 struct EventConstants {
   uint64_t leaked_from;  ///< thresholds leaked at the instant before, 32.32
   uint64_t leaked_to;    ///< and at this one
-  uint64_t
-      events;  ///< address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p
+  /// Address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p.
+  uint64_t events;
   uint64_t instances;  ///< address of uint [capacity]
   int from_ns;         ///< the instant before, after the interval's start
   int to_ns;           ///< this one
@@ -307,12 +319,12 @@ struct DifferenceConstants {
   uint pad;
 };
 
-/// Instant `index` of the interval, ns after its start.
+/// Returns instant `index` of the interval, ns after its start.
 GREATX_FUNCTION int grid_time(uint interval_ns, uint grid, uint index) {
   return int(uint64_t(interval_ns) * uint64_t(index) / uint64_t(grid));
 }
 
-/// Thresholds leaked at that instant, 32.32.
+/// Returns the thresholds leaked at that instant, 32.32.
 GREATX_FUNCTION uint64_t leak_at(uint64_t begin, uint64_t during, uint grid, uint index) {
   return begin + during * uint64_t(index) / uint64_t(grid);
 }

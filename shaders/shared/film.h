@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The camera's sensor and its meter: what the developing passes and renderer/ agree on, and the noise of a pixel as a
-// pure function, read by C++ tests and shaders alike. docs/film.md has the models.
+// Defines the camera's sensor and its meter. The developing passes and renderer/ share these definitions. The
+// noise of a pixel is a pure function, which C++ tests and shaders read alike. docs/film.md has the models.
 #ifndef GREATX_SHADERS_SHARED_FILM_H
 #define GREATX_SHADERS_SHARED_FILM_H
 #include "random.h"
@@ -23,12 +23,12 @@ using std::sqrt;
 
 GREATX_SHARED_BEGIN
 
-// Set 0 of the developing pass.
+// These bindings are in set 0 of the developing pass.
 const uint develop_color_binding = 0u;  // storage: uvec4, two pixels' halves
 const uint develop_seen_binding = 1u;   // storage: uvec4, two pixels' depths and triangles
-const uint develop_triangle_ids_binding =
-    2u;  // storage: two words of triangle + 1: instance + 1, class | (material + 1) << 16
-// Of the metering passes.
+// storage: two words of triangle + 1: instance + 1, class | (material + 1) << 16
+const uint develop_triangle_ids_binding = 2u;
+// This binding belongs to the metering passes.
 const uint meter_color_binding = 0u;  // storage: uvec2, a pixel's halves
 
 const uint develop_spec_rgb = 0u;
@@ -43,10 +43,10 @@ const uint develop_spec_noise = 8u;
 const uint develop_spec_count = 9u;
 
 const uint develop_group_size = 64u;
-/// Pixels that one invocation of the developing pass packs into whole 64-bit words.
+/// The pixels that one invocation of the developing pass packs into whole 64-bit words.
 const uint develop_pixels = 8u;
 
-/// Of light on a sensor.
+/// Holds the constants of light on a sensor.
 struct SensorConstants {
   float full_well;   ///< electrons of light 1 (L_max)
   float read_noise;  ///< electrons, rms
@@ -71,19 +71,19 @@ struct DevelopConstants {
   SensorConstants sensor;
 };
 
-/// Bins of the meter's histogram, over log2 of the stored luminance from meter_least on.
+/// The bins of the meter's histogram, over log2 of the stored luminance from meter_least_ev on.
 const uint meter_bins = 256u;
 const float meter_bins_per_ev = 6.0f;
 const float meter_least_ev = -25.0f;  // halves end at 2^-24
-/// Within a bin logarithms are summed in whole steps.
+/// Within a bin, logarithms are summed in whole steps.
 const float meter_steps_per_ev = 64.0f;
-/// A pixel that shows the scene counts as much as so many of sky.
+/// A pixel that shows the scene counts as much as this many pixels of sky.
 const float meter_scene_weight = 8.0f;
-/// Fractions of the pixels (by weight) that are left out, darkest and brightest.
+/// The fraction of the pixels (by weight) that is left out at each end, dark and bright.
 const float meter_trimmed = 0.05f;
-/// Pixels metered, at most; every n-th column of every n-th row is.
+/// The largest number of metered pixels. Every n-th column of every n-th row is metered.
 const uint meter_most_samples = 32768u;
-/// EV100 between which it finds an exposure, as cameras do.
+/// The meter finds an exposure between these EV100, as cameras do.
 const float meter_least_ev100 = -4.0f;
 const float meter_most_ev100 = 20.0f;
 const uint meter_group_size = 64u;
@@ -109,11 +109,13 @@ struct MeterConstants {
   uint width;  ///< of the picture
 };
 
-/// Below so many electrons on average the shot noise is Poisson's law itself; above, a corrected normal one.
+/// Below this mean number of electrons the shot noise is Poisson's law itself; above it, a corrected normal
+/// law.
 const float poisson_limit = 16.0f;
 
-/// Quantile of the standard normal law: M. Giles, "Approximating the erfinv Function", GPU Computing Gems Jade Edition
-/// (2011), table 10.3 (single precision, 1e-6 relative where it matters here). `u` in (0, 1).
+/// Returns the quantile of the standard normal law: M. Giles, "Approximating the erfinv Function", GPU
+/// Computing Gems Jade Edition (2011), table 10.3 (single precision, 1e-6 relative where it matters here).
+/// `u` is in (0, 1).
 GREATX_FUNCTION float normal_quantile(float u) {
   float x = 2.0f * u - 1.0f;
   float w = -log(max((1.0f - x) * (1.0f + x), 1e-20f));
@@ -140,11 +142,13 @@ GREATX_FUNCTION float normal_quantile(float u) {
   return 1.41421356f * x * (w < 5.0f ? p : q);
 }
 
-/// Electrons read for `mean` of light: shot noise and read noise. `u`: uniform in [0, 1) with 24 bits.
+/// Returns the electrons read for `mean` electrons of light, with shot noise and read noise. `u` is uniform
+/// in [0, 1) with 24 bits.
 ///
-/// Few electrons: Poisson's law by inversion; where `u` lies within its step is again uniform and gives the read noise.
-/// Many: the sum of both noises by the first terms of Cornish and Fisher's expansion (E. A. Cornish and R. A. Fisher,
-/// 1938), with the exact mean and variance and nearly the skewness.
+/// For few electrons it inverts Poisson's law; the place of `u` within its step is again uniform and gives
+/// the read noise. For many electrons it gives the sum of both noises by the first terms of Cornish and
+/// Fisher's expansion (E. A. Cornish and R. A. Fisher, 1938), with the exact mean and variance and nearly the
+/// skewness.
 GREATX_FUNCTION float noisy_electrons(float mean, float read_noise, float u) {
   const float half_step = 0.5f / 16777216.0f;
   float centred = u + half_step;
@@ -168,14 +172,14 @@ GREATX_FUNCTION float noisy_electrons(float mean, float read_noise, float u) {
   return count + read_noise * normal_quantile(clamp(within, half_step, 1.0f - half_step));
 }
 
-/// Light over L_max as the converter's digital number over its highest one, for a channel.
+/// Returns, for a channel and light over L_max, the converter's digital number over its highest one.
 GREATX_FUNCTION float sensed(float light, SensorConstants sensor, uint bits) {
   float electrons = noisy_electrons(light * sensor.full_well, sensor.read_noise, unit_float(bits));
   float number = floor(electrons * (sensor.levels / sensor.full_well) + 0.5f);
   return clamp(number, 0.0f, sensor.levels) / sensor.levels;
 }
 
-/// The same for a pixel; `pixel`: row * width + column.
+/// Returns the same for a pixel; `pixel` is row * width + column.
 GREATX_FUNCTION vec3 sensed_color(vec3 light, SensorConstants sensor, uint pixel) {
   uvec4 bits = random_bits(sensor.key.x, sensor.key.y, sensor.tick, pixel, 0u);
   return vec3(sensed(light.x, sensor, bits.x), sensed(light.y, sensor, bits.y),

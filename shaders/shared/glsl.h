@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lets one header be read by C++ and GLSL alike: scalar layout, the same type names, inline functions.
-// Every header of shaders/shared includes this first. Structs hold 4-byte members (or addresses as uint64_t
-// on an 8-byte boundary), so that GLSL's scalar layout and C++'s are the same; check sizes with static_assert
-// in C++.
+// Lets C++ and GLSL read one header alike: scalar layout, the same type names, inline functions. Every header
+// of shaders/shared includes this file first. Structs hold 4-byte members (or addresses as uint64_t on an
+// 8-byte boundary), so that GLSL's scalar layout and C++'s are the same. Check sizes with static_assert in
+// C++.
 #ifndef GREATX_SHADERS_SHARED_GLSL_H
 #define GREATX_SHADERS_SHARED_GLSL_H
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// LiDAR: what renderer/lidar/ and shaders/lidar/ agree on.
+// LiDAR. renderer/lidar/ and shaders/lidar/ share these definitions.
 #ifndef GREATX_SHADERS_SHARED_LIDAR_H
 #define GREATX_SHADERS_SHARED_LIDAR_H
 #include "scene.h"
@@ -16,19 +16,19 @@ using std::sqrt;
 const uint lidar_beams_binding = first_pass_binding;        // LidarBeam[shots]
 const uint lidar_poses_binding = first_pass_binding + 1u;   // GpuBody[1 or instants]: local_from_sensor
 const uint lidar_echoes_binding = first_pass_binding + 2u;  // LidarEcho[slots][shots][sub-rays]
-const uint lidar_sub_rays_binding =
-    first_pass_binding + 3u;  // vec2[sub-rays]: offsets; only of beams that spread
+// vec2[sub-rays]: offsets; only of beams that spread
+const uint lidar_sub_rays_binding = first_pass_binding + 3u;
 const uint lidar_panes_binding = first_pass_binding + 4u;    // LidarPane[materials]; only with glass
 const uint lidar_targets_binding = first_pass_binding + 5u;  // LidarTarget[targets]; only with moving targets
 const uint lidar_motions_binding = first_pass_binding + 6u;  // GpuBody[]: tick_from_shot
 
-// A workgroup is a patch of neighbouring beams, so that the lanes that run together walk through the same boxes
-// (docs/lidar.md has the measurements).
+// A workgroup is a patch of neighbouring beams, so that the lanes that run together walk through the same
+// boxes (docs/lidar.md has the measurements).
 const uint lidar_patch_columns = 8u;
 const uint lidar_patch_rows = 4u;
 
 // Specialization constants.
-const uint lidar_exclude_body_id = 0u;          // there is an own body that the beams pass through
+const uint lidar_exclude_body_id = 0u;          // there is an own body, through which the beams pass
 const uint lidar_divergence_id = 1u;            // sub-rays around each beam's axis
 const uint lidar_glass_id = 2u;                 // panes let a part through
 const uint lidar_target_motion_id = 3u;         // bodies stand where they are at the shot's time
@@ -37,11 +37,13 @@ const uint lidar_textured_reflectance_id = 5u;  // sweep_textured: base-colour t
 const uint lidar_base_color_arrays_id = 6u;     // sweep_textured: lib/textures.glsl
 
 const uint lidar_no_object = 0u;
-const uint lidar_still =
-    0xffffffffu;  // LidarTarget::first_motion of a body that stays where it is at the tick
-// Panes that a ray may pass; the next one ends it. Clear glass lets 0.92^32 = 7 % of the light there and back.
+// The LidarTarget::first_motion of a body that stays where it is at the tick.
+const uint lidar_still = 0xffffffffu;
+// A ray may pass this many panes; the next one ends it. Clear glass lets 0.92^32 = 7 % of the light there and
+// back.
 const uint lidar_most_panes = 16u;
-// Echoes that a ray may have: of the first panes that give something back, and of what ends the ray.
+// A ray may have this many echoes: of the first panes that give light back, and of the surface that ends the
+// ray.
 const uint lidar_glass_slots = 5u;
 
 struct LidarBeam {
@@ -55,7 +57,7 @@ struct LidarConstants {
   uint sub_rays;
   uint pose_count;  // 1 or the instants
   uint excluded_body;
-  uint apart;  // 1: bodies are met one by one, those of the targets alone
+  uint apart;  // 1: bodies are met one by one, and only those of the targets
   uint targets;
   uint wavelength_nm;      // 905 or 1550
   float min_range;         // m
@@ -66,30 +68,31 @@ struct LidarConstants {
 
 struct LidarEcho {
   float range;      // m along the beam
-  float intensity;  // what comes back, of all that the ray carries: see docs/lidar.md
-  float share;      // of the ray's energy that goes no further than this surface
+  float intensity;  // the returned part of all light that the ray carries (docs/lidar.md)
+  float share;      // of the ray's energy, the part that goes no further than this surface
   uint instance;    // index + 1; 0: none, and none in the slots behind
   uint material;    // index + 1; 0: none
 };
 
-// A material that lets light through.
+// Describes a material that lets light through.
 struct LidarPane {
   float sheets;      // of glass one behind the other; 0: opaque
-  float clearness;   // of what is not reflected, the part that goes through
+  float clearness;   // of the light that is not reflected, the part that goes through
   float scattering;  // diffuse reflectance: dirt, frosting
 };
 
-// A body at the times of the shots.
+// Describes a body at the times of the shots.
 struct LidarTarget {
   uint body;
-  uint first_motion;  // its motions are one an instant, from here on; lidar_still: none
+  uint first_motion;  // index of its first motion, one motion an instant; lidar_still: none
   vec4 sphere;        // local coordinates: holds the body at every instant
 };
 
-/// Reflectance of unpolarized light on `sheets` parallel plates of refractive index `n` in air, under an angle of
-/// incidence with the given cosine: every reflection between their 2 m faces added up without interference or
-/// absorption, 2 m r / (1 + (2 m - 1) r) for each polarization (G. G. Stokes, "On the intensity of the light reflected
-/// from or transmitted through a pile of plates", Proc. R. Soc. 11 (1862), pp. 545-556), r by Fresnel.
+/// Returns the reflectance of unpolarized light on `sheets` parallel plates of refractive index `n` in air,
+/// under an angle of incidence with the given cosine. Every reflection between their 2 m faces is added up
+/// without interference or absorption: 2 m r / (1 + (2 m - 1) r) for each polarization (G. G. Stokes, "On the
+/// intensity of the light reflected from or transmitted through a pile of plates", Proc. R. Soc. 11 (1862),
+/// pp. 545-556), with r by Fresnel.
 GREATX_FUNCTION float pane_reflectance(float cosine, float n, float sheets) {
   float inner = sqrt(n * n - 1.0f + cosine * cosine);  // n times the cosine inside
   float s = (cosine - inner) / (cosine + inner);
@@ -100,12 +103,13 @@ GREATX_FUNCTION float pane_reflectance(float cosine, float n, float sheets) {
   return 0.5f * faces * (r_s / (1.0f + (faces - 1.0f) * r_s) + r_p / (1.0f + (faces - 1.0f) * r_p));
 }
 
-/// What a mirror gives back into a receiver beside the transmitter, as the intensity of a diffuse surface that gave as
-/// much: a Gaussian beam of 1/e^2 half-angle `half_divergence` comes back from a mirror image 2 R cos(theta) away and `theta` off its
-/// axis, where its irradiance is 2 / (pi (2 R cos(theta) half_divergence)^2) exp(-2 theta^2 / half_divergence^2); a diffuse
-/// surface gives rho / (pi R^2).
+/// Returns the light that a mirror gives back into a receiver beside the transmitter, as the intensity of a
+/// diffuse surface that gives as much. A Gaussian beam of 1/e^2 half-angle `half_divergence` comes back from
+/// a mirror image 2 R cos(theta) away and `theta` off its axis. Its irradiance there is 2 / (pi (2 R
+/// cos(theta) half_divergence)^2) exp(-2 theta^2 / half_divergence^2). A diffuse surface gives rho / (pi
+/// R^2).
 GREATX_FUNCTION float glare_intensity(float sine, float cosine, float half_divergence) {
-  float off = sine / half_divergence;  // the angle is a few milliradians wherever this is not nothing
+  float off = sine / half_divergence;  // the angle is a few milliradians wherever the result is not 0
   return exp(-2.0f * off * off) / (2.0f * half_divergence * half_divergence * cosine * cosine);
 }
 

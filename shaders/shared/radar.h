@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays of a radar: what rf/radar/echo_pass.cpp and shaders/radar/echoes.comp.glsl agree on.
+// The rays of a radar. rf/radar/echoes/echo_pass.cpp and shaders/radar/echoes.comp.glsl share these
+// definitions.
 #ifndef GREATX_SHADERS_SHARED_RADAR_H
 #define GREATX_SHADERS_SHARED_RADAR_H
 #include "scene.h"
@@ -9,13 +10,13 @@
 GREATX_SHARED_BEGIN
 
 const uint radar_directions_binding = first_pass_binding;  // vec3[rays], unit, local axes
-const uint radar_hits_binding =
-    first_pass_binding + 1u;  // uint[max_bounces * rays + 1]: a bounce's rays side by side;
-// then whether the source itself sees the receiver
+// uint[max_bounces * rays + 1]: the rays of a bounce stand side by side. The last uint says whether the
+// source itself sees the receiver.
+const uint radar_hits_binding = first_pass_binding + 1u;
 const uint radar_group = 64u;
 
-// A hit: its facet, and whether the receiver is seen from there, and over the first surface (the host says so); radar_none:
-// nothing is met.
+// A hit is its facet, a flag that the receiver is seen from there, and a flag that it is seen over the first
+// surface (which the host sets). radar_none says that nothing is met.
 const uint radar_none = 0xffffffffu;
 const uint radar_sees_receiver = 0x80000000u;
 const uint radar_sees_over = 0x40000000u;
@@ -26,8 +27,8 @@ struct EchoConstants {
   vec3 receiver;
   uint rays;
   uint max_bounces;
-  uint source_body;    // that rays pass through; ~0: none
-  uint receiver_body;  // that does not hide the receiver; ~0: none
+  uint source_body;    // rays pass through it; ~0: none
+  uint receiver_body;  // it does not hide the receiver; ~0: none
 };
 
 GREATX_SHARED_END

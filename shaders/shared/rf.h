@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio on the GPU: what rf/candidate_search.cpp, rf/crossings.cpp and shaders/rf/ agree on.
+// Radio on the GPU. rf/search/candidate_search.cpp, rf/paths/crossings.cpp and shaders/rf/ share these
+// definitions.
 #ifndef GREATX_SHADERS_SHARED_RF_H
 #define GREATX_SHADERS_SHARED_RF_H
 #include "scene.h"
@@ -10,12 +11,12 @@ GREATX_SHARED_BEGIN
 
 const uint rf_none = 0xffffffffu;  // no facet, no body
 
-// ------------------------------------------------------------------------------------------------ candidate search
+// ----------------------------------------------------------------------------------------- candidate search
 
 const uint candidates_directions_binding = first_pass_binding;  // vec3[all rays], unit
 const uint candidates_kinds_binding = first_pass_binding + 1u;  // uint[facets]: rf::FacetKind
-// uint[slots * rays * max_depth]: facets reflected at, then rf_none; a slot's rays side by side. Then, if asked for,
-// uint[rays]: ways that found no slot.
+// uint[slots * rays * max_depth]: the facets of the reflections, then rf_none; the rays of a slot stand side
+// by side. If asked for, uint[rays] follows: the ways that found no slot.
 const uint candidates_keys_binding = first_pass_binding + 2u;
 const uint candidates_group = 64u;
 
@@ -27,12 +28,12 @@ struct CandidateConstants {
   uint slots;
 };
 
-// rf::FacetKind, where its values matter.
+// The values of rf::FacetKind that matter here.
 const uint facet_kind_wall = 1u;
 const uint facet_kind_foliage = 2u;
 const uint facet_kind_absent = 3u;
 
-// ------------------------------------------------------------------------------------------------------- crossings
+// ------------------------------------------------------------------------------------------------ crossings
 
 const uint crossings_segments_binding = first_pass_binding;      // GpuSegment[count]
 const uint crossings_planes_binding = first_pass_binding + 1u;   // GpuFacetPlane[facets]
@@ -42,11 +43,12 @@ const uint crossings_leaders_binding = first_pass_binding + 4u;  // uint[]: resu
 const uint crossings_group = 64u;
 const uint crossings_max = 8u;  // walls on a segment, at most
 
-// A row of the results: crossings_blocked (also if the segment that it hangs on is), the rest undefined; or the number of walls (plus crossings_foliage_open), then,
-// if the pass has foliage, the share of the segment inside it, then, if it has walls, the facets passed.
+// A row of the results begins with crossings_blocked (also if the segment that it hangs on is blocked), and
+// the rest is undefined. Otherwise it holds the number of walls (plus crossings_foliage_open), then, if the
+// pass has foliage, the share of the segment inside it, then, if it has walls, the facets passed.
 const uint crossings_blocked = 0xffffffffu;
-const uint crossings_foliage_open =
-    0x100u;  // flag: the line leaves foliage more or less often than it enters
+// This flag says that the line leaves foliage more or less often than it enters.
+const uint crossings_foliage_open = 0x100u;
 const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
 
 const uint crossings_end_in_foliage = 0x100u;  // flag: an end may be inside foliage of the static world
@@ -56,11 +58,12 @@ struct GpuSegment {
   uint facet_a, facet_b;
   uint body_a, body_b;
   uint other_a, other_b;
-  uint walls;    // that it may pass, <= crossings_max; plus crossings_end_in_foliage
-  uint only_if;  // a row of the leaders' part: if that is blocked, so is this, unseen; rf_none: none
+  uint walls;  // that it may pass, <= crossings_max; plus crossings_end_in_foliage
+  // A row of the leaders' part. If that segment is blocked, so is this one, without a look; rf_none: none.
+  uint only_if;
 };
 
-/// A facet's plane in its body's frame: (x - point) . normal = 0.
+/// Describes a facet's plane in its body's frame: (x - point) . normal = 0.
 struct GpuFacetPlane {
   vec3 normal;
   vec3 point;
@@ -68,7 +71,7 @@ struct GpuFacetPlane {
   uint body;
 };
 
-/// All foliage of a body, in its frame, with room to spare.
+/// Describes a box around all foliage of a body, in its frame, with room to spare.
 struct GpuFoliageBox {
   vec3 low, high;
   uint body;
@@ -81,10 +84,10 @@ struct CrossingConstants {
   uint foliage_boxes;
 };
 
-/// A surface this close to an end of a segment does not block it, metres: the end lies on it as far as fp32 can tell.
-/// `coordinate` is the largest absolute coordinate of the end and of the surface's reference point. Rounding the end and
-/// the point moves each by at most sqrt(3) * 2^-24 * coordinate; the mesh's own corners may stand off their facet's
-/// plane by `coplanar` (scene::BuildOptions::coplanar_distance_m).
+/// A surface this close to an end of a segment does not block it, metres: the end lies on it as far as fp32
+/// can tell. `coordinate` is the largest absolute coordinate of the end and of the surface's reference point.
+/// Rounding the end and the point moves each by at most sqrt(3) * 2^-24 * coordinate. The mesh's own corners
+/// may stand off their facet's plane by `coplanar` (scene::BuildOptions::coplanar_distance_m).
 const float visibility_coplanar_m = 1e-4f;
 GREATX_FUNCTION float visibility_tolerance(float coordinate) {
   return visibility_coplanar_m + 4.0f * 5.9604645e-8f * coordinate;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as shaders see it. A hit's primitive is instanceCustomIndex + geometryIndex (a body's custom
-// index is its first primitive); its triangle is primitives[i].first_triangle + primitiveIndex.
+// Defines the scene as shaders see it. A hit's primitive is instanceCustomIndex + geometryIndex (a body's
+// custom index is its first primitive). Its triangle is primitives[i].first_triangle + primitiveIndex.
 #ifndef GREATX_SHADERS_SHARED_SCENE_H
 #define GREATX_SHADERS_SHARED_SCENE_H
 #include "glsl.h"
@@ -11,21 +11,23 @@ GREATX_SHARED_BEGIN
 
 const uint material_flag_alpha_mask = 1u;
 const uint material_flag_double_sided = 2u;
-// The file states the reflectance; without the flag it stands for the luminance of the base colour.
+// The flags say that the file states the reflectance. Without the flag the reflectance is the luminance of
+// the base colour.
 const uint material_flag_reflectance_905nm = 4u;
 const uint material_flag_reflectance_1550nm = 8u;
 
-// Instance masks: which bodies a ray may meet.
+// Instance masks name the bodies that a ray may meet.
 const uint static_mask = 1u;
 const uint moving_mask = 2u;
 
-// Specialization constant of shaders that trace: the static world through the tree of tree.h instead of the driver.
+// The specialization constant of shaders that trace the static world through the tree of tree.h instead of
+// the driver.
 const uint trace_tree_id = 15u;
 
-/// Arrays of textures that a shader may ask for one by one (scene/gpu_textures.h).
+/// The arrays of textures that a shader may ask for one by one (scene/device/gpu_textures.h).
 const uint most_tried_arrays = 24u;
-/// What a texture is known by (scene/texture_layers.h): its layer in the lowest 12 bits; the binary logarithms of how often
-/// it lies side by side in there along u and v; its array.
+/// The reference of a texture (scene/device/texture_layers.h). It holds its layer in the lowest 12 bits, then
+/// the binary logarithms of how often it lies side by side in the layer along u and v, then its array.
 const uint texture_tiles_u_shift = 12u;
 const uint texture_tiles_v_shift = 16u;
 const uint texture_array_shift = 20u;
@@ -53,18 +55,19 @@ struct GpuPrimitive {
   uint instance;
   uint semantic_class;
   uint body;
-  uint owner;  ///< scene::Scene::owner_of(body): what a sensor that does not see its own body compares
+  uint owner;  ///< scene::Scene::owner_of(body), which a sensor compares that does not see its own body
 };
 
-/// Where a body is at this tick: rows of local_from_body, and of the tick before (for motion).
+/// Holds the place of a body at this tick: the rows of local_from_body, and those of the tick before (for
+/// motion).
 struct GpuBody {
   vec4 row0;
   vec4 row1;
   vec4 row2;
 };
 
-/// Addresses of the scene's buffers; one such block is a buffer of its own (binding `scene_binding` of set
-/// 0).
+/// Holds the addresses of the scene's buffers. One such block is a buffer of its own (binding `scene_binding`
+/// of set 0).
 struct GpuSceneAddresses {
   uint64_t positions;          // vec3[]
   uint64_t normals;            // vec3[]
@@ -76,7 +79,8 @@ struct GpuSceneAddresses {
   uint64_t facet_of_triangle;  // uint[]
 };
 
-// Bindings of set 0 that every pass over the scene shares; a pass's own start at first_pass_binding.
+// Every pass over the scene shares these bindings of set 0. A pass's own bindings start at
+// first_pass_binding.
 const uint scene_binding = 0u;
 const uint tlas_binding = 1u;
 const uint bodies_binding = 2u;

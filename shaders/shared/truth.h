@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the pass that writes a camera's ground truth and renderer/ agree on. docs/truth.md has the formulas.
+// renderer/ and the pass that writes a camera's ground truth share these definitions. docs/truth.md has the
+// formulas.
 #ifndef GREATX_SHADERS_SHARED_TRUTH_H
 #define GREATX_SHADERS_SHARED_TRUTH_H
 #include "glsl.h"
 
 GREATX_SHARED_BEGIN
 
-// Set 0, beside the scene's own bindings.
+// These bindings of set 0 stand beside the scene's own.
 const uint truth_seen_binding = 4u;                 // storage, uvec2: planar depth's bits, triangle + 1
 const uint truth_triangle_primitives_binding = 5u;  // storage: the primitive of each triangle
 
-// Specialization constants: what is wanted, whether some body moves, and the lens (float: its bits).
+// Specialization constants: the wanted arrays, whether some body moves, and the lens (float: its bits).
 const uint truth_spec_normals = 0u;
 const uint truth_spec_depth_ray = 1u;
 const uint truth_spec_flow = 2u;
@@ -28,21 +29,25 @@ const uint truth_spec_count = 11u;
 
 const uint truth_group_size = 64u;
 
-/// How a body (index 0: the static world) moves against the camera until the camera's next sample, in optical axes
-/// (x right, y down, z forward): X' = X + D X + t; row i is (D_i0, D_i1, D_i2, t_i). The identity is taken off in fp64.
+/// Describes how a body (index 0: the static world) moves against the camera until the camera's next sample,
+/// in optical axes (x right, y down, z forward): X' = X + D X + t. Row i is (D_i0, D_i1, D_i2, t_i). The
+/// identity is taken off in fp64.
 struct GpuBodyMotion {
   vec4 row0;
   vec4 row1;
   vec4 row2;
 };
 
-/// Push constants; the first members are those of CameraConstants that pixel_ray.glsl and barycentrics need.
+/// Holds the push constants. The first members are those of CameraConstants that pixel_ray.glsl and
+/// barycentrics need.
 struct TruthConstants {
   uint64_t normals;  ///< addresses of the packed outputs, 0 where not wanted
   uint64_t depth_ray;
   uint64_t flow;
   uint64_t motions;  ///< GpuBodyMotion[bodies]
-  uint64_t lens;  ///< vec2[height * width]: where a pinhole camera shows what the pixel's centre sees, pixels
+  /// Address of vec2[height * width]: the place, in pixels, where a pinhole camera shows what the pixel's
+  /// centre sees.
+  uint64_t lens;
   vec3 eye_high;
   vec3 eye_low;
   vec3 ray_x;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// For tests/gpu: out[i] = in[i] + specialization constant + push constant.
+// Computes, for tests/gpu, out[i] = in[i] + specialization constant + push constant.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/glsl.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What tests/gpu/trace_test.cpp asks of lib/trace.glsl.
+// Defines the queries that tests/gpu/trace_test.cpp makes of lib/trace.glsl.
 #ifndef GREATX_SHADERS_TESTS_TRACE_TEST_H
 #define GREATX_SHADERS_TESTS_TRACE_TEST_H
 #include "../shared/scene.h"
@@ -32,12 +32,13 @@ struct TraceTestResult {
   float except_t;
   vec3 point;  // hit_point
   vec3 error;
-  vec3 start;             // offset_origin towards where the ray came from
-  uint bounce_triangle;   // trace_closest from there, reflected: the offset alone
+  vec3 start;             // offset_origin towards the side that the ray came from
+  uint bounce_triangle;   // trace_closest from there, reflected: uses the offset alone
   uint leaving_triangle;  // trace_leaving
 };
 
-/// Of tests/tree.comp.glsl: trace_closest_except with skip_facet and skip_body, by the tracer that its pipeline has.
+/// Holds the result of tests/tree.comp.glsl: trace_closest_except with skip_facet and skip_body, by the
+/// tracer that its pipeline has.
 struct TreeTestResult {
   uint triangle;  // trace_test_none: nothing
   uint primitive;

@@ -10,8 +10,8 @@
 #include "core/parallel.h"
 #include "rf/channel/coherence.h"
 #include "rf/channel/received.h"
-#include "sim/channel/antennas.h"
 #include "sim/channel/channel_sensor.h"
+#include "sim/plan/antennas.h"
 #include "sim/sensors/sensor_metadata.h"
 
 namespace greatx::sim {
@@ -64,7 +64,7 @@ struct ChannelSensor::LinkFacts {
 void ChannelSensor::describe() {
   const int64_t receivers = static_cast<int64_t>(receiver_arrays_.size()),
                 transmitters = static_cast<int64_t>(transmitter_arrays_.size());
-  columns_ = {&world_.scene, &radio_->model, &config_, receiver_arrays_[0].port_count(),
+  columns_ = {&experiment_.scene(), &radio_->model(), &config_, receiver_arrays_[0].port_count(),
               transmitter_arrays_[0].port_count()};
   link_columns_ = link_columns(columns_);
   if (config_.outputs.paths) path_columns_ = path_columns(columns_);
@@ -114,7 +114,7 @@ std::string ChannelSensor::metadata() const {
   metadata["first_subcarrier"] = -static_cast<int64_t>(config_.subcarriers / 2);
   metadata["time_samples"] = config_.time_samples;
   metadata["time_spacing_s"] = config_.time_spacing_s;
-  metadata["max_depth"] = config_.max_depth;
+  metadata["max_depth"] = config_.limits.max_depth;
   metadata["non_finite"] = {"vertex"};
   for (const LinkColumn& column : link_columns_)
     if (column.dtype == DType::f64) metadata["non_finite"].push_back(column.name);
@@ -136,7 +136,7 @@ std::string ChannelSensor::metadata() const {
   metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
   metadata["dispersion"] =
       dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
-  metadata["walls"] = describe_walls(world_.scene, radio_->model.surfaces);
+  metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);
   for (const auto& [name, text] : paths_[0]->notes({})) metadata["candidates"][name] = text;
   metadata["candidates"]["bounds"] =
       "sequences_left_out and paths_left_out count at every tick what the guarantee does not hold for";
@@ -169,7 +169,8 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
     if (const ElementPaths* elements = elements_of(r, t, slot))
       elements->assemble(block.per_pair(), block.sum, h);
     else
-      block.sum(results[t].links[r].paths, transmitter_pose(results, t), receiver_pose(results, r), h);
+      block.sum(results[t].links[r].paths, *results[t].world, transmitter_pose(results, t),
+                receiver_pose(results, r), h);
     for (size_t port = 0; !apart.empty() && port < rx_ports; ++port)
       std::copy_n(
           h.begin() + static_cast<std::ptrdiff_t>(port * row), row,

@@ -9,10 +9,10 @@ namespace {
 PortBlock response_block(const char* name, const char* description, const rf::ChannelGrid& grid,
                          const rf::Dispersion* dispersion, rf::PathSelection selection) {
   return {name, description, grid.time_samples, grid.subcarriers,
-          [=](std::span<const rf::Path> paths, const rf::ArrayPose& transmitter,
+          [=](std::span<const rf::Path> paths, const rf::FacetWorld& world, const rf::ArrayPose& transmitter,
               const rf::ArrayPose& receiver, std::span<std::complex<float>> out) {
             std::vector<rf::TransferSpectrum> spectra;
-            if (dispersion) spectra = dispersion->spectra(paths);
+            if (dispersion) spectra = dispersion->spectra(paths, world);
             rf::frequency_response_into(paths, spectra, transmitter, receiver, grid, out, selection);
           }};
 }
@@ -43,7 +43,7 @@ std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::Channe
         {"taps",
          "[rx, rx_ant, tx, tx_ant, time, tap] h[l], tap l at the absolute delay (first + l) / bandwidth",
          grid.time_samples, window.taps,
-         [window](std::span<const rf::Path> paths, const rf::ArrayPose& transmitter,
+         [window](std::span<const rf::Path> paths, const rf::FacetWorld&, const rf::ArrayPose& transmitter,
                   const rf::ArrayPose& receiver, std::span<std::complex<float>> out) {
            rf::channel_taps_into(paths, transmitter, receiver, window, out);
          }});

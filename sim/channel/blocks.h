@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes for every pair of ports: sums over a link's paths, such as the frequency response. Which ones, the
-// scenario says; what a row here does not name is not computed.
+// What a channel writes for every pair of ports: sums over a link's paths, such as the frequency response.
+// Which ones, the scenario says; what a row here does not name is not computed.
 #pragma once
 
 #include <complex>
@@ -18,9 +18,11 @@
 
 namespace greatx::sim {
 
-/// A sum over paths between two arrays, into [rx_ant, tx_ant, time, ...]. Thread-safe.
-using LinkSum = std::function<void(std::span<const rf::Path>, const rf::ArrayPose& transmitter,
-                                   const rf::ArrayPose& receiver, std::span<std::complex<float>> out)>;
+/// A sum over paths between two arrays, into [rx_ant, tx_ant, time, ...]. `world`: the facets that the paths
+/// were solved among. Thread-safe.
+using LinkSum = std::function<void(std::span<const rf::Path>, const rf::FacetWorld& world,
+                                   const rf::ArrayPose& transmitter, const rf::ArrayPose& receiver,
+                                   std::span<std::complex<float>> out)>;
 
 /// An array [rx, rx_ant, tx, tx_ant, time, last] of complex64.
 struct PortBlock {

@@ -3,31 +3,31 @@
 #include "sim/channel/channel_paths.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstring>
 #include <iterator>
 
 #include <spdlog/spdlog.h>
 
 #include "core/activity.h"
 #include "core/parallel.h"
+#include "sim/plan/plan_options.h"
 #include "sim/plan/radio_plan.h"
 
 namespace greatx::sim {
 
-rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario) {
-  rf::RadioEffects effects;
-  effects.line_of_sight = plan.line_of_sight.on;
-  effects.reflection = plan.reflection.on;
-  effects.transmission = plan.transmission.on;
-  effects.diffraction = plan.diffraction.on;
-  effects.scattering = plan.scattering.on;
-  effects.lit_region = plan.diffraction_lit_region.on;
-  effects.free_edges = plan.free_edges.on;
-  effects.field.roughness = plan.roughness.on;
-  effects.field.scattering = plan.scattering.on;
-  effects.field.gas = plan.gas.on;
-  effects.field.rain = plan.rain.on;
-  effects.field.fog = plan.fog.on;
-  effects.field.foliage = plan.foliage.on;
+namespace {
+
+bool same_bits(const Motion& a, const Motion& b) {
+  static_assert(sizeof(Motion) == 16 * sizeof(double));  // nothing between the members
+  return std::memcmp(&a, &b, sizeof(Motion)) == 0;
+}
+
+}  // namespace
+
+rf::RadioEffects radio_effects(const Experiment& experiment) {
+  const Scenario& scenario = experiment.scenario;
+  rf::RadioEffects effects = radio_switches(experiment.plan);
   effects.field.seed = scenario.seed;
   effects.weather = weather_of(scenario.environment);
   for (const ChannelConfig& channel : scenario.channels)
@@ -36,29 +36,53 @@ rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario)
   return effects;
 }
 
-RadioWorld::RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel)
-    : model(world.scene, scenario.channels[channel].carrier_hz, radio_effects(plan, scenario)),
-      surroundings(world.scene, model.kinds) {}
+RadioWorld::RadioWorld(const Experiment& experiment, uint32_t channel)
+    : model_(experiment.scene(), experiment.scenario.channels[channel].carrier_hz, radio_effects(experiment)),
+      surroundings_(experiment.scene(), model_.kinds) {}
 
-ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
-                           uint32_t channel, ChannelEnds ends)
-    : world_(world),
-      config_(scenario.channels[channel]),
+void RadioWorld::move_on(const TickContext& context) {
+  for (uint32_t body = 1; body < context.body_poses.size(); ++body) {
+    const Motion motion = context.body_motion_at(body, context.time_s);
+    if (same_bits(motion, model_.facets.motion(body))) continue;
+    model_.facets.move(body, motion);
+    current_ = nullptr;
+  }
+}
+
+std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
+  if (current_) return current_;
+  const auto is_free = [](const std::shared_ptr<rf::FacetWorld>& one) { return one.use_count() == 1; };
+  const auto spare = std::find_if(snapshots_.begin(), snapshots_.end(), is_free);
+  if (spare != snapshots_.end()) {
+    // The last one who held it may have done so on another thread.
+    std::atomic_thread_fence(std::memory_order_acquire);
+    (*spare)->take_poses(model_.facets);
+    current_ = *spare;
+  } else {
+    current_ = snapshots_.emplace_back(std::make_shared<rf::FacetWorld>(model_.facets));
+  }
+  std::erase_if(snapshots_, is_free);  // one spare at a time is enough
+  return current_;
+}
+
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, std::shared_ptr<RadioWorld> radio, uint32_t channel,
+                           ChannelEnds ends)
+    : world_(*experiment.world),
+      config_(experiment.scenario.channels[channel]),
       ends_(std::move(ends)),
       radio_(std::move(radio)),
       crossings_(crossings) {
   const bool receivers_rest = std::all_of(ends_.receivers.begin(), ends_.receivers.end(),
                                           [](const ChannelEnd& end) { return end.rests; });
-  search_.emplace(&gpu_scene, radio_->model, plan, config_,
+  search_.emplace(&gpu_scene, radio_->model(), experiment.plan, config_,
                   ChannelSearch::Ends{ends_.transmitter.rests, receivers_rest, ends_.transmitter.body});
 }
 
-ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world, uint32_t channel)
-    : ChannelPaths(gpu_scene, crossings, plan, scenario, world,
-                   std::make_shared<RadioWorld>(plan, scenario, world, channel), channel,
-                   channel_ends(scenario, world, channel, 0)) {}
+ChannelPaths::ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, uint32_t channel)
+    : ChannelPaths(gpu_scene, crossings, experiment, std::make_shared<RadioWorld>(experiment, channel),
+                   channel, channel_ends(experiment, channel, 0)) {}
 
 void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
   ends_.receivers.clear();
@@ -79,7 +103,7 @@ void ChannelPaths::start(const TickContext& context) {
   ids_known_ = false;
   placed_.clear();
   placements_told_ = 0;
-  move_bodies(bodies_at(context));
+  radio_->move_on(context);
   search_->start(state(ends_.transmitter, context).position, receiver_positions(context), context.body_poses);
 }
 
@@ -87,22 +111,11 @@ void ChannelPaths::record_ahead(gpu::TickSlot& slot, const TickContext& next) {
   search_->record_ahead(slot, state(ends_.transmitter, next).position);
 }
 
-ChannelPaths::Bodies ChannelPaths::bodies_at(const TickContext& context) const {
-  Bodies bodies;
-  for (uint32_t body = 1; body < world_.scene.bodies.size(); ++body)
-    bodies.emplace_back(body, context.body_motion_at(body, context.time_s));
-  return bodies;
-}
-
-void ChannelPaths::move_bodies(const Bodies& bodies) {
-  for (const auto& [body, motion] : bodies) radio_->model.facets.move(body, motion);
-}
-
 void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
   InFlight& flight = in_flight_[slot.index];
   flight.transmitter = state(ends_.transmitter, context);
-  flight.bodies = bodies_at(context);
-  move_bodies(flight.bodies);
+  radio_->move_on(context);
+  flight.world = radio_->snapshot();
   check_placements(context);
   search_->renew(context.tick, flight.transmitter.position, receiver_positions(context));
 
@@ -122,7 +135,7 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
     if (link.left_out.paths > 0 && left_out_.paths == 0)
       spdlog::warn(
           "channel '{}', {}: {} geometric paths beyond max_paths ({}) were left out; more in the counters",
-          config_.name, ends_.receivers[r].name, link.left_out.paths, config_.max_paths);
+          config_.name, ends_.receivers[r].name, link.left_out.paths, config_.limits.max_paths);
     left_out_.add(link.left_out);
     geometric_paths_ += link.paths.size();
     link.first_segment = flight.segments.size();
@@ -135,8 +148,8 @@ void ChannelPaths::record(gpu::TickSlot& slot, const TickContext& context) {
 ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   InFlight& flight = in_flight_[slot.index];
   const std::vector<rf::Crossing> crossings = crossings_.collect(flight.crossings, flight.segments);
-  move_bodies(flight.bodies);  // the tick after this one may have been recorded
   Result result;
+  result.world = std::move(flight.world);
   result.transmitter = flight.transmitter;
   result.links.resize(flight.links.size());
   parallel_for(flight.links.size(), 0, [&](size_t r) {
@@ -146,7 +159,7 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
     result.links[r].left_out = link.left_out;
     result.links[r].paths = search_->solver().finish(
         link.paths, std::span(crossings).subspan(link.first_segment, link.segment_count), flight.transmitter,
-        link.receiver);
+        link.receiver, *result.world);
   });
   if (!ids_known_) ids_.assign(result.links.size(), {});
   for (size_t r = 0; r < result.links.size(); ++r) {
@@ -183,7 +196,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
     if (i == 0 ? !ends_.check_transmitter : !ends_.check_receivers) continue;
     if (!placed.checked || !end.rests) {
       const rf::EndState at = state(end, context);
-      const rf::Placement placement = radio_->surroundings.of(at.position, context.body_poses, at.body);
+      const rf::Placement placement = radio_->surroundings().of(at.position, context.body_poses, at.body);
       placed.checked = true;
       placed.inside = placement.solid != rf::Placement::none;
       if (!placement.free() && !placed.told) {
@@ -193,7 +206,7 @@ void ChannelPaths::check_placements(const TickContext& context) {
         if (++placements_told_ <= most_told)
           spdlog::log(wrong ? spdlog::level::warn : spdlog::level::info, "channel '{}', tick {}: {} {}",
                       config_.name, context.tick, end.name,
-                      rf::describe(placement, world_.scene, radio_->model.kinds));
+                      rf::describe(placement, world_.scene, radio_->model().kinds));
       }
     }
     ends_inside_ += placed.inside;
@@ -209,7 +222,7 @@ std::vector<std::pair<std::string, std::string>> ChannelPaths::notes(const LinkL
     for (auto& [name, text] : notes)
       if (name == "guarantee")
         text += fmt::format("; {} geometric paths are left out, beyond the {} of a link (max_paths)",
-                            left_out.paths, config_.max_paths);
+                            left_out.paths, config_.limits.max_paths);
   return notes;
 }
 

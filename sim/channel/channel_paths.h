@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas and files. The channel
-// sensor and `greatx paths` are built on it. Per tick: exact geometry of all candidates on the host, while the GPU is busy
-// with the tick before; what stands in the segments' way in the tick's command buffer; fields of what is lit when the
-// tick is collected.
+// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas
+// and files. The channel sensor and `greatx paths` are built on it. Per tick: exact geometry of all
+// candidates on the host, while the GPU is busy with the tick before; what stands in the segments' way in the
+// tick's command buffer; fields of what is lit when the tick is collected.
 #pragma once
 
 #include <array>
@@ -16,27 +16,41 @@
 #include <utility>
 #include <vector>
 
-#include "rf/path_solver.h"
-#include "rf/placement.h"
+#include "rf/facets/placement.h"
+#include "rf/paths/path_solver.h"
 #include "sim/channel/channel_search.h"
 #include "sim/channel/ends.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
 
 namespace greatx::sim {
 
-/// The radio effects of a plan, for rf/.
-rf::RadioEffects radio_effects(const EffectPlan& plan, const Scenario& scenario);
+/// The radio effects of the plan, for rf/.
+rf::RadioEffects radio_effects(const Experiment& experiment);
 
-/// The scene as the waves of one channel meet it, bodies where they were moved to; all links of the channel share it.
-struct RadioWorld {
-  RadioWorld(const EffectPlan& plan, const Scenario& scenario, const World& world, uint32_t channel);
-  rf::RadioModel model;
-  rf::Surroundings surroundings;
+/// The scene as the waves of one channel meet it; all links of the channel share it. Bodies only ever move on
+/// to the next tick that is searched and recorded: a tick in flight has a snapshot, which stays as it is
+/// while anybody holds it.
+class RadioWorld {
+ public:
+  RadioWorld(const Experiment& experiment, uint32_t channel);
+  /// Its facets stand where move_on() put them last.
+  const rf::RadioModel& model() const { return model_; }
+  const rf::Surroundings& surroundings() const { return surroundings_; }
+  /// Puts the bodies where `context` has them.
+  void move_on(const TickContext& context);
+  /// The facets as move_on() put them last.
+  std::shared_ptr<const rf::FacetWorld> snapshot();
+
+ private:
+  rf::RadioModel model_;
+  rf::Surroundings surroundings_;
+  std::vector<std::shared_ptr<rf::FacetWorld>> snapshots_;  ///< one held by nobody else is used again
+  std::shared_ptr<const rf::FacetWorld> current_;           ///< null: bodies have moved since
 };
 
-/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search holds.
+/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search
+/// holds.
 struct LinkLeftOut {
   rf::LeftOut searched;
   uint64_t paths = 0;
@@ -57,18 +71,18 @@ class ChannelPaths {
   };
   struct Result {
     rf::EndState transmitter;
-    std::vector<Link> links;  ///< [receivers]
+    std::vector<Link> links;                      ///< [receivers]
+    std::shared_ptr<const rf::FacetWorld> world;  ///< the facets that the paths were solved among
   };
 
-  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the channel
-  /// stands still, or diffraction is on and candidates come from rays.
-  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, std::shared_ptr<RadioWorld> radio,
-               uint32_t channel, ChannelEnds ends);
+  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the
+  /// channel stands still, or diffraction is on and candidates come from rays.
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               std::shared_ptr<RadioWorld> radio, uint32_t channel, ChannelEnds ends);
 
   /// The channel's first transmitter and its receivers, alone.
-  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, uint32_t channel);
+  ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               uint32_t channel);
 
   /// Points at rest, in the world, in place of the receivers; before start(). May be called again between
   /// ticks with other points: what was found for the transmitter stays.
@@ -85,7 +99,7 @@ class ChannelPaths {
 
   const ChannelEnd& transmitter() const { return ends_.transmitter; }
   const std::vector<ChannelEnd>& receivers() const { return ends_.receivers; }
-  const rf::RadioModel& model() const { return radio_->model; }
+  const rf::RadioModel& model() const { return radio_->model(); }
   /// Candidates, overflows, paths; names without the channel's.
   void count(std::map<std::string, uint64_t>& counters) const;
   /// How candidates are found and what that guarantees of links that `left_out` is of: (name, text).
@@ -101,9 +115,8 @@ class ChannelPaths {
     size_t first_segment = 0, segment_count = 0;
     std::vector<rf::GeometricPath> paths;
   };
-  using Bodies = std::vector<std::pair<uint32_t, Motion>>;  ///< that move: body, local_from_body
   struct InFlight {
-    Bodies bodies;
+    std::shared_ptr<const rf::FacetWorld> world;
     rf::EndState transmitter;
     std::vector<LinkInFlight> links;
     std::vector<rf::Segment> segments;
@@ -111,8 +124,6 @@ class ChannelPaths {
   };
 
   std::vector<dvec3> receiver_positions(const TickContext& context) const;
-  Bodies bodies_at(const TickContext& context) const;
-  void move_bodies(const Bodies& bodies);
   void note_births(size_t link, const std::vector<rf::Path>& paths);
   void check_placements(const TickContext& context);
 

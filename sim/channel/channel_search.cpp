@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "rf/search/search_cache.h"
+#include "rf/search/search_key.h"
 
 namespace greatx::sim {
 
@@ -18,7 +19,7 @@ namespace {
 rf::CandidateSearchOptions ray_options(const ChannelConfig& config, uint32_t walls, bool moving_bodies) {
   rf::CandidateSearchOptions options;
   options.rays = config.rays;
-  options.max_depth = config.max_depth;
+  options.max_depth = config.limits.max_depth;
   options.max_transmissions = walls;
   options.moving_bodies = moving_bodies;
   return options;
@@ -26,20 +27,8 @@ rf::CandidateSearchOptions ray_options(const ChannelConfig& config, uint32_t wal
 
 rf::MovingSearchOptions moving_options(const ChannelConfig& config, uint32_t walls, bool moving_bodies) {
   rf::MovingSearchOptions options;
-  options.max_depth = config.max_depth;
+  options.max_depth = config.limits.max_depth;
   options.max_transmissions = walls;
-  options.moving_bodies = moving_bodies;
-  return options;
-}
-
-rf::PathOptions path_options(const ChannelConfig& config, bool moving_bodies) {
-  rf::PathOptions options;
-  options.max_depth = config.max_depth;
-  options.max_transmissions = config.walls();
-  options.max_reflections_after = config.max_reflections_after;
-  options.max_reflections_before_scattering = config.max_reflections_before_scattering;
-  options.patch_m = config.scattering_patch_m;
-  options.max_paths = config.max_paths;
   options.moving_bodies = moving_bodies;
   return options;
 }
@@ -54,14 +43,14 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
       walls_(plan.transmission.on ? config.walls() : 0),
       transmitter_body_(ends.transmitter_body) {
   choose(plan, ends);
-  if (plan.diffraction.on && config_.candidates == "rays")
+  if (plan.diffraction.on && config_.candidates == ChannelConfig::Candidates::rays)
     throw_user_error_at(
         config_.where,
         "channel '{}': candidates: expected beams, since diffraction is on and rays meet no edges; "
         "found rays",
         config_.name);
   if (way_ == Way::none) return;
-  if (config_.candidates != "rays")
+  if (config_.candidates != ChannelConfig::Candidates::rays)
     make_beams();
   else if (gpu_scene != nullptr)
     rays_.emplace(*gpu_scene, ray_options(config_, walls_, move_facets_), model_.kinds);
@@ -69,16 +58,17 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
 
 void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
-  if (!bounces || config_.max_depth == 0) return;
+  if (!bounces || config_.limits.max_depth == 0) return;
   // A diffraction or scattering needs all that the transmitter reaches, not what leads to the receivers.
-  const bool whole = config_.candidates == "rays" || plan.diffraction.on || plan.scattering.on;
-  if (config_.search == "every_tick" || (move_facets_ && whole))
+  const bool whole =
+      config_.candidates == ChannelConfig::Candidates::rays || plan.diffraction.on || plan.scattering.on;
+  if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole))
     way_ = Way::every_tick;
   else if (ends.transmitter_rests)
     way_ = Way::once_from_transmitter;
   else if (ends.receivers_rest)
     way_ = Way::once_from_receivers;
-  else if (config_.search == "once")
+  else if (config_.search == ChannelConfig::Search::once)
     throw_user_error_at(config_.where,
                         "channel '{}': search: expected auto or every_tick, since both ends move; found once",
                         config_.name);
@@ -88,14 +78,14 @@ void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
 
 void ChannelSearch::make_beams() {
   rf::BeamSearchOptions options;
-  options.max_depth = config_.max_depth;
+  options.max_depth = config_.limits.max_depth;
   options.max_transmissions = walls_;
   if (way_ == Way::every_tick) {
     options.moving_bodies = move_facets_;
     options.source_body = transmitter_body_;
   }
   // The last two reflections are cheaper to find from the receivers than for any receiver.
-  if (way_ == Way::between_ends) options.stop_depth = std::max(config_.max_depth, 2u) - 2;
+  if (way_ == Way::between_ends) options.stop_depth = std::max(config_.limits.max_depth, 2u) - 2;
   beams_.emplace(model_.facets, model_.kinds, model_.wedges, options);
   moving_searches_.clear();
   if (way_ == Way::between_ends || (once() && move_facets_))
@@ -115,13 +105,15 @@ void ChannelSearch::record_ahead(gpu::TickSlot& slot, const dvec3& transmitter) 
 }
 
 void ChannelSearch::grow_solvers(size_t count) {
+  rf::PathLimits limits = config_.limits;
+  limits.max_transmissions = config_.walls();
   const bool reflect = move_facets_ && way_ == Way::every_tick;
-  while (fixed_.size() < count) fixed_.emplace_back(model_, path_options(config_, reflect));
+  while (fixed_.size() < count) fixed_.emplace_back(model_, limits, reflect);
   left_out_.resize(fixed_.size());
   while (!moving_searches_.empty() && moving_searches_.size() < count)
     moving_searches_.push_back(moving_searches_[0]);
   if (once() && move_facets_ && beams_)
-    while (moving_.size() < count) moving_.emplace_back(model_, path_options(config_, true));
+    while (moving_.size() < count) moving_.emplace_back(model_, limits, true);
 }
 
 void ChannelSearch::start(const dvec3& transmitter, std::span<const dvec3> receivers,
@@ -167,7 +159,7 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
   }
   if (model_.scene->facets.size() > 1000)
     spdlog::info("channel '{}': searching {} facets to depth {}{}", config_.name, model_.scene->facets.size(),
-                 config_.max_depth, cache.folder().empty() ? "" : "; kept for the next run");
+                 config_.limits.max_depth, cache.folder().empty() ? "" : "; kept for the next run");
   rf::BeamSearchResult result = beams_->search(source);
   cache.store(key, result);
   return result;
@@ -243,7 +235,7 @@ rf::LinkGeometry ChannelSearch::geometry(size_t index, const rf::EndState& trans
   link.paths.insert(link.paths.end(), std::make_move_iterator(more.paths.begin()),
                     std::make_move_iterator(more.paths.end()));
   rf::keep_distinct(link.paths);
-  rf::keep_most(link, fixed_[source].options().max_paths);
+  rf::keep_most(link, fixed_[source].limits().max_paths);
   return link;
 }
 
@@ -270,7 +262,8 @@ std::vector<std::pair<std::string, std::string>> ChannelSearch::notes(const rf::
                  ? fmt::format("; {} at least are left out of the beams', beyond the {} that a search keeps",
                                left_out.sequences, rf::BeamSearchOptions{}.capacity)
                  : std::string()));
-  if (beams_ && move_facets_ && way_ == Way::every_tick && config_.search != "every_tick")
+  if (beams_ && move_facets_ && way_ == Way::every_tick &&
+      config_.search != ChannelConfig::Search::every_tick)
     notes.emplace_back("reuse",
                        "none: diffraction, scattering or a list of points with moving reflectors; the whole "
                        "search runs at every tick");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a channel's candidates are found and kept from tick to tick: once where an end and the world stand still, every tick
-// only for what moves.
+// How a channel's candidates are found and kept from tick to tick: once where an end and the world stand
+// still, every tick only for what moves.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "rf/candidate_search.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 #include "rf/search/beam_search.h"
+#include "rf/search/candidate_search.h"
 #include "rf/search/moving_search.h"
 #include "sim/plan/effect_plan.h"
 
@@ -28,8 +28,9 @@ class ChannelSearch {
     bool transmitter_rests = false, receivers_rest = false;
     uint32_t transmitter_body = 0;  ///< that carries it; 0: none
   };
-  /// All arguments but `ends` must outlive this. `gpu_scene` null: notes() alone may be called. Throws UserError if
-  /// `search: once` is asked for and no end stands still, or diffraction is on and candidates come from rays.
+  /// All arguments but `ends` must outlive this. `gpu_scene` null: notes() alone may be called. Throws
+  /// UserError if `search: once` is asked for and no end stands still, or diffraction is on and candidates
+  /// come from rays.
   ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
                 const ChannelConfig& config, const Ends& ends);
 
@@ -42,8 +43,8 @@ class ChannelSearch {
   void start(const dvec3& transmitter, std::span<const dvec3> receivers, std::span<const Pose> bodies);
   /// Before the links of a tick are solved, bodies of the model being where they are.
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers);
-  /// Every chain that exists geometrically between the transmitter and receiver `index`, and what searches left out of
-  /// them. Writes nothing.
+  /// Every chain that exists geometrically between the transmitter and receiver `index`, and what searches
+  /// left out of them. Writes nothing.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter,
                             const rf::EndState& receiver) const;
   /// For the steps after the geometry, which know of no candidates.
@@ -81,8 +82,8 @@ class ChannelSearch {
   std::optional<rf::BeamSearch> beams_;
   std::optional<rf::CandidateSearch> rays_;
   std::optional<rf::CandidateSearch::Pending> searching_;  ///< recorded with the tick before
-  /// [sources]: the transmitter, or each receiver if they are. `fixed_` holds what the world at rest has, or everything;
-  /// `moving_`, if facets of moving bodies reflect and an end rests, what they add at this tick.
+  /// [sources]: the transmitter, or each receiver if they are. `fixed_` holds what the world at rest has, or
+  /// everything; `moving_`, if facets of moving bodies reflect and an end rests, what they add at this tick.
   std::vector<rf::PathSolver> fixed_, moving_;
   std::vector<rf::LeftOut> left_out_;  ///< [fixed_] of the search
   std::vector<rf::MovingSearch> moving_searches_;

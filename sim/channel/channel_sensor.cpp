@@ -3,13 +3,12 @@
 #include "sim/channel/channel_sensor.h"
 
 #include <cmath>
-#include <limits>
 
 #include <spdlog/spdlog.h>
 
 #include "core/budget.h"
 #include "core/units.h"
-#include "sim/channel/antennas.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 
 namespace greatx::sim {
@@ -31,40 +30,37 @@ std::vector<rf::AntennaArray> arrays_called(const std::vector<std::string>& name
 
 }  // namespace
 
-ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                             const Scenario& scenario, const World& world, uint32_t channel)
+ChannelSensor::ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                             const Experiment& experiment, uint32_t channel)
     : gpu_scene_(gpu_scene),
       crossings_(crossings),
-      plan_(plan),
-      scenario_(scenario),
-      world_(world),
+      experiment_(experiment),
       channel_(channel),
-      config_(scenario.channels[channel]),
-      doppler_(plan.doppler.on),
-      radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)),
-      transmitter_arrays_(arrays_called(config_.transmitters, "tx", scenario, config_)),
-      receiver_arrays_(arrays_called(config_.receivers, "rx", scenario, config_)) {
+      config_(experiment.scenario.channels[channel]),
+      doppler_(experiment.plan.doppler.on),
+      radio_(std::make_shared<RadioWorld>(experiment, channel)),
+      transmitter_arrays_(arrays_called(config_.transmitters, "tx", experiment.scenario, config_)),
+      receiver_arrays_(arrays_called(config_.receivers, "rx", experiment.scenario, config_)) {
   for (uint32_t t = 0; t < config_.transmitters.size(); ++t)
-    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, plan, scenario, world, radio_,
-                                                    channel, channel_ends(scenario, world, channel, t)));
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio_, channel,
+                                                    channel_ends(experiment, channel, t)));
   grid_ = {config_.carrier_hz, config_.subcarrier_spacing_hz, config_.subcarriers, config_.time_samples,
            doppler_ ? config_.time_spacing_s : 0.0};
-  if (plan.dispersion.on)
-    dispersion_.emplace(world.scene, radio_->model.field_model(), radio_->model.effects.weather, grid_);
-  if (plan.every_element.on) find_near_links();
+  if (experiment.plan.dispersion.on)
+    dispersion_.emplace(experiment.scene(), radio_->model().field_model(), radio_->model().effects.weather,
+                        grid_);
+  if (experiment.plan.every_element.on) find_near_links();
   describe();
 }
 
 void ChannelSensor::find_near_links() {
-  if (config_.candidates == "rays") return;
-  const auto wish = scenario_.effects.find("every_element");
-  const bool all = wish != scenario_.effects.end() && wish->second == Switch::on;
   Spending pairs(budget::element_pairs);
   for (size_t r = 0; r < receiver_arrays_.size(); ++r)
     for (size_t t = 0; t < transmitter_arrays_.size(); ++t) {
-      const double far_m =
-          rf::far_field_distance_m(transmitter_arrays_[t], receiver_arrays_[r], config_.carrier_hz);
-      if (!(far_m > 0.0 && (all || may_be_near(scenario_, config_, t, r)))) continue;
+      const double within_m =
+          every_element_within_m(experiment_.scenario, config_, transmitter_arrays_[t], receiver_arrays_[r]);
+      const bool all = std::isinf(within_m);
+      if (!(within_m > 0.0 && (all || may_be_near(experiment_.scenario, config_, t, r)))) continue;
       const uint64_t of_link =
           uint64_t{transmitter_arrays_[t].element_count()} * receiver_arrays_[r].element_count();
       pairs.plan(fmt::format("channel '{}': {} and {}, {} elements and {}, may be in their near field "
@@ -72,14 +68,14 @@ void ChannelSensor::find_near_links() {
                              config_.name, config_.transmitters[t], config_.receivers[r],
                              transmitter_arrays_[t].element_count(), receiver_arrays_[r].element_count()),
                  of_link);
-      near_links_.push_back({r, t, all ? std::numeric_limits<double>::infinity() : far_m, nullptr, {}});
+      near_links_.push_back({r, t, within_m, nullptr, {}});
     }
 }
 
 std::unique_ptr<ElementPaths> ChannelSensor::make_elements(const NearLink& link) const {
   const ChannelPaths& paths = *paths_[link.transmitter];
   return std::make_unique<ElementPaths>(
-      gpu_scene_, crossings_, plan_, scenario_, world_, radio_, channel_,
+      gpu_scene_, crossings_, experiment_, radio_, channel_,
       ArrayEnd{paths.transmitter(), transmitter_arrays_[link.transmitter]},
       ArrayEnd{paths.receivers()[link.receiver], receiver_arrays_[link.receiver]});
 }
@@ -140,7 +136,12 @@ void ChannelSensor::check_sights(const Results& results) {
       for (const rf::Path& path : link.paths)
         if (path.interactions.empty())
           sights_.add(std::abs(speed_of_light * path.delay_s - link.distance_m) / link.distance_m);
-  line_of_sight_errors_.add(sights_);
+}
+
+Evidence ChannelSensor::evidence() const {
+  Evidence evidence;
+  evidence.delays_against_distances = &sights_;
+  return evidence;
 }
 
 void ChannelSensor::count(std::map<std::string, uint64_t>& counters) const {

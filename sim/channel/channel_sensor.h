@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths, seen through
-// the antennas.
+// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths,
+// seen through the antennas.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@
 #include "sim/channel/channel_paths.h"
 #include "sim/channel/columns.h"
 #include "sim/channel/element_paths.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
 
 namespace greatx::sim {
 
 class ChannelSensor : public Sensor {
  public:
-  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the receivers differ in their number of ports.
-  ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                const Scenario& scenario, const World& world, uint32_t channel);
+  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the
+  /// receivers differ in their number of ports.
+  ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+                uint32_t channel);
 
   const SensorSpec& spec() const override { return spec_; }
   void start(const TickContext& context) override;
@@ -34,11 +34,7 @@ class ChannelSensor : public Sensor {
   bool looks_ahead() const override { return paths_[0]->looks_ahead(); }
   void record_ahead(gpu::TickSlot& slot, const TickContext& next) override;
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
-  void report(Consistency& consistency) const override {
-    consistency.line_of_sight.add(line_of_sight_errors_);
-  }
-  /// Of the record collected last.
-  const ErrorStatistics& sights() const { return sights_; }
+  Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
   void note(std::vector<std::pair<std::string, std::string>>& notes) const override;
 
@@ -67,9 +63,7 @@ class ChannelSensor : public Sensor {
 
   scene::GpuScene& gpu_scene_;
   rf::CrossingPass& crossings_;
-  const EffectPlan& plan_;
-  const Scenario& scenario_;
-  const World& world_;
+  const Experiment& experiment_;
   uint32_t channel_;
   const ChannelConfig& config_;
   bool doppler_;
@@ -87,7 +81,8 @@ class ChannelSensor : public Sensor {
   std::vector<LinkColumn> link_columns_;
   std::vector<PathColumn> path_columns_;
   SensorSpec spec_;
-  ErrorStatistics line_of_sight_errors_, sights_;
+  /// Of the record collected last: c times the delay of direct paths against the distance.
+  ErrorStatistics sights_;
 };
 
 }  // namespace greatx::sim

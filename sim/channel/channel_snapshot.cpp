@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/plan/plan_options.h"
+
 namespace greatx::sim {
 
 namespace {
@@ -12,31 +14,30 @@ constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u
 
 }  // namespace
 
-ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Scenario& scenario, const World& world,
-                                 const EffectPlan& plan, const scene::GpuSceneOptions& options,
-                                 uint32_t channel, const Instant& instant)
-    : scenario_(scenario),
-      world_(world),
-      gpu_scene_(device, world.scene, options),
+ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Experiment& experiment, uint32_t channel,
+                                 const Instant& instant, const std::optional<scene::GpuSceneOptions>& options)
+    : experiment_(experiment),
+      channel_(channel),
+      gpu_scene_(device, experiment.scene(), options.value_or(gpu_scene_options(experiment.plan))),
       ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
-      courses_(make_courses(scenario, world, instant.sequence)),
-      moment_(moment_at(world, courses_, Clock(scenario.tick_rate_hz), instant.tick)),
-      crossings_(gpu_scene_, rf::facet_kinds(world.scene, radio_effects(plan, scenario))),
-      radio_(std::make_shared<RadioWorld>(plan, scenario, world, channel)) {
-  for (uint32_t t = 0; t < scenario.channels[channel].transmitters.size(); ++t)
+      courses_(make_courses(experiment.scenario, *experiment.world, instant.sequence)),
+      moment_(moment_at(*experiment.world, courses_, Clock(experiment.scenario.tick_rate_hz), instant.tick)),
+      crossings_(gpu_scene_, rf::facet_kinds(experiment.scene(), radio_effects(experiment))),
+      radio_(std::make_shared<RadioWorld>(experiment, channel)) {
+  for (uint32_t t = 0; t < experiment.scenario.channels[channel].transmitters.size(); ++t)
     if (t == instant.transmitter.value_or(t)) transmitters_.push_back(t);
   GREATX_CHECK(!transmitters_.empty(), "no transmitter {}", *instant.transmitter);
   for (const uint32_t t : transmitters_) {
-    ChannelEnds ends = channel_ends(scenario, world, channel, t);
+    ChannelEnds ends = channel_ends(experiment, channel, t);
     ends.check_receivers = t == transmitters_[0];
-    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene_, crossings_, plan, scenario, world, radio_,
-                                                    channel, std::move(ends)));
+    paths_.push_back(
+        std::make_unique<ChannelPaths>(gpu_scene_, crossings_, experiment, radio_, channel, std::move(ends)));
   }
 }
 
 void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
-  courses_ = make_courses(scenario_, world_, sequence);
-  moment_ = moment_at(world_, courses_, Clock(scenario_.tick_rate_hz), tick);
+  courses_ = make_courses(experiment_.scenario, *experiment_.world, sequence);
+  moment_ = moment_at(*experiment_.world, courses_, Clock(experiment_.scenario.tick_rate_hz), tick);
   started_ = false;  // as if a sequence began here
 }
 
@@ -75,7 +76,8 @@ bool ChannelSnapshot::solve_batch(size_t first, const Take& take) {
                 solved.receiver,
                 solved.distance_m,
                 solved.left_out,
-                std::move(solved.paths)};
+                std::move(solved.paths),
+                results[t].world};
       if (!take(std::move(link))) return false;
     }
   return true;

@@ -14,7 +14,7 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// `fill(view, T* row)`.
 template <typename T, typename View, typename Fill>
@@ -82,7 +82,8 @@ PathColumn angles(const char* name, const char* text, dvec3 rf::Path::*direction
 
 void fill_vertices(const PathView& view, const dvec3& origin, size_t depth, double* out) {
   for (size_t i = 0; i < depth; ++i) {
-    const dvec3 point = i < view.path->interactions.size() ? view.path->vertices[i + 1] + origin : dvec3(nan);
+    const dvec3 point =
+        i < view.path->interactions.size() ? view.path->vertices[i + 1] + origin : dvec3(missing);
     for (int c = 0; c < 3; ++c) *out++ = point[c];
   }
 }
@@ -142,7 +143,7 @@ template struct Column<PathView>;
 template struct Column<LinkView>;
 
 std::vector<PathColumn> path_columns(const ColumnContext& context) {
-  const int64_t depth = std::max<uint32_t>(1, context.config->max_depth);
+  const int64_t depth = std::max<uint32_t>(1, context.config->limits.max_depth);
   std::vector<PathColumn> columns{
       of_path<int32_t>("rx", {}, "1", "[path] receiver",
                        [](const PathView& view, int32_t* out) { *out = view.link->receiver; }),

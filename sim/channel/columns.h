@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes of every path and of every link, as tables: one row here is one array of the data set, its
-// declaration and its value together.
+// What a channel writes of every path and of every link, as tables: one row here is one array of the data
+// set, its declaration and its value together.
 #pragma once
 
 #include <complex>
@@ -14,8 +14,8 @@
 
 #include "core/record.h"
 #include "rf/channel/statistics.h"
-#include "rf/path.h"
-#include "rf/radio_model.h"
+#include "rf/geometry/path.h"
+#include "rf/paths/radio_model.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

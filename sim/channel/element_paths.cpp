@@ -32,15 +32,14 @@ rf::AntennaArray element_alone(rf::AntennaArray array) {
 
 }  // namespace
 
-ElementPaths::ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-                           const Scenario& scenario, const World& world,
-                           const std::shared_ptr<RadioWorld>& radio, uint32_t channel, ArrayEnd transmitter,
-                           ArrayEnd receiver)
+ElementPaths::ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings,
+                           const Experiment& experiment, const std::shared_ptr<RadioWorld>& radio,
+                           uint32_t channel, ArrayEnd transmitter, ArrayEnd receiver)
     : transmitter_(std::move(transmitter)), receiver_(std::move(receiver)) {
   const std::vector<ChannelEnd> receivers = elements_of(receiver_);
   for (const ChannelEnd& element : elements_of(transmitter_))
-    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, plan, scenario, world, radio,
-                                                    channel, ChannelEnds{element, receivers, false, false}));
+    paths_.push_back(std::make_unique<ChannelPaths>(gpu_scene, crossings, experiment, radio, channel,
+                                                    ChannelEnds{element, receivers, false, false}));
 }
 
 void ElementPaths::record(gpu::TickSlot& slot, const TickContext& context) {
@@ -66,7 +65,8 @@ void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::
     const size_t s = index / rx_elements, u = index % rx_elements;
     const ChannelPaths::Link& link = results_[s].links[u];
     std::vector<std::complex<float>> block(to_ports * from_ports * per_pair);
-    sum(link.paths, {from, results_[s].transmitter.orientation}, {to, link.receiver.orientation}, block);
+    sum(link.paths, *results_[s].world, {from, results_[s].transmitter.orientation},
+        {to, link.receiver.orientation}, block);
     for (size_t q = 0; q < to_ports; ++q)
       std::copy_n(
           block.begin() + static_cast<std::ptrdiff_t>(q * from_ports * per_pair), from_ports * per_pair,

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A link between two arrays, element by element: paths between every two elements by the same exact search, geometry,
-// crossings and fields as between any two ends. For links so short that no plane wave passes an array.
+// A link between two arrays, element by element: paths between every two elements by the same exact search,
+// geometry, crossings and fields as between any two ends. For links so short that no plane wave passes an
+// array.
 #pragma once
 
 #include <memory>
@@ -24,17 +25,18 @@ struct ArrayEnd {
 class ElementPaths {
  public:
   /// Nothing is searched before the first record(). Arguments are as ChannelPaths', and outlive this.
-  ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const EffectPlan& plan,
-               const Scenario& scenario, const World& world, const std::shared_ptr<RadioWorld>& radio,
-               uint32_t channel, ArrayEnd transmitter, ArrayEnd receiver);
+  ElementPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
+               const std::shared_ptr<RadioWorld>& radio, uint32_t channel, ArrayEnd transmitter,
+               ArrayEnd receiver);
 
   /// A new sequence.
   void start() { started_ = false; }
-  /// The first one of a sequence searches from each element of the transmitter (or receiver, if that one rests).
+  /// The first one of a sequence searches from each element of the transmitter (or receiver, if that one
+  /// rests).
   void record(gpu::TickSlot& slot, const TickContext& context);
   void collect(const gpu::TickSlot& slot);
-  /// `sum` over the paths between every two elements of what was collected last, [rx_ant, tx_ant, per_pair], rx_ant and
-  /// tx_ant the ports of the arrays.
+  /// `sum` over the paths between every two elements of what was collected last, [rx_ant, tx_ant, per_pair],
+  /// rx_ant and tx_ant the ports of the arrays.
   void assemble(size_t per_pair, const LinkSum& sum, std::span<std::complex<float>> out) const;
   /// Of what was collected last.
   LinkLeftOut left_out() const;

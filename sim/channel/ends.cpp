@@ -6,10 +6,11 @@
 
 namespace greatx::sim {
 
-ChannelEnd antenna_end(const Scenario& scenario, const World& world, const std::string& name) {
+ChannelEnd antenna_end(const Experiment& experiment, const std::string& name) {
+  const Scenario& scenario = experiment.scenario;
   const auto [node, sensor] = sensor_place(scenario, name);
   const NodeConfig& config = scenario.nodes[node];
-  return {name, node, mount_pose(config.sensors[sensor].mount), world.body_of_node[node],
+  return {name, node, mount_pose(config.sensors[sensor].mount), experiment.world->body_of_node[node],
           std::holds_alternative<StaticTrajectory>(config.trajectory)};
 }
 
@@ -17,13 +18,11 @@ ChannelEnd point_end(const dvec3& point, size_t number) {
   return {fmt::format("point {}", number), std::nullopt, Pose{point, dquat(1.0, 0.0, 0.0, 0.0)}, 0, true};
 }
 
-ChannelEnds channel_ends(const Scenario& scenario, const World& world, uint32_t channel,
-                         uint32_t transmitter) {
-  const ChannelConfig& config = scenario.channels[channel];
+ChannelEnds channel_ends(const Experiment& experiment, uint32_t channel, uint32_t transmitter) {
+  const ChannelConfig& config = experiment.scenario.channels[channel];
   ChannelEnds ends;
-  ends.transmitter = antenna_end(scenario, world, config.transmitters[transmitter]);
-  for (const std::string& name : config.receivers)
-    ends.receivers.push_back(antenna_end(scenario, world, name));
+  ends.transmitter = antenna_end(experiment, config.transmitters[transmitter]);
+  for (const std::string& name : config.receivers) ends.receivers.push_back(antenna_end(experiment, name));
   ends.check_receivers = transmitter == 0;
   return ends;
 }

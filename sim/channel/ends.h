@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world.h"
 
 namespace greatx::sim {
 
@@ -27,17 +27,18 @@ struct ChannelEnd {
 struct ChannelEnds {
   ChannelEnd transmitter;
   std::vector<ChannelEnd> receivers;
-  /// Whether it is said and counted if an end stands inside something; once is enough for an end of several links.
+  /// Whether it is said and counted if an end stands inside something; once is enough for an end of several
+  /// links.
   bool check_transmitter = true, check_receivers = true;
 };
 
 /// The antenna "node/sensor" of the scenario; it must exist.
-ChannelEnd antenna_end(const Scenario& scenario, const World& world, const std::string& name);
+ChannelEnd antenna_end(const Experiment& experiment, const std::string& name);
 /// At rest in the world.
 ChannelEnd point_end(const dvec3& point, size_t number);
-/// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked if it is 0.
-ChannelEnds channel_ends(const Scenario& scenario, const World& world, uint32_t channel,
-                         uint32_t transmitter);
+/// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked
+/// if it is 0.
+ChannelEnds channel_ends(const Experiment& experiment, uint32_t channel, uint32_t transmitter);
 
 /// Local coordinates, with the velocity that the node's turning gives to what is mounted off its origin.
 rf::EndState state_of(const ChannelEnd& end, const World& world, const TickContext& context);

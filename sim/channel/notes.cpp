@@ -11,23 +11,23 @@
 
 namespace greatx::sim {
 
-std::vector<std::pair<std::string, std::string>> channel_notes(const Scenario& scenario, const World& world,
-                                                               const EffectPlan& plan, uint32_t channel) {
-  const ChannelConfig& config = scenario.channels[channel];
-  const ChannelEnds of = channel_ends(scenario, world, channel, 0);
+std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment& experiment,
+                                                               uint32_t channel) {
+  const ChannelConfig& config = experiment.scenario.channels[channel];
+  const ChannelEnds of = channel_ends(experiment, channel, 0);
   const ChannelSearch::Ends ends{
       of.transmitter.rests,
       std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
       of.transmitter.body};
   // No note speaks of edges, and finding them takes a while.
-  rf::RadioEffects effects = radio_effects(plan, scenario);
+  rf::RadioEffects effects = radio_effects(experiment);
   effects.diffraction = false;
-  const rf::RadioModel model(world.scene, config.carrier_hz, effects);
-  auto notes = ChannelSearch(nullptr, model, plan, config, ends).notes();
+  const rf::RadioModel model(experiment.scene(), config.carrier_hz, effects);
+  auto notes = ChannelSearch(nullptr, model, experiment.plan, config, ends).notes();
   notes.emplace_back(
       "bounds", fmt::format("a search keeps {} sequences, a link {} geometric paths (max_paths); what is "
                             "beyond is counted, and the guarantee of the results says so",
-                            rf::BeamSearchOptions{}.capacity, config.max_paths));
+                            rf::BeamSearchOptions{}.capacity, config.limits.max_paths));
   return notes;
 }
 

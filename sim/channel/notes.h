@@ -6,15 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "sim/plan/effect_plan.h"
-#include "sim/scenario/scenario.h"
-#include "sim/world.h"
+#include "sim/experiment/experiment.h"
 
 namespace greatx::sim {
 
-/// How the candidates of a channel will be found and what that guarantees: (name, text), as in a run's summary. Nothing is
-/// searched and no device is needed. Throws UserError like ChannelSearch.
-std::vector<std::pair<std::string, std::string>> channel_notes(const Scenario& scenario, const World& world,
-                                                               const EffectPlan& plan, uint32_t channel);
+/// How the candidates of a channel will be found and what that guarantees: (name, text), as in a run's
+/// summary. Nothing is searched and no device is needed. Throws UserError like ChannelSearch.
+std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment& experiment,
+                                                               uint32_t channel);
 
 }  // namespace greatx::sim

@@ -7,14 +7,14 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "rf/placement.h"
-#include "sim/channel/antennas.h"
+#include "rf/facets/placement.h"
+#include "sim/plan/antennas.h"
 
 namespace greatx::sim {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_ground = std::numeric_limits<double>::quiet_NaN();
 
 /// A round one.
 double default_cell(double extent_m) {
@@ -58,7 +58,7 @@ void check_plane(double z, scene::Bounds bounds, std::span<const dvec3> ends) {
 /// World z of every cell.
 std::vector<double> heights(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                             std::string& rule) {
-  std::vector<double> z(grid.cells(), nan);
+  std::vector<double> z(grid.cells(), no_ground);
   if (height.plane_z_m) {
     rule = fmt::format("{:.17g} m, a plane of the world", *height.plane_z_m);
     std::fill(z.begin(), z.end(), *height.plane_z_m);
@@ -153,12 +153,12 @@ MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::
 
 rf::LinkStatistics no_link() { return rf::link_statistics({}, {}); }
 
-RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, const Scenario& scenario, uint32_t channel,
-                               MapReceiver receiver)
-    : snapshot_(snapshot),
-      carrier_hz_(scenario.channels[channel].carrier_hz),
-      receiver_(std::move(receiver)) {
-  for (const std::string& name : scenario.channels[channel].transmitters)
+RadioMapSolver::RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver)
+    : snapshot_(snapshot), receiver_(std::move(receiver)) {
+  const Scenario& scenario = snapshot.experiment().scenario;
+  const ChannelConfig& config = scenario.channels[snapshot.channel()];
+  carrier_hz_ = config.carrier_hz;
+  for (const std::string& name : config.transmitters)
     transmitters_.push_back(antenna_array(scenario, name, carrier_hz_));
 }
 

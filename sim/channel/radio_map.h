@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio maps: the links from all transmitters of a channel to the centres of a grid's cells, by the paths that a receiver
-// put there would have, to the bit.
+// Radio maps: the links from all transmitters of a channel to the centres of a grid's cells, by the paths
+// that a receiver put there would have, to the bit. sim/channel/radio_map_run.h makes whole maps of these
+// steps.
 //
-//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx] ─► map_arrays
+//   MapGrid ─► place_cells ─► MapCells { z, placement } ─► RadioMapSolver ─► LinkStatistics [cells, tx] ─►
+// map_arrays
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,8 @@
 
 namespace greatx::sim {
 
-/// Squares over a rectangle of the world's x (east) and y (north). Cell = row * columns + column; row 0 is the southernmost,
-/// column 0 the westernmost.
+/// Squares over a rectangle of the world's x (east) and y (north). Cell = row * columns + column; row 0 is
+/// the southernmost, column 0 the westernmost.
 struct MapGrid {
   dvec2 min_m{0.0};  ///< the south-western corner, world
   double cell_m = 1.0;
@@ -40,13 +42,13 @@ struct MapGrid {
 /// The most links (cells times transmitters) that a map may have.
 inline constexpr size_t most_map_links = 4'000'000;
 
-/// As many cells as cover the rectangle: where its sides are no multiples of the cell, the last row and column stick out.
-/// Throws UserError naming `--cell`, `--min` or `--max` if the cell is not above 0, the rectangle is empty or there would be
-/// more than most_map_links.
+/// As many cells as cover the rectangle: where its sides are no multiples of the cell, the last row and
+/// column stick out. Throws UserError naming `--cell`, `--min` or `--max` if the cell is not above 0, the
+/// rectangle is empty or there would be more than most_map_links.
 MapGrid make_map_grid(const dvec2& min_m, const dvec2& max_m, double cell_m, size_t transmitters);
 
-/// Corners that are not given are the scene's. Throws UserError like make_map_grid, and if the scene is empty.
-/// `cell_m` none: 1, 2 or 5 times a power of ten, at most 150 along the longer side.
+/// Corners that are not given are the scene's. Throws UserError like make_map_grid, and if the scene is
+/// empty. `cell_m` none: 1, 2 or 5 times a power of ten, at most 150 along the longer side.
 MapGrid map_grid_of(const std::optional<dvec2>& min_m, const std::optional<dvec2>& max_m,
                     std::optional<double> cell_m, const scene::Scene& scene, size_t transmitters);
 
@@ -63,8 +65,8 @@ enum class CellPlacement : uint8_t {
   solid = 1,            ///< inside something that is not foliage
   nothing_beneath = 2,  ///< draped, and there is no ground
   foliage = 3,
-  on_surface = 4,  ///< within the visibility tolerance of one (rf/placement.h)
-  beneath = 5,     ///< an open surface, with nothing below (rf/placement.h)
+  on_surface = 4,  ///< within the visibility tolerance of one (rf/facets/placement.h)
+  beneath = 5,     ///< an open surface, with nothing below (rf/facets/placement.h)
 };
 
 /// A box, world coordinates, that holds the middles of all cells, wherever the ground beneath them is.
@@ -85,10 +87,10 @@ struct MapCells {
   }
 };
 
-/// `kinds` of the channel's facets, `bodies` as they stand (Moment::bodies). Throws UserError, naming the field and the
-/// scene's bounds, if the rectangle misses the scene, the plane lies above or below everything in the scene and `ends`
-/// (world positions of the transmitters), or no cell has anything beneath; with `beyond_scene` only if the plane is not a
-/// number or no cell has anything beneath.
+/// `kinds` of the channel's facets, `bodies` as they stand (Moment::bodies). Throws UserError, naming the
+/// field and the scene's bounds, if the rectangle misses the scene, the plane lies above or below everything
+/// in the scene and `ends` (world positions of the transmitters), or no cell has anything beneath; with
+/// `beyond_scene` only if the plane is not a number or no cell has anything beneath.
 MapCells place_cells(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                      const rf::FacetKinds& kinds, std::span<const Pose> bodies, std::span<const dvec3> ends,
                      bool beyond_scene);
@@ -101,11 +103,12 @@ struct MapReceiver {
 
 class RadioMapSolver {
  public:
-  /// `snapshot` (with all transmitters that the map has) and `scenario` outlive this.
-  RadioMapSolver(ChannelSnapshot& snapshot, const Scenario& scenario, uint32_t channel, MapReceiver receiver);
+  /// `snapshot` outlives this and has all transmitters that the map has.
+  RadioMapSolver(ChannelSnapshot& snapshot, MapReceiver receiver);
 
-  /// Hands over the links of the cells from `first` on, in the order of cells, some hundred at a time: [cells, tx]; those of
-  /// cells without values have no path. Ends early if `take` returns false. No cell depends on another, nor on `first`.
+  /// Hands over the links of the cells from `first` on, in the order of cells, some hundred at a time:
+  /// [cells, tx]; those of cells without values have no path. Ends early if `take` returns false. No cell
+  /// depends on another, nor on `first`.
   using Take = std::function<bool(std::span<const rf::LinkStatistics>)>;
   void solve(const MapCells& cells, size_t first, const Take& take);
 
@@ -113,7 +116,7 @@ class RadioMapSolver {
   std::vector<rf::LinkStatistics> statistics_of(std::span<const ChannelSnapshot::Link> links) const;
 
   ChannelSnapshot& snapshot_;
-  double carrier_hz_;
+  double carrier_hz_ = 0.0;
   MapReceiver receiver_;
   std::vector<rf::AntennaArray> transmitters_;  ///< [transmitters of the channel]
 };

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "scene/scene.h"
-#include "scene/triangle_tree.h"
+#include "scene/description/scene.h"
+#include "scene/description/triangle_tree.h"
 
 namespace greatx::sim {
 
-/// What a map is draped over. `ground`: where people and cars are: the highest surface of the classes ground, road,
-/// pavement, lane_marking and water; in a scene that has none of them, the lowest surface that faces up. `roofs`: the
-/// highest surface of ground and buildings (all classes but vegetation, poles, lamps, masts, vehicles, UAVs, furniture and
-/// people): what a flying platform has beneath.
+/// What a map is draped over. `ground`: where people and cars are: the highest surface of the classes ground,
+/// road, pavement, lane_marking and water; in a scene that has none of them, the lowest surface that faces
+/// up. `roofs`: the highest surface of ground and buildings (all classes but vegetation, poles, lamps, masts,
+/// vehicles, UAVs, furniture and people): what a flying platform has beneath.
 enum class MapOver { ground, roofs };
 
 /// Vertical lines through everything that never moves.
@@ -26,7 +26,8 @@ class GroundHeights {
   /// `scene` may go afterwards.
   GroundHeights(const scene::Scene& scene, MapOver over);
 
-  /// World z of the surface at world (x, y); none: nothing lies there. Edges belong to their triangles. Thread-safe.
+  /// World z of the surface at world (x, y); none: nothing lies there. Edges belong to their triangles.
+  /// Thread-safe.
   std::optional<double> at(const dvec2& world) const;
   /// Which surfaces count, in words.
   const std::string& rule() const { return rule_; }

@@ -15,7 +15,7 @@ namespace greatx::sim {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double boltzmann_j_k = 1.380649e-23;  ///< exact (SI Brochure, 9th edition)
 
 /// Signal of one transmitter over the sum of all others and the noise.
@@ -34,7 +34,7 @@ MapQuantity statistic(std::string name, std::string unit, std::string descriptio
           DType::f64,
           true,
           [member](const MapCell& cell, size_t t) { return cell.links[t].*member; },
-          nan};
+          no_value};
 }
 
 std::vector<MapQuantity> all_quantities() {
@@ -45,11 +45,11 @@ std::vector<MapQuantity> all_quantities() {
                 "sum of the paths' powers, mean over all pairs of ports, over the power sent; 0: no path",
                 &S::path_gain),
       {"rss", "dBm", "received power: the transmitter's + 10 log10 path_gain; -inf: no path", DType::f64,
-       true, [](const MapCell& cell, size_t t) { return rf::dbm(cell.received_w[t]); }, nan},
+       true, [](const MapCell& cell, size_t t) { return rf::dbm(cell.received_w[t]); }, no_value},
       {"sinr", "dB",
        "received power over the sum of the other transmitters' and the noise, if this one serves; -inf: no "
        "path",
-       DType::f64, true, [](const MapCell& cell, size_t t) { return decibels(sinr(cell, t)); }, nan},
+       DType::f64, true, [](const MapCell& cell, size_t t) { return decibels(sinr(cell, t)); }, no_value},
       {"best_server", "1", "transmitter with the highest rss, the first of equals; -1: no path", DType::i32,
        false, [](const MapCell& cell, size_t) { return best_server(cell.received_w); }, -1.0},
       statistic("mean_delay", "s", "mean of the paths' absolute delays, weighted by power; NaN: no path",
@@ -139,6 +139,17 @@ const MapQuantity& map_quantity(const std::string& name) {
   throw_user_error("--quantities: expected some of {}, found '{}'", fmt::join(names, ", "), name);
 }
 
+Array map_heights(const MapCells& cells) {
+  return Array::of<double>({cells.grid.rows, cells.grid.columns}, cells.z_m);
+}
+
+Array map_placement(const MapCells& cells) {
+  std::vector<uint8_t> values;
+  values.reserve(cells.placement.size());
+  for (const CellPlacement placement : cells.placement) values.push_back(static_cast<uint8_t>(placement));
+  return Array::of<uint8_t>({cells.grid.rows, cells.grid.columns}, values);
+}
+
 Array map_array(const RadioMap& map, const MapQuantity& quantity) {
   const size_t cells = map.cells->grid.cells(), count = quantity.per_transmitter ? map.transmitters() : 1;
   std::vector<double> values(count * cells, quantity.without_value);
@@ -160,7 +171,7 @@ Array map_array(const RadioMap& map, const MapQuantity& quantity) {
 }
 
 std::vector<double> map_at_best_server(const RadioMap& map, const MapQuantity& quantity) {
-  std::vector<double> values(map.cells->grid.cells(), nan);
+  std::vector<double> values(map.cells->grid.cells(), no_value);
   each_cell(map, [&](size_t cell, const MapCell& facts) {
     const int server = best_server(facts.received_w);
     if (server >= 0) values[cell] = quantity.value(facts, static_cast<size_t>(server));

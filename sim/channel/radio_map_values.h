@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a radio map says of its cells: one entry of map_quantities() is one array, its declaration and its values together.
+// What a radio map says of its cells: one entry of map_quantities() is one array, its declaration and its
+// values together.
 #pragma once
 
 #include <functional>
@@ -25,12 +26,12 @@ struct MapPower {
   double noise_w() const;
 };
 
-/// Throws UserError naming `--power`, `--bandwidth` or `--noise-figure`: powers of -200 to 200 dBm, a bandwidth above 0, a
-/// noise figure of 0 dB or more.
+/// Throws UserError naming `--power`, `--bandwidth` or `--noise-figure`: powers of -200 to 200 dBm, a
+/// bandwidth above 0, a noise figure of 0 dB or more.
 void check_power(const MapPower& power);
 inline constexpr double default_map_power_dbm = 30.0;
-/// Of a channel: `transmit_dbm` one for all of its transmitters or one each; empty: the channel's, else the default. No
-/// bandwidth: the channel's. Checked.
+/// Of a channel: `transmit_dbm` one for all of its transmitters or one each; empty: the channel's, else the
+/// default. No bandwidth: the channel's. Checked.
 MapPower map_power(std::vector<double> transmit_dbm, std::optional<double> bandwidth_hz,
                    double noise_figure_db, const ChannelConfig& config);
 
@@ -61,6 +62,9 @@ struct RadioMap {
   MapPower power;
   size_t transmitters() const { return power.transmit_dbm.size(); }
 };
+/// The cells' own arrays, [rows, columns]: world heights of their middles, and CellPlacement as u8.
+Array map_heights(const MapCells& cells);
+Array map_placement(const MapCells& cells);
 /// [tx, rows, columns], or [rows, columns] if the quantity is not a transmitter's.
 Array map_array(const RadioMap& map, const MapQuantity& quantity);
 /// The same of the best server of each cell, [cells]; NaN where there is none.

@@ -3,9 +3,10 @@
 #include "sim/plan/array_plan.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/units.h"
-#include "sim/channel/antennas.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/trajectory_bounds.h"
 
 namespace greatx::sim {
@@ -42,7 +43,7 @@ struct Nearest {
 Nearest nearest_of(const Scenario& scenario) {
   Nearest nearest;
   for (const ChannelConfig& channel : scenario.channels) {
-    if (channel.candidates == "rays") continue;
+    if (channel.candidates == ChannelConfig::Candidates::rays) continue;
     for (size_t t = 0; t < channel.transmitters.size(); ++t)
       for (size_t r = 0; r < channel.receivers.size(); ++r) {
         const double far_m = far_field_of(scenario, channel, t, r);
@@ -65,12 +66,26 @@ bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t 
          far_field_of(scenario, channel, transmitter, receiver);
 }
 
+Switch every_element_asked(const Scenario& scenario) {
+  const auto wish = scenario.effects.find("every_element");
+  return wish == scenario.effects.end() ? Switch::automatic : wish->second;
+}
+
+double every_element_within_m(const Scenario& scenario, const ChannelConfig& channel,
+                              const rf::AntennaArray& transmitter, const rf::AntennaArray& receiver) {
+  const Switch asked = every_element_asked(scenario);
+  if (asked == Switch::off || channel.candidates == ChannelConfig::Candidates::rays) return 0.0;
+  const double far_m = rf::far_field_distance_m(transmitter, receiver, channel.carrier_hz);
+  return asked == Switch::on && far_m > 0.0 ? std::numeric_limits<double>::infinity() : far_m;
+}
+
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario) {
   const Nearest nearest = nearest_of(scenario);
-  const bool rays = std::any_of(scenario.channels.begin(), scenario.channels.end(),
-                                [](const ChannelConfig& channel) { return channel.candidates == "rays"; });
-  plan.every_element = planner.decide(
-      "every_element", nearest.near(),
+  const bool rays = std::any_of(
+      scenario.channels.begin(), scenario.channels.end(),
+      [](const ChannelConfig& channel) { return channel.candidates == ChannelConfig::Candidates::rays; });
+  planner.decide(
+      plan.every_element, nearest.near(),
       scenario.channels.empty() ? "no channel"
       : nearest.far_m == 0.0    ? (rays ? "candidates from rays are for one point of an array"
                                         : "no antenna has more than one element")

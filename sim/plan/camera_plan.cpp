@@ -11,8 +11,8 @@
 #include "renderer/camera/camera_view.h"
 #include "renderer/light/sky.h"
 #include "shaders/shared/camera.h"
+#include "sim/plan/camera_desc.h"
 #include "sim/plan/light_plan.h"
-#include "sim/sensors/camera_desc.h"
 
 namespace greatx::sim {
 
@@ -23,8 +23,8 @@ std::string digits(double lux) {
   return lux >= 10.0 ? fmt::format("{:.0f}", lux) : fmt::format("{:.2g}", lux);
 }
 
-/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1 m (a lamp
-/// nearer to a surface than that lights a spot of its own size only).
+/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1
+/// m (a lamp nearer to a surface than that lights a spot of its own size only).
 double lamp_illuminance(const scene::PunctualLight& light, double ground) {
   if (light.type == scene::PunctualLight::Type::directional) return light.intensity;
   const double height = std::max(1.0, light.position.z - ground);
@@ -60,12 +60,12 @@ Offers offers_of(const scene::Scene& scene) {
 
 namespace {
 
-void add(Asks& asks, const PinholeConfig& camera) {
+void add(CameraAsks& asks, const PinholeConfig& camera) {
   asks.smooth_edges |= camera.smooth_edges;
   asks.distortion |= camera.distortion.any();
 }
 
-void add(Asks& asks, const CameraConfig& camera) {
+void add(CameraAsks& asks, const CameraConfig& camera) {
   ++asks.cameras;
   asks.rgb |= camera.rgb;
   asks.depth |= camera.depth || camera.depth_png24 || camera.depth_log;
@@ -84,8 +84,8 @@ void add(Asks& asks, const CameraConfig& camera) {
 
 }  // namespace
 
-Asks asks_of(const Scenario& scenario) {
-  Asks asks;
+CameraAsks camera_asks_of(const Scenario& scenario) {
+  CameraAsks asks;
   for (const NodeConfig& node : scenario.nodes) {
     for (const SensorConfig& sensor : node.sensors) {
       if (const auto* camera = std::get_if<CameraConfig>(&sensor.config)) {
@@ -115,13 +115,13 @@ namespace {
 class Shading {
  public:
   Shading(const Planner& planner, bool color) : planner_(planner), color_(color) {}
-  Effect decide(const char* name, bool offered, const std::string& yes, const std::string& no,
-                const std::string& bound = "") const {
-    return planner_.decide(name, color_ && offered,
-                           !color_   ? "no camera delivers colour"
-                           : offered ? yes
-                                     : no,
-                           bound);
+  void decide(Effect& effect, bool offered, const std::string& yes, const std::string& no,
+              const std::string& bound = "") const {
+    planner_.decide(effect, color_ && offered,
+                    !color_   ? "no camera delivers colour"
+                    : offered ? yes
+                              : no,
+                    bound);
   }
 
  private:
@@ -129,33 +129,33 @@ class Shading {
   bool color_;
 };
 
-void plan_outputs(EffectPlan& plan, const Planner& planner, const Asks& asks) {
+void plan_outputs(EffectPlan& plan, const Planner& planner, const CameraAsks& asks) {
   const size_t all = asks.cameras + asks.event_cameras;
-  plan.camera = planner.fixed("camera", all > 0, all > 0 ? fmt::format("{} of them", all) : "no camera");
-  const auto output = [&](const char* name, bool asked) {
-    return planner.fixed(name, asked, all == 0 ? "no camera" : asked ? "asked for" : "no camera delivers it");
+  planner.decide(plan.camera, all > 0, all > 0 ? fmt::format("{} of them", all) : "no camera");
+  const auto output = [&](Effect& effect, bool asked) {
+    planner.decide(effect, asked, all == 0 ? "no camera" : asked ? "asked for" : "no camera delivers it");
   };
-  plan.rgb = output("rgb", asks.rgb);
-  plan.depth = output("depth", asks.depth);
-  plan.ids = output("ids", asks.ids);
-  plan.hdr = output("hdr", asks.hdr);
-  plan.depth_ray = output("depth_ray", asks.depth_ray);
-  plan.normals = output("normals", asks.normals);
-  plan.flow = output("flow", asks.flow);
-  plan.boxes = output("boxes", asks.boxes);
-  plan.event_camera =
-      planner.fixed("event_camera", asks.event_cameras > 0,
-                    asks.event_cameras == 0   ? "no event camera"
-                    : asks.shared_pixels == 0 ? fmt::format("{} of them", asks.event_cameras)
-                                              : fmt::format("{} of them, {} with the pixels of a camera",
-                                                            asks.event_cameras, asks.shared_pixels));
-  plan.adaptive_steps = planner.fixed("adaptive_steps", asks.adaptive_events,
-                                      asks.event_cameras == 0 ? "no event camera"
-                                      : asks.adaptive_events  ? "asked for"
-                                                              : "event cameras step evenly");
+  output(plan.rgb, asks.rgb);
+  output(plan.depth, asks.depth);
+  output(plan.ids, asks.ids);
+  output(plan.hdr, asks.hdr);
+  output(plan.depth_ray, asks.depth_ray);
+  output(plan.normals, asks.normals);
+  output(plan.flow, asks.flow);
+  output(plan.boxes, asks.boxes);
+  planner.decide(plan.event_camera, asks.event_cameras > 0,
+                 asks.event_cameras == 0   ? "no event camera"
+                 : asks.shared_pixels == 0 ? fmt::format("{} of them", asks.event_cameras)
+                                           : fmt::format("{} of them, {} with the pixels of a camera",
+                                                         asks.event_cameras, asks.shared_pixels));
+  planner.decide(plan.adaptive_steps, asks.adaptive_events,
+                 asks.event_cameras == 0 ? "no event camera"
+                 : asks.adaptive_events  ? "asked for"
+                                         : "event cameras step evenly");
 }
 
-/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is built.
+/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is
+/// built.
 void check_lenses(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors) {
@@ -179,47 +179,45 @@ void check_lenses(const Scenario& scenario) {
 }
 
 /// What a lens, an exposure and a sensor of light do to a picture.
-void plan_lens(EffectPlan& plan, const Planner& planner, const Asks& asks) {
-  const auto asked = [&](const char* name, bool wanted, const char* bound = "") {
-    return planner.fixed(name, wanted,
-                         !asks.color() ? "no camera delivers colour"
-                         : wanted      ? "asked for"
-                                       : "no camera asks for it",
-                         bound);
+void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks) {
+  const auto asked = [&](Effect& effect, bool wanted, const char* bound = "") {
+    planner.decide(effect, wanted,
+                   !asks.color() ? "no camera delivers colour"
+                   : wanted      ? "asked for"
+                                 : "no camera asks for it",
+                   bound);
   };
-  plan.smooth_edges = asked("smooth_edges", asks.smooth_edges && asks.color());
-  plan.lens_distortion = planner.fixed("lens_distortion", asks.distortion,
-                                       asks.distortion ? "asked for" : "no camera asks for it");
-  plan.vignetting = asked("vignetting", asks.vignetting);
-  plan.motion_blur = asked("motion_blur", asks.motion_blur, "costs a picture for each of its samples");
-  plan.auto_exposure = asked("auto_exposure", asks.automatic_exposure);
-  plan.sensor_noise = asked("sensor_noise", asks.noise);
+  asked(plan.smooth_edges, asks.smooth_edges && asks.color());
+  planner.decide(plan.lens_distortion, asks.distortion,
+                 asks.distortion ? "asked for" : "no camera asks for it");
+  asked(plan.vignetting, asks.vignetting);
+  asked(plan.motion_blur, asks.motion_blur, "costs a picture for each of its samples");
+  asked(plan.auto_exposure, asks.automatic_exposure);
+  asked(plan.sensor_noise, asks.noise);
 }
 
 void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shading, const Offers& offers,
-                   const Asks& asks, double ground_lux) {
+                   const CameraAsks& asks, double ground_lux) {
   const bool camera = asks.cameras + asks.event_cameras > 0;
-  plan.textures = shading.decide("textures", offers.textures, "materials have them", "no material has one");
-  plan.normal_maps =
-      shading.decide("normal_maps", offers.normal_maps && plan.textures.on, "materials have them",
-                     offers.normal_maps ? "textures are off" : "no material has one");
-  plan.alpha_mask = planner.decide("alpha_mask", camera && offers.alpha_mask,
-                                   !camera             ? "no camera"
-                                   : offers.alpha_mask ? "materials have holes"
-                                                       : "no material has holes");
+  shading.decide(plan.textures, offers.textures, "materials have them", "no material has one");
+  shading.decide(plan.normal_maps, offers.normal_maps && plan.textures.on, "materials have them",
+                 offers.normal_maps ? "textures are off" : "no material has one");
+  planner.decide(plan.alpha_mask, camera && offers.alpha_mask,
+                 !camera             ? "no camera"
+                 : offers.alpha_mask ? "materials have holes"
+                                     : "no material has holes");
   // What shines less than a white surface in this light is switched off, as lamps and windows are by day.
   const double white = ground_lux / pi;
-  plan.emissive =
-      shading.decide("emissive", offers.emissive && offers.brightest_cd_m2 > white, "materials glow",
-                     offers.emissive ? "daylight drowns what glows" : "no material glows",
-                     offers.emissive ? fmt::format("up to {} cd/m^2 against {} of a white surface",
-                                                   digits(offers.brightest_cd_m2), digits(white))
-                                     : "");
+  shading.decide(plan.emissive, offers.emissive && offers.brightest_cd_m2 > white, "materials glow",
+                 offers.emissive ? "daylight drowns what glows" : "no material glows",
+                 offers.emissive ? fmt::format("up to {} cd/m^2 against {} of a white surface",
+                                               digits(offers.brightest_cd_m2), digits(white))
+                                 : "");
   // Lamps matter once they add more than 1 % to what the sun and the sky give the ground.
   constexpr double tolerance = 0.01;
   const bool lamps = offers.lights > 0 && offers.lamp_illuminance_lux > tolerance * ground_lux;
-  plan.punctual_lights = shading.decide(
-      "punctual_lights", lamps,
+  shading.decide(
+      plan.punctual_lights, lamps,
       fmt::format("{} lamps, up to {:.1f} lux on the ground", offers.lights, offers.lamp_illuminance_lux),
       offers.lights == 0 ? "the scene has no lamps" : "daylight drowns them",
       offers.lights == 0 || ground_lux <= 0.0
@@ -231,34 +229,32 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
 void plan_light(EffectPlan& plan, const Shading& shading, const Scenario& scenario,
                 const ResolvedLight& light, const Offers& offers) {
   const double key_lux = light.below.direct_lux * std::max(0.0, light.key.direction.z);
-  plan.sun =
-      shading.decide("sun", key_lux > 0.0,
-                     fmt::format("{} lux on the ground{}", digits(key_lux),
-                                 light.key.body == render::KeyLight::Body::moon ? ", of the moon" : ""),
-                     "neither sun nor moon shines");
-  plan.sky = shading.decide("sky", light.below.sky_lux > 0.0,
-                            fmt::format("{} lux on the ground", digits(light.below.sky_lux)),
-                            "its illuminance is 0");
-  plan.static_shadows = shading.decide(
-      "static_shadows", plan.sun.on && offers.static_triangles, "the sun shines on static meshes",
+  shading.decide(plan.sun, key_lux > 0.0,
+                 fmt::format("{} lux on the ground{}", digits(key_lux),
+                             light.key.body == render::KeyLight::Body::moon ? ", of the moon" : ""),
+                 "neither sun nor moon shines");
+  shading.decide(plan.sky, light.below.sky_lux > 0.0,
+                 fmt::format("{} lux on the ground", digits(light.below.sky_lux)), "its illuminance is 0");
+  shading.decide(
+      plan.static_shadows, plan.sun.on && offers.static_triangles, "the sun shines on static meshes",
       plan.sun.on ? "nothing static to cast them" : "the sun is off", "drawn once, at the first tick");
-  plan.moving_shadows = shading.decide("moving_shadows", plan.sun.on && offers.moving_triangles,
-                                       "the sun shines on moving meshes",
-                                       plan.sun.on ? "no mesh moves" : "the sun is off", "drawn every tick");
-  plan.ambient_occlusion = shading.decide(
-      "ambient_occlusion", plan.sky.on && offers.static_triangles, "static meshes hide parts of the sky",
-      plan.sky.on ? "nothing static hides the sky" : "the sky is off", "made once, at the start");
-  plan.haze = shading.decide("haze", light.haze, haze_reason(scenario.environment), "neither fog nor rain");
-  plan.night_sky = shading.decide("night_sky", light.night_sky,
-                                  fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
-                                              degrees(light.sun_elevation), degrees(light.moon_elevation)),
-                                  "by day or under clouds there are no stars, and no moon is up");
+  shading.decide(plan.moving_shadows, plan.sun.on && offers.moving_triangles,
+                 "the sun shines on moving meshes", plan.sun.on ? "no mesh moves" : "the sun is off",
+                 "drawn every tick");
+  shading.decide(plan.ambient_occlusion, plan.sky.on && offers.static_triangles,
+                 "static meshes hide parts of the sky",
+                 plan.sky.on ? "nothing static hides the sky" : "the sky is off", "made once, at the start");
+  shading.decide(plan.haze, light.haze, haze_reason(scenario.environment), "neither fog nor rain");
+  shading.decide(plan.night_sky, light.night_sky,
+                 fmt::format("the sun stands at {:.1f} degrees, the moon at {:.1f}",
+                             degrees(light.sun_elevation), degrees(light.moon_elevation)),
+                 "by day or under clouds there are no stars, and no moon is up");
 }
 
 }  // namespace
 
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
-                 const Asks& asks) {
+                 const CameraAsks& asks) {
   check_lenses(scenario);
   const ResolvedLight light = resolve(scenario.environment);
   const Shading shading(planner, asks.color());

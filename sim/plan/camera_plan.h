@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 #include "sim/plan/effect_planner.h"
 
 namespace greatx::sim {
@@ -22,7 +22,7 @@ struct Offers {
 };
 
 /// What the scenario asks for.
-struct Asks {
+struct CameraAsks {
   size_t cameras = 0, event_cameras = 0, lidars = 0;
   size_t shared_pixels = 0;  ///< event cameras that share a camera's
   bool rgb = false, depth = false, ids = false, hdr = false;
@@ -34,12 +34,12 @@ struct Asks {
 };
 
 Offers offers_of(const scene::Scene& scene);
-Asks asks_of(const Scenario& scenario);
+CameraAsks camera_asks_of(const Scenario& scenario);
 
 /// "fog and rain leave N m of visibility"
 std::string haze_reason(const Environment& environment);
 
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
-                 const Asks& asks);
+                 const CameraAsks& asks);
 
 }  // namespace greatx::sim

@@ -20,90 +20,21 @@ namespace {
 
 void plan_rays(EffectPlan& plan, Planner& planner, const Offers& offers) {
   const bool rays = plan.lidar.on || plan.radar.on || plan.channel.on || plan.consistency.on;
-  plan.acceleration_structure = planner.fixed("acceleration_structure", rays,
-                                              rays ? "LiDAR, radar, radio or the consistency check trace "
-                                                     "rays; a LiDAR on a CPU through a tree of greatx's own"
-                                                   : "nothing traces rays");
-  plan.scene_motion =
-      planner.fixed("scene_motion", offers.moving_triangles,
-                    offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
-                                            : "no mesh moves: built once, never refitted");
+  planner.decide(plan.acceleration_structure, rays,
+                 rays ? "LiDAR, radar, radio or the consistency check trace "
+                        "rays; a LiDAR on a CPU through a tree of greatx's own"
+                      : "nothing traces rays");
+  planner.decide(plan.scene_motion, offers.moving_triangles,
+                 offers.moving_triangles ? "a mesh follows a moving node: refitted when it moved"
+                                         : "no mesh moves: built once, never refitted");
 }
 
 }  // namespace
 
-std::vector<Effect*> EffectPlan::all() {
-  return {&acceleration_structure,
-          &scene_motion,
-          &camera,
-          &rgb,
-          &depth,
-          &ids,
-          &hdr,
-          &depth_ray,
-          &normals,
-          &flow,
-          &boxes,
-          &event_camera,
-          &adaptive_steps,
-          &sun,
-          &sky,
-          &static_shadows,
-          &moving_shadows,
-          &ambient_occlusion,
-          &textures,
-          &normal_maps,
-          &alpha_mask,
-          &emissive,
-          &punctual_lights,
-          &haze,
-          &night_sky,
-          &smooth_edges,
-          &lens_distortion,
-          &vignetting,
-          &motion_blur,
-          &auto_exposure,
-          &sensor_noise,
-          &lidar,
-          &lidar_alpha_mask,
-          &lidar_textures,
-          &lidar_sweep_motion,
-          &lidar_target_motion,
-          &lidar_divergence,
-          &lidar_glass,
-          &lidar_haze,
-          &lidar_backscatter,
-          &lidar_detection,
-          &lidar_range_noise,
-          &radar,
-          &radar_roughness,
-          &radar_clutter,
-          &radar_noise,
-          &radar_phase_noise,
-          &radar_quantisation,
-          &channel,
-          &line_of_sight,
-          &reflection,
-          &moving_reflectors,
-          &transmission,
-          &diffraction,
-          &diffraction_lit_region,
-          &free_edges,
-          &scattering,
-          &roughness,
-          &gas,
-          &rain,
-          &fog,
-          &foliage,
-          &dispersion,
-          &doppler,
-          &every_element,
-          &consistency};
-}
-
 std::vector<const Effect*> EffectPlan::all() const {
-  const std::vector<Effect*> effects = const_cast<EffectPlan*>(this)->all();
-  return {effects.begin(), effects.end()};
+#define GREATX_POINTER(name, switchable, passed, documentation) &name,
+  return {GREATX_EFFECTS(GREATX_POINTER)};
+#undef GREATX_POINTER
 }
 
 bool same_effects(const EffectPlan& a, const EffectPlan& b) {
@@ -115,7 +46,7 @@ bool same_effects(const EffectPlan& a, const EffectPlan& b) {
 EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                             const scene::Bounds& points) {
   const Offers offers = offers_of(scene);
-  const Asks asks = asks_of(scenario);
+  const CameraAsks asks = camera_asks_of(scenario);
   Planner planner(scenario);
   EffectPlan plan;
   plan_camera(plan, planner, scenario, offers, asks);
@@ -123,14 +54,13 @@ EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
   plan_radar(plan, planner, scenario, scene);
   plan_radio(plan, planner, scenario, scene, points);
   const bool check = asks.cameras > 0 && asks.depth && offers.triangles;
-  plan.consistency = planner.decide(
-      "consistency", check,
-      check ? "depth pixels are checked against rays" : "no depth picture of a surface to check",
-      "256 rays per camera and tick");
+  planner.decide(plan.consistency, check,
+                 check ? "depth pixels are checked against rays" : "no depth picture of a surface to check",
+                 "256 rays per camera and tick");
   plan_rays(plan, planner, offers);
 
   for (const auto& [name, wish] : scenario.effects) {
-    const std::vector<const Effect*> effects = std::as_const(plan).all();
+    const std::vector<const Effect*> effects = plan.all();
     if (std::any_of(effects.begin(), effects.end(),
                     [&](const Effect* effect) { return effect->name == name; }))
       continue;

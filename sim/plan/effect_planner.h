@@ -18,23 +18,20 @@ class Planner {
  public:
   explicit Planner(const Scenario& scenario) : scenario_(scenario) {}
 
-  Effect fixed(const std::string& name, bool needed, const std::string& reason,
-               const std::string& bound = "") const {
-    if (scenario_.effects.count(name) > 0 && scenario_.effects.at(name) != Switch::automatic)
-      throw_user_error("{}: effects.{}: cannot be switched: it is {} because {}; expected auto",
-                       scenario_.file.empty() ? scenario_.name : scenario_.file.string(), name,
-                       needed ? "on" : "off", reason);
-    return {name, false, needed, reason, bound};
-  }
-  Effect decide(const std::string& name, bool needed, const std::string& reason,
-                const std::string& bound = "") const {
-    const auto it = scenario_.effects.find(name);
+  /// `needed`: whether the scenario and the scene call for the effect. Throws UserError if the scenario
+  /// switches an effect that it cannot switch.
+  void decide(Effect& effect, bool needed, const std::string& reason, const std::string& bound = "") const {
+    const auto it = scenario_.effects.find(effect.name);
     const Switch wish = it == scenario_.effects.end() ? Switch::automatic : it->second;
-    if (wish == Switch::on && !needed)
-      return {name, true, true, fmt::format("switched on ({})", reason), bound};
-    if (wish == Switch::off && needed)
-      return {name, true, false, fmt::format("switched off ({})", reason), bound};
-    return {name, true, needed, reason, bound};
+    if (!effect.switchable && wish != Switch::automatic)
+      throw_user_error("{}: effects.{}: cannot be switched: it is {} because {}; expected auto",
+                       scenario_.file.empty() ? scenario_.name : scenario_.file.string(), effect.name,
+                       needed ? "on" : "off", reason);
+    effect.on = wish == Switch::automatic ? needed : wish == Switch::on;
+    effect.reason = effect.on == needed ? reason
+                    : effect.on         ? fmt::format("switched on ({})", reason)
+                                        : fmt::format("switched off ({})", reason);
+    effect.bound = bound;
   }
 
  private:

@@ -61,9 +61,9 @@ std::string first_pane(const scene::Scene& scene, const LidarAsks& asks) {
 class LidarPlanner {
  public:
   LidarPlanner(const Planner& planner, bool lidar) : planner_(planner), lidar_(lidar) {}
-  Effect decide(const char* name, bool needed, const std::string& yes, const std::string& no,
-                const std::string& bound = "") const {
-    return planner_.decide(name, lidar_ && needed, !lidar_ ? "no LiDAR" : needed ? yes : no, bound);
+  void decide(Effect& effect, bool needed, const std::string& yes, const std::string& no,
+              const std::string& bound = "") const {
+    planner_.decide(effect, lidar_ && needed, !lidar_ ? "no LiDAR" : needed ? yes : no, bound);
   }
 
  private:
@@ -75,13 +75,13 @@ void plan_motion(EffectPlan& plan, const LidarPlanner& planner, const LidarAsks&
   const bool sweep = asks.sweep_s > 0.0;
   const std::string stale =
       fmt::format("off: poses are up to {:g} s old, {:g} m for every m/s", asks.sweep_s, asks.sweep_s);
-  plan.lidar_sweep_motion = planner.decide(
-      "lidar_sweep_motion", sweep, "shots are spread over a sweep: each from the pose at its own time",
-      "every shot at the tick", sweep ? stale : "");
-  plan.lidar_target_motion = planner.decide(
-      "lidar_target_motion", sweep && offers.moving_triangles,
-      "meshes move during a sweep: each shot meets them where they are at its own time",
-      !sweep ? "every shot at the tick" : "no mesh moves", sweep && offers.moving_triangles ? stale : "");
+  planner.decide(plan.lidar_sweep_motion, sweep,
+                 "shots are spread over a sweep: each from the pose at its own time",
+                 "every shot at the tick", sweep ? stale : "");
+  planner.decide(plan.lidar_target_motion, sweep && offers.moving_triangles,
+                 "meshes move during a sweep: each shot meets them where they are at its own time",
+                 !sweep ? "every shot at the tick" : "no mesh moves",
+                 sweep && offers.moving_triangles ? stale : "");
 }
 
 void plan_air(EffectPlan& plan, const LidarPlanner& planner, const LidarAsks& asks,
@@ -89,20 +89,19 @@ void plan_air(EffectPlan& plan, const LidarPlanner& planner, const LidarAsks& as
   const double extinction = haze_extinction(environment);
   const bool haze = extinction > 0.0;
   const std::string reason = haze ? haze_reason(environment) : "";
-  plan.lidar_haze = planner.decide(
-      "lidar_haze", haze, reason, "neither fog nor rain",
+  planner.decide(
+      plan.lidar_haze, haze, reason, "neither fog nor rain",
       haze ? fmt::format("{:.3g} dB there and back at {:g} m",
                          2.0 * extinction * asks.farthest_m * 10.0 / std::log(10.0), asks.farthest_m)
            : "");
-  plan.lidar_backscatter = planner.decide(
-      "lidar_backscatter", haze && asks.detection,
-      reason + ": drops give light back where it exceeds the threshold",
-      !haze ? "neither fog nor rain"
-            : "no LiDAR has a detection threshold, without which the air would answer every shot",
-      haze && asks.detection
-          ? fmt::format("a gate of {:g} m gives as much as a surface of reflectance {:.2g}", asks.gate_m,
-                        pi * extinction / render::lidar_ratio_sr * asks.gate_m)
-          : "");
+  planner.decide(plan.lidar_backscatter, haze && asks.detection,
+                 reason + ": drops give light back where it exceeds the threshold",
+                 !haze ? "neither fog nor rain"
+                       : "no LiDAR has a detection threshold, without which the air would answer every shot",
+                 haze && asks.detection
+                     ? fmt::format("a gate of {:g} m gives as much as a surface of reflectance {:.2g}",
+                                   asks.gate_m, pi * extinction / render::lidar_ratio_sr * asks.gate_m)
+                     : "");
 }
 
 }  // namespace
@@ -112,29 +111,25 @@ void plan_lidar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   const LidarAsks asks = lidar_asks(scenario);
   const bool lidar = asks.lidars > 0;
   const LidarPlanner effects(planner, lidar);
-  plan.lidar = planner.fixed("lidar", lidar, lidar ? fmt::format("{} of them", asks.lidars) : "no LiDAR");
-  plan.lidar_alpha_mask =
-      effects.decide("lidar_alpha_mask", offers.alpha_mask, "materials have holes", "no material has holes");
-  plan.lidar_textures =
-      effects.decide("lidar_textures", offers.reflectance_textures,
-                     "textures shade reflectances that come from the base colour",
-                     "every textured material states its reflectance, or none has a texture");
+  planner.decide(plan.lidar, lidar, lidar ? fmt::format("{} of them", asks.lidars) : "no LiDAR");
+  effects.decide(plan.lidar_alpha_mask, offers.alpha_mask, "materials have holes", "no material has holes");
+  effects.decide(plan.lidar_textures, offers.reflectance_textures,
+                 "textures shade reflectances that come from the base colour",
+                 "every textured material states its reflectance, or none has a texture");
   plan_motion(plan, effects, asks, offers);
-  plan.lidar_divergence = effects.decide(
-      "lidar_divergence", asks.rings > 0, fmt::format("beams have up to {} rings of sub-rays", asks.rings),
+  effects.decide(
+      plan.lidar_divergence, asks.rings > 0, fmt::format("beams have up to {} rings of sub-rays", asks.rings),
       "no beam has rings of sub-rays: one ray a shot",
       asks.rings > 0 ? fmt::format("a beam is up to {:.2g} m wide at its greatest range", asks.widest_m)
                      : "");
   const std::string pane = lidar ? first_pane(scene, asks) : "";
-  plan.lidar_glass =
-      effects.decide("lidar_glass", !pane.empty(), fmt::format("'{}' lets light through", pane), "no glass",
-                     !pane.empty() ? "a clear pane lets 85 % through there and back" : "");
+  effects.decide(plan.lidar_glass, !pane.empty(), fmt::format("'{}' lets light through", pane), "no glass",
+                 !pane.empty() ? "a clear pane lets 85 % through there and back" : "");
   plan_air(plan, effects, asks, scenario.environment);
-  plan.lidar_detection =
-      effects.decide("lidar_detection", asks.detection, "returns must exceed a detection threshold",
-                     "no detection threshold: every return is detected");
-  plan.lidar_range_noise = effects.decide(
-      "lidar_range_noise", asks.range_std_m > 0.0 || asks.rise_m > 0.0, "ranges have noise",
+  effects.decide(plan.lidar_detection, asks.detection, "returns must exceed a detection threshold",
+                 "no detection threshold: every return is detected");
+  effects.decide(
+      plan.lidar_range_noise, asks.range_std_m > 0.0 || asks.rise_m > 0.0, "ranges have noise",
       "no noise of ranges",
       asks.range_std_m > 0.0 || asks.rise_m > 0.0
           ? fmt::format("standard deviation of {:g} m{}", asks.range_std_m,

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/light/almanac.h"
-#include "renderer/light/atmosphere.h"
+#include "renderer/daylight/almanac.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/twilight.h"
 #include "renderer/light/sky.h"
-#include "renderer/light/twilight.h"
 
 namespace greatx::sim {
 
@@ -25,7 +25,8 @@ struct Lamp {
   double sky_lux() const { return level_lux - direct_lux * std::max(0.0, std::sin(true_elevation)); }
 };
 
-/// Splits level_lux as the model of the air does. Below a degree the disc's light goes to 0 with the elevation.
+/// Splits level_lux as the model of the air does. Below a degree the disc's light goes to 0 with the
+/// elevation.
 void split(Lamp& lamp, const Environment& environment) {
   if (lamp.true_elevation <= 0.0 || lamp.level_lux <= 0.0) return;
   const double at_least = std::max(lamp.true_elevation, radians(1.0));

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the environment as written to the light that falls on the scene: where sun and moon are, how bright they and the
-// sky are, what fog and rain leave of it (docs/light.md).
+// From the environment as written to the light that falls on the scene: where sun and moon are, how bright
+// they and the sky are, what fog and rain leave of it (docs/light.md).
 #pragma once
 
 #include <algorithm>
 
-#include "renderer/light/haze.h"
+#include "renderer/daylight/haze.h"
 #include "renderer/light/lighting.h"
 #include "sim/scenario/optics.h"
 
@@ -28,9 +28,9 @@ struct ResolvedLight {
   double ground_lux() const { return below.direct_lux * std::max(0.0, key.direction.z) + below.sky_lux; }
 };
 
-/// Illuminances that the scenario leaves open follow from the positions: with a place and a time, or when the sun is
-/// below the horizon, or under clouds, by the models of renderer/light/twilight.h; with a sun by hand above the horizon
-/// they are 100 000 lux (sun) and 15 000 lux (sky) whatever its height.
+/// Illuminances that the scenario leaves open follow from the positions: with a place and a time, or when the
+/// sun is below the horizon, or under clouds, by the models of renderer/daylight/twilight.h; with a sun by
+/// hand above the horizon they are 100 000 lux (sun) and 15 000 lux (sky) whatever its height.
 ResolvedLight resolve(const Environment& environment);
 
 /// Of fog and rain, 1/m, one way: for cameras and LiDAR alike.

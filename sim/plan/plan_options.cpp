@@ -11,22 +11,38 @@ scene::GpuSceneOptions gpu_scene_options(const EffectPlan& plan) {
           plan.textures.on || plan.alpha_mask.on || plan.lidar_alpha_mask.on || plan.lidar_textures.on};
 }
 
-render::CameraEffects camera_effects(const EffectPlan& plan) {
-  render::CameraEffects effects;
-  effects.sun = plan.sun.on;
-  effects.sky = plan.sky.on;
-  effects.static_shadows = plan.static_shadows.on;
-  effects.moving_shadows = plan.moving_shadows.on;
-  effects.textures = plan.textures.on;
-  effects.normal_maps = plan.normal_maps.on;
-  effects.alpha_mask = plan.alpha_mask.on;
-  effects.emissive = plan.emissive.on;
-  effects.ambient_occlusion = plan.ambient_occlusion.on;
-  effects.punctual_lights = plan.punctual_lights.on;
-  effects.haze = plan.haze.on;
-  effects.night_sky = plan.night_sky.on;
-  return effects;
+namespace {
+
+struct Passed {
+  render::CameraEffects camera;
+  rf::RadioEffects radio;
+};
+
+// Each row of the effects' table sets the member of its name in the struct that it is passed to.
+#define GREATX_PASS_none(name)
+#define GREATX_PASS_camera(name) passed.camera.name = plan.name.on;
+#define GREATX_PASS_radio(name) passed.radio.name = plan.name.on;
+#define GREATX_PASS_field(name) passed.radio.field.name = plan.name.on;
+#define GREATX_PASS(name, switchable, to, documentation) GREATX_PASS_##to(name)
+
+Passed passed_by(const EffectPlan& plan) {
+  Passed passed;
+  GREATX_EFFECTS(GREATX_PASS)
+  passed.radio.field.scattering = plan.scattering.on;  // a part of what is reflected is scattered instead
+  return passed;
 }
+
+#undef GREATX_PASS
+#undef GREATX_PASS_field
+#undef GREATX_PASS_radio
+#undef GREATX_PASS_camera
+#undef GREATX_PASS_none
+
+}  // namespace
+
+render::CameraEffects camera_effects(const EffectPlan& plan) { return passed_by(plan).camera; }
+
+rf::RadioEffects radio_switches(const EffectPlan& plan) { return passed_by(plan).radio; }
 
 render::Lighting lighting_of(const Environment& environment) { return resolve(environment).lighting; }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "rf/roughness.h"
+#include "rf/surface/roughness.h"
 
 namespace greatx::sim {
 
@@ -64,36 +64,29 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
   const RadarAsks asks = radar_asks(scenario);
   const RadarOffers offers = radar_offers(scene);
   const bool radar = asks.radars > 0;
-  const auto decide = [&](const char* name, bool needed, const std::string& yes, const std::string& no,
+  const auto decide = [&](Effect& effect, bool needed, const std::string& yes, const std::string& no,
                           const std::string& bound = "") {
-    return planner.decide(name, radar && needed, !radar ? "no radar" : needed ? yes : no, bound);
+    planner.decide(effect, radar && needed, !radar ? "no radar" : needed ? yes : no, bound);
   };
-  plan.radar = planner.fixed("radar", radar, radar ? fmt::format("{} of them", asks.radars) : "no radar");
+  planner.decide(plan.radar, radar, radar ? fmt::format("{} of them", asks.radars) : "no radar");
   // Ament's factor of both fields at normal incidence, the most there can be.
   const double most_db =
-      offers.roughness_m > 0.0
-          ? -20.0 * std::log10(rf::roughness_factor(
-                        rf::RoughnessModel::ament,
-                        rf::roughness_parameter(offers.roughness_m, 1.0, asks.shortest_wavelength_m)))
-          : 0.0;
-  plan.radar_roughness = decide(
-      "radar_roughness", most_db > scenario.tolerance_db,
-      fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
-      offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
-      radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
-  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for it.
-  plan.radar_clutter = planner.decide(
-      "radar_clutter", false,
+      offers.roughness_m > 0.0 ? rf::most_roughness_db(offers.roughness_m, asks.shortest_wavelength_m) : 0.0;
+  decide(plan.radar_roughness, most_db > scenario.tolerance_db,
+         fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
+         offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
+         radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
+  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for
+  // it.
+  planner.decide(
+      plan.radar_clutter, false,
       !radar ? "no radar"
       : !offers.scattering
           ? "no material scatters"
           : "surfaces answer as if smooth (effects: {radar_clutter: on} to have what they scatter)");
-  plan.radar_noise =
-      decide("radar_noise", asks.noise, "a receiver has a noise figure", "no receiver has one");
-  plan.radar_phase_noise =
-      decide("radar_phase_noise", asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
-  plan.radar_quantisation =
-      decide("radar_quantisation", asks.adc, "a converter has steps", "no converter is described");
+  decide(plan.radar_noise, asks.noise, "a receiver has a noise figure", "no receiver has one");
+  decide(plan.radar_phase_noise, asks.phase_noise, "an oscillator has phase noise", "no oscillator has any");
+  decide(plan.radar_quantisation, asks.adc, "a converter has steps", "no converter is described");
 }
 
 }  // namespace greatx::sim

@@ -13,9 +13,9 @@
 #include "rf/atmosphere/fog.h"
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/rain.h"
-#include "rf/radio_model.h"
-#include "rf/roughness.h"
-#include "sim/channel/antennas.h"
+#include "rf/paths/radio_model.h"
+#include "rf/surface/roughness.h"
+#include "sim/plan/antennas.h"
 #include "sim/plan/array_plan.h"
 #include "sim/plan/effect_planner.h"
 #include "sim/plan/trajectory_bounds.h"
@@ -25,7 +25,7 @@ namespace greatx::sim {
 namespace {
 
 /// What the channels ask for, and the largest of each.
-struct Asks {
+struct RadioAsks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
   bool every_tick = false, beams = false, rays = false;
@@ -34,7 +34,7 @@ struct Asks {
 };
 
 /// What the scene's surfaces are to radio.
-struct Surfaces {
+struct RadioSurfacesSeen {
   bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
   size_t walls = 0;            ///< materials that let waves pass (rf::dark_wall_db)
   double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
@@ -42,11 +42,11 @@ struct Surfaces {
   double roughness_m = 0.0;
 };
 
-Asks asks_of(const Scenario& scenario) {
-  Asks asks;
+RadioAsks radio_asks_of(const Scenario& scenario) {
+  RadioAsks asks;
   for (const ChannelConfig& channel : scenario.channels) {
     ++asks.channels;
-    asks.max_depth = std::max(asks.max_depth, channel.max_depth);
+    asks.max_depth = std::max(asks.max_depth, channel.limits.max_depth);
     asks.walls = std::max(asks.walls, channel.walls());
     asks.time_samples = std::max(asks.time_samples, channel.time_samples);
     asks.longest_record_s =
@@ -54,14 +54,14 @@ Asks asks_of(const Scenario& scenario) {
     asks.carriers_hz.push_back(channel.carrier_hz);
     asks.highest_hz = std::max(asks.highest_hz, channel.carrier_hz);
     asks.lowest_hz = std::min(asks.lowest_hz, channel.carrier_hz);
-    asks.every_tick |= channel.search == "every_tick";
-    (channel.candidates == "rays" ? asks.rays : asks.beams) = true;
+    asks.every_tick |= channel.search == ChannelConfig::Search::every_tick;
+    (channel.candidates == ChannelConfig::Candidates::rays ? asks.rays : asks.beams) = true;
   }
   return asks;
 }
 
-Surfaces surfaces_of(const scene::Scene& scene, const Asks& asks) {
-  Surfaces surfaces;
+RadioSurfacesSeen radio_surfaces_of(const scene::Scene& scene, const RadioAsks& asks) {
+  RadioSurfacesSeen surfaces;
   std::vector<bool> seen(scene.materials.size(), false);
   for (const scene::Facet& facet : scene.facets) {
     surfaces.triangles = true;
@@ -91,7 +91,8 @@ scene::Bounds widened(const scene::Bounds& bounds, double by_m) {
   return bounds.empty() ? bounds : scene::Bounds{bounds.min - by_m, bounds.max + by_m};
 }
 
-/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with the node.
+/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with
+/// the node.
 void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene::Bounds& bounds) {
   for (const auto* names : {&channel.transmitters, &channel.receivers})
     for (const std::string& name : *names) {
@@ -120,8 +121,8 @@ double largest_body_m(const scene::Scene& scene) {
   return largest;
 }
 
-/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements of antennas,
-/// what moves and reflects, and the points given from outside.
+/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements
+/// of antennas, what moves and reflects, and the points given from outside.
 double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
                       bool moving_reflectors, const scene::Bounds& points) {
   scene::Bounds courses;
@@ -139,30 +140,28 @@ double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint3
 /// The parts of the decision that every function below needs.
 struct Radio {
   const Planner& planner;
-  const Asks& asks;
-  const Surfaces& surfaces;
+  const RadioAsks& asks;
+  const RadioSurfacesSeen& surfaces;
   bool on() const { return asks.channels > 0; }
   /// `reason`, unless there is no channel.
   std::string why(const std::string& reason) const { return on() ? reason : "no channel"; }
 };
 
 void plan_reflection(EffectPlan& plan, const Radio& radio) {
-  const Asks& asks = radio.asks;
-  plan.channel =
-      radio.planner.fixed("channel", radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
-  plan.line_of_sight =
-      radio.planner.decide("line_of_sight", radio.on(), radio.why("transmitters and receivers"));
+  const RadioAsks& asks = radio.asks;
+  radio.planner.decide(plan.channel, radio.on(), radio.why(fmt::format("{} of them", asks.channels)));
+  radio.planner.decide(plan.line_of_sight, radio.on(), radio.why("transmitters and receivers"));
   const bool reflect = radio.on() && asks.max_depth > 0 && radio.surfaces.triangles;
-  plan.reflection = radio.planner.decide(
-      "reflection", reflect,
+  radio.planner.decide(
+      plan.reflection, reflect,
       radio.why(asks.max_depth == 0         ? "max_depth is 0"
                 : !radio.surfaces.triangles ? "the scene has no surface"
                                             : fmt::format("surfaces, up to {} reflections", asks.max_depth)),
       !reflect    ? ""
       : asks.rays ? "candidates from rays: what is narrower than their spacing may be missed"
                   : "candidates from beams: none is missed");
-  plan.moving_reflectors = radio.planner.decide(
-      "moving_reflectors", plan.reflection.on && radio.surfaces.moving && asks.every_tick,
+  radio.planner.decide(
+      plan.moving_reflectors, plan.reflection.on && radio.surfaces.moving && asks.every_tick,
       radio.why(!plan.reflection.on      ? "no reflection"
                 : !radio.surfaces.moving ? "no mesh moves"
                 : asks.every_tick        ? "candidates are searched at every tick"
@@ -172,10 +171,10 @@ void plan_reflection(EffectPlan& plan, const Radio& radio) {
 }
 
 void plan_transmission(EffectPlan& plan, const Radio& radio) {
-  const Surfaces& surfaces = radio.surfaces;
+  const RadioSurfacesSeen& surfaces = radio.surfaces;
   const bool walls = radio.on() && radio.asks.walls > 0 && surfaces.walls > 0;
-  plan.transmission = radio.planner.decide(
-      "transmission", walls,
+  radio.planner.decide(
+      plan.transmission, walls,
       radio.why(
           radio.asks.walls == 0 ? "max_transmissions or max_depth is 0"
           : surfaces.walls == 0
@@ -199,26 +198,24 @@ void deny(Effect& effect) {
 void plan_on_request(EffectPlan& plan, const Radio& radio) {
   const bool deep = radio.on() && radio.asks.max_depth > 0;
   const bool edges = deep && radio.surfaces.edges;
-  plan.diffraction = radio.planner.decide(
-      "diffraction", false,
+  radio.planner.decide(
+      plan.diffraction, false,
       radio.why(edges ? "not asked for (effects: {diffraction: on})"
                       : (deep ? "the scene has no edge" : "max_depth is 0")),
       edges ? "in shadow nothing else may be left; beside a lit path at most 6 dB, at its shadow boundary"
             : "");
   if (plan.diffraction.on && !edges) deny(plan.diffraction);
-  plan.diffraction_lit_region = radio.planner.decide(
-      "diffraction_lit_region", plan.diffraction.on,
+  radio.planner.decide(
+      plan.diffraction_lit_region, plan.diffraction.on,
       plan.diffraction.on ? "keeps the field continuous where a path begins or ends" : "diffraction is off");
-  plan.free_edges =
-      radio.planner.decide("free_edges", false, "edges of one facet alone bound drawings, seldom plates");
+  radio.planner.decide(plan.free_edges, false, "edges of one facet alone bound drawings, seldom plates");
   const bool rough = deep && radio.surfaces.scattering;
-  plan.scattering = radio.planner.decide("scattering", false,
-                                         radio.why(rough ? "not asked for (effects: {scattering: on})"
-                                                         : "no material has a scattering coefficient"));
+  radio.planner.decide(plan.scattering, false,
+                       radio.why(rough ? "not asked for (effects: {scattering: on})"
+                                       : "no material has a scattering coefficient"));
   if (plan.scattering.on && !rough) deny(plan.scattering);
-  plan.dispersion = radio.planner.decide(
-      "dispersion", false,
-      radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
+  radio.planner.decide(plan.dispersion, false,
+                       radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
 }
 
 /// The most that the air does to any path of any channel.
@@ -228,7 +225,7 @@ struct Most {
 };
 using AirBound = double (*)(const rf::Weather&, double frequency_hz, double distance_m);
 
-Most most_of(const Asks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
+Most most_of(const RadioAsks& asks, const rf::Weather& weather, double distance_m, bool (*covers)(double),
              AirBound bound) {
   Most most;
   for (const double carrier : asks.carriers_hz) {
@@ -244,15 +241,15 @@ Most most_of(const Asks& asks, const rf::Weather& weather, double distance_m, bo
 }
 
 /// Gas, rain, fog. Outside its recommendation's range an effect has no bound: it stays off, and says so.
-Effect plan_air(const Radio& radio, const char* name, const Most& most, double longest_m, double tolerance,
-                const std::string& none, const char* source) {
+void plan_air(Effect& effect, const Radio& radio, const Most& most, double longest_m, double tolerance,
+              const std::string& none, const char* source) {
   const bool needed = radio.on() && most.db > tolerance;
   const bool no_bound = !radio.on() || most.db == 0.0;
   const std::string but = most.outside_hz > 0.0 ? fmt::format("; not at {:.4g} GHz, which {} does not cover",
                                                               most.outside_hz * 1e-9, source)
                                                 : std::string();
-  Effect effect = radio.planner.decide(
-      name, needed,
+  radio.planner.decide(
+      effect, needed,
       radio.why(needed ? "more than the tolerance" + but
                 : most.outside_hz > 0.0
                     ? fmt::format("{} does not cover {:.4g} GHz", source, most.outside_hz * 1e-9)
@@ -262,48 +259,45 @@ Effect plan_air(const Radio& radio, const char* name, const Most& most, double l
                : fmt::format("at most {:.3g} dB over {:.0f} m at {:.4g} GHz, tolerance {:.3g} dB", most.db,
                              longest_m, most.carrier_hz * 1e-9, tolerance));
   if (effect.on && most.outside_hz > 0.0 && most.carrier_hz == 0.0)
-    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on", name,
-                     source, most.outside_hz * 1e-9);
-  return effect;
+    throw_user_error("effects: {}: expected auto or off, since {} does not cover {:.4g} GHz; found on",
+                     effect.name, source, most.outside_hz * 1e-9);
 }
 
 /// Effects that a bound decides.
 void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
   const double tolerance = scenario.tolerance_db;
   const rf::Weather weather = weather_of(scenario.environment);
-  const Asks& asks = radio.asks;
+  const RadioAsks& asks = radio.asks;
   const Most gas = most_of(asks, weather, longest_m, rf::gas_model_covers, rf::most_gas_db);
-  plan.gas = plan_air(radio, "gas", gas, longest_m, tolerance, "no air", "P.676-13");
+  plan_air(plan.gas, radio, gas, longest_m, tolerance, "no air", "P.676-13");
   Most rain, fog;
   if (weather.rain_mm_h > 0.0)
     rain = most_of(asks, weather, longest_m, rf::rain_model_covers, rf::most_rain_db);
-  plan.rain = plan_air(radio, "rain", rain, longest_m, tolerance, "no rain", "P.838-3");
+  plan_air(plan.rain, radio, rain, longest_m, tolerance, "no rain", "P.838-3");
   if (weather.fog_g_m3 > 0.0) fog = most_of(asks, weather, longest_m, rf::fog_model_covers, rf::most_fog_db);
-  plan.fog = plan_air(radio, "fog", fog, longest_m, tolerance, "no fog", "P.840");
+  plan_air(plan.fog, radio, fog, longest_m, tolerance, "no fog", "P.840");
   const bool leaves = radio.on() && radio.surfaces.foliage;
-  plan.foliage = radio.planner.decide(
-      "foliage", leaves, radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
-  const double g = rf::roughness_parameter(radio.surfaces.roughness_m, 1.0,
-                                           speed_of_light / std::max(asks.highest_hz, 1.0));
+  radio.planner.decide(plan.foliage, leaves,
+                       radio.why(leaves ? "crowns take from what passes them" : "the scene has none"));
   const double rough_db =
-      asks.max_depth * -20.0 * std::log10(rf::roughness_factor(rf::RoughnessModel::ament, g));
+      asks.max_depth *
+      rf::most_roughness_db(radio.surfaces.roughness_m, speed_of_light / std::max(asks.highest_hz, 1.0));
   const bool rough = plan.reflection.on && rough_db > tolerance;
-  plan.roughness =
-      radio.planner.decide("roughness", rough,
-                           radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
-                                     : rough                           ? "more than the tolerance"
-                                                                       : "within the tolerance"),
-                           radio.surfaces.roughness_m == 0.0 || !radio.on()
-                               ? ""
-                               : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
-                                             rough_db, asks.max_depth, tolerance));
+  radio.planner.decide(plan.roughness, rough,
+                       radio.why(radio.surfaces.roughness_m == 0.0 ? "no material has one"
+                                 : rough                           ? "more than the tolerance"
+                                                                   : "within the tolerance"),
+                       radio.surfaces.roughness_m == 0.0 || !radio.on()
+                           ? ""
+                           : fmt::format("at most {:.3g} dB over {} reflections, tolerance {:.3g} dB",
+                                         rough_db, asks.max_depth, tolerance));
 }
 
 /// Speeds are not known before the run: the Doppler bound is stated per m/s.
 void plan_doppler(EffectPlan& plan, const Radio& radio) {
   const bool doppler = radio.on() && radio.asks.time_samples > 1;
-  plan.doppler = radio.planner.decide(
-      "doppler", doppler,
+  radio.planner.decide(
+      plan.doppler, doppler,
       radio.why(doppler ? fmt::format("{} time samples a record", radio.asks.time_samples)
                         : "one time sample a record: shifts are reported with the paths, phases do not turn"),
       doppler ? fmt::format("{:.3g} turns per m/s within a record",
@@ -325,8 +319,8 @@ rf::Weather weather_of(const Environment& environment) {
 
 void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const scene::Scene& scene,
                 const scene::Bounds& points) {
-  const Asks asks = asks_of(scenario);
-  const Surfaces surfaces = surfaces_of(scene, asks);
+  const RadioAsks asks = radio_asks_of(scenario);
+  const RadioSurfacesSeen surfaces = radio_surfaces_of(scene, asks);
   const Radio radio{planner, asks, surfaces};
   plan_reflection(plan, radio);
   plan_transmission(plan, radio);

@@ -45,7 +45,8 @@ void add_curve(const BezierTrajectory& curve, double beyond, scene::Bounds& boun
   bounds.add(box.max + 3.0 * beyond * last_edge);
 }
 
-/// Half the width and half the height to either side, whichever way the line goes; beyond its end at its one speed.
+/// Half the width and half the height to either side, whichever way the line goes; beyond its end at its one
+/// speed.
 void add_corridor(const CorridorTrajectory& corridor, double beyond, scene::Bounds& bounds) {
   const double across = corridor.width_m + corridor.height_m;
   double longest = corridor.legs * across;  // every leg from one side to the other

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Antennas as a scenario says them.
+// Defines the antennas of a scenario.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace greatx::sim {
 
-/// An array of equal elements, as rf::AntennaArray; lengths in wavelengths at the carrier.
+/// Describes an array of equal elements, as in rf::AntennaArray. Lengths are in wavelengths at the carrier.
 struct AntennaConfig {
   rf::ElementPattern pattern;
   rf::Polarization polarization = rf::Polarization::v;
@@ -19,7 +19,7 @@ struct AntennaConfig {
   rf::ArrayPlane plane = rf::ArrayPlane::yz;
   uint32_t rows = 1, columns = 1;
   double row_spacing_wl = 0.5, column_spacing_wl = 0.5;
-  std::vector<dvec3> elements_wl;  ///< if there are any, they take the place of rows and columns
+  std::vector<dvec3> elements_wl;  ///< if there are any, they replace rows and columns
 };
 
 rf::AntennaArray array_of(const AntennaConfig& config, double carrier_hz);

@@ -11,7 +11,7 @@ namespace {
 
 __extension__ typedef __int128 int128;
 
-/// floor(a / b), b > 0.
+/// Returns floor(a / b), b > 0.
 int128 floor_divide(int128 a, int128 b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 int64_t narrow(int128 value, const char* what) {
@@ -20,7 +20,7 @@ int64_t narrow(int128 value, const char* what) {
   return static_cast<int64_t>(value);
 }
 
-/// round(a / b), half up; b > 0 below 2^64, so that twice the remainder fits.
+/// Returns round(a / b), half up. b is above 0 and below 2^64, so that twice the remainder fits.
 int128 round_divide(int128 a, int128 b) {
   const int128 below = floor_divide(a, b);
   return below + (2 * (a - below * b) >= b ? 1 : 0);
@@ -42,7 +42,7 @@ Rational ratio_of_rates(const Rational& tick_rate_hz, const Rational& rate_hz) {
 double Clock::seconds(int64_t tick) const {
   const int128 numerator = static_cast<int128>(tick) * rate_.denominator;
   constexpr int128 exact = static_cast<int128>(1) << 53;
-  // Both sides exact in fp64: one rounding, so that tick n of n Hz is exactly 1 s.
+  // Both sides are exact in fp64, so that there is one rounding, and tick n of n Hz is exactly 1 s.
   if (numerator <= exact && numerator >= -exact && rate_.numerator <= exact)
     return static_cast<double>(static_cast<int64_t>(numerator)) / static_cast<double>(rate_.numerator);
   const int128 whole = floor_divide(numerator, rate_.numerator);
@@ -71,7 +71,7 @@ int64_t SampleTimes::tick_of(int64_t sample) const {
 
 int64_t SampleTimes::sample_at(int64_t tick) const {
   if (tick < 0) return -1;
-  // A sample lasts one tick or more, so samples fire at distinct ticks, and only the last one not after the
+  // A sample lasts one tick or more, so samples fire at distinct ticks. Only the last sample not after the
   // tick and the one that follows can round to it.
   const int64_t sample = first_at_or_after(tick);
   return tick_of(sample) == tick ? sample : -1;

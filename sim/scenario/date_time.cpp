@@ -19,7 +19,7 @@ class Reader {
     text_.remove_prefix(1);
     return true;
   }
-  /// Exactly `digits` digits whose value is at most `most`; -1 if there are none.
+  /// Reads exactly `digits` digits whose value is at most `most`. Returns -1 if there are none.
   int number(int digits, int most) {
     if (text_.size() < static_cast<size_t>(digits)) return -1;
     int value = 0;
@@ -30,7 +30,7 @@ class Reader {
     text_.remove_prefix(digits);
     return value <= most ? value : -1;
   }
-  /// Digits after a decimal point, one at least.
+  /// Reads the digits after a decimal point, at least one.
   std::optional<double> fraction() {
     double value = 0.0, scale = 0.1;
     bool any = false;

@@ -7,12 +7,14 @@
 
 namespace greatx::sim {
 
-/// UTC seconds since 1970-01-01T00:00:00Z of a date and time as RFC 3339, section 5.6, writes it, with its offset:
-/// "2026-06-21T12:00:00+02:00", "2026-06-21T10:00:00.25Z". A space may stand for the T; a leap second counts as the next
-/// minute's first. Nothing if it is not well formed or no such day or time exists. Gregorian calendar, years 0 to 9999.
+/// Returns the UTC seconds since 1970-01-01T00:00:00Z of a date and time with its offset, in the form of RFC
+/// 3339, section 5.6: "2026-06-21T12:00:00+02:00", "2026-06-21T10:00:00.25Z". A space may stand for the T. A
+/// leap second counts as the first second of the next minute. The result is empty if the text is not well
+/// formed or no such day or time exists. The calendar is Gregorian, for years 0 to 9999.
 std::optional<double> parse_date_time(std::string_view text);
 
-/// 1900 to 2150: the years for which sun and moon are known (renderer/light/almanac.h), as seconds since 1970.
+/// The years 1900 to 2150, for which sun and moon are known (renderer/daylight/almanac.h), as seconds since
+/// 1970.
 inline constexpr double first_known_instant = -2208988800.0, last_known_instant = 5711817600.0;
 
 }  // namespace greatx::sim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scenario says of light, weather and the sensors that see light.
+// Defines the part of a scenario about light, weather and the sensors that see light.
 #pragma once
 
 #include <array>
@@ -12,11 +12,12 @@
 
 #include "core/units.h"
 #include "core/vec.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 
 namespace greatx::sim {
 
-/// Where on the Earth the scene's origin is, and when: sun and moon follow from it (renderer/light/almanac.h).
+/// Holds the place of the scene's origin on the Earth, and the time. Sun and moon follow from them
+/// (renderer/daylight/almanac.h).
 struct PlaceAndTime {
   double latitude = 0.0, longitude = 0.0;  ///< rad, north and east positive (WGS 84)
   double height_m = 0.0;                   ///< above the sea
@@ -24,24 +25,24 @@ struct PlaceAndTime {
   double unix_s = 0.0;                     ///< the same instant, UTC seconds since 1970
 };
 
-/// The moon, where no place and time give it.
+/// Describes the moon, if it does not follow from place and time.
 struct MoonConfig {
   double azimuth = 0.0, elevation = 0.0;  ///< rad, as the sun's
   std::optional<double> phase_angle;      ///< rad, 0 full, pi new; none: from the angle between sun and moon
   std::optional<double> illuminance_lux;  ///< on a surface facing the moon; none: from phase and elevation
 };
 
-/// What is above the scene.
+/// Names the state of the sky above the scene.
 enum class SkyKind { automatic, clear, overcast };
 
-/// Light from outside and the air between. What follows from it: sim/plan/light_plan.h.
+/// Describes the light from outside and the air between. sim/plan/light_plan.h derives the rest from it.
 struct Environment {
   std::optional<PlaceAndTime> place;  ///< given instead of the positions below
   double sun_azimuth = -0.25 * pi;    ///< rad, from x (east) towards y (north): the direction to the sun
   double sun_elevation = 0.25 * pi;   ///< rad above the horizon
   std::optional<double> sun_illuminance_lux;  ///< on a surface facing the sun
   std::optional<MoonConfig> moon;
-  std::optional<double> moon_illuminance_lux;  ///< with a place: instead of the model's
+  std::optional<double> moon_illuminance_lux;  ///< with a place: replaces the model's value
   std::optional<double> sky_illuminance_lux;   ///< on the ground from the sky alone
   SkyKind sky = SkyKind::automatic;  ///< automatic: overcast where it rains, unless the sun's light is given
   double sky_glow_cd_m2 = 0.0;       ///< of a city's lamps in the night sky, at the zenith
@@ -54,32 +55,33 @@ struct Environment {
   double fog_height_m = 100.0;  ///< of fog and rain above the scene, for light from above
 };
 
-/// Of a lens; docs/film.md.
+/// These types describe a lens (docs/film.md).
 using render::Distortion, render::Vignetting;
 
-/// How much light is taken. `automatic` meters each picture by itself, so that no picture depends on another.
+/// Describes the exposure of a picture. `automatic` meters each picture by itself, so that no picture depends
+/// on another.
 struct Exposure {
   bool automatic = false;
-  double ev100 = 15.0;           ///< EV at ISO 100; of `automatic`: ignored
-  double compensation_ev = 0.0;  ///< of `automatic`: positive is brighter
-  std::optional<double>
-      shutter_s;  ///< exposure time; what moves meanwhile is blurred if `motion_blur_samples` > 0
+  double ev100 = 15.0;           ///< EV at ISO 100; ignored if `automatic`
+  double compensation_ev = 0.0;  ///< if `automatic`: positive is brighter
+  /// Exposure time. Objects that move meanwhile are blurred if `motion_blur_samples` > 0.
+  std::optional<double> shutter_s;
 };
 
-/// Of a sensor of light: electrons and digital numbers.
+/// Describes the noise of a sensor of light: electrons and digital numbers.
 struct SensorNoise {
   double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
   uint32_t bits = 12;            ///< of the converter
 };
 
-/// Intrinsics, shared by cameras and event cameras. Pixels.
+/// Holds the intrinsics that cameras and event cameras share, in pixels.
 struct PinholeConfig {
   uint32_t width = 640, height = 480;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if the user gave that
   double near_m = 0.1;
   uint32_t msaa = 1;         ///< samples per pixel of the colour: 1 or 4
-  bool smooth_edges = true;  ///< of one sample: outlines are blended by their share of the pixel
+  bool smooth_edges = true;  ///< with one sample: outlines are blended by their share of the pixel
   Distortion distortion;
 };
 
@@ -88,21 +90,21 @@ struct CameraConfig : PinholeConfig {
   uint32_t motion_blur_samples = 0;  ///< instants within the shutter time, an odd number; 0: sharp
   Vignetting vignetting;
   std::optional<SensorNoise> noise;
-  // What to deliver.
+  // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
   bool hdr = false;  ///< also the linear radiance as EXR
   bool depth_png24 = true, depth_log = false;
   bool depth_ray = false;  ///< along the ray
   bool normals = false, flow = false, boxes = false;
-  std::vector<std::string>
-      box_classes;  ///< semantic classes that get boxes; empty: everything but ground and buildings
+  /// Semantic classes that get boxes. Empty: everything but ground and buildings.
+  std::vector<std::string> box_classes;
   bool see_own_body = false;
 };
 
-/// An event camera (docs/events.md): brightness changes instead of pictures.
+/// Describes an event camera (docs/events.md), which measures changes of brightness instead of pictures.
 struct EventCameraConfig : PinholeConfig {
-  /// Name of the camera of the same node that has the same pixels, as a DAVIS sensor's: at its samples the pictures are that
-  /// camera's; PinholeConfig, mount and see_own_body too. Empty: none.
+  /// The name of the camera of the same node that has the same pixels, as in a DAVIS sensor. At its samples
+  /// the pictures are that camera's, and PinholeConfig, mount and see_own_body are too. Empty: none.
   std::string camera;
   uint32_t substeps = 4;  ///< pictures an interval between two samples; adaptive: at most
   enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
@@ -114,12 +116,12 @@ struct EventCameraConfig : PinholeConfig {
   double leak_rate_hz = 0.0, shot_rate_hz = 0.0;
   double cutoff_hz = 0.0;             ///< bandwidth of the photoreceptor in bright light; 0: unlimited
   double dark_cd_m2 = 1e-3;           ///< epsilon of log(epsilon + luminance)
-  double bright_cd_m2 = 1000.0;       ///< light in which bandwidth is full and shot noise least
-  uint32_t max_events_per_pixel = 0;  ///< of the buffer, on average an interval; 0: chosen
-  bool events = true, differences = false, instance = false;  ///< what to deliver
+  double bright_cd_m2 = 1000.0;       ///< the light in which bandwidth is full and shot noise least
+  uint32_t max_events_per_pixel = 0;  ///< size of the buffer, on average an interval; 0: chosen
+  bool events = true, differences = false, instance = false;  ///< the outputs to deliver
   bool hdf5 = false, text = false;                   ///< DSEC's HDF5, v2e's text beside the npy files
   double difference_on = 0.1, difference_off = 0.1;  ///< thresholds of the difference image, over L_max
-  double difference_ev100 = 15.0;                    ///< exposure whose L_max that is
+  double difference_ev100 = 15.0;                    ///< the exposure of that L_max
   bool see_own_body = false;
 };
 

@@ -33,10 +33,10 @@ std::optional<Rational> reduced(int128 numerator, int128 denominator) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// digits[.digits][e[+-]digits] as an exact fraction; the text must be used up.
+/// Parses digits[.digits][e[+-]digits] as an exact fraction. It must use up the text.
 std::optional<Rational> parse_decimal(std::string_view text) {
-  constexpr int128 limit =
-      static_cast<int128>(max_int64) * 1'000'000'000;  // far from overflow after times ten
+  // Far from overflow after a multiplication by ten.
+  constexpr int128 limit = static_cast<int128>(max_int64) * 1'000'000'000;
   int128 numerator = 0, denominator = 1;
   size_t at = 0, digits = 0;
   bool fraction = false;

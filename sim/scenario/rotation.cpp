@@ -21,7 +21,7 @@ Rational ratio(const Rational& rate_hz, const Rational& tick_rate_hz) {
 
 double fraction(double turns) {
   const double rest = turns - std::floor(turns);
-  return rest < 1.0 ? rest : 0.0;  // a hair below 0 rounds to 1
+  return rest < 1.0 ? rest : 0.0;  // a value just below 0 rounds to 1
 }
 
 }  // namespace
@@ -37,8 +37,8 @@ double Rotation::turns(double time_s) const {
   const double ticks = time_s * clock_.tick_rate_hz().value();
   GREATX_CHECK(std::abs(ticks) < most_ticks, "time {} s", time_s);
   const int64_t tick = std::llround(ticks);
-  const int64_t period =
-      turns_per_tick_.denominator;  // ticks after which the same share of a turn comes back
+  // The ticks after which the same share of a turn comes back.
+  const int64_t period = turns_per_tick_.denominator;
   const int128 rest = static_cast<int128>(tick % period) * (turns_per_tick_.numerator % period) % period;
   const double at_tick = static_cast<double>(static_cast<int64_t>(rest)) / static_cast<double>(period);
   const double since_tick = rate_.hz.value() * (time_s - clock_.seconds(tick));

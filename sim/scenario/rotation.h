@@ -7,21 +7,22 @@
 
 namespace greatx::sim {
 
-/// A constant rate of turning.
+/// Describes a constant rate of turning.
 struct TurnRate {
-  Rational hz;            ///< its size
+  Rational hz;            ///< the size of the rate
   bool negative = false;  ///< clockwise as seen from the axis' tip
   double value_hz() const { return negative ? -hz.value() : hz.value(); }
 };
 
-/// A constant turn about an axis, without drift: whole turns between ticks are taken off in integers before anything is
-/// rounded, and from the nearest tick on the time is a small number.
+/// Represents a constant turn about an axis, without drift. Whole turns between ticks are taken off in
+/// integers before anything is rounded. From the nearest tick on, the time is a small number.
 class Rotation {
  public:
-  /// `start_turns`: at tick 0. The ratio of both rates must fit 64-bit integers (ContractError).
+  /// `start_turns` is the share at tick 0. The ratio of both rates must fit 64-bit integers (ContractError).
   Rotation(const Rational& tick_rate_hz, const TurnRate& rate, double start_turns);
-  /// Share of a turn, [0, 1). At a tick (time_s = Clock::seconds) exact but for one rounding, after any number of turns;
-  /// between ticks as exact as time_s is. Time within +-9e18 ticks.
+  /// Returns the share of a turn, [0, 1). At a tick (time_s = Clock::seconds) it is exact but for one
+  /// rounding, after any number of turns. Between ticks it is as exact as time_s is. The time is within
+  /// +-9e18 ticks.
   double turns(double time_s) const;
   double rate_hz() const { return rate_.value_hz(); }  ///< right-handed about the axis
 

@@ -2,95 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scenario/scenario.h"
 
-#include <algorithm>
-#include <array>
-
-#include "core/activity.h"
-#include "core/input_file.h"
-#include "core/units.h"
-#include "sim/scenario/scenario_parse.h"
+#include "core/error.h"
 
 namespace greatx::sim {
-namespace {
-
-/// Ticks whose time lies in [0, duration).
-int64_t ticks_of_duration(const Field& field, const Rational& tick_rate_hz) {
-  const Rational duration = field.rational("a duration greater than 0 in seconds");
-  const auto ticks = product(duration, tick_rate_hz);
-  const int64_t whole =
-      ticks ? ticks->numerator / ticks->denominator + (ticks->numerator % ticks->denominator ? 1 : 0) : 0;
-  if (!ticks || whole > most_ticks)
-    field.fail(fmt::format("a duration of at most {} ticks of 1/{} s", most_ticks, tick_rate_hz.str()));
-  return whole;
-}
-
-void parse_time(const FieldMap& map, Scenario& scenario) {
-  if (const auto f = map.find("tick_rate_hz"))
-    scenario.tick_rate_hz = f->rational("a rate greater than 0 such as 1000, 29.97 or 30000/1001");
-  map.exclude("duration_s", "ticks");
-  if (const auto f = map.find("ticks"))
-    scenario.ticks = static_cast<int64_t>(f->integer(1, most_ticks));
-  else
-    scenario.ticks = ticks_of_duration(map.require("duration_s", "a duration in seconds (or 'ticks')"),
-                                       scenario.tick_rate_hz);
-  if (const auto f = map.find("trajectory_ticks"))
-    scenario.trajectory_ticks = static_cast<int64_t>(f->integer(1, most_ticks));
-}
-
-std::map<std::string, Switch> parse_effects(const Field& field) {
-  constexpr Switch switches[] = {Switch::automatic, Switch::on, Switch::off};
-  std::map<std::string, Switch> effects;
-  for (const auto& [name, value] : entries_of(field))
-    effects[name] = switches[value.choice({"auto", "on", "off"})];
-  return effects;
-}
-
-/// Names that would share a folder or a body.
-void check_names(const Field& root, const Scenario& scenario) {
-  for (const auto& [key, field] : entries_of(root)) {
-    if (key != "channels") continue;
-    for (const Field& channel : field.list("channels"))
-      for (const auto& [name_key, name] : entries_of(channel))
-        for (const NodeConfig& node : scenario.nodes)
-          if (name_key == "name" && name.text() == node.name)
-            name.fail("a name that no node has", fmt::format("'{}', a node's", node.name));
-  }
-  for (const NodeConfig& node : scenario.nodes)
-    for (const StaticObject& object : scenario.scene.objects)
-      if (object.name == node.name)
-        throw_user_error_at(node.where, "nodes: expected a name that no object of the scene has, found '{}'",
-                            node.name);
-}
-
-}  // namespace
-
-Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
-                        const std::filesystem::path& assets) {
-  const Field root = Field::parse(text, name, folder, assets);
-  const FieldMap map(
-      root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks", "tick_rate_hz",
-             "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});
-  map.require("greatx", "1 (the format's version)").choice({"1"});
-
-  Scenario scenario;
-  scenario.text = text;
-  scenario.name = map.require("name", "a name").name();
-  if (const auto f = map.find("seed")) scenario.seed = f->integer(0);
-  if (const auto f = map.find("sequences")) scenario.sequences = f->integer32(1, most_sequences);
-  parse_time(map, scenario);
-  if (const auto f = map.find("scene")) scenario.scene = parse_scene(*f);
-  if (const auto f = map.find("environment")) scenario.environment = parse_environment(*f);
-  if (const auto f = map.find("nodes")) scenario.nodes = parse_nodes(*f, scenario.tick_rate_hz);
-  if (const auto f = map.find("channels")) {
-    scenario.channels = parse_channels(*f, scenario.tick_rate_hz, scenario.nodes);
-    if (scenario.scene.optical_only && !scenario.channels.empty())
-      f->fail("no channels, for scene.optical_only is true", fmt::format("{}", scenario.channels.size()));
-  }
-  if (const auto f = map.find("effects")) scenario.effects = parse_effects(*f);
-  if (const auto f = map.find("tolerance_db")) scenario.tolerance_db = f->non_negative();
-  check_names(root, scenario);
-  return scenario;
-}
 
 std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name) {
   for (uint32_t node = 0; node < nodes.size(); ++node)
@@ -103,21 +17,6 @@ SensorPlace sensor_place(const Scenario& scenario, const std::string& name) {
   const std::optional<SensorPlace> place = find_sensor(scenario.nodes, name);
   GREATX_CHECK(place.has_value(), "no sensor '{}', which the parser let pass", name);
   return *place;
-}
-
-Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets) {
-  const Activity activity("reading the scenario");
-  const std::string name = file.string();
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw_user_error("{}: expected a scenario file, found no such file", name);
-  if (!std::filesystem::is_regular_file(file, error))
-    throw_user_error("{}: expected a scenario file, found something else than a regular file", name);
-  const std::string text =
-      InputFile(file, fmt::format("{}: expected a readable scenario", name), budget::yaml_file).text();
-  Scenario scenario = parse_scenario(text, name, std::filesystem::absolute(file).parent_path(), assets);
-  scenario.file = std::filesystem::absolute(file).lexically_normal();
-  return scenario;
 }
 
 }  // namespace greatx::sim

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario as the user wrote it: what is in the world, who moves how, which sensors fire when. Plain data,
-// no behaviour; docs/scenario.md documents every field, docs/scenario.schema.json checks it in an editor.
+// Defines a scenario as the user wrote it: the things in the world, their motion, and the sensors with their
+// rates. It is plain data without behaviour. docs/scenario.md documents every field, and
+// docs/scenario.schema.json checks it in an editor.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,9 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "core/vec.h"
-#include "renderer/lidar/returns.h"
-#include "renderer/lidar/scan_pattern.h"
+#include "renderer/lidar/scan/returns.h"
+#include "renderer/lidar/scan/scan_pattern.h"
+#include "rf/config/path_limits.h"
 #include "sim/scenario/antenna.h"
 #include "sim/scenario/limits.h"
 #include "sim/scenario/optics.h"
@@ -29,10 +31,9 @@
 
 namespace greatx::sim {
 
-// ---------------------------------------------------------------------------------------------- what is in
-// the world
+// --------------------------------------------------------------------------------------- things in the world
 
-/// A scene or model made by the generator (scene/generator) instead of read from a file.
+/// Describes a scene or model that the generator (scene/generator) makes, instead of one read from a file.
 struct Generated {
   std::string kind;  ///< city, country, canyon, room, mast, car, quadrotor
   uint64_t seed = 1;
@@ -40,13 +41,13 @@ struct Generated {
   std::string variant;    ///< quadrotor: small, medium, large; car: hatchback, van
 };
 
-/// Where a mesh comes from.
+/// Names the source of a mesh.
 struct ModelSource {
   std::variant<std::filesystem::path, Generated> source;  ///< path: absolute after parsing
   SourceLocation where;
 };
 
-/// A model that never moves.
+/// Describes a model that never moves.
 struct StaticObject {
   std::string name;
   ModelSource model;
@@ -63,8 +64,7 @@ struct SceneConfig {
   bool optical_only = false;
 };
 
-// ------------------------------------------------------------------------------------------------- who moves
-// and how
+// ---------------------------------------------------------------------------------------------------- motion
 
 struct StaticTrajectory {
   dvec3 position_m{0.0};
@@ -77,47 +77,46 @@ struct WayPoint {
   std::optional<dquat> orientation;
 };
 
-/// Way-points with times, in the file or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]). Positions by
-/// a C1 cubic Hermite (Catmull-Rom tangents for uneven times) or linear; attitude by slerp, or along the
-/// velocity if none given.
+/// Holds way-points with times, in the scenario or in a CSV (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]).
+/// Positions follow a C1 cubic Hermite curve (Catmull-Rom tangents for uneven times) or straight lines. The
+/// attitude is interpolated by slerp, or follows the velocity if none is given.
 struct WayPointTrajectory {
   std::vector<WayPoint> points;  ///< at least one, times ascending
   bool smooth = true;
 };
 
-/// Cubic Bezier curve in a box: start and end drawn from the seed within `min`..`max` and at d_min..d_max
-/// from a node; P1 and P2 are the thirds of the chord plus offsets drawn within +-offset; B(u) sampled
-/// uniformly over the duration.
+/// Describes a cubic Bezier curve in a box. Start and end are drawn from the seed within `min`..`max` and at
+/// d_min..d_max from a node. P1 and P2 are the thirds of the chord plus offsets drawn within +-offset. B(u)
+/// is sampled uniformly over the duration.
 struct BezierTrajectory {
   dvec3 min_m{0.0}, max_m{0.0};
   std::string reference_node;  ///< empty: no distance limit
   double min_distance_m = 0.0, max_distance_m = 1e9;
   dvec3 offset_m{0.0};
-  /// All four control points given instead of drawn.
+  /// The four control points, if they are given and not drawn.
   std::optional<std::array<dvec3, 4>> control_points;
 };
 
-/// Spatially constrained random linear interpolation: straight legs between points drawn within `width_m`,
-/// `height_m` of a centre line, at a constant speed.
+/// Describes spatially constrained random linear interpolation: straight legs at a constant speed, between
+/// points drawn within `width_m`, `height_m` of a centre line.
 struct CorridorTrajectory {
-  std::vector<dvec3> center_line_m;  ///< two points at least
+  std::vector<dvec3> center_line_m;  ///< at least two points
   double width_m = 0.0, height_m = 0.0;
   int legs = 4;
 };
 
 using Trajectory = std::variant<StaticTrajectory, WayPointTrajectory, BezierTrajectory, CorridorTrajectory>;
 
-// ------------------------------------------------------------------------------------------------------- the
-// sensors
+// --------------------------------------------------------------------------------------------------- sensors
 
-/// 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
+/// Holds the 6-DoF offset of a sensor from its node's frame (x forward, y left, z up).
 struct Mount {
   dvec3 position_m{0.0};
   dvec3 rotation{0.0};  ///< yaw, pitch, roll, rad
 };
 
 struct LidarConfig {
-  render::Scan scan;  ///< elevations from the first ring up or down as given
+  render::Scan scan;  ///< elevations in the order given, from the first ring up or down
   double min_range_m = 0.5, max_range_m = 120.0;
   double wavelength_nm = 905.0;  ///< 905 or 1550
   bool see_own_body = false;
@@ -127,7 +126,7 @@ struct LidarConfig {
   render::Receiver receiver;  ///< without the air
   struct Outputs {
     bool points = true, ply = true, pcd = false, kitti = false;
-    bool clouds() const { return ply || pcd; }  ///< files that hold every array, not bare points alone
+    bool clouds() const { return ply || pcd; }  ///< files that hold every array, not only bare points
   } outputs;
 };
 
@@ -139,7 +138,7 @@ struct SensorConfig {
   SourceLocation where;
 };
 
-/// Parts of a node's model that turn on it at a constant rate: rotors, wheels.
+/// Describes parts of a node's model that turn on it at a constant rate: rotors, wheels.
 struct PartConfig {
   std::vector<std::string> nodes;  ///< the model's glTF nodes by name, '*', '?' and [] as in file names
   dvec3 axis{0.0, 0.0, 1.0};    ///< through the glTF node's origin, in its own frame, z up; any length but 0
@@ -160,7 +159,7 @@ struct NodeConfig {
   SourceLocation where;
 };
 
-/// Channel state information from transmit antennas to receive antennas.
+/// Describes channel state information from transmit antennas to receive antennas.
 struct ChannelConfig {
   std::string name;
   std::vector<std::string> transmitters;  ///< "node/sensor"
@@ -171,23 +170,20 @@ struct ChannelConfig {
   uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
   uint32_t time_samples = 1;   ///< per record, by Doppler
   double time_spacing_s = 1e-3;
-  uint32_t max_depth = 3;  ///< interactions on a path: reflections, walls passed, a diffraction or scattering
   static constexpr uint32_t most_walls = 8;  ///< on a path; shared::crossings_max
-  std::optional<uint32_t>
-      max_transmissions;  ///< of them walls passed; none given: max_depth, most_walls if that is more
-  uint32_t max_reflections_after =
-      0;  ///< of them reflections between a diffraction or scattering and the searched-for end
-  /// Of them reflections between the end that is searched from and a scattering.
-  uint32_t max_reflections_before_scattering = 1;
-  double scattering_patch_m = 10.0;  ///< longest side of the pieces that scatter as one
-  uint32_t max_paths = 100'000;      ///< geometric paths of a link and tick; what is beyond is reported
-  std::string candidates = "beams";  ///< beams (nothing lost) or rays (shooting and bouncing)
-  uint32_t rays = 1u << 19;          ///< launched per search, if candidates come from rays
-  std::string search = "auto";       ///< auto, once (from a static end), every_tick
+  rf::PathLimits limits{
+      .max_transmissions = most_walls, .max_reflections_before_scattering = 1, .max_paths = 100'000};
+  /// Beams lose nothing; rays are shot and bounce.
+  enum class Candidates { beams, rays };
+  Candidates candidates = Candidates::beams;
+  uint32_t rays = 1u << 19;  ///< launched per search, if candidates come from rays
+  /// Once: from an end that stands still.
+  enum class Search { automatic, once, every_tick };
+  Search search = Search::automatic;
   /// Which arrays are written besides those of every link.
   struct Outputs {
     bool cfr = true, paths = true;
-    bool cfr_parts = false;  ///< the line of sight and all else apart
+    bool cfr_parts = false;  ///< the line of sight, and all other paths, separately
     bool coherence = false;  ///< bandwidth and time
   } outputs;
   struct Taps {
@@ -198,12 +194,12 @@ struct ChannelConfig {
   std::optional<Taps> taps;
   std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
   double resistance_ohm = 50.0;     ///< of each receive port
-  uint32_t walls() const { return std::min(max_transmissions.value_or(most_walls), max_depth); }
+  /// Walls that a path may pass.
+  uint32_t walls() const { return std::min(limits.max_transmissions, limits.max_depth); }
   SourceLocation where;
 };
 
-// ------------------------------------------------------------------------------------------------------ all
-// together
+// ------------------------------------------------------------------------------------------------- the whole
 
 enum class Switch { automatic, on, off };
 
@@ -215,7 +211,8 @@ struct Scenario {
   uint32_t sequences = 1;  ///< runs of the same scenario, each with its own draws
   Rational tick_rate_hz{1000, 1};
   int64_t ticks = 0;  ///< per sequence
-  /// That Bezier curves and corridors last; none given: `ticks`. A run may be shorter or longer than they are.
+  /// The ticks that Bezier curves and corridors last. If they are not given, it is `ticks`. A run may be
+  /// shorter or longer.
   std::optional<int64_t> trajectory_ticks;
   int64_t curve_ticks() const { return trajectory_ticks.value_or(ticks); }
   SceneConfig scene;
@@ -223,24 +220,15 @@ struct Scenario {
   std::vector<NodeConfig> nodes;
   std::vector<ChannelConfig> channels;
   std::map<std::string, Switch> effects;  ///< by the names of sim/plan/effect_plan.h
-  double tolerance_db = 0.01;             ///< an effect that cannot matter more than this stays off
+  double tolerance_db = 0.01;             ///< an effect whose influence cannot exceed this stays off
 };
 
-/// Where a sensor called "node/sensor" is.
+/// Holds the indices of a sensor called "node/sensor".
 struct SensorPlace {
   uint32_t node = 0, sensor = 0;  ///< indices into Scenario::nodes, NodeConfig::sensors
 };
 std::optional<SensorPlace> find_sensor(const std::vector<NodeConfig>& nodes, const std::string& name);
-/// Of a name that the parser has checked, such as a channel's ends.
+/// Returns the place of a name that the parser has checked, such as an end of a channel.
 SensorPlace sensor_place(const Scenario& scenario, const std::string& name);
-
-/// Reads a scenario. Throws UserError "file:line: field: expected ..., found ..." at the first fault; unknown
-/// keys are faults. Checks every rule that needs no scene (rates, names, ranges, references between nodes and
-/// sensors).
-/// A relative path that does not exist beside the scenario is looked for in `assets`, if that is not empty.
-Scenario load_scenario(const std::filesystem::path& file, const std::filesystem::path& assets = {});
-/// The same from text; relative paths are taken from `folder`. `name` stands for the file in messages.
-Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
-                        const std::filesystem::path& assets = {});
 
 }  // namespace greatx::sim

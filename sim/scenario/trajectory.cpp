@@ -35,9 +35,9 @@ namespace {
 
 constexpr int most_tries = 100'000;
 
-class StaticPath : public Path {
+class StaticCourse : public Course {
  public:
-  explicit StaticPath(const Pose& pose) { motion_.pose = pose; }
+  explicit StaticCourse(const Pose& pose) { motion_.pose = pose; }
   Motion at(double) const override { return motion_; }
   bool is_static() const override { return true; }
 
@@ -45,17 +45,17 @@ class StaticPath : public Path {
   Motion motion_;
 };
 
-std::unique_ptr<Path> make_path(const StaticTrajectory& trajectory) {
+std::unique_ptr<Course> make_course(const StaticTrajectory& trajectory) {
   const dvec3& turn = trajectory.rotation;
-  return std::make_unique<StaticPath>(
+  return std::make_unique<StaticCourse>(
       Pose{trajectory.position_m, orientation_from_yaw_pitch_roll(turn.x, turn.y, turn.z)});
 }
 
-std::unique_ptr<Path> make_path(const WayPointTrajectory& trajectory) {
+std::unique_ptr<Course> make_course(const WayPointTrajectory& trajectory) {
   const std::vector<WayPoint>& points = trajectory.points;
   GREATX_CHECK(!points.empty(), "a trajectory of no way-points");
   if (points.size() == 1)
-    return std::make_unique<StaticPath>(
+    return std::make_unique<StaticCourse>(
         Pose{points[0].position_m, points[0].orientation.value_or(dquat(1.0, 0.0, 0.0, 0.0))});
   const std::vector<dvec3> velocities = way_point_velocities(points);
   std::vector<CurveSegment> segments;
@@ -69,14 +69,14 @@ std::unique_ptr<Path> make_path(const WayPointTrajectory& trajectory) {
   }
   for (const WayPoint& point : points)
     if (point.orientation) attitudes.push_back(*point.orientation);
-  return std::make_unique<CurvePath>(std::move(segments), std::move(attitudes), Beyond::hold);
+  return std::make_unique<CurveCourse>(std::move(segments), std::move(attitudes), Beyond::hold);
 }
 
-/// What a Bezier trajectory's end has to keep to.
+/// Holds the conditions on an end of a Bezier trajectory.
 struct EndLimits {
   const NodeConfig& node;
   const BezierTrajectory& trajectory;
-  const Path* reference;  ///< nullptr: the box alone
+  const Course* reference;  ///< nullptr: only the box
 };
 
 [[noreturn]] void no_end(const EndLimits& limits, const dvec3& center, const std::string& found) {
@@ -110,7 +110,7 @@ dvec3 draw_end(const EndLimits& limits, double time_s, RandomStream& random) {
   no_end(limits, center, fmt::format("none in {} draws", most_tries));
 }
 
-std::unique_ptr<Path> make_path(const EndLimits& limits, double duration_s, RandomStream& random) {
+std::unique_ptr<Course> make_course(const EndLimits& limits, double duration_s, RandomStream& random) {
   const BezierTrajectory& t = limits.trajectory;
   std::array<dvec3, 4> points{};
   if (t.control_points) {
@@ -124,11 +124,12 @@ std::unique_ptr<Path> make_path(const EndLimits& limits, double duration_s, Rand
       points[middle] = points[0] + (points[3] - points[0]) * (middle / 3.0) + offset;
     }
   }
-  return std::make_unique<CurvePath>(std::vector{CurveSegment::bezier(0.0, duration_s, points)},
-                                     std::vector<dquat>{}, Beyond::straight);
+  return std::make_unique<CurveCourse>(std::vector{CurveSegment::bezier(0.0, duration_s, points)},
+                                       std::vector<dquat>{}, Beyond::straight);
 }
 
-/// Legs of each section of the centre line: one at least, the others one by one to where they are longest.
+/// Returns the legs of each section of the centre line. Each section has one, and the others go one by one to
+/// where legs are longest.
 std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   std::vector<int> legs(line.size() - 1, 1);
@@ -142,7 +143,8 @@ std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   return legs;
 }
 
-/// Axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical line), up is the rest.
+/// Holds the axes of the cross-section perpendicular to `along`: across is horizontal (y for a vertical
+/// line), and up is perpendicular to both.
 struct CrossSection {
   dvec3 across, up;
   explicit CrossSection(const dvec3& along) {
@@ -152,14 +154,15 @@ struct CrossSection {
   }
 };
 
-/// An offset from the centre line, uniform in the cross-section.
+/// Returns an offset from the centre line, uniform in the cross-section.
 dvec3 draw_offset(const CrossSection& section, const CorridorTrajectory& corridor, RandomStream& random) {
   const double a = random.uniform(-0.5 * corridor.width_m, 0.5 * corridor.width_m);
   const double b = random.uniform(-0.5 * corridor.height_m, 0.5 * corridor.height_m);
   return a * section.across + b * section.up;
 }
 
-/// The part of `offset` that stays inside the corridor along `section` (a bend in both planes leans its cross-section).
+/// Returns the part of `offset` that stays inside the corridor along `section` (a bend in both planes leans
+/// its cross-section).
 double inside_part(const dvec3& offset, const CrossSection& section, const CorridorTrajectory& corridor) {
   const auto part = [](double value, double limit) {
     return std::abs(value) > limit ? limit / std::abs(value) : 1.0;
@@ -169,7 +172,8 @@ double inside_part(const dvec3& offset, const CrossSection& section, const Corri
                   part(glm::dot(offset, section.up), 0.5 * corridor.height_m + rounding));
 }
 
-/// At a bend the cross-section halves the angle and the offset fits both sections, so that no leg leaves the corridor.
+/// Draws the points of the legs. At a bend the cross-section halves the angle and the offset fits both
+/// sections, so that no leg leaves the corridor.
 std::vector<dvec3> draw_corridor(const CorridorTrajectory& corridor, RandomStream& random) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   const std::vector<int> legs = share_legs(corridor);
@@ -194,7 +198,8 @@ std::vector<dvec3> draw_corridor(const CorridorTrajectory& corridor, RandomStrea
   return points;
 }
 
-std::unique_ptr<Path> make_path(const CorridorTrajectory& corridor, double duration_s, RandomStream& random) {
+std::unique_ptr<Course> make_course(const CorridorTrajectory& corridor, double duration_s,
+                                    RandomStream& random) {
   const std::vector<dvec3> points = draw_corridor(corridor, random);
   double total = 0.0;
   for (size_t i = 0; i + 1 < points.size(); ++i) total += glm::distance(points[i], points[i + 1]);
@@ -208,7 +213,7 @@ std::unique_ptr<Path> make_path(const CorridorTrajectory& corridor, double durat
     begin_s = end_s;
     if (duration_s == 0.0) break;  // one tick: at rest at the start
   }
-  return std::make_unique<CurvePath>(std::move(segments), std::vector<dquat>{}, Beyond::straight);
+  return std::make_unique<CurveCourse>(std::move(segments), std::vector<dquat>{}, Beyond::straight);
 }
 
 /// Makes paths in the order in which they depend on each other.
@@ -217,36 +222,36 @@ class PathMaker {
   PathMaker(const Scenario& scenario, uint32_t sequence)
       : scenario_(scenario),
         sequence_(sequence),
-        paths_(scenario.nodes.size()),
+        courses_(scenario.nodes.size()),
         begun_(scenario.nodes.size()) {
     GREATX_CHECK(scenario.curve_ticks() > 0, "{} ticks", scenario.curve_ticks());
     duration_s_ = Clock(scenario.tick_rate_hz).seconds(scenario.curve_ticks() - 1);
   }
 
-  std::vector<std::unique_ptr<Path>> make_all() {
-    for (size_t i = 0; i < paths_.size(); ++i) make(i);
-    return std::move(paths_);
+  std::vector<std::unique_ptr<Course>> make_all() {
+    for (size_t i = 0; i < courses_.size(); ++i) make(i);
+    return std::move(courses_);
   }
 
  private:
-  const Path* make(size_t index) {
-    if (paths_[index]) return paths_[index].get();
+  const Course* make(size_t index) {
+    if (courses_[index]) return courses_[index].get();
     const NodeConfig& node = scenario_.nodes[index];
     GREATX_CHECK(!begun_[index], "the path of node '{}' depends on itself", node.name);
     begun_[index] = true;
     RandomStream random(scenario_.seed, fnv1a32(node.name), sequence_);
     if (const auto* bezier = std::get_if<BezierTrajectory>(&node.trajectory)) {
-      const Path* reference =
+      const Course* reference =
           bezier->reference_node.empty() ? nullptr : make(index_of(bezier->reference_node));
-      paths_[index] = make_path(EndLimits{node, *bezier, reference}, duration_s_, random);
+      courses_[index] = make_course(EndLimits{node, *bezier, reference}, duration_s_, random);
     } else if (const auto* corridor = std::get_if<CorridorTrajectory>(&node.trajectory)) {
-      paths_[index] = make_path(*corridor, duration_s_, random);
+      courses_[index] = make_course(*corridor, duration_s_, random);
     } else if (const auto* points = std::get_if<WayPointTrajectory>(&node.trajectory)) {
-      paths_[index] = make_path(*points);
+      courses_[index] = make_course(*points);
     } else {
-      paths_[index] = make_path(std::get<StaticTrajectory>(node.trajectory));
+      courses_[index] = make_course(std::get<StaticTrajectory>(node.trajectory));
     }
-    return paths_[index].get();
+    return courses_[index].get();
   }
 
   size_t index_of(const std::string& name) const {
@@ -259,13 +264,13 @@ class PathMaker {
   const Scenario& scenario_;
   uint32_t sequence_;
   double duration_s_ = 0.0;
-  std::vector<std::unique_ptr<Path>> paths_;
+  std::vector<std::unique_ptr<Course>> courses_;
   std::vector<bool> begun_;
 };
 
 }  // namespace
 
-std::vector<std::unique_ptr<Path>> make_paths(const Scenario& scenario, uint32_t sequence) {
+std::vector<std::unique_ptr<Course>> make_node_courses(const Scenario& scenario, uint32_t sequence) {
   return PathMaker(scenario, sequence).make_all();
 }
 

@@ -11,20 +11,20 @@
 namespace greatx::sim {
 namespace {
 
-/// A direction and its derivative by u, up to a common positive factor.
+/// Describes a direction and its derivative by u, up to a common positive factor.
 template <typename Vector>
 struct Direction {
   Vector value, derivative;
 };
 
-/// Below this part of the segment's size a derivative counts as zero.
+/// A derivative below this part of the segment's size counts as zero.
 constexpr double negligible = 1e-9;
-/// Below this part its sign is rounding.
+/// Below this part the sign of a derivative is only rounding.
 constexpr double noise = 1e-13;
 
-/// Where B'(u) points, from the first derivative that does not vanish (hard case 60). Close to a zero of B'
-/// at u0: B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2; the side is the one that B' itself shows, else
-/// before (e < 0), but after at the start.
+/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Close to a
+/// zero of B' at u0, B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. The side is the one that B' itself shows.
+/// Without one it is before (e < 0), but after at the start.
 template <typename Vector>
 std::optional<Direction<Vector>> direction_of(const Vector& first, const Vector& second, const Vector& third,
                                               double u, double size) {
@@ -42,7 +42,7 @@ double size_of(const CurveSegment& segment) {
       {glm::length(segment.edges[0]), glm::length(segment.edges[1]), glm::length(segment.edges[2])});
 }
 
-/// Rotation vector (axis times angle, at most pi) from `from` to `to`, in the world frame.
+/// Returns the rotation vector (axis times angle, at most pi) from `from` to `to`, in the world frame.
 dvec3 rotation_between(const dquat& from, const dquat& to) {
   dquat turn = to * glm::conjugate(from);
   if (turn.w < 0.0) turn = -turn;
@@ -91,7 +91,7 @@ dvec3 CurveSegment::second(double u) const {
 
 dvec3 CurveSegment::third() const { return 6.0 * ((edges[2] - edges[1]) - (edges[1] - edges[0])); }
 
-CurvePath::CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond)
+CurveCourse::CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond)
     : segments_(std::move(segments)), attitudes_(std::move(attitudes)), beyond_(beyond) {
   GREATX_CHECK(!segments_.empty() && (attitudes_.empty() || attitudes_.size() == segments_.size() + 1),
                "{} segments, {} attitudes", segments_.size(), attitudes_.size());
@@ -102,7 +102,7 @@ CurvePath::CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> atti
   find_held_headings();
 }
 
-CurvePath::Heading CurvePath::heading(size_t segment, double u) const {
+CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
   const CurveSegment& curve = segments_[segment];
   const double size = size_of(curve);
   const dvec3 first = curve.first(u), second = curve.second(u), third = curve.third();
@@ -120,13 +120,13 @@ CurvePath::Heading CurvePath::heading(size_t segment, double u) const {
     return result;
   }
   result.pitch = v.z > 0.0 ? -0.5 * pi : 0.5 * pi;
-  // Vertical for an instant: the yaw that the horizontal motion shows beside it.
+  // If the motion is vertical for an instant, the yaw is the one that the horizontal motion beside it shows.
   if (const auto level = direction_of(dvec2(first), dvec2(second), dvec2(third), u, size))
     result.yaw = std::atan2(level->value.y, level->value.x);
   return result;
 }
 
-void CurvePath::find_held_headings() {
+void CurveCourse::find_held_headings() {
   held_.resize(segments_.size());
   Heading before;
   for (size_t i = 0; i < segments_.size(); ++i) {
@@ -145,7 +145,7 @@ void CurvePath::find_held_headings() {
   }
 }
 
-void CurvePath::orient(size_t segment, double u, Motion& motion) const {
+void CurveCourse::orient(size_t segment, double u, Motion& motion) const {
   const double duration_s = segments_[segment].duration_s;
   if (!attitudes_.empty()) {
     const dvec3 turn = rotation_between(attitudes_[segment], attitudes_[segment + 1]);
@@ -156,7 +156,7 @@ void CurvePath::orient(size_t segment, double u, Motion& motion) const {
   Heading now = heading(segment, u);
   const bool starts_at_rest =
       u == 0.0 && glm::length(segments_[segment].first(0.0)) <= negligible * size_of(segments_[segment]);
-  if (segment > 0 && starts_at_rest) now = Heading{};  // a rest at a knot looks where it came from
+  if (segment > 0 && starts_at_rest) now = Heading{};  // a rest at a knot keeps the direction of arrival
   const double yaw = now.yaw ? *now.yaw : held_[segment].yaw.value_or(0.0);
   const double pitch = now.pitch ? *now.pitch : held_[segment].pitch.value_or(0.0);
   motion.pose.orientation = orientation_from_yaw_pitch_roll(yaw, pitch, 0.0);
@@ -166,7 +166,7 @@ void CurvePath::orient(size_t segment, double u, Motion& motion) const {
   }
 }
 
-Motion CurvePath::inside(size_t segment, double time_s) const {
+Motion CurveCourse::inside(size_t segment, double time_s) const {
   const CurveSegment& curve = segments_[segment];
   const double h = curve.duration_s;
   const double u = h > 0.0 ? std::clamp((time_s - curve.begin_s) / h, 0.0, 1.0) : 0.0;
@@ -180,7 +180,7 @@ Motion CurvePath::inside(size_t segment, double time_s) const {
   return motion;
 }
 
-Motion CurvePath::at(double time_s) const {
+Motion CurveCourse::at(double time_s) const {
   GREATX_CHECK(std::isfinite(time_s), "time {} s", time_s);
   const CurveSegment& last = segments_.back();
   const double begin_s = segments_.front().begin_s, end_s = last.begin_s + last.duration_s;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one curve behind every moving trajectory: cubic Bezier segments, each over its own span of time.
+// Defines the one curve behind every moving trajectory: cubic Bezier segments, each over its own span of
+// time.
 #pragma once
 
 #include <array>
@@ -12,8 +13,9 @@
 
 namespace greatx::sim {
 
-/// B(u) = sum of Bernstein polynomials times P0..P3, u = (t - begin) / duration. The control points are held
-/// as P0 and the edges P1 - P0, P2 - P1, P3 - P2, so that derivatives do not suffer from large coordinates.
+/// Describes a segment: B(u) is the sum of Bernstein polynomials times P0..P3, u = (t - begin) / duration.
+/// The control points are held as P0 and the edges P1 - P0, P2 - P1, P3 - P2, so that derivatives do not
+/// suffer from large coordinates.
 struct CurveSegment {
   double begin_s = 0.0;
   double duration_s = 0.0;  ///< 0: a curve of a single instant, at rest at P0
@@ -22,7 +24,7 @@ struct CurveSegment {
 
   static CurveSegment bezier(double begin_s, double duration_s, const std::array<dvec3, 4>& points);
   static CurveSegment line(double begin_s, double duration_s, const dvec3& from, const dvec3& to);
-  /// Cubic Hermite: positions and velocities (m/s) at both ends.
+  /// Makes a cubic Hermite segment from positions and velocities (m/s) at both ends.
   static CurveSegment hermite(double begin_s, double duration_s, const dvec3& from,
                               const dvec3& from_velocity, const dvec3& to, const dvec3& to_velocity);
   dvec3 position(double u) const;
@@ -31,7 +33,7 @@ struct CurveSegment {
   dvec3 third() const;           ///< d3B/du3
 };
 
-/// What happens before the first and after the last instant.
+/// Names the motion before the first and after the last instant.
 enum class Beyond {
   hold,      ///< rests at the end, velocity zero
   straight,  ///< goes on with the end's velocity (a sweep that outlasts the last tick keeps its motion)
@@ -39,17 +41,17 @@ enum class Beyond {
 
 /// A chain of segments without gaps in time.
 ///
-/// Attitude: slerp between `attitudes` (one per knot) if given. Otherwise x looks along the velocity: yaw =
-/// atan2(v_y, v_x), pitch = -atan2(v_z, |v_xy|), roll = 0. Where the velocity vanishes the next derivative
-/// that does not gives the direction (seen from before; at the very start from after); in vertical flight the
-/// yaw stays what it was before (or becomes what it is after, if there is no before; else 0). A segment that
-/// does not move keeps the attitude likewise. Angular velocity is analytic: constant per segment for slerp,
-/// d(yaw)/dt and d(pitch)/dt for the velocity's direction; zero where the yaw is a held one and where the
-/// curve is not defined (beyond the ends).
-class CurvePath : public Path {
+/// The attitude is a slerp between `attitudes` (one per knot) if they are given. Otherwise x looks along the
+/// velocity: yaw = atan2(v_y, v_x), pitch = -atan2(v_z, |v_xy|), roll = 0. Where the velocity vanishes, the
+/// next derivative that does not vanish gives the direction (seen from before; at the very start from after).
+/// In vertical flight the yaw stays as it was before. If there is no before, it is as it is after, else 0. A
+/// segment that does not move keeps the attitude in the same way. Angular velocity is analytic: it is
+/// constant per segment for slerp, and d(yaw)/dt and d(pitch)/dt for the velocity's direction. It is zero
+/// where the yaw is a held one and where the curve is not defined (beyond the ends).
+class CurveCourse : public Course {
  public:
-  /// Precondition: one segment or more; `attitudes` empty or segments + 1.
-  CurvePath(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
+  /// Needs one segment or more; `attitudes` is empty or has segments + 1 elements.
+  CurveCourse(std::vector<CurveSegment> segments, std::vector<dquat> attitudes, Beyond beyond);
   Motion at(double time_s) const override;
   bool is_static() const override { return static_; }
 
@@ -65,7 +67,7 @@ class CurvePath : public Path {
 
   std::vector<CurveSegment> segments_;
   std::vector<dquat> attitudes_;
-  std::vector<Heading> held_;  ///< per segment: what holds where the segment itself gives no direction
+  std::vector<Heading> held_;  ///< per segment: the heading where the segment itself gives no direction
   Beyond beyond_;
   bool static_ = false;
 };

@@ -1,97 +1,67 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the simulator asks of a sensor: say what it delivers, record its part of a tick, hand over the result when the
-// GPU is done. A sensor keeps its pending state per slot, since two ticks are in flight.
+// The simulator's view of a sensor. A sensor declares what it delivers, records its part of a tick into a
+// command buffer, and hands over the result when the GPU has done it.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
-#include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/record.h"
-#include "core/vec.h"
 #include "gpu/tick_ring.h"
-#include "sim/error_statistics.h"
-#include "sim/scenario/scenario.h"
+#include "sim/compare/evidence.h"
+#include "sim/world/tick_context.h"
 
 namespace greatx::sim {
 
-/// Everything that a sensor may know of the tick being recorded.
-struct TickContext {
-  int64_t tick = 0;
-  uint32_t sequence = 0;  ///< of the run
-  double time_s = 0.0;
-  /// Time of the tick before at which something was due; NaN at the first one of a sequence.
-  double previous_time_s = 0.0;
-  std::span<const Motion> nodes;     ///< world frame, by node
-  std::span<const Pose> body_poses;  ///< local coordinates, by body
-  /// Motion of any node at any other time (a sweep's shots).
-  std::function<Motion(uint32_t node, double time_s)> motion_at;
-  /// Motion of any body at any other time: pose in local coordinates, its derivatives those of the body's origin (same
-  /// axes). Body 0 stands still at the identity. At time_s the poses are those of body_poses, to the bit.
-  std::function<Motion(uint32_t body, double time_s)> body_motion_at;
-  Pose body_pose_at(uint32_t body, double at_s) const { return body_motion_at(body, at_s).pose; }
-  /// Of all bodies.
-  std::vector<Pose> body_poses_at(double at_s) const {
-    if (at_s == time_s) return {body_poses.begin(), body_poses.end()};
-    std::vector<Pose> poses;
-    for (uint32_t body = 0; body < body_poses.size(); ++body) poses.push_back(body_pose_at(body, at_s));
-    return poses;
-  }
-};
-
-/// Figures of a run that show that the modalities see one world.
-struct Consistency {
-  ErrorStatistics depth;          ///< interior pixels against the ray through their centre
-  ErrorStatistics lidar;          ///< returns against the depth picture of a camera on the same node
-  ErrorStatistics line_of_sight;  ///< c * delay of direct paths against the distance
-  ErrorStatistics radar;          ///< ranges of detections against the boxes of their instances
-};
-
+/// A sensor of a run. Two ticks are in flight, and record() of a tick is called before collect() of the tick
+/// before it. So a sensor keeps the state that waits for its collect() by slot (gpu::TickSlot::index).
 class Sensor {
  public:
   virtual ~Sensor() = default;
+  /// What the sensor delivers; it does not change during a run.
   virtual const SensorSpec& spec() const = 0;
-  /// Once before the first tick of a sequence (or of its rest): set-up that depends on where things are.
+  /// Called once for each sequence, before its first record(): set-up that depends on where things are then.
+  /// If a run begins within a sequence, the context is that of the first tick that it records, unless
+  /// remembers().
   virtual void start(const TickContext&) {}
-  /// Whether a record depends on records before it. start() is then called at the sequence's first tick, and a run that
-  /// goes on later first replays what was due before, without writing it.
+  /// Whether a record depends on the records before it. start() then gets the context of the sequence's first
+  /// tick, and a run that goes on within a sequence first goes again through the ticks before: record() and
+  /// catch_up(), without a file.
   virtual bool remembers() const { return false; }
-  /// Adds the sensor's passes to the tick's command buffer.
+  /// Whether record() draws pictures. The shadows of the tick are then recorded before it.
+  virtual bool draws_pictures() const { return false; }
+  /// Adds the sensor's passes to the tick's command buffer. The scene on the GPU is where it is at the tick,
+  /// and the sensor leaves it there.
   virtual void record(gpu::TickSlot& slot, const TickContext& context) = 0;
-  /// Whether record() needs results of the submission before. record_ahead() is then called at the end of the command
-  /// buffer before each tick at which this sensor is due, with the scene already where it will be at that tick, and
-  /// record() comes after that submission is done.
+  /// Whether record() needs results of the submission before. That submission is then done before record() is
+  /// called.
   virtual bool looks_ahead() const { return false; }
+  /// Only of a sensor that looks ahead: adds passes at the end of the submission before each tick at which
+  /// the sensor is due, with the scene on the GPU already where it is at that tick. No submission comes
+  /// before the first tick that a run records of a sequence: there record() follows start() alone.
   virtual void record_ahead(gpu::TickSlot&, const TickContext&) {}
-  /// The arrays of the record, in the order of the spec; after the slot's submission is done.
+  /// The arrays of the record, in the order of the spec. Called once for each record(), in the same order,
+  /// when the slot's submission is done.
   virtual std::vector<Array> collect(const gpu::TickSlot& slot) = 0;
-  /// Of a sensor that remembers: instead of collect(), at a tick that is gone through again before a resume. Counts
-  /// nothing.
+  /// Only of a sensor that remembers: called instead of collect() at a tick that is gone through again. It
+  /// counts nothing.
   virtual void catch_up(const gpu::TickSlot&) {}
-  /// Adds this sensor's figures.
-  virtual void report(Consistency&) const {}
-  /// Adds what this sensor counted over the run: candidates, paths, overflows.
+  /// What the record collected last can be compared by with the other records of its tick.
+  virtual Evidence evidence() const { return {}; }
+  /// Adds the sensor's counts over the run: candidates, paths, overflows.
   virtual void count(std::map<std::string, uint64_t>&) const {}
-  /// Adds what a user must hear of, whatever else is printed: data that the run lost. A sentence each.
+  /// Adds sentences that a user must read, whatever else is printed: data that the run lost.
   virtual void warn(std::vector<std::string>&) const {}
-  /// Adds what the run's summary should say in words, (name, text).
+  /// Adds sentences for the run's summary, as (name, text).
   virtual void note(std::vector<std::pair<std::string, std::string>>&) const {}
 };
 
-/// Slots of the tick ring: one in flight while the one before it is collected.
+/// Slots of the tick ring: one is in flight while the one before it is collected.
 inline constexpr uint32_t slots_in_flight = 2;
-
-/// World pose of a sensor: the node's pose times its mount.
-inline Pose mount_pose(const Mount& mount) {
-  return {mount.position_m,
-          orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};
-}
 
 }  // namespace greatx::sim

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks every program and shared library below the folders, by readelf: no RPATH or RUNPATH has an entry that is empty or
-relative (the loader takes both for the current folder, from which anybody's library would be loaded). With --hardened
-also what cmake/GreatxTargets.cmake asks for.
+"""Checks every program and shared library below the folders, by readelf: no RPATH or RUNPATH has an entry
+that is empty or relative (the loader takes both for the current folder, from which anybody's library would be
+loaded). With --hardened also what cmake/GreatxTargets.cmake asks for.
 
 usage: check_binaries.py [--hardened] LEAST FOLDER...
        LEAST: how many there are at least, so that the check cannot look elsewhere

@@ -1,20 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""check_docs_commands.py PROGRAM SOURCE FILE...: the command lines of README.md, docs/ and other pages are the program's own.
+"""check_docs_commands.py PROGRAM SOURCE FILE...: the command lines of README.md, docs/ and other pages are
+the program's own.
 
-Every `greatx ...`, between backticks or in a block, has subcommands, options and embedded scenarios that --help knows. So
-has every option that stands alone between backticks.
+Every `greatx ...`, between backticks or in a block, has subcommands, options and embedded scenarios that
+--help knows. So has every option that stands alone between backticks.
 
-A block that begins with `greatx` or `$ greatx` is run, line by line, in a folder of the page's own, and must succeed. Not
-run are blocks below the comment <!-- check: options -->: those with names to be filled in, or that take long. A block
-below <!-- file: NAME --> is that file, for the commands of its page.
+A block that begins with `greatx` or `$ greatx` is run, line by line, in a folder of the page's own, and must
+succeed. Not run are blocks below the comment <!-- check: options -->: those with names to be filled in, or
+that take long. A block below <!-- file: NAME --> is that file, for the commands of its page.
 
-Below a line `$ greatx ...` stands what it prints: these lines, one after another, from wherever they begin. Numbers with
-a fraction or an exponent may differ by one and a half of their last digit, spaces by their number. `...` or `…` within a
-line stands for any text, alone in a line for any lines; what follows the last line is left out.
+Below a line `$ greatx ...` stands what it prints: these lines, one after another, from wherever they begin.
+Numbers with a fraction or an exponent may differ by one and a half of their last digit, spaces by their
+number. `...` or `…` within a line stands for any text, alone in a line for any lines; what follows the last
+line is left out.
 
-Two things more: the tables' numbers of triangles, and the paths of files below "sequence_0000/" in README.md, whose
-numbers of frames are taken as 0.
+Three things more: docs/commands.md names every embedded scenario; in README.md the numbers of triangles in
+the table, and the paths of files below "sequence_0000/", whose numbers of frames are taken as 0.
 """
 from __future__ import annotations
 
@@ -215,11 +217,14 @@ class Page:
                 raise Failure(f"{self.file}:{self.line_of(match.start('body'))}: {failure}") from None
 
 
+def check_embedded_scenarios(page: Page) -> None:
+    for name in page.program.scenarios():
+        if not re.search(rf"\b{name}\b", page.text):
+            raise Failure(f"{page.file}: the embedded scenario {name} is not there")
+
+
 def check_readme(readme: Page) -> None:
-    """The embedded scenarios, triangles of the default one, and which files a data set has."""
-    for name in readme.program.scenarios():
-        if not re.search(rf"\b{name}\b", readme.text):
-            raise Failure(f"{readme.file}: the embedded scenario {name} is not there")
+    """The triangles of the default scenario, and which files a data set has."""
     triangles = re.search(r"^\| (\w+) \(default\) \| ([\d,]+) \|", readme.text, re.MULTILINE)
     printed = readme.run(f"greatx explain {triangles[1]}")[0]
     if f" {triangles[2].replace(',', '')} triangles" not in printed:
@@ -247,6 +252,8 @@ def main(binary: str, source: str, files: list[str]) -> int:
                 if file.resolve() == page.source / "README.md":
                     page.folder.mkdir(exist_ok=True)
                     check_readme(page)
+                if file.name == "commands.md":
+                    check_embedded_scenarios(page)
             except Failure as failure:
                 print(failure)
                 return 1

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# check_install.sh CMAKE BUILD_FOLDER PYTHON: installs into a scratch prefix, looks at what the loader would find there, and
-# runs the program, from another folder.
+# check_install.sh CMAKE BUILD_FOLDER PYTHON: installs into a scratch prefix, looks at what the loader would
+# find there, and runs the program, from another folder.
 set -euo pipefail
 checks=$(cd "$(dirname "$0")" && pwd)
 prefix=$(mktemp -d)

@@ -94,7 +94,8 @@ TEST(CommandLine, LeadingZerosAreDecimal) {
   EXPECT_EQ(read_file(path + "/+10.glb"), read_file(path + "/10.glb"));
 }
 
-// ------------------------------------------------------------------------------------------------ what stops a run
+// ------------------------------------------------------------------------------------------------ what stops
+// a run
 
 constexpr const char* long_scenario = R"(greatx: 1
 name: long

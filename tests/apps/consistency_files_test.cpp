@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The consistency figures of a run, found again from its files; what was changed since is named by sensor and tick.
-#include "apps/consistency_files.h"
+// The consistency figures of a run, found again from its files; what was changed since is named by sensor and
+// tick.
+#include "apps/files/consistency_files.h"
 
 #include <cstring>
 #include <functional>
@@ -13,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "io/dataset_format.h"
-#include "io/exr.h"
+#include "io/dataset/dataset_format.h"
+#include "io/formats/exr.h"
 #include "tests/apps/program.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A search for paths that would take minutes, from a terminal: it says how far it is and ends on Ctrl-C. No time is asserted;
-// a search that does not end runs into the test's own limit.
+// A search for paths that would take minutes, from a terminal: it says how far it is and ends on Ctrl-C. No
+// time is asserted; a search that does not end runs into the test's own limit.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -49,8 +49,8 @@ class InterruptCli : public ::testing::Test {
     fs::create_directory(folder_ / "cache");
   }
 
-  /// Runs the program with a terminal for its stderr, presses Ctrl-C once it has shown a search underway; all that it wrote.
-  /// `code`: the exit code, or 128 + the signal that ended it.
+  /// Runs the program with a terminal for its stderr, presses Ctrl-C once it has shown a search underway; all
+  /// that it wrote. `code`: the exit code, or 128 + the signal that ended it.
   std::string interrupt(std::vector<std::string> arguments, int& code) const {
     arguments.insert(arguments.begin(), "greatx");
     int terminal = -1;

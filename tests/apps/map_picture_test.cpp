@@ -7,10 +7,10 @@
 
 #include <gmock/gmock.h>
 
-#include "apps/map/background.h"
-#include "apps/paths/render.h"
-#include "scene/scene_hash.h"
-#include "sim/plan/plan_options.h"
+#include "draw/map/background.h"
+#include "draw/paths/render.h"
+#include "scene/description/scene_hash.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 
@@ -61,7 +61,8 @@ TEST(MapView, WhatStandsInTheSceneIsShownWithinTheBound) {
   }
 }
 
-/// Heights of a box on the ground as the camera sees them, pixel by pixel: its outline is where the world has it.
+/// Heights of a box on the ground as the camera sees them, pixel by pixel: its outline is where the world has
+/// it.
 TEST(MapBackground, ABoxStandsWhereItIs) {
   scene::Material concrete;
   concrete.name = "concrete";
@@ -72,7 +73,7 @@ TEST(MapBackground, ABoxStandsWhereItIs) {
   tiny.object("box", 0, material).box({510, -110, 1}, {524, -96, 26});
   scene::Scene scene = tiny.build({530, -100, 0});
   scene.hash = scene::hash_of(scene);
-  const sim::Scenario scenario = sim::parse_scenario(
+  sim::Scenario scenario = sim::parse_scenario(
       "greatx: 1\nname: test\nticks: 1\ntick_rate_hz: 1\nnodes:\n"
       "  - {name: bs, trajectory: {type: static, position_m: [550, -90, 9]}, sensors: [{name: a, type: "
       "antenna}]}\n"
@@ -81,12 +82,12 @@ TEST(MapBackground, ABoxStandsWhereItIs) {
       "channels:\n  - {name: csi, tx: bs/a, rx: [ue/a], rate_hz: 1, subcarriers: 4, bandwidth_hz: 20e6, "
       "max_depth: 0}\neffects: {line_of_sight: on}\n",
       "test.yaml", ".");
-  const sim::World world{scene, {0, 0}};
-  const sim::EffectPlan plan = picture_plan(scenario, world.scene);
-  sim::ChannelSnapshot snapshot(test::device(), scenario, world, plan, sim::gpu_scene_options(plan), 0, {});
+  sim::Experiment experiment = sim::make_experiment(
+      std::move(scenario), std::make_shared<const sim::World>(sim::World{scene, {0, 0}, {}, {}, {}}));
+  experiment.plan = picture_plan(experiment);
+  sim::ChannelSnapshot snapshot(test::device(), experiment, 0, {});
   const sim::MapCells cells = free_cells(2.5);
-  const MapBackground background =
-      map_background(cells, world.scene, scenario.environment, plan, snapshot, 300);
+  const MapBackground background = map_background(cells, experiment.plan, snapshot, 300);
   ASSERT_EQ(background.z_m.size(), 300u * 200u);
   for (uint32_t y = 0; y < 200; ++y)
     for (uint32_t x = 0; x < 300; ++x) {

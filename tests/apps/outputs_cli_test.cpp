@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every choice of outputs of every sensor makes a data set that holds them, verifies and can be looked at: each alone, each
-// two, and all. One run has a sensor for each choice.
+// Every choice of outputs of every sensor makes a data set that holds them, verifies and can be looked at:
+// each alone, each two, and all. One run has a sensor for each choice.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

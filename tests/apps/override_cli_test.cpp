@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// --seed, --ticks, --sequences: the data set's scenario says them, and a shorter run is the beginning of the longer one.
+// --seed, --ticks, --sequences: the data set's scenario says them, and a shorter run is the beginning of the
+// longer one.
 #include <filesystem>
 #include <fstream>
 

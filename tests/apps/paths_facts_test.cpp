@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths/facts.h"
 #include "apps/paths/output.h"
 #include "apps/paths/text.h"
 #include "core/error.h"
+#include "draw/paths/facts.h"
 #include "tests/apps/sample_paths.h"
 
 namespace greatx::apps {
@@ -119,7 +119,8 @@ TEST(PathFacts, PathsAreSortedByDelayThenCanonically) {
   EXPECT_EQ(paths[2].delay_s, 2.0);
 }
 
-// ------------------------------------------------------------------------------------------------ what is printed
+// ------------------------------------------------------------------------------------------------ what is
+// printed
 
 TEST(PathText, TheTableHasUnitsAnglesAndNames) {
   const SampleScene sample;

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/paths/draw.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "draw/paths/draw.h"
 #include "tests/apps/sample_paths.h"
 
 namespace greatx::apps {
@@ -136,8 +136,8 @@ TEST(Stretches, AWallHidesWhatIsBehindIt) {
 
 TEST(Stretches, DepthAlongASlantingStretchIsThatOfSpaceNotOfThePicture) {
   const PictureView view = side_view();
-  // From 10 m deep at x = 190 to 190 m deep at x = 110.5; a surface at 100 m hides the half beyond it, which begins in
-  // the middle of the stretch and not in the middle of the picture of it.
+  // From 10 m deep at x = 190 to 190 m deep at x = 110.5; a surface at 100 m hides the half beyond it, which
+  // begins in the middle of the stretch and not in the middle of the picture of it.
   const std::vector<float> depth(200 * 100, 100.0f);
   const std::vector<Stretch> runs = stretches_of(view, depth, {9, -90, 0}, {20, 90, 0});
   ASSERT_EQ(runs.size(), 2u);
@@ -184,7 +184,8 @@ TEST(Stretches, ALensBendsThem) {
     }
     EXPECT_LE(glm::distance(c.a, c.b), 12.0);
     if (c.hidden) hidden_from = std::min(hidden_from, c.a.x), hidden_to = std::max(hidden_to, c.b.x);
-    // On the picture of the line: the row that the lens gives the point of space that it shows in this column.
+    // On the picture of the line: the row that the lens gives the point of space that it shows in this
+    // column.
     double low = -160.0, high = 160.0;
     for (int k = 0; k < 60; ++k) {
       const double middle = 0.5 * (low + high);
@@ -200,9 +201,9 @@ TEST(Stretches, ALensBendsThem) {
   EXPECT_GT(chords.front().a.y, view.project({0, 0, 30}).y + 3.0);
 }
 
-TEST(Coverage, OverlapsAreNotDenser) {
+TEST(ShapeCoverage, OverlapsAreNotDenser) {
   io::Canvas canvas(40, 20, {0, 0, 0});
-  Coverage coverage(40, 20);
+  ShapeCoverage coverage(40, 20);
   coverage.line({5, 10}, {20, 10}, 4.0);
   coverage.line({20, 10}, {35, 10}, 4.0);
   coverage.paint(canvas, {0, 0}, {200, 200, 200}, 0.5);
@@ -215,9 +216,9 @@ TEST(Coverage, OverlapsAreNotDenser) {
   EXPECT_EQ(image.bytes, canvas.image().bytes) << "nothing is left over";
 }
 
-TEST(Coverage, ALineIsAsWideAsItSays) {
+TEST(ShapeCoverage, ALineIsAsWideAsItSays) {
   io::Canvas canvas(60, 60, {0, 0, 0});
-  Coverage coverage(60, 60);
+  ShapeCoverage coverage(60, 60);
   coverage.line({10, 10}, {50, 40}, 3.0);  // 50 pixels long
   coverage.paint(canvas, {0, 0}, {250, 250, 250}, 1.0);
   double area = 0.0;

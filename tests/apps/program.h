@@ -30,7 +30,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment, ulimit).
+/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment,
+/// ulimit).
 inline Outcome greatx(const std::string& arguments, const std::string& before = "") {
   setenv("GREATX_CACHE", "off", 0);  // unless a test says otherwise
   const greatx::test::TemporaryFolder temporary;

@@ -4,14 +4,15 @@
 // Paths made by hand in a scene of a wall and a roof.
 #pragma once
 
-#include "apps/paths/facts.h"
 #include "core/units.h"
+#include "draw/paths/facts.h"
 #include "tests/support/tiny_scene.h"
 
 namespace greatx::apps {
 
-/// Facet 0: the wall y = 10 (object "house", material "glass"); facet 1: the roof z = 20 (object "house", material "tile");
-/// facet 2: a tree (object "tree", material "leaves"). One wedge between wall and roof. World = local + origin.
+/// Facet 0: the wall y = 10 (object "house", material "glass"); facet 1: the roof z = 20 (object "house",
+/// material "tile"); facet 2: a tree (object "tree", material "leaves"). One wedge between wall and roof.
+/// World = local + origin.
 struct SampleScene {
   explicit SampleScene(const dvec3& origin = dvec3(0.0)) {
     test::TinyScene tiny;

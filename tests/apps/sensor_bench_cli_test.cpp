@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --lidar`, `--radar`, `--rig` and the rows of the plain `greatx bench`: they are there and add up; how long they
-// take is nobody's business here.
+// `greatx bench --lidar`, `--radar`, `--rig` and the rows of the plain `greatx bench`: they are there and add
+// up; how long they take is nobody's business here.
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""No source reads or writes numbers by the process's locale: Python, and any program that loads the module, may have set
-one whose decimal sign is a comma."""
+"""No source reads or writes numbers by the process's locale: Python, and any program that loads the module,
+may have set one whose decimal sign is a comma."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/yaml.h"
+#include "core/yaml/yaml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,6 +50,18 @@ TEST(Yaml, BytesThatAreNotUtf8AreRefusedByLine) {
 
 TEST(Yaml, DeepNestingIsAnError) {
   EXPECT_THROW(load_yaml(std::string(100000, '['), "x.yaml"), YAML::Exception);
+}
+
+TEST(Yaml, PlainScalarsFollowTheCoreSchemaAndQuotedOnesAreTexts) {
+  const YAML::Node map =
+      load_yaml("a: -1.5e3\nb: '2'\nc: True\nd: \"true\"\ne: yes\nf:\ng: [1]\nh: FALSE\n", "x.yaml")[0];
+  EXPECT_EQ(plain_number(map["a"]), -1500.0);
+  EXPECT_EQ(plain_boolean(map["c"]), true);
+  EXPECT_EQ(plain_boolean(map["h"]), false);
+  for (const char* const key : {"b", "c", "d", "e", "f", "g"}) EXPECT_FALSE(plain_number(map[key])) << key;
+  for (const char* const key : {"a", "b", "d", "e", "f", "g"}) EXPECT_FALSE(plain_boolean(map[key])) << key;
+  EXPECT_EQ(line_of(map["c"]), 3);
+  EXPECT_EQ(line_of(YAML::Node(), 7), 7);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Named attacks: inputs that someone has thought of, each of them once a fault or a near miss. They are made from the
-seeds, so they follow the formats. `exit` is what the program has to end with."""
+"""Named attacks: inputs that someone has thought of, each of them once a fault or a near miss. They are made
+from the seeds, so they follow the formats. `exit` is what the program has to end with."""
 from __future__ import annotations
 
 import copy

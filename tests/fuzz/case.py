@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A case: the files that one run of the program gets, and the command line. It can be laid out in a folder, and kept as
-one JSON file that --replay takes."""
+"""A case: the files that one run of the program gets, and the command line. It can be laid out in a folder,
+and kept as one JSON file that --replay takes."""
 from __future__ import annotations
 
 import base64
@@ -53,7 +53,8 @@ def json_text(tree, indent=None) -> str:
 
 
 def yaml_text(tree, depth=0) -> str:
-    """Maps as blocks, one key a line, so that mutators of lines find something; lists of scalars in one line."""
+    """Maps as blocks, one key a line, so that mutators of lines find something; lists of scalars in one
+    line."""
     indent = "  " * depth
     if isinstance(tree, dict) and tree:
         lines = []
@@ -194,7 +195,8 @@ class Case:
 
 
 def sign_manifest(case: Case, root: str) -> bool:
-    """Gives every file that the manifest lists its real size and hash, so that `verify` looks further than hashes."""
+    """Gives every file that the manifest lists its real size and hash, so that `verify` looks further than
+    hashes."""
     entry = case.files.get(f"{root}/manifest.json")
     if entry is None or entry.type != "file":
         return False

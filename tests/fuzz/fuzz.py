@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program on damaged inputs and judges how it ends; README.md beside this file says how and what for.
+"""Runs the program on damaged inputs and judges how it ends; README.md beside this file says how and what
+for.
 
   fuzz.py --program build/release/greatx --kind all --seed 1 --count 1000 --time-limit 600 --keep found
   fuzz.py --program build/release/greatx --replay found/dataset-signal-....json
@@ -84,7 +85,8 @@ def describe(case: Case) -> str:
     return f"{case.name}: {' '.join(case.command)}; " + "; ".join(done[:160] for done in case.done)
 
 
-# What one process works on: set by `prepare` in each of them, so that seeds are made once and not sent with every case.
+# What one process works on: set by `prepare` in each of them, so that seeds are made once and not sent with
+# every case.
 STATE: dict = {}
 
 

@@ -47,8 +47,8 @@ def is_sanitized(program: str) -> bool:
 
 
 def environment(folder: pathlib.Path | None = None) -> dict[str, str]:
-    """The caller's, but for what greatx keeps between runs. The driver's cache of shaders stays: without it every start
-    compiles them anew."""
+    """The caller's, but for what greatx keeps between runs. The driver's cache of shaders stays: without it
+    every start compiles them anew."""
     env = dict(
         os.environ, GREATX_CACHE="off",
         MESA_SHADER_CACHE_DIR=os.environ.get("MESA_SHADER_CACHE_DIR",
@@ -154,8 +154,8 @@ def judge(case: Case, code: int, stdout: bytes, stderr: bytes, timed_out: bool, 
 
 
 def wait(process: subprocess.Popen, limits: Limits) -> tuple[int, resource.struct_rusage, bool]:
-    """Exit code, usage, and whether it had to be killed: at the limit of time, or when it has done nothing for so long
-    that it must be waiting for what never comes (a FIFO)."""
+    """Exit code, usage, and whether it had to be killed: at the limit of time, or when it has done nothing
+    for so long that it must be waiting for what never comes (a FIFO)."""
     begin = active = time.monotonic()
     ticks = ""
     while True:

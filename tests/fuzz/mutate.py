@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Mutators. Each takes a random.Random and nothing else that varies, so a case follows from (kind, seed, number)."""
+"""Mutators. Each takes a random.Random and nothing else that varies, so a case follows from (kind, seed,
+number)."""
 from __future__ import annotations
 
 import copy

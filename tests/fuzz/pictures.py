@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Small PNG and JPEG files: seeds of the mutators. JPEG: ITU-T T.81, baseline and progressive (spectral selection), with
-the typical Huffman tables of its annex K and quantisation by 1."""
+"""Small PNG and JPEG files: seeds of the mutators. JPEG: ITU-T T.81, baseline and progressive (spectral
+selection), with the typical Huffman tables of its annex K and quantisation by 1."""
 from __future__ import annotations
 
 import math
@@ -14,7 +14,8 @@ def png_chunk(name: bytes, data: bytes) -> bytes:
 
 
 def png(width: int, height: int, channels: int = 3, bits: int = 8, interlaced: bool = False) -> bytes:
-    """Grey (1), grey with alpha (2), colour (3) or colour with alpha (4); a pattern that no filter makes trivial."""
+    """Grey (1), grey with alpha (2), colour (3) or colour with alpha (4); a pattern that no filter makes
+    trivial."""
     color = {1: 0, 2: 4, 3: 2, 4: 6}[channels]
 
     def rows(columns: range, lines: range) -> bytes:

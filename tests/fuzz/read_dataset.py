@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""read_dataset.py DIR [incomplete]: reads all of a data set through the Python package. Ends as the program does: 0, 1
-where it is refused, and by a traceback if anything but a greatx.Error comes out."""
+"""read_dataset.py DIR [incomplete]: reads all of a data set through the Python package. Ends as the program
+does: 0, 1 where it is refused, and by a traceback if anything but a greatx.Error comes out."""
 import sys
 import warnings
 

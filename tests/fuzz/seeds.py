@@ -39,7 +39,8 @@ class Buffer:
 
 
 def gltf_tree(buffer: Buffer, images: list[dict], buffer_uri: str | None) -> dict:
-    """Two walls and a lamp: textured with a tangent-space normal map, radio properties by name and by extension."""
+    """Two walls and a lamp: textured with a tangent-space normal map, radio properties by name and by
+    extension."""
     positions = [0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 3, 0]
     corners = [0, 0, 1, 0, 1, 1, 0, 1]
     position = buffer.accessor("f", 5126, "VEC3", positions, min=[0, 0, 0], max=[4, 3, 0])
@@ -296,8 +297,8 @@ def read_folder(folder: pathlib.Path, name: str) -> dict[str, Entry]:
 
 
 def interrupt(program: str, folder: pathlib.Path, env: dict) -> None:
-    """Leaves `cut`: one sequence that has ended and the first packets of another, as after Ctrl-C. Where the signal comes
-    is chance; the journal is shortened to what is there always."""
+    """Leaves `cut`: one sequence that has ended and the first packets of another, as after Ctrl-C. Where the
+    signal comes is chance; the journal is shortened to what is there always."""
     journal, whole, kept = folder / "cut/journal.txt", 12 + 1, 12 + 1 + 3
     process = subprocess.Popen([program, "generate", "long.yaml", "-o", "cut", "-q"], cwd=folder, env=env, stderr=subprocess.DEVNULL)
     while process.poll() is None:

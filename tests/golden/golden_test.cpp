@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of one small scene against those kept beside this file (goldens.yaml). Other tests say what is right; these say
-// that nothing changed unseen. They are rewritten by
+// Pictures of one small scene against those kept beside this file (goldens.yaml). Other tests say what is
+// right; these say that nothing changed unseen. They are rewritten by
 //     cmake --build BUILD --target update-goldens
 // alone: look at what changed before it is committed.
 #include <algorithm>
@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "io/canvas.h"
-#include "io/file.h"
-#include "io/png.h"
+#include "draw/canvas/canvas.h"
+#include "io/files/file.h"
+#include "io/formats/png.h"
 #include "tests/golden/pictures.h"
 #include "tests/support/flip.h"
 
@@ -68,8 +68,8 @@ Comparison compare_codes(const Array& expected, const Array& actual, int step) {
   return result;
 }
 
-/// Ids: a pixel at an outline, that is one whose golden has another id among its eight neighbours, may have any of these
-/// ids; all others have exactly their own.
+/// Ids: a pixel at an outline, that is one whose golden has another id among its eight neighbours, may have
+/// any of these ids; all others have exactly their own.
 template <typename T>
 Comparison compare_ids(const Array& expected, const Array& actual) {
   const int64_t height = expected.shape[0], width = expected.shape[1];

@@ -9,8 +9,8 @@
 
 #include "core/units.h"
 #include "core/vec.h"
-#include "io/canvas.h"
-#include "io/panels.h"
+#include "draw/canvas/canvas.h"
+#include "draw/sheet/panels.h"
 
 namespace greatx::test {
 

@@ -264,7 +264,8 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
                                far + dvec3(random.uniform(-40, 40), 10.0, 24.0)));
   for (const TraceTestResult& result : trace(tiny.build(), rays)) {
     ASSERT_NE(result.triangle, none);
-    // Seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m where a rounding is 0.03 m.
+    // Seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m where a rounding is 0.03
+    // m.
     ASSERT_LE(glm::length(result.start - result.point), 0.3f);
     ASSERT_GT(glm::length(result.start - result.point), 0.0f);
     ASSERT_EQ(result.leaving_triangle, none);
@@ -277,8 +278,8 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
 }
 
 TEST(HardCase, N10_SelfHitSweep) {
-  // Convex solids from a millimetre to ten kilometres, some off the origin: a ray that is reflected off one from
-  // outside meets nothing.
+  // Convex solids from a millimetre to ten kilometres, some off the origin: a ray that is reflected off one
+  // from outside meets nothing.
   RandomStream random(10, 1);
   for (const double radius : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
     for (const double offset : {0.0, 20.0}) {

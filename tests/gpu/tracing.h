@@ -11,7 +11,7 @@
 
 #include "core/random.h"
 #include "gpu/tick_ring.h"
-#include "scene/gpu_scene.h"
+#include "scene/device/gpu_scene.h"
 #include "shaders/tests/trace_test.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"

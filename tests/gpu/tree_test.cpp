@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of the static world (scene/static_tree.h, shaders/lib/tree.glsl): against the driver's ray queries, and along the
-// edges and vertices of closed meshes, where there is no other answer than a hit.
+// The tree of the static world (scene/device/static_tree.h, shaders/lib/tree.glsl): against the driver's ray
+// queries, and along the edges and vertices of closed meshes, where there is no other answer than a hit.
 #include "shaders/shared/tree.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/static_tree.h"
+#include "scene/device/static_tree.h"
 #include "tests/gpu/tracing.h"
 
 namespace greatx {
@@ -57,8 +57,8 @@ std::vector<TraceTestRay> random_rays(RandomStream& random, int count, double re
   return rays;
 }
 
-/// Where a ray meets a triangle's plane, in fp64, and what fp32 may make of it: roundings of the coordinates, the more
-/// the flatter the ray meets it.
+/// Where a ray meets a triangle's plane, in fp64, and what fp32 may make of it: roundings of the coordinates,
+/// the more the flatter the ray meets it.
 struct Exact {
   double t = 0.0, bound = 0.0;
 };
@@ -75,8 +75,8 @@ Exact exact_hit(const scene::Scene& scene, const std::vector<Pose>& bodies, cons
   return {t, 0x1p-21 * (glm::length(origin) + glm::length(corners[0]) + glm::length(corners[1])) / speed};
 }
 
-/// The same triangle at the t of its plane, on the same side; but for as many rays as `grazing`, which pass within
-/// roundings of an edge.
+/// The same triangle at the t of its plane, on the same side; but for as many rays as `grazing`, which pass
+/// within roundings of an edge.
 void expect_same(const scene::Scene& scene, std::span<const TraceTestRay> rays, size_t grazing,
                  const std::vector<Pose>& bodies = {Pose{}}) {
   const auto tree = hits(scene, rays, Tracer::tree, bodies),
@@ -157,7 +157,8 @@ TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
     for (int i = 0; i < 16384; ++i) {
       const Triangle& t = mesh[random.below(static_cast<uint32_t>(mesh.size()))];
       const double along = i % 3 == 0 ? 0.0 : random.uniform(0.0, 1.0);
-      // From inside, half of them from the very centre, which edges of an octahedron see in planes of the axes.
+      // From inside, half of them from the very centre, which edges of an octahedron see in planes of the
+      // axes.
       const dvec3 from = center + (i % 2 == 0 ? 0.0 : 3.0) * random_direction(random);
       rays.push_back(ray_towards(from, t[0] + along * (t[1] - t[0])));
     }
@@ -169,7 +170,8 @@ TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
 }
 
 TEST(Tree, DoesNotLeakOutOfABoxAlongTheAxes) {
-  // Rays along edges' directions and exactly onto edges and corners: directions with zeros, boxes met on their faces.
+  // Rays along edges' directions and exactly onto edges and corners: directions with zeros, boxes met on
+  // their faces.
   TinyScene tiny;
   for (int i = 0; i < 4; ++i)  // walls in strips, so that there are boxes of the tree side by side
     for (int j = 0; j < 4; ++j)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/animation.h"
+#include "draw/sheet/animation.h"
 
 #include <cstdlib>
 #include <memory>
@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/webp.h"
+#include "io/formats/webp.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -82,7 +82,7 @@ TEST(Webp, KeepsColoursAndTimes) {
 
 TEST(Animation, PlaysAtItsOwnSpeedOrTenASecond) {
   const auto every = [](int64_t ns, int64_t count) {
-    std::vector<Moment> moments;
+    std::vector<SheetMoment> moments;
     for (int64_t i = 0; i < count; ++i) moments.push_back({5 + i, 1'000'000'000 + i * ns});
     return playback_of(moments);
   };

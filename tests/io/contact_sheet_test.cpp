@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/contact_sheet.h"
+#include "draw/sheet/contact_sheet.h"
 
 #include <set>
 
@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "io/panels.h"
-#include "io/png.h"
-#include "io/summary.h"
-#include "io/verify.h"
+#include "draw/sheet/panels.h"
+#include "io/dataset/summary.h"
+#include "io/dataset/verify.h"
+#include "io/formats/png.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -146,7 +146,8 @@ TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
     if (pixel[0] + pixel[1] > brightest) brightest = pixel[0] + pixel[1], row = y;
   }
   const double fraction = 1.0 - static_cast<double>(row - top) / height;
-  // Hann's main lobe is +-2 / (256 spacing) = 32.6 ns wide; -45 dB is inside it. 4 * 256 cells of 4.07 ns to 1/spacing.
+  // Hann's main lobe is +-2 / (256 spacing) = 32.6 ns wide; -45 dB is inside it. 4 * 256 cells of 4.07 ns to
+  // 1/spacing.
   const double end = 1.125 * (delay + 30e-9);
   EXPECT_NEAR(fraction * end, delay, 25e-9);
 }

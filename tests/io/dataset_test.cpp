@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/dataset_reader.h"
-#include "io/verify.h"
+#include "io/dataset/dataset_reader.h"
+#include "io/dataset/verify.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenEXR as other programs read it: by the names of channels that they ask the OpenEXR library for. What a file does not
-// have the library fills with a slice's fill value, without a word. The rules are those of
+// OpenEXR as other programs read it: by the names of channels that they ask the OpenEXR library for. What a
+// file does not have the library fills with a slice's fill value, without a word. The rules are those of
 //   OpenCV 4     modules/imgcodecs/src/grfmt_exr.cpp: R, G, B if the file has one of them, else Y as grey;
 //   FreeImage 3  Source/FreeImage/PluginEXR.cpp (imageio's reader): R, G, B if all are there, else Y.
-// Both were tried on files that greatx wrote (OpenCV 4.10, imageio 2.38 with FreeImage 3.18), as were ffmpeg (gray32 from Y
-// alone) and OpenImageIO (every channel).
+// Both were tried on files that greatx wrote (OpenCV 4.10, imageio 2.38 with FreeImage 3.18), as were ffmpeg
+// (gray32 from Y alone) and OpenImageIO (every channel).
 #include <Imath/ImathBox.h>
 #include <limits>
 
@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "io/exr.h"
+#include "io/formats/exr.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::io {

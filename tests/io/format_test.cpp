@@ -1,20 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in numpy_test.cpp).
+// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in
+// numpy_test.cpp).
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <thread>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "io/exr.h"
-#include "io/npy.h"
-#include "io/pcd.h"
-#include "io/ply.h"
-#include "io/png.h"
+#include "io/formats/exr.h"
+#include "io/formats/npy.h"
+#include "io/formats/pcd.h"
+#include "io/formats/ply.h"
+#include "io/formats/png.h"
 #include "tests/support/temporary_folder.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -93,6 +97,67 @@ TEST(Png, OwnDecoderGivesTheInputBack) {
     EXPECT_EQ(back.shape, image.shape);
     EXPECT_EQ(back.bytes, image.bytes);
   }
+}
+
+/// u8 [height, width, 3] of `color(i)`, the pixels counted line by line.
+template <typename ColorOf>
+Array rgb_picture(int64_t height, int64_t width, ColorOf&& color) {
+  Array image(DType::u8, {height, width, 3});
+  const std::span<uint8_t> rgb = image.as<uint8_t>();
+  for (size_t i = 0; i < rgb.size(); ++i)
+    rgb[i] = static_cast<uint8_t>(color(static_cast<int>(i / 3))[i % 3]);
+  return image;
+}
+
+constexpr size_t color_type_at = 25;  // in IHDR
+constexpr std::byte palette_type{3}, rgb_type{2};
+
+/// The pixels as stb reads them.
+std::vector<uint8_t> pixels_by_stb(const Bytes& file) {
+  int width = 0, height = 0, channels = 0;
+  stbi_uc* pixels =
+      stbi_load_from_memory(raw(file), static_cast<int>(file.size()), &width, &height, &channels, 3);
+  if (pixels == nullptr) return {};
+  const std::vector<uint8_t> rgb(pixels, pixels + 3 * width * height);
+  stbi_image_free(pixels);
+  return rgb;
+}
+
+TEST(Png, SmallIsAPaletteWhereItSuffices) {
+  const Array few = rgb_picture(5, 6, [](int i) { return std::array{i % 7 == 0 ? 200 : 10, 20, 30}; });
+  for (const PngCoding coding : {PngCoding::small, PngCoding::small_inexact}) {
+    const Bytes file = encode_png(few, coding);
+    EXPECT_EQ(file[color_type_at], palette_type);
+    EXPECT_THAT(pixels_by_stb(file), testing::ElementsAreArray(few.as<uint8_t>()));
+  }
+  // More than 256 colours at any quantisation down to 5 bits: RGB, and exact.
+  const Array many = rgb_picture(64, 64, [](int i) {
+    return std::array{i % 32 * 8, i / 32 % 32 * 8, i / 1024 * 60};
+  });
+  const Bytes exact = encode_png(many, PngCoding::small_inexact);
+  EXPECT_EQ(exact[color_type_at], rgb_type);
+  EXPECT_EQ(decode_png(exact, "x.png").bytes, many.bytes);
+}
+
+TEST(Png, SmallInexactDropsAsFewBitsAsItTakes) {
+  // 512 greys and near-greys; without the lowest bit 256 at most.
+  const Array image = rgb_picture(16, 32, [](int i) {
+    return std::array{i / 2, i / 2, (i / 2 & ~1) + i % 2};
+  });
+  const Bytes exact = encode_png(image, PngCoding::small),
+              inexact = encode_png(image, PngCoding::small_inexact);
+  EXPECT_EQ(exact[color_type_at], rgb_type);
+  EXPECT_EQ(decode_png(exact, "x.png").bytes, image.bytes);
+  ASSERT_EQ(inexact[color_type_at], palette_type);
+  const std::vector<uint8_t> back = pixels_by_stb(inexact);
+  const std::span<const uint8_t> rgb = image.as<uint8_t>();
+  ASSERT_EQ(back.size(), rgb.size());
+  for (size_t i = 0; i < rgb.size(); ++i) ASSERT_LE(std::abs(int{back[i]} - int{rgb[i]}), 1) << i;
+}
+
+TEST(Png, SmallTakesRgbAlone) {
+  EXPECT_THROW(encode_png(test_picture<uint8_t>({4, 4}), PngCoding::small), ContractError);
+  EXPECT_THROW(encode_png(test_picture<uint16_t>({4, 4}), PngCoding::small), ContractError);
 }
 
 TEST(Png, IdsThatDoNotFitAreRefused) {

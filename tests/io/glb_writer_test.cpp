@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Files are read back by tinygltf, which shares no code with the writer.
-#include "io/glb_writer.h"
+#include "io/formats/glb_writer.h"
 
+#include <cmath>
 #include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include "core/record.h"
 #include "core/units.h"
+#include "io/formats/png.h"
 
 namespace greatx::io {
 namespace {
@@ -108,6 +111,128 @@ TEST(GlbWriter, TrianglesKeepNormals) {
   EXPECT_EQ(values_of<vec3>(model, model.meshes[0].primitives[0].attributes.at("NORMAL"))[2], vec3(0, 1, 0));
 }
 
+GlbPrimitive a_triangle() {
+  GlbPrimitive triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  triangle.indices = {0, 1, 2};
+  return triangle;
+}
+
+/// glTF's reading of where a light looks: -z, turned.
+dvec3 aim_of(const tinygltf::Node& node) {
+  const std::vector<double>& q = node.rotation;
+  return dquat(q.at(3), q.at(0), q.at(1), q.at(2)) * dvec3(0, 0, -1);
+}
+
+TEST(GlbWriter, TexturesComeBackWithTheirMaterial) {
+  GlbWriter writer;
+  Array image(DType::u8, {1, 2, 3});
+  const std::vector<uint8_t> rgb{250, 128, 3, 0, 64, 255};
+  std::copy(rgb.begin(), rgb.end(), image.as<uint8_t>().begin());
+  const Bytes png = encode_png(image);
+  GlbPrimitive triangle = a_triangle();
+  triangle.uvs = {{0, 0}, {1, 0}, {0, 0.5f}};
+  triangle.material = 0;
+  const int mesh = writer.add_mesh("m");
+  writer.add_primitive(mesh, triangle);
+  // A texture of an odd number of bytes may not shift what lies behind it.
+  const int color = writer.add_texture("color", png), glow = writer.add_texture("glow", png);
+  GlbMaterial material;
+  material.name = "lit";
+  material.base_color_texture = color;
+  material.emissive_texture = glow;
+  material.emissive = {1, 0.5, 0.25};
+  material.emissive_strength = 3.5;
+  EXPECT_EQ(writer.add_material(material), 0);
+  writer.add_primitive(mesh, a_triangle());
+  writer.add_node({.name = "m", .mesh = mesh, .scale = 1.25});
+  const tinygltf::Model model = read_back(writer.finish("s"));
+
+  ASSERT_EQ(model.materials.size(), 1u);
+  const tinygltf::Material& back = model.materials[0];
+  ASSERT_EQ(model.textures.size(), 2u);
+  EXPECT_EQ(back.pbrMetallicRoughness.baseColorTexture.index, color);
+  EXPECT_EQ(back.emissiveTexture.index, glow);
+  EXPECT_EQ(back.normalTexture.index, -1);
+  EXPECT_THAT(back.emissiveFactor, ElementsAre(1, 0.5, 0.25));
+  EXPECT_EQ(back.extensions.at("KHR_materials_emissive_strength").Get("emissiveStrength").GetNumberAsDouble(),
+            3.5);
+  EXPECT_THAT(model.extensionsUsed, ElementsAre("KHR_materials_emissive_strength"));
+  EXPECT_EQ(model.samplers.size(), 1u);
+  const tinygltf::Image& picture = model.images.at(static_cast<size_t>(model.textures[0].source));
+  EXPECT_EQ(picture.name, "color");
+  ASSERT_EQ(picture.component, 4);  // tinygltf adds an alpha
+  EXPECT_THAT(picture.image, ElementsAre(250, 128, 3, 255, 0, 64, 255, 255));
+
+  const std::vector<tinygltf::Primitive>& primitives = model.meshes.at(0).primitives;
+  ASSERT_EQ(primitives.size(), 2u);
+  EXPECT_EQ(values_of<vec2>(model, primitives[0].attributes.at("TEXCOORD_0"))[2], vec2(0, 0.5f));
+  EXPECT_EQ(values_of<vec3>(model, primitives[1].attributes.at("POSITION"))[2], vec3(0, 0, -1));
+  EXPECT_THAT(model.nodes.at(0).scale, ElementsAre(1.25, 1.25, 1.25));
+}
+
+TEST(GlbWriter, LightsComeBackAndLookWhereTheyAim) {
+  GlbWriter writer;
+  const int spot = writer.add_light(
+      {.color = {1, 0.5, 0.25}, .intensity_cd = 900, .range_m = 30, .inner_cone = 0.5, .outer_cone = 0.75});
+  const int point = writer.add_light({.intensity_cd = 7, .range_m = 2});
+  writer.add_node({.name = "down", .light = spot, .aim = {0, 0, -2}});
+  writer.add_node({.name = "north-west", .light = spot, .aim = {-3, 4, 0}});
+  writer.add_node({.name = "bulb", .light = point});
+  const tinygltf::Model model = read_back(writer.finish("s"));
+  ASSERT_EQ(model.lights.size(), 2u);
+  EXPECT_EQ(model.lights[0].type, "spot");
+  EXPECT_THAT(model.lights[0].color, ElementsAre(1, 0.5, 0.25));
+  EXPECT_EQ(model.lights[0].intensity, 900);
+  EXPECT_EQ(model.lights[0].range, 30);
+  EXPECT_EQ(model.lights[0].spot.innerConeAngle, 0.5);
+  EXPECT_EQ(model.lights[0].spot.outerConeAngle, 0.75);
+  EXPECT_EQ(model.lights[1].type, "point");
+  EXPECT_THAT(model.extensionsUsed, ElementsAre("KHR_lights_punctual"));
+  EXPECT_NEAR(glm::distance(aim_of(model.nodes.at(0)), dvec3(0, -1, 0)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::distance(aim_of(model.nodes.at(1)), dvec3(-0.6, 0, -0.8)), 0.0, 1e-6);
+  EXPECT_TRUE(model.nodes.at(2).rotation.empty());
+  EXPECT_EQ(model.nodes[2].extensions.at("KHR_lights_punctual").Get("light").GetNumberAsInt(), point);
+  // Straight back there is no shortest way: -y is glTF's +z.
+  EXPECT_THROW(writer.add_node({.name = "back", .light = spot, .aim = {0, -1, 0}}), ContractError);
+}
+
+TEST(GlbWriter, CompactFilesHoldTheSame) {
+  GlbWriter plain, compact({.generator = "somebody", .compact = true});
+  for (GlbWriter* const writer : {&plain, &compact})
+    writer->add_node({.name = "t", .mesh = writer->add_mesh("t", {a_triangle(), a_line(-1)})});
+  const Bytes large = plain.finish("s"), small = compact.finish("s");
+  EXPECT_LT(small.size(), large.size());
+  const tinygltf::Model model = read_back(small);
+  EXPECT_EQ(model.asset.generator, "somebody");
+  EXPECT_EQ(read_back(large).asset.generator, "greatx " GREATX_VERSION);
+  const std::vector<tinygltf::Primitive>& primitives = model.meshes.at(0).primitives;
+  ASSERT_EQ(primitives.size(), 2u);
+  EXPECT_EQ(primitives[0].mode, TINYGLTF_MODE_TRIANGLES);
+  EXPECT_EQ(primitives[1].mode, TINYGLTF_MODE_LINE);
+  EXPECT_THAT(values_of<uint16_t>(model, primitives[0].indices), ElementsAre(0, 1, 2));
+  // Rotations are rounded to float: sine and cosine of an eighth of a radian.
+  const Pose turned{{}, dquat(std::cos(0.125), 0.0, 0.0, std::sin(0.125))};
+  for (GlbWriter* const writer : {&plain, &compact}) writer->add_node({.name = "turned", .pose = turned});
+  EXPECT_THAT(read_back(compact.finish("s")).nodes.at(0).rotation,
+              ElementsAre(0.0, double{0.12467473f}, 0.0, double{0.99219767f}));
+  EXPECT_THAT(read_back(plain.finish("s")).nodes.at(0).rotation,
+              ElementsAre(0.0, std::sin(0.125), 0.0, std::cos(0.125)));
+  // 65535 stands for a restart: a mesh that needs it has indices of 32 bits.
+  for (const uint32_t count : {65534u, 65535u}) {
+    GlbPrimitive large_one = a_triangle();
+    large_one.positions.resize(count, vec3(0, 0, 1));
+    large_one.indices = {0, 1, count - 1};
+    compact.add_node({.name = "l", .mesh = compact.add_mesh("l", {large_one})});
+    const tinygltf::Model back = read_back(compact.finish("s"));
+    const int indices = back.meshes.at(0).primitives.at(0).indices;
+    if (count == 65534)
+      EXPECT_THAT(values_of<uint16_t>(back, indices), ElementsAre(0, 1, 65533));
+    else
+      EXPECT_THAT(values_of<uint32_t>(back, indices), ElementsAre(0, 1, 65534));
+  }
+}
+
 TEST(GlbWriter, NothingToShowIsAFileAllTheSame) {
   GlbWriter writer;
   EXPECT_TRUE(read_back(writer.finish("empty")).nodes.empty());
@@ -122,6 +247,12 @@ TEST(GlbWriter, BrokenPrimitivesAreRefused) {
   EXPECT_THROW(writer.add_mesh("m", {line}), ContractError);
   EXPECT_THROW(writer.add_mesh("m", {GlbPrimitive{}}), ContractError);
   EXPECT_THROW(writer.add_mesh("m", {}), ContractError);
+  line = a_line(-1);
+  line.uvs = {{0, 0}};
+  EXPECT_THROW(writer.add_mesh("m", {line}), ContractError);
+  GlbWriter another;
+  another.add_mesh("nothing follows");
+  EXPECT_THROW(another.finish("s"), ContractError);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Data sets that lie about themselves, and files that others take away: each is a UserError that names the file.
+// Data sets that lie about themselves, and files that others take away: each is a UserError that names the
+// file.
 #include <functional>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,15 +11,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/contact_sheet.h"
-#include "io/dataset_reader.h"
-#include "io/inside.h"
-#include "io/journal.h"
-#include "io/manifest.h"
-#include "io/npy.h"
-#include "io/pcd.h"
-#include "io/summary.h"
-#include "io/verify.h"
+#include "draw/sheet/contact_sheet.h"
+#include "io/dataset/dataset_reader.h"
+#include "io/dataset/journal.h"
+#include "io/dataset/manifest.h"
+#include "io/dataset/summary.h"
+#include "io/dataset/verify.h"
+#include "io/files/inside.h"
+#include "io/formats/npy.h"
+#include "io/formats/pcd.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -104,8 +105,7 @@ TEST_F(HostileDataset, NumbersOfDatasetJsonAreBoundedAndNamedByLine) {
       {"\"name\": \"uav/cam\"", "\"name\": \"../../x\"", "sensor \"../../x\""},
       {"\"name\": \"uav/cam\"", "\"name\": \"index.npy\"", "two outputs of the data set would share"},
       {"\"metadata\": {", "\"metadata\": 3, \"x\": {", "sensors[0].metadata: expected an object"},
-      {"16,\n            24,", "1099511627776,\n            1099511627776,",
-       "more than 4294967296 bytes"},
+      {"16,\n            24,", "1099511627776,\n            1099511627776,", "more than 4294967296 bytes"},
       {"\"format\": \"png\"", "\"format\": \"gif\"", "sensors[0].outputs[0].format: expected"},
   };
   for (const auto& [what, with, expected] : lies) {

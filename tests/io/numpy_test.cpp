@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of a set.
+// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of
+// a set.
 #include <gtest/gtest.h>
 
-#include "io/file.h"
-#include "io/npy.h"
+#include "io/files/file.h"
+#include "io/formats/npy.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

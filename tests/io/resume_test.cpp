@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs that end badly: killed at any point, torn journal, full disk. Each is resumed and must give the bytes of a run
-// that was never interrupted.
+// Runs that end badly: killed at any point, torn journal, full disk. Each is resumed and must give the bytes
+// of a run that was never interrupted.
 #include <csignal>
 #include <functional>
 #include <memory>
@@ -13,9 +13,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/dataset_reader.h"
-#include "io/journal.h"
-#include "io/verify.h"
+#include "io/dataset/dataset_reader.h"
+#include "io/dataset/journal.h"
+#include "io/dataset/verify.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/random.h"
-#include "io/file.h"
+#include "io/files/file.h"
 
 namespace greatx::io {
 
@@ -31,18 +31,17 @@ SensorSpec camera() {
 }
 
 SensorSpec lidar() {
-  return {
-      "uav/lidar",
-      "lidar",
-      "20",
-      {{"points", DType::f32, {-1, 4}, "m", "x, y, z, intensity"},
-       {"ring", DType::u16, {-1}, "1", "channel"},
-       {"time", DType::f32, {-1}, "s", "offset"}},
-      {{"cloud", FileFormat::ply, {"points", "ring", "time"}},
-       {"pcd", FileFormat::pcd, {"points", "ring", "time"}},
-       {"velodyne", FileFormat::kitti, {"points"}},
-       {"ring", FileFormat::npy_ragged, {"ring"}}},
-      "{}"};
+  return {"uav/lidar",
+          "lidar",
+          "20",
+          {{"points", DType::f32, {-1, 4}, "m", "x, y, z, intensity"},
+           {"ring", DType::u16, {-1}, "1", "channel"},
+           {"time", DType::f32, {-1}, "s", "offset"}},
+          {{"cloud", FileFormat::ply, {"points", "ring", "time"}},
+           {"pcd", FileFormat::pcd, {"points", "ring", "time"}},
+           {"velodyne", FileFormat::kitti, {"points"}},
+           {"ring", FileFormat::npy_ragged, {"ring"}}},
+          "{}"};
 }
 
 SensorSpec csi() {

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A small run with every file format in it, whose every value is a function of (sequence, tick, sensor): what a
-// simulator would deliver, without one.
+// A small run with every file format in it, whose every value is a function of (sequence, tick, sensor): what
+// a simulator would deliver, without one.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <string>
 
-#include "io/dataset_writer.h"
+#include "io/dataset/dataset_writer.h"
 
 namespace greatx::io {
 

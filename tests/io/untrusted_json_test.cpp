@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/untrusted_json.h"
+#include "io/files/untrusted_json.h"
 
 #include <functional>
 

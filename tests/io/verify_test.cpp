@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of damage is found and named. Damage that the hashes would find anyway is given a matching manifest, so
-// that the check behind them is seen to work.
-#include "io/verify.h"
+// Every kind of damage is found and named. Damage that the hashes would find anyway is given a matching
+// manifest, so that the check behind them is seen to work.
+#include "io/dataset/verify.h"
 
 #include <functional>
 #include <limits>
@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "core/hash.h"
-#include "io/exr.h"
-#include "io/npy.h"
-#include "io/ply.h"
+#include "io/formats/exr.h"
+#include "io/formats/npy.h"
+#include "io/formats/ply.h"
 #include "tests/io/sample_run.h"
 #include "tests/support/temporary_folder.h"
 

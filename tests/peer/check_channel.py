@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recomputes a data set's channels from its paths and its paths' fields from their vertices; prints the largest
-differences and fails if one is beyond its bound. Usage: check_channel.py DATASET [CHANNEL]"""
+"""Recomputes a data set's channels from its paths and its paths' fields from their vertices; prints the
+largest differences and fails if one is beyond its bound. Usage: check_channel.py DATASET [CHANNEL]"""
 import sys
 
 import numpy as np
@@ -19,7 +19,8 @@ class Worst:
     def add(self, name, value, bound, where):
         value = float(np.max(value, initial=0.0))
         count, worst, least, at = self.rows.get(name, (0, -1.0, bound, ""))
-        # Bounds may differ from one comparison to the next: the one nearest to its bound (or over it) is shown.
+        # Bounds may differ from one comparison to the next: the one nearest to its bound (or over it) is
+        # shown.
         nearer = not value * least <= worst * bound if bound > 0 else not value <= worst
         self.rows[name] = (count + 1, *((value, bound, where) if nearer else (worst, least, at)))
 
@@ -90,9 +91,10 @@ def check_foliage(channel, p, i, length, worst, where):
 
 
 def check_transfer(channel, p, i, points, normals, worst, where):
-    """Reflections and walls passed, where the data set says enough: not with rough or scattering walls (what they take is
-    not in it), nor through a wall that no path of the data set is reflected at. What gas, fog and leaves take is the same
-    for all polarizations: then the strength is fitted, and must not be above 1."""
+    """Reflections and walls passed, where the data set says enough: not with rough or scattering walls (what
+    they take is not in it), nor through a wall that no path of the data set is reflected at. What gas, fog
+    and leaves take is the same for all polarizations: then the strength is fitted, and must not be above
+    1."""
     types = types_of(p, i)
     effects = channel.effects
     if not np.isin(types, (model.REFLECTION, model.TRANSMISSION)).all() or effects["rain"]:
@@ -151,8 +153,8 @@ def check_record(channel, record, worst, normals, known):
 
 
 def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
-    """Of one transmitter and receiver: their paths q, H [rx_ant, tx_ant, time, subcarrier], (path_gain, line_of_sight,
-    whether H is made of q)."""
+    """Of one transmitter and receiver: their paths q, H [rx_ant, tx_ant, time, subcarrier], (path_gain,
+    line_of_sight, whether H is made of q)."""
     meta = channel.meta
     tx_place, tx_turn = channel.end(record, tx)
     rx_place, rx_turn = channel.end(record, rx)
@@ -178,8 +180,8 @@ def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
 
 def check_doppler(channel, worst):
     """Doppler against differences of the delay (fourth order), paths matched by their ids. Bound: 1 mHz, four
-    times what central differences of second order say otherwise, and the jump between the one-sided ones (way-points,
-    where a lever turns with the velocity, have one)."""
+    times what central differences of second order say otherwise, and the jump between the one-sided ones
+    (way-points, where a lever turns with the velocity, have one)."""
     tables = []
     for record in range(len(channel)):
         p = channel.paths(record)

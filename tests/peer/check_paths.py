@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Compares the paths of data sets (first record, receivers by position) with a list of all paths that exist.
-Usage: check_paths.py REFERENCE DATASET...   Prints one row a data set: found, missing, extra, doubled, differences.
+Usage: check_paths.py REFERENCE DATASET...   Prints one row a data set: found, missing, extra, doubled,
+differences.
 
 REFERENCE has lines `receiver i x y z` and `path i depth length x y z ...` (vertices from the transmitter)."""
 import sys
@@ -39,7 +40,8 @@ def main():
             place, _ = channel.end(0, description)
             i = min(receivers, key=lambda k: np.linalg.norm(receivers[k] - place))
             assert np.linalg.norm(receivers[i] - place) < 1e-6
-            # The list is of reflections: paths with a wall passed, an edge or a patch are none of its business.
+            # The list is of reflections: paths with a wall passed, an edge or a patch are none of its
+            # business.
             mine = [k for k in np.flatnonzero(p["rx"] == r) if (p["interaction"][k] <= 1).all()]
             ours = [(p["delay"][k] * C, p["vertex"][k][:np.count_nonzero(p["interaction"][k])]) for k in mine]
             left = list(ours)

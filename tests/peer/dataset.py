@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what the channel checks need of a data set, by docs/dataset.md alone: NumPy and JSON, nothing of greatx."""
+"""Reads what the channel checks need of a data set, by docs/dataset.md alone: NumPy and JSON, nothing of
+greatx."""
 import json
 import pathlib
 

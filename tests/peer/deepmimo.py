@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Does DeepMIMO's own loader read what `greatx.convert deepmimo` writes, and does it compute our channel from it?
+"""Does DeepMIMO's own loader read what `greatx.convert deepmimo` writes, and does it compute our channel from
+it?
 
     python3 tests/peer/deepmimo.py [PROGRAM]
 
-makes an environment with DeepMIMO 4.0.5 below build/peer/ (the first time), runs a scenario of its own with PROGRAM
-(build/release/greatx), converts it both ways, loads it with `deepmimo.load` and holds against the data set: positions,
-delays, angles, interactions, the time convention, and the channel that DeepMIMO computes between single isotropic
-antennas. Prints the largest difference of each kind beside its bound; exits with 1 beyond one.
+makes an environment with DeepMIMO 4.0.5 below build/peer/ (the first time), runs a scenario of its own with
+PROGRAM (build/release/greatx), converts it both ways, loads it with `deepmimo.load` and holds against the
+data set: positions, delays, angles, interactions, the time convention, and the channel that DeepMIMO computes
+between single isotropic antennas. Prints the largest difference of each kind beside its bound; exits with 1
+beyond one.
 """
 import contextlib
 import io

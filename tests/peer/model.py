@@ -43,8 +43,9 @@ def basis(d):
 
 
 def fresnel(wall, cosine, wavelength):
-    """(r_TE, r_TM) of a wall: [(eta, thickness), ...], by the impedance of a chain of lines (Pozar, 2.5): a way of its
-    own, neither eq. 43 of P.2040 nor its recursion. Thickness 0 in the last layer: half-space, else vacuum behind."""
+    """(r_TE, r_TM) of a wall: [(eta, thickness), ...], by the impedance of a chain of lines (Pozar, 2.5): a
+    way of its own, neither eq. 43 of P.2040 nor its recursion. Thickness 0 in the last layer: half-space,
+    else vacuum behind."""
     def admittances(eta):
         n = np.sqrt(complex(eta) - 1 + cosine**2)
         n = -n if n.imag > 0 else n
@@ -63,8 +64,8 @@ def fresnel(wall, cosine, wavelength):
 
 
 def passed(wall, cosine, wavelength):
-    """(t_TE, t_TM) of a wall as a sheet, by chain (ABCD) matrices of its layers; the way that the wave would have gone in
-    vacuum is taken off, since the path's length has it."""
+    """(t_TE, t_TM) of a wall as a sheet, by chain (ABCD) matrices of its layers; the way that the wave would
+    have gone in vacuum is taken off, since the path's length has it."""
     te = np.eye(2, dtype=complex)
     tm = np.eye(2, dtype=complex)
     for eta, thickness in wall:
@@ -92,9 +93,9 @@ def bisectors(points, types):
 
 
 def transfer(points, types, walls, normals, wavelength):
-    """2x2 transfer of a path through points [n + 2, 3] with n interactions (reflections, walls passed), world basis of
-    departure and arrival. Normals of reflections are the bisectors: nothing of the scene is needed but those of the walls
-    passed, given in `normals` [n, 3]."""
+    """2x2 transfer of a path through points [n + 2, 3] with n interactions (reflections, walls passed), world
+    basis of departure and arrival. Normals of reflections are the bisectors: nothing of the scene is needed
+    but those of the walls passed, given in `normals` [n, 3]."""
     own = bisectors(points, types)
     turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
     k = unit(np.diff(points[turning], axis=0))
@@ -156,7 +157,8 @@ def element_positions(antenna):
 
 
 def array_response(antenna, tables, turn, d, wavelength):
-    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's phase."""
+    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's
+    phase."""
     own = turn.T @ d
     own_theta, own_phi = basis(own)
     zenith, azimuth = np.arctan2(np.hypot(own[0], own[1]), own[2]), np.arctan2(own[1], own[0])
@@ -176,13 +178,15 @@ def array_response(antenna, tables, turn, d, wavelength):
 
 
 def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, delays):
-    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}; `tx`, `rx`: descriptions of the ends."""
+    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}; `tx`, `rx`: descriptions of the
+    ends."""
     wavelength = C / meta["carrier_hz"]
     tables = meta["pattern_tables"]
     out = []
     for t, d, a, tau in zip(transfers, departures, arrivals, delays):
         from_tx = array_response(tx, tables, tx_turn, direction(d), wavelength)
-        # C_R^H: by reciprocity a port receives with the pattern that it radiates with, transposed, not conjugated.
+        # C_R^H: by reciprocity a port receives with the pattern that it radiates with, transposed, not
+        # conjugated.
         at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength)
         out.append(wavelength / (4 * np.pi) * (at_rx @ t @ from_tx.T) * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1)))
     return np.array(out) if out else np.zeros((0, rx["ports"], tx["ports"]), complex)

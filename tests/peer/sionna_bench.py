@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""One row of the table for Sionna RT, in a process of its own: sionna_bench.py ROW JSON prints one JSON object. Times are
-wall clock up to the amplitudes and delays being in NumPy arrays; everything before the first one is said apart."""
+"""One row of the table for Sionna RT, in a process of its own: sionna_bench.py ROW JSON prints one JSON
+object. Times are wall clock up to the amplitudes and delays being in NumPy arrays; everything before the
+first one is said apart."""
 import time
 
 BEGIN = time.perf_counter()
@@ -30,7 +31,8 @@ def timed(call):
 
 
 def first(sionna, receivers, settings):
-    """The first solve, kernels compiled or fetched from Dr.Jit's own cache, then `repeat` more at other places."""
+    """The first solve, kernels compiled or fetched from Dr.Jit's own cache, then `repeat` more at other
+    places."""
     import mitsuba as mi
     sionna.place(receivers[:1])
     first_ms, _ = timed(lambda: arrays(sionna.solve(**settings["solve"])))
@@ -55,7 +57,8 @@ def many(sionna, receivers, settings):
 
 
 def digest(sionna, receivers, settings):
-    """Of the arrays as they come, and of the paths put in order (sets of paths may be equal where bytes are not)."""
+    """Of the arrays as they come, and of the paths put in order (sets of paths may be equal where bytes are
+    not)."""
     sionna.place(receivers)
     out = arrays(sionna.solve(**settings["solve"]))
     whole = hashlib.sha256(b"".join(a.tobytes() for a in out)).hexdigest()

@@ -60,7 +60,8 @@ def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, repo
            f"{2 * np.pi * case.carrier_hz * largest * 2**-24:.1e} rad; {C * largest:.0f} m)")
 
 
-# Sionna RT's pattern, polarization; greatx's fields; rows, columns, their spacing in wavelengths; synthetic_array
+# Sionna RT's pattern, polarization; greatx's fields; rows, columns, their spacing in wavelengths;
+# synthetic_array
 ANTENNAS = [
     ("isotropic, V", "iso", "V", "pattern: isotropic, polarization: v", (1, 1, 0.5, 0.5), True),
     ("short dipole, V and H", "dipole", "VH", "pattern: short_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
@@ -72,8 +73,9 @@ ANTENNAS = [
 
 
 def port_order(array, rows, columns, vertical, horizontal, polarizations):
-    """For each of greatx's ports ((row * columns + column) * polarizations + polarization, rows upwards, columns to +y, +45
-    deg before -45) the number of Sionna RT's (patterns outermost, rows downwards, -45 deg first)."""
+    """For each of greatx's ports ((row * columns + column) * polarizations + polarization, rows upwards,
+    columns to +y, +45 deg before -45) the number of Sionna RT's (patterns outermost, rows downwards, -45 deg
+    first)."""
     y, z = np.array(array.normalized_positions.y), np.array(array.normalized_positions.z)
     column = np.round(y / horizontal + (columns - 1) / 2).astype(int)
     row = np.round(z / vertical + (rows - 1) / 2).astype(int)

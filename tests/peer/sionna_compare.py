@@ -91,8 +91,8 @@ def sets(case, referee, sionna, options, ours, theirs, receivers, result):
 
 
 def fields(case, referee, pairs, result):
-    """Delays, angles and transfers of the pairs; where transfers differ, whether a slab's phase is why, and whom the
-    peers' own model of slabs agrees with."""
+    """Delays, angles and transfers of the pairs; where transfers differ, whether a slab's phase is why, and
+    whom the peers' own model of slabs agrees with."""
     if not pairs:
         return
     d = differences(pairs)

@@ -86,7 +86,8 @@ class Greatx:
         return np.load(folder / "sequence_0000" / "csi" / "cfr.npy")[0, :, :, 0, :, 0, :]
 
     def recall(self, case, receivers):
-        """What greatx bench --recall says: found, missing, doubled, extra, held against its exhaustive reference."""
+        """What greatx bench --recall says: found, missing, doubled, extra, held against its exhaustive
+        reference."""
         return json.loads(self.run("bench", self.scenario(case, receivers[:1]), "--assets", self.scenes, "--recall",
                                    "--receivers", self.points_file(case, receivers), "--depth", case.depth, "--walls",
                                    case.walls, "--max-rays", 0, "--json"))

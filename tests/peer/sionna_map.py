@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Radio maps beside each other: 300 x 300 cells of 1 m, depth 3, one transmitter, isotropic and vertical at both ends."""
+"""Radio maps beside each other: 300 x 300 cells of 1 m, depth 3, one transmitter, isotropic and vertical at
+both ends."""
 import json
 import shutil
 import subprocess
@@ -11,7 +12,8 @@ CENTER, SIZE, HEIGHT = (60.0, -80.0), 300.0, 1.5
 
 
 def greatx_map(table):
-    """(process figures, gain in dB [rows, columns]) of `greatx map`, or None where there is no such command."""
+    """(process figures, gain in dB [rows, columns]) of `greatx map`, or None where there is no such
+    command."""
     from sionna_table import process
     commands = subprocess.run([table.program, "--help"], capture_output=True, text=True).stdout
     if not any(line.split()[:1] == ["map"] for line in commands.splitlines()):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Decides whether a specular path exists: the image method and all triangles of the scene's own PLY files in fp64. Shares
-nothing with greatx (not even the imported file) nor with Sionna RT."""
+"""Decides whether a specular path exists: the image method and all triangles of the scene's own PLY files in
+fp64. Shares nothing with greatx (not even the imported file) nor with Sionna RT."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 
@@ -13,7 +13,8 @@ TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4"
 
 
 def read_ply(file):
-    """Corners of the triangles [n, 3, 3] of a binary little-endian PLY file, which all of Sionna RT's scenes are."""
+    """Corners of the triangles [n, 3, 3] of a binary little-endian PLY file, which all of Sionna RT's scenes
+    are."""
     data = pathlib.Path(file).read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     header = data[:end].decode().split("\n")
@@ -128,7 +129,8 @@ class Referee:
         return near[best][np.argmin(outside[near[best]])]
 
     def judge(self, path):
-        """A dictionary: exists, why, edge_mm (how near the exact path comes to an outline), length (exact)."""
+        """A dictionary: exists, why, edge_mm (how near the exact path comes to an outline), length
+        (exact)."""
         turning = [i for i, k in enumerate(path.kinds) if k != "T"]
         if any(path.kinds[i] != "R" for i in turning):
             return {"exists": None, "why": "not specular"}
@@ -178,7 +180,8 @@ class Referee:
         return answer | {"exists": True, "why": "", "walls": walls, "corners": corners, "faces": faces}
 
     def distinct(self, p, q, own):
-        """Surfaces crossed; triangles that meet on the seam are one, those of the mirrors at the ends none."""
+        """Surfaces crossed; triangles that meet on the seam are one, those of the mirrors at the ends
+        none."""
         length = np.linalg.norm(q - p)
         out = []
         for t, face in self.crossings(p, q):
@@ -218,7 +221,8 @@ class Referee:
         return case.wavelength / (4 * np.pi) * t
 
     def slab_phase(self, path, verdict, case):
-        """rad: k d cos(theta) summed over the walls passed: the way through them, which a path's length has already."""
+        """rad: k d cos(theta) summed over the walls passed: the way through them, which a path's length has
+        already."""
         total, at = 0.0, 0
         segments = np.diff(verdict["corners"], axis=0)
         crossed = list(verdict["walls"])
@@ -236,7 +240,8 @@ class Referee:
         return a + d0 / (d0 - d1) * (b - a)
 
     def draw_receivers(self, case):
-        """Positions in the case's box with nothing but sky above and something below (or anywhere in a closed scene)."""
+        """Positions in the case's box with nothing but sky above and something below (or anywhere in a closed
+        scene)."""
         random = np.random.default_rng(case.seed)
         out = []
         for _ in range(100000):

@@ -7,8 +7,9 @@
     python3 tests/peer/sionna_rt.py --case etoile    one of them (--list names them)
     python3 tests/peer/sionna_rt.py --table          time and memory, in Markdown: wants a quiet machine
 
-Sets up an environment of its own (a venv with sionna-rt, some 600 MB) below the build folder at the first call. Needs
-Debian's libllvm19 (apt-get install libllvm19), python3-venv and a built greatx. Not part of ./test.sh."""
+Sets up an environment of its own (a venv with sionna-rt, some 600 MB) below the build folder at the first
+call. Needs Debian's libllvm19 (apt-get install libllvm19), python3-venv and a built greatx. Not part of
+./test.sh."""
 import argparse
 import pathlib
 import sys

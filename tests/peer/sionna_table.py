@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of docs/sionna.md: time, memory, completeness, determinism of both tools on etoile, in Markdown. Each row runs
-in a process of its own; its wall time, CPU time and peak memory are those of that process."""
+"""The table of docs/sionna.md: time, memory, completeness, determinism of both tools on etoile, in Markdown.
+Each row runs in a process of its own; its wall time, CPU time and peak memory are those of that process."""
 import dataclasses
 import hashlib
 import importlib.metadata
@@ -24,8 +24,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def process(words, environment=None):
-    """(stdout, wall s, CPU s, peak MiB) of a program. The peak is at least this process's own, which the fork starts from:
-    right for Sionna RT's, which are larger; greatx states its own."""
+    """(stdout, wall s, CPU s, peak MiB) of a program. The peak is at least this process's own, which the fork
+    starts from: right for Sionna RT's, which are larger; greatx states its own."""
     begin = time.perf_counter()
     with tempfile.TemporaryFile() as errors:
         child = subprocess.Popen([str(w) for w in words], stdout=subprocess.PIPE, stderr=errors,

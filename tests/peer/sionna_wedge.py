@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The exact field of a point source by an infinite, perfectly conducting wedge, and both tools' diffraction beside it.
+"""The exact field of a point source by an infinite, perfectly conducting wedge, and both tools' diffraction
+beside it.
 
-J. J. Bowman, T. B. A. Senior, P. L. E. Uslenghi, Electromagnetic and Acoustic Scattering by Simple Shapes, ch. 6: the part
-that is not geometrical optics is, for an exterior angle n pi,
+J. J. Bowman, T. B. A. Senior, P. L. E. Uslenghi, Electromagnetic and Acoustic Scattering by Simple Shapes,
+ch. 6: the part that is not geometrical optics is, for an exterior angle n pi,
 
     u_d = -1/(4 pi n) sum over psi of (+1 for phi - phi0, -+1 for phi + phi0) and both signs of
           int e^{-jkR(y)}/R(y) sin((pi +- psi)/n) / (cosh(y/n) - cos((pi +- psi)/n)) dy,
     R(y)^2 = r^2 + r0^2 + 2 r r0 cosh y + (z - z0)^2,
 
-upper sign for E along the edge (Dirichlet), lower for E across it (Neumann). Taken along y = t e^{-j pi/4}, where the
-integrand falls off like a Gaussian."""
+upper sign for E along the edge (Dirichlet), lower for E across it (Neumann). Taken along y = t e^{-j pi/4},
+where the integrand falls off like a Gaussian."""
 import numpy as np
 import scipy.special
 
@@ -31,7 +32,8 @@ def diffracted(k, n, source, receiver, sign):
 
 
 def cylindrical(p):
-    """About the edge of Sionna RT's simple_wedge: the z axis, solid at x > 0, y < 0; phi from the face at y = 0."""
+    """About the edge of Sionna RT's simple_wedge: the z axis, solid at x > 0, y < 0; phi from the face at y =
+    0."""
     return np.hypot(p[0], p[1]), np.arctan2(p[1], p[0]) % (2 * np.pi), p[2]
 
 
@@ -51,8 +53,8 @@ def transition(x):
 
 
 def utd_terms(path, case, n=1.5):
-    """(lambda/4 pi) times the four terms of eq. 25, spreading included: (+, -) of phi - phi0, (+, -) of phi + phi0. For a
-    conductor E along the edge is (1, 1, -1, -1) of them and E across it (1, 1, 1, 1)."""
+    """(lambda/4 pi) times the four terms of eq. 25, spreading included: (+, -) of phi - phi0, (+, -) of phi +
+    phi0. For a conductor E along the edge is (1, 1, -1, -1) of them and E across it (1, 1, 1, 1)."""
     (r0, phi0, z0), (r, phi, z) = cylindrical(path.points[0]), cylindrical(path.points[-1])
     k, sine = 2 * np.pi / case.wavelength, (r + r0) / np.hypot(r + r0, z - z0)
     s0, s = r0 / sine, r / sine

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sun and moon against the worked examples of the books, and against published almanacs' figures.
-#include "renderer/light/almanac.h"
+#include "renderer/daylight/almanac.h"
 
 #include <cmath>
 
@@ -60,8 +60,9 @@ TEST(Almanac, SunOfTheSolarPositionAlgorithmsExample) {
 }
 
 TEST(Almanac, EquinoxesAndSolsticesOfMeeusTable) {
-  // Meeus, ch. 27: example 27.a, June solstice 1962 at JDE 2437837.39245 (longitude 90), and table 27.E, 1996 to 2000 in
-  // dynamical time. A minute of time is 4e-5 rad of longitude: 0.01 degrees is a quarter of an hour.
+  // Meeus, ch. 27: example 27.a, June solstice 1962 at JDE 2437837.39245 (longitude 90), and table 27.E, 1996
+  // to 2000 in dynamical time. A minute of time is 4e-5 rad of longitude: 0.01 degrees is a quarter of an
+  // hour.
   const auto longitude_deg = [](double jde) {
     return std::fmod(degrees(sun_from_earth(jde).longitude) + 360.0, 360.0);
   };
@@ -75,8 +76,8 @@ TEST(Almanac, EquinoxesAndSolsticesOfMeeusTable) {
 }
 
 TEST(Almanac, FullMoonAndTotalEclipse) {
-  // 2024 April 8, 18:17:18 UT, 25.286 N 104.139 W: greatest eclipse (Espenak, NASA): the discs are concentric, the
-  // sun's altitude is 69.8 degrees, azimuth 149 degrees.
+  // 2024 April 8, 18:17:18 UT, 25.286 N 104.139 W: greatest eclipse (Espenak, NASA): the discs are
+  // concentric, the sun's altitude is 69.8 degrees, azimuth 149 degrees.
   const SunAndMoon dark =
       sun_and_moon(1712600238.0, {.latitude = radians(25.286), .longitude = radians(-104.139)});
   EXPECT_NEAR(degrees(dark.sun.elevation), 69.8, 0.06);
@@ -104,7 +105,8 @@ TEST(Almanac, AzimuthTurnsFromEastToNorth) {
 }
 
 TEST(Almanac, MoonsParallaxIsADegreeAtTheHorizon) {
-  // Seen from the place below it the moon is 1.7 % nearer than from where it rises, and almost a degree lower there.
+  // Seen from the place below it the moon is 1.7 % nearer than from where it rises, and almost a degree lower
+  // there.
   double highest = -1.0, lowest_gap = 1.0, widest_gap = 0.0;
   for (int hour = 0; hour < 25; ++hour) {
     const double t = unix_of(2448724.5, 1992.3) + 3600.0 * hour;
@@ -120,7 +122,8 @@ TEST(Almanac, MoonsParallaxIsADegreeAtTheHorizon) {
 }
 
 TEST(Almanac, RefractionOfThePublishedTable) {
-  // Meeus, example 16.a: 28.754' where the apparent altitude is 30', that is, the true one 1.246'; 34' at the horizon.
+  // Meeus, example 16.a: 28.754' where the apparent altitude is 30', that is, the true one 1.246'; 34' at the
+  // horizon.
   const auto minutes = [](double true_deg) {
     return 60.0 * degrees(refraction(radians(true_deg), 1010.0, 283.0));
   };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// No surface sends on more light than it receives, whatever it is made of: the BRDF of shaders/shared/brdf.h integrated on
-// the host over roughness, metalness, colour and angle.
+// No surface sends on more light than it receives, whatever it is made of: the BRDF of shaders/shared/brdf.h
+// integrated on the host over roughness, metalness, colour and angle.
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +17,9 @@ namespace {
 
 using shared::Reflectance;
 
-/// Directional albedo of the specular lobe: over half vectors, drawn as densely as the distribution has them, so that the
-/// narrow lobes of smooth surfaces need no finer grid: dl = 4 (l.h) dh, and D (n.h) dh is uniform in u and phi with
-/// tan^2 theta_h = alpha^2 u / (1 - u) (Walter et al., EGSR 2007, eq. 35).
+/// Directional albedo of the specular lobe: over half vectors, drawn as densely as the distribution has them,
+/// so that the narrow lobes of smooth surfaces need no finer grid: dl = 4 (l.h) dh, and D (n.h) dh is uniform
+/// in u and phi with tan^2 theta_h = alpha^2 u / (1 - u) (Walter et al., EGSR 2007, eq. 35).
 double specular_albedo(const Reflectance& r) {
   constexpr int rings = 400, sectors = 64;
   const dvec3 v(std::sqrt(1.0 - double(r.n_dot_v) * r.n_dot_v), 0.0, r.n_dot_v);
@@ -42,7 +42,8 @@ double specular_albedo(const Reflectance& r) {
 }
 
 TEST(BrdfEnergy, SendsOnNoMoreThanItReceivesAnywhere) {
-  // Beyond 1 no more than the fit of the albedo is off by: brdf.h states rms .01 and at most .06, at grazing angles.
+  // Beyond 1 no more than the fit of the albedo is off by: brdf.h states rms .01 and at most .06, at grazing
+  // angles.
   double largest = 0.0, squares = 0.0;
   int count = 0;
   for (const float color : {0.0f, 0.2f, 0.5f, 0.8f, 1.0f})
@@ -55,7 +56,8 @@ TEST(BrdfEnergy, SendsOnNoMoreThanItReceivesAnywhere) {
           EXPECT_LE(albedo, n_dot_v < 0.2f ? 1.06 : 1.03) << "color " << color << " metallic " << metallic
                                                           << " roughness " << roughness << " n.v " << n_dot_v;
           largest = std::max(largest, albedo);
-          // Between dielectric and metal light is lost: glTF's one lobe with f0 mixed takes from the diffuse part twice.
+          // Between dielectric and metal light is lost: glTF's one lobe with f0 mixed takes from the diffuse
+          // part twice.
           if (color == 1.0f && (metallic == 0.0f || metallic == 1.0f))
             squares += (albedo - 1.0) * (albedo - 1.0), ++count;
         }

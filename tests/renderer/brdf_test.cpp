@@ -28,7 +28,8 @@ Sums directional_albedo(const Reflectance& r) {
   const double sin_v = std::sqrt(1.0 - double(r.n_dot_v) * r.n_dot_v);
   Sums sums;
   for (int i = 0; i < rings; ++i) {
-    // Denser towards the horizon's opposite, where a smooth surface's lobe is narrow: equal steps of the angle.
+    // Denser towards the horizon's opposite, where a smooth surface's lobe is narrow: equal steps of the
+    // angle.
     const double theta = 0.5 * pi * (i + 0.5) / rings, sine = std::sin(theta), cosine = std::cos(theta);
     for (int k = 0; k < sectors; ++k) {
       const double phi = pi * (k + 0.5) / sectors;  // the other half is its mirror image
@@ -56,8 +57,8 @@ TEST(Brdf, DistributionIsNormalised) {
 }
 
 TEST(Brdf, SendsOnNoMoreThanItReceives) {
-  // The albedo is an analytic fit (a few per cent); beyond that no angle and roughness may gain energy, and white
-  // surfaces lose little: the multiple-scattering terms are there.
+  // The albedo is an analytic fit (a few per cent); beyond that no angle and roughness may gain energy, and
+  // white surfaces lose little: the multiple-scattering terms are there.
   for (const float metallic : {0.0f, 1.0f})
     for (const float roughness : {0.3f, 0.5f, 0.8f, 1.0f})
       for (const float n_dot_v : {0.2f, 0.5f, 0.8f, 1.0f}) {

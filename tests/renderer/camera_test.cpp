@@ -76,8 +76,8 @@ TEST(Camera, DepthOfWideGroundThatPassesUnderTheEye) {
 }
 
 TEST(HardCase, N57_DepthFromADecimetreToTenKilometres) {
-  // Far 1e4, near .1. Walls one behind the other: reversed Z in fp32 tells 1 km from 1 km + 1 mm, and 10 km from
-  // 10 km + 10 cm; the planar depth is good to 7e-5 m at 1 km.
+  // Far 1e4, near .1. Walls one behind the other: reversed Z in fp32 tells 1 km from 1 km + 1 mm, and 10 km
+  // from 10 km + 10 cm; the planar depth is good to 7e-5 m at 1 km.
   for (const auto& [distance, gap] :
        {std::pair{1000.0, 1e-3}, std::pair{10000.0, 0.1}, std::pair{0.2, 1e-6}}) {
     TinyScene tiny;
@@ -201,7 +201,8 @@ TEST(Camera, OneAndFourSamplesAgreeInside) {
 }
 
 TEST(Camera, FourSamplesBlendAtAnEdge) {
-  // A white emitting half plane against black: pixels on the slanted edge are in between with four samples only.
+  // A white emitting half plane against black: pixels on the slanted edge are in between with four samples
+  // only.
   TinyScene tiny;
   scene::Material glow = optical_material("glow", 0.0f);
   glow.pbr.emissive = vec3(1.0f);

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/light/haze.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/haze.h"
+#include "renderer/daylight/twilight.h"
 
 namespace greatx::test {
 namespace {

@@ -112,7 +112,8 @@ TEST(Develop, NoiseIsTheHostsFunctionOfSeedSensorTickAndPixel) {
   const Difference d = difference(images, [&](size_t i) {
     return shared::sensed_color(light_of(images, i, saturation), sensor, static_cast<uint32_t>(i));
   });
-  // Logarithms and roots differ by a few ulp between devices: a digital number may then fall to its neighbour.
+  // Logarithms and roots differ by a few ulp between devices: a digital number may then fall to its
+  // neighbour.
   EXPECT_LE(d.fraction, 2e-3);
 
   EXPECT_EQ(shoot(desc, frame).rgb, images.rgb);
@@ -191,8 +192,8 @@ TEST(Meter, IsTheTrimmedMeanOfLogarithmsOverItsGrid) {
 }
 
 TEST(Meter, AutomaticExposureStoresRadianceForTheLight) {
-  // Day and night in the same formats: what is stored keeps three digits from a thousandth of the mean to a thousand
-  // times it.
+  // Day and night in the same formats: what is stored keeps three digits from a thousandth of the mean to a
+  // thousand times it.
   EXPECT_NEAR(render::anchor_luminance(100000.0), 1.2 * 8.0 * 0.18 / pi * 100000.0, 1.0);
   EXPECT_EQ(render::anchor_luminance(0.0), render::anchor_luminance(1.0));
   const double night = render::anchor_luminance(0.0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Noise, mismatch, refractory period and bandwidth against their laws. Draws are fixed, so a test passes or fails for good;
-// limits of 4 standard deviations would fail one in 16 000 fair draws.
+// Noise, mismatch, refractory period and bandwidth against their laws. Draws are fixed, so a test passes or
+// fails for good; limits of 4 standard deviations would fail one in 16 000 fair draws.
 #include <cmath>
 #include <numeric>
 
@@ -177,7 +177,8 @@ TEST(EventNoise, RefractoryPixelsRest) {
       EXPECT_TRUE(before < 0 || t - before >= 2500000);
       before = t;
     }
-  // A Poisson process behind a dead time: rate / (1 + rate dead), the variance less by the square of that (Mueller 1973).
+  // A Poisson process behind a dead time: rate / (1 + rate dead), the variance less by the square of that
+  // (Mueller 1973).
   const double rate = 400.0 * (1.0 - 0.75 * 20.0 / 275.0), slow = 1.0 + rate * 2.5e-3;
   const double expected = rate / slow * 0.5 * 48 * 48;
   const double start =
@@ -186,8 +187,8 @@ TEST(EventNoise, RefractoryPixelsRest) {
 }
 
 TEST(EventNoise, RefractoryCrossingsAreLostNotDelayed) {
-  // One fast edge: 20 thresholds within 1 ms, dead for 10 ms: one event, and none when the pixel wakes up. A later edge of
-  // one threshold is seen again.
+  // One fast edge: 20 thresholds within 1 ms, dead for 10 ms: one event, and none when the pixel wakes up. A
+  // later edge of one threshold is seen again.
   EventDesc desc = plain_events(1, 1, 0.1);
   desc.refractory_s = 0.01;
   EventRig rig(desc, [](uint32_t, uint32_t, double t) {
@@ -200,8 +201,8 @@ TEST(EventNoise, RefractoryCrossingsAreLostNotDelayed) {
 }
 
 TEST(EventNoise, BandwidthSlowsByBrightness) {
-  // A step of ten thresholds: through a first-order low pass, event k comes at -tau ln(1 - k / 10.5), tau shorter in
-  // bright light.
+  // A step of ten thresholds: through a first-order low pass, event k comes at -tau ln(1 - k / 10.5), tau
+  // shorter in bright light.
   for (const double luminance : {20.0, 2000.0}) {
     EventDesc desc = plain_events(1, 1, 0.1);
     desc.cutoff_hz = 30.0;

@@ -31,7 +31,8 @@ render::CameraDesc hdr_camera(uint32_t size, uint32_t msaa, bool smooth) {
   return desc;
 }
 
-/// Root of the mean square of (radiance / glow - the share of the pixel that the plate covers), over the edge's pixels.
+/// Root of the mean square of (radiance / glow - the share of the pixel that the plate covers), over the
+/// edge's pixels.
 double coverage_error(double slope, uint32_t msaa, bool smooth) {
   constexpr uint32_t size = 96;
   render::Lighting dark = plain_light(0.0, -30.0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sensor's noise and the tone curve as functions. Tests of significance reject at 1e-4 a test, with draws that are
-// the same at every run: a test that passes does so for good.
+// The sensor's noise and the tone curve as functions. Tests of significance reject at 1e-4 a test, with draws
+// that are the same at every run: a test that passes does so for good.
 #include "shaders/shared/film.h"
 
 #include <algorithm>
@@ -98,8 +98,8 @@ TEST(Film, NormalQuantileInvertsTheNormalLaw) {
 }
 
 TEST(Film, PhotonTransfer) {
-  // Mean and variance of electrons at levels of grey: the mean is the light's, the variance is the mean plus that of
-  // reading.
+  // Mean and variance of electrons at levels of grey: the mean is the light's, the variance is the mean plus
+  // that of reading.
   constexpr uint count = 60000;
   for (const float read_noise : {0.0f, 2.5f}) {
     for (const float mean : {0.0f, 0.3f, 1.0f, 5.0f, 15.9f, 16.0f, 40.0f, 500.0f, 9000.0f}) {
@@ -119,7 +119,8 @@ TEST(Film, PhotonTransfer) {
 }
 
 TEST(Film, VarianceOverMeanIsTheGain) {
-  // In digital numbers the slope of the photon transfer curve is 1 / gain, its offset read noise and quantisation.
+  // In digital numbers the slope of the photon transfer curve is 1 / gain, its offset read noise and
+  // quantisation.
   const SensorConstants s = sensor(4.0f, 20000.0f, 10);
   const double per_electron = double(s.levels) / s.full_well;
   constexpr uint count = 40000;

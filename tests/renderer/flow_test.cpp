@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/camera/lens.h"
 #include "renderer/camera/truth.h"
+#include "renderer/lens/lens.h"
 #include "tests/renderer/truth_rig.h"
 
 namespace greatx::test {
@@ -60,7 +60,8 @@ TEST(Flow, OfAStaticSceneIsThePointProjectedAnew) {
 
 TEST(Flow, IsAsGoodFarFromTheOrigin) {
   const CameraDesc desc = truth_camera(96);
-  // A local origin that is not where the scene is: vertices are floats of 1/32 m there, and are what they are.
+  // A local origin that is not where the scene is: vertices are floats of 1/32 m there, and are what they
+  // are.
   const dvec3 far(524288.0, 4194304.0 / 8.0, 128.0);
   TruthRig rig(street(far).build(), desc);
   const FlowError error = flow_error(rig, desc, {look(far + dvec3(0.3, -0.2, 0.1), 3, 2, 5)},
@@ -159,7 +160,8 @@ TEST(Flow, BehindALensGoesThroughItTwice) {
       const std::optional<Hit> hit = cast(rig.scene(), now.bodies, now.camera.position, ray);
       const uint32_t id = hit ? rig.scene().primitives[hit->primitive].instance + 1 : 0;
       if (id == 0 || id != picture.images.instance[pixel]) continue;
-      // Behind a lens the neighbour of a pixel may stand for it at the edge of a triangle: another plane then.
+      // Behind a lens the neighbour of a pixel may stand for it at the edge of a triangle: another plane
+      // then.
       if (std::abs(picture.images.depth[pixel] / hit->distance - 1.0) > 1e-4) {
         ++at_edges;
         continue;

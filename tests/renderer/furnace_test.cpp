@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A white sphere in a uniformly white world cannot be seen: it sends back what comes in, at every angle at once.
+// A white sphere in a uniformly white world cannot be seen: it sends back what comes in, at every angle at
+// once.
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::test {
 namespace {
 
-/// Round to shading: its vertex normals are those of the sphere, so angles from 0 to 90 degrees are all there.
+/// Round to shading: its vertex normals are those of the sphere, so angles from 0 to 90 degrees are all
+/// there.
 scene::Scene sphere(const scene::Material& material) {
   constexpr int rings = 24, sectors = 48;
   const auto point = [](int ring, int sector) {

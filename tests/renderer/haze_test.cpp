@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fog in pictures: Koschmieder's law, the white furnace, shadows that fade.
-#include "renderer/light/haze.h"
+#include "renderer/daylight/haze.h"
 
 #include <cmath>
 
@@ -66,7 +66,8 @@ TEST(Haze, FurnaceStaysWhite) {
 }
 
 TEST(Haze, ShadowsFadeWithTheLayersDepth) {
-  // Under a roof and beside it, from close by: the lit ground has the layer's direct and sky light, the shadow less.
+  // Under a roof and beside it, from close by: the lit ground has the layer's direct and sky light, the
+  // shadow less.
   double before = 1e9;
   for (const double depth : {0.0, 1.0, 6.0}) {
     TinyScene tiny;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/light/lamps.h"
+#include "renderer/camera/lamps.h"
 
 #include <algorithm>
 #include <bit>
@@ -27,7 +27,8 @@ render::CameraView view_of(uint32_t width = 640, uint32_t height = 480) {
 
 float as_float(uint32_t word) { return std::bit_cast<float>(word); }
 
-/// The lamps (first quadruples of their records) that a pixel at p looks at: shaders/camera/lamps.glsl in C++.
+/// The lamps (first quadruples of their records) that a pixel at p looks at: shaders/camera/lamps.glsl in
+/// C++.
 std::set<uint32_t> lamps_at(const std::vector<uint32_t>& words, const render::CameraView& view,
                             const dvec3& p) {
   const vec3 q(p);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 
 #include <cmath>
 #include <functional>

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 #include "tests/renderer/truth_rig.h"
 
 namespace greatx::test {
@@ -47,8 +47,8 @@ std::vector<double> depths_of(const scene::Scene& scene, const Moment& now, cons
   return depths;
 }
 
-/// Whether the instance has this depth within a pixel of `pixel`: between the least and the most that a grid of rays finds,
-/// give or take a step of it. Nothing (0): whether one of them meets nothing.
+/// Whether the instance has this depth within a pixel of `pixel`: between the least and the most that a grid
+/// of rays finds, give or take a step of it. Nothing (0): whether one of them meets nothing.
 bool is_nearby(const scene::Scene& scene, const Lens& lens, const Moment& now, const dvec2& pixel,
                uint32_t id, double depth) {
   constexpr int steps = 6;
@@ -150,7 +150,8 @@ TEST(LensTruth, DepthAndIdsAreThoseOfThePixelsRays) {
     }
 }
 
-/// Of what is smaller than a pixel, the share of the picture is as large as the rays say: neither more nor less of it shows.
+/// Of what is smaller than a pixel, the share of the picture is as large as the rays say: neither more nor
+/// less of it shows.
 TEST(LensTruth, LeavesSmallerThanPixelsCoverTheirShare) {
   const CameraDesc desc = lens_camera(lenses[0], 1, 64, 48);
   TinyScene tiny;

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
+#include "renderer/lidar/scan/footprint.h"
 #include "tests/renderer/lidar_rig.h"
 
 namespace greatx::render {
@@ -42,8 +42,8 @@ TEST(LidarBeam, OnAWallAcrossItIsOneReturnOfTheWholeBeam) {
 
 TEST(LidarBeam, FootprintOnASlopeHasTheBeamsWidth) {
   // A plane through (50, 0, 0) whose normal is 80 degrees off the beam: a ray up by the tangent t meets it at
-  // x = 50 / (1 - t tan(80)); the spread of ranges is 50 tan(80) w / 2 to first order, which a resolution finer than the
-  // rays' spacing shows.
+  // x = 50 / (1 - t tan(80)); the spread of ranges is 50 tan(80) w / 2 to first order, which a resolution
+  // finer than the rays' spacing shows.
   TinyScene tiny;
   const double slope = std::tan(radians(80.0));
   tiny.object("slope", 0, tiny.material("paint", 0.8f))
@@ -178,7 +178,8 @@ TEST(LidarGlass, APaneGlaresWhereItMirrorsTheBeamBack) {
     desc.returns.mode = ReturnMode::all;
     const LidarScan scan = sweep(window(glass()), desc, std::vector{Pose{}}).scan;
     ASSERT_EQ(scan.size(), 2u) << off;
-    // 2 P R / (pi w^2) exp(-2 theta^2 / half^2) at the receiver 10 m away in the mirror, over P rho / (pi 5^2).
+    // 2 P R / (pi w^2) exp(-2 theta^2 / half^2) at the receiver 10 m away in the mirror, over P rho / (pi
+    // 5^2).
     const double w = 10.0 * half;
     const double expected =
         reflectance(1.0) * 2.0 / (w * w) * std::exp(-2.0 * std::pow(off / half, 2)) * 25.0;
@@ -243,7 +244,8 @@ struct MovingPlate {
     scan.sweep_s = 0.1;
     return scan;
   }
-  /// The range of a beam at its own time in closed form; the plate is z = 0 of its frame turned upright: x = 0.
+  /// The range of a beam at its own time in closed form; the plate is z = 0 of its frame turned upright: x =
+  /// 0.
   double range(const dvec3& beam, double t) const {
     const Pose plate_from_sensor = plate_at(t).inverse() * sensor_at(t);
     return -plate_from_sensor.position.x / plate_from_sensor.rotate(beam).x;

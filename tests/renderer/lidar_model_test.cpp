@@ -9,11 +9,11 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "renderer/lidar/footprint.h"
 #include "renderer/lidar/pane.h"
-#include "renderer/lidar/receiver.h"
-#include "renderer/lidar/returns.h"
-#include "renderer/lidar/scan_pattern.h"
+#include "renderer/lidar/scan/footprint.h"
+#include "renderer/lidar/scan/receiver.h"
+#include "renderer/lidar/scan/returns.h"
+#include "renderer/lidar/scan/scan_pattern.h"
 
 namespace greatx::render {
 namespace {
@@ -45,7 +45,8 @@ TEST(ScanPattern, RasterGoesLineByLineAndEveryShotHasItsTime) {
 }
 
 TEST(ScanPattern, RosetteOfEqualPrismsIsALineAndOfUnequalOnesStaysInItsRing) {
-  // Equal deflections at opposite rates cancel across one axis: d (cos, sin)(wt) + d (cos, -sin)(wt) = (2 d cos wt, 0).
+  // Equal deflections at opposite rates cancel across one axis: d (cos, sin)(wt) + d (cos, -sin)(wt) = (2 d
+  // cos wt, 0).
   RosetteScan scan{1000, {radians(8.0), radians(8.0)}, {50.0, -50.0}, {0.0, 0.0}, 0.1};
   for (uint32_t i = 0; const dvec3& d : scan_pattern(scan).directions) {
     const double t = i++ * 1e-4, v = radians(16.0) * std::cos(2.0 * pi * 50.0 * t);

@@ -154,8 +154,8 @@ TEST(Lidar, OwnBodyIsPassedOverAndNothingElse) {
   EXPECT_EQ(behind.instance[0], 1u);
 }
 
-/// A masked pane at x = 5 whose left half (v below 0.5: y above 0) is a hole, before a wall at x = 10. The pane's
-/// colour is grey on the other half.
+/// A masked pane at x = 5 whose left half (v below 0.5: y above 0) is a hole, before a wall at x = 10. The
+/// pane's colour is grey on the other half.
 scene::Scene pane_before_wall() {
   TinyScene tiny = wall(10.0);
   scene::Texture texture;

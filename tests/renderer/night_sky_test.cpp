@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/light/almanac.h"
+#include "renderer/daylight/almanac.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::test {

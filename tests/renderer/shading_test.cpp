@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "shaders/shared/develop.h"
 #include "tests/renderer/camera_rig.h"
 
@@ -66,7 +66,8 @@ TEST(Shading, BothSidesOfASheetAreLit) {
 }
 
 TEST(Shading, FurnaceHasNoEdges) {
-  // A white surface in a uniformly white world sends back what comes in, at any angle, roughness and metalness.
+  // A white surface in a uniformly white world sends back what comes in, at any angle, roughness and
+  // metalness.
   render::Lighting furnace = plain_light();
   furnace.sky_model = render::SkyModel::uniform;
   furnace.sun_illuminance_lux = 0.0;
@@ -148,7 +149,7 @@ TEST(Shading, NegativeScaleIsLitLikeItsMirrorImage) {
   model.materials.push_back(optical_material("plaster", 0.6f, 0.0f, 0.4f));
   model.instances.push_back({"cube", 0, dmat4(1.0), {}});
   const auto shot = [&](const dvec3& scale) {
-    scene::Placement placement;
+    scene::ModelPlacement placement;
     placement.name = "it";
     placement.model = &model;
     placement.scale = scale;
@@ -250,7 +251,8 @@ TEST(Shading, TexturesAreDecodedFromSrgb) {
 }
 
 TEST(Shading, NormalMapTurnsTheNormal) {
-  // Every texel leans 30 degrees towards the tangent (+x); the sun stands 30 degrees from the zenith, towards +x.
+  // Every texel leans 30 degrees towards the tangent (+x); the sun stands 30 degrees from the zenith, towards
+  // +x.
   TinyScene tiny;
   scene::Material bumpy = optical_material("bumpy", 0.5f);
   const auto byte = [](double v) { return uint8_t(std::lround(255.0 * (0.5 * v + 0.5))); };

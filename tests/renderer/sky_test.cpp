@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sky's radiance at all heights of the sun: exact on level ground, and what is published of its colours and levels.
+// The sky's radiance at all heights of the sun: exact on level ground, and what is published of its colours
+// and levels.
 #include "renderer/light/sky.h"
 
 #include <cmath>
@@ -9,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/light/atmosphere.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/atmosphere.h"
+#include "renderer/daylight/twilight.h"
 
 namespace greatx::test {
 namespace {
@@ -72,8 +73,8 @@ TEST(Sky, LightsLevelGroundAsAsked) {
 }
 
 TEST(Sky, ModelOfTheAirAgreesWithMeasuredLevels) {
-  // Nothing in the model of the air was fitted to the circular's figures: a sun of 133 100 lux above the air gives level
-  // ground 0.95 to 1.3 times as much by day, 0.9 to 1.6 down to 10 degrees below the horizon.
+  // Nothing in the model of the air was fitted to the circular's figures: a sun of 133 100 lux above the air
+  // gives level ground 0.95 to 1.3 times as much by day, 0.9 to 1.6 down to 10 degrees below the horizon.
   for (const double h : {90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -8.0, -10.0}) {
     const render::Atmosphere air(2.0, radians(h), 0.15);
     const double lux =
@@ -86,8 +87,8 @@ TEST(Sky, ModelOfTheAirAgreesWithMeasuredLevels) {
 }
 
 TEST(Sky, ClearDayHasAClearDaysLuminancesAndColours) {
-  // Sun 48 degrees high, 16 000 lux of sky: a zenith of 2 to 4 thousand cd/m^2 of 10 000 K and more (x below 0.28), a
-  // horizon two to four times as bright and nearly white.
+  // Sun 48 degrees high, 16 000 lux of sky: a zenith of 2 to 4 thousand cd/m^2 of 10 000 K and more (x below
+  // 0.28), a horizon two to four times as bright and nearly white.
   Lighting lighting = sun_at(48.0, 0.0);
   lighting.sky_illuminance_lux = 16000.0;
   const render::Sky sky(lighting, false);

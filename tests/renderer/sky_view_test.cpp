@@ -25,7 +25,8 @@ render::HeightField canyon(double street, double height) {
 }
 
 TEST(SkyView, CanyonHasTheShareOfItsClosedForm) {
-  // T. Oke, "Canyon geometry and the nocturnal urban heat island" (1981): cos(atan(2 H / W)) in the middle of the floor.
+  // T. Oke, "Canyon geometry and the nocturnal urban heat island" (1981): cos(atan(2 H / W)) in the middle of
+  // the floor.
   for (const auto& [street, height] : {std::pair(20.0, 10.0), std::pair(20.0, 20.0), std::pair(40.0, 10.0)}) {
     const double expected = 1.0 / std::sqrt(1.0 + std::pow(2.0 * height / street, 2.0));
     // The error that docs/light.md states.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures are layers of images of their size, and pictures look the same whichever way shaders pick the image.
+// Textures are layers of images of their size, and pictures look the same whichever way shaders pick the
+// image.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/scene.h"
@@ -88,7 +89,8 @@ scene::Scene floor_and_patch(const scene::Texture& on_floor, const scene::Textur
 }
 
 TEST(Textures, LaidSideBySideGiveTheSamePicture) {
-  // The same floor; the patch, out of sight, has a size that the floor's texture divides, or one that it does not.
+  // The same floor; the patch, out of sight, has a size that the floor's texture divides, or one that it does
+  // not.
   std::vector<std::vector<float>> pictures;
   for (const uint32_t width : {64u, 68u}) {
     CameraRig rig(floor_and_patch(noise(16, 8, 1), noise(width, 32, 2)), test::plain_light(),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A camera with its ground truth, and what it ought to show by other ways in fp64: rays against triangles, points moved
-// and projected anew.
+// A camera with its ground truth, and what it ought to show by other ways in fp64: rays against triangles,
+// points moved and projected anew.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals and depth along the ray against fp64 rays and closed forms; what holds of all of a camera's ground truth.
+// Normals and depth along the ray against fp64 rays and closed forms; what holds of all of a camera's ground
+// truth.
 #include "renderer/camera/truth.h"
 
 #include <cmath>

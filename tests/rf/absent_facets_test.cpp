@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facets that are absent (foliage while that effect is off) are as if they were not there, on the device, too.
+// Facets that are absent (foliage while that effect is off) are as if they were not there, on the device,
+// too.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {

@@ -55,8 +55,8 @@ TEST(AntennaArrayFactor, HalfWaveLineHasItsNulls) {
 }
 
 TEST(AntennaArray, GreatMcdPanel) {
-  // 4 x 8 elements of TR 38.901, slant +-45 degrees, 2 wavelengths apart vertically and half of one horizontally, in the y-z
-  // plane: 64 ports.
+  // 4 x 8 elements of TR 38.901, slant +-45 degrees, 2 wavelengths apart vertically and half of one
+  // horizontally, in the y-z plane: 64 ports.
   const double wavelength = speed_of_light / 28e9;
   AntennaArray panel;
   panel.pattern = Pattern::tr38901;

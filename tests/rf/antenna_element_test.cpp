@@ -136,7 +136,8 @@ TEST(AntennaElement, CrossPolarPairsAreOrthogonal) {
       for (const auto& [first, second] : {std::pair(0.0, pi / 2), std::pair(pi / 4, -pi / 4)}) {
         const Jones a = element_field(pattern, first, r), b = element_field(pattern, second, r);
         const double both = std::norm(a.theta) + std::norm(a.phi);
-        // Real patterns: a^H b = 0. Complex ones: the turn by 90 degrees is what is orthogonal, (-F_phi, F_theta).
+        // Real patterns: a^H b = 0. Complex ones: the turn by 90 degrees is what is orthogonal, (-F_phi,
+        // F_theta).
         const Complex inner = a.theta * b.theta + a.phi * b.phi;
         EXPECT_LT(std::abs(inner), 1e-15 * (1.0 + both));
       }
@@ -244,7 +245,8 @@ TEST(AntennaElementHardCase, N50_UprightAntennasAreContinuous) {
 }
 
 TEST(AntennaElementHardCase, N51_HalfTurns) {
-  // a -> -a: seen from behind after a half turn is seen from the front, for every pattern and both half turns.
+  // a -> -a: seen from behind after a half turn is seen from the front, for every pattern and both half
+  // turns.
   RandomStream random(4, 7);
   for (const ElementPattern& pattern : all_patterns())
     for (int i = 0; i < 20; ++i) {

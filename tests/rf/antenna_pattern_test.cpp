@@ -81,8 +81,8 @@ TEST(PatternTable, SecondOrderAgainstTr38901WhereItIsSmooth) {
     }
     last = error;
   }
-  // In steps of one degree, the bend at the floor costs no more than this. Not in the first row about the poles: there this
-  // pattern depends on azimuth, and has no limit.
+  // In steps of one degree, the bend at the floor costs no more than this. Not in the first row about the
+  // poles: there this pattern depends on azimuth, and has no limit.
   EXPECT_LT(worst(sampled(181, 360, -pi, field), field, pi / 180, 179 * pi / 180), 1.2e-3);
 }
 

@@ -45,7 +45,8 @@ TEST(Antenna, SphericalBasisIsRightHanded) {
 }
 
 TEST(Antenna, HalfWaveDipoleRadiatesAllItsPower) {
-  // (1/4 pi) integral of the gain over the sphere is one; Gauss-free: the midpoint rule in theta converges fast.
+  // (1/4 pi) integral of the gain over the sphere is one; Gauss-free: the midpoint rule in theta converges
+  // fast.
   const int steps = 20000;
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gas, rain, fog and foliage against the recommendations' own figures and against an independent evaluation of them in
-// Python; closed forms to 0.01 dB and far below.
+// Gas, rain, fog and foliage against the recommendations' own figures and against an independent evaluation
+// of them in Python; closed forms to 0.01 dB and far below.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,9 +19,9 @@
 #include "rf/atmosphere/gas.h"
 #include "rf/atmosphere/gas_lines.h"
 #include "rf/atmosphere/path_attenuation.h"
-#include "rf/roughness.h"
-#include "rf/surfaces.h"
-#include "scene/build.h"
+#include "rf/surface/roughness.h"
+#include "rf/surface/surfaces.h"
+#include "scene/build/build.h"
 #include "scene/generator/generate.h"
 #include "tests/rf/scenes.h"
 
@@ -45,7 +45,8 @@ std::string message_of(const Call& call) {
   return "accepted";
 }
 
-// ---------------------------------------------------------------------------------------------------------------- gas
+// ----------------------------------------------------------------------------------------------------------------
+// gas
 
 TEST(Gas, StandardAir) {
   EXPECT_NEAR(standard_gas(3.5), 0.007809544, 5e-10);
@@ -124,7 +125,8 @@ TEST(Gas, OutsideItsRangeIsAnErrorThatNamesIt) {
   EXPECT_THROW(standard_gas(std::numeric_limits<double>::quiet_NaN()), UserError);
 }
 
-// --------------------------------------------------------------------------------------------------------------- rain
+// ---------------------------------------------------------------------------------------------------------------
+// rain
 
 TEST(Rain, PublishedTable) {
   // P.838-3, Table 5: k_H, alpha_H, k_V, alpha_V at f GHz, as printed.
@@ -176,7 +178,8 @@ TEST(Rain, NoneAndOutsideItsRange) {
   EXPECT_THAT(message_of([] { rain_coefficients(0.7e9); }), ::testing::HasSubstr("1 to 1000 GHz"));
 }
 
-// ---------------------------------------------------------------------------------------------------------------- fog
+// ----------------------------------------------------------------------------------------------------------------
+// fog
 
 TEST(Fog, Coefficient) {
   EXPECT_NEAR(fog_coefficient(28e9, 288.15), 0.459530, 5e-7);
@@ -194,7 +197,8 @@ TEST(Fog, NoneAndOutsideItsRange) {
   EXPECT_THAT(message_of([] { fog_coefficient(300e9, 288.15); }), ::testing::HasSubstr("200 GHz"));
 }
 
-// -------------------------------------------------------------------------------------------------------- along a path
+// --------------------------------------------------------------------------------------------------------
+// along a path
 
 TEST(PathAttenuation, AmplitudeOfDecibels) {
   for (const double gamma : {1e-6, 0.0078, 4.6, 17109.0})
@@ -285,7 +289,8 @@ TEST(Bounds, AreTheMostThatCanBe) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------------------ foliage
+// ------------------------------------------------------------------------------------------------------------
+// foliage
 
 TEST(Foliage, Weissberger) {
   const scene::Foliage model;
@@ -401,7 +406,8 @@ TEST(Foliage, HasNoSurface) {
   EXPECT_THROW(surfaces.reflect(1, true, 0.5), ContractError);
 }
 
-// ---------------------------------------------------------------------------------------------------------- roughness
+// ----------------------------------------------------------------------------------------------------------
+// roughness
 
 TEST(Roughness, Figures) {
   EXPECT_NEAR(roughness_factor(RoughnessModel::ament, 1.0), 0.6065306597126334, 1e-15);

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "rf/radio_model.h"
+#include "rf/paths/radio_model.h"
 #include "rf/reference/exhaustive_paths.h"
-#include "scene/wedges.h"
+#include "scene/description/wedges.h"
 #include "tests/rf/random_scene.h"
 #include "tests/rf/search_scenes.h"
 
@@ -157,7 +157,8 @@ TEST(BeamSearch, LittleOutsideAClosedRoomIsListed) {
   room.source = {1.3, -0.4, 1.1};
   room.low = {-3.9, -2.9, 0.1}, room.high = {3.9, 2.9, 2.9};
   expect_perfect(room, "room");
-  // First hits are exact. Beams that are mirrored at an edge keep a sliver beside it (the clearance), which leads out.
+  // First hits are exact. Beams that are mirrored at an edge keep a sliver beside it (the clearance), which
+  // leads out.
   const CandidateList list = search(room).list;
   size_t leaked = 0;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -244,7 +245,8 @@ TEST(BeamSearch, ReceiversOnSurfacesAndEdges) {
 }
 
 TEST(BeamSearch, FarFromTheOrigin) {
-  // A street ten kilometres from the local origin: tolerances have grown to millimetres, nothing else changes.
+  // A street ten kilometres from the local origin: tolerances have grown to millimetres, nothing else
+  // changes.
   SearchScene near = canyon(), far;
   const dvec3 away(8192.0, -4096.0, 512.0);
   const auto moved = [&](SearchScene scene) {
@@ -348,7 +350,8 @@ TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
   }
 }
 
-// ------------------------------------------------------------------- numbered hard cases, by the search and all after it
+// ------------------------------------------------------------------- numbered hard cases, by the search and
+// all after it
 
 TEST(BeamSearchHardCase, N18_APathByTheDiagonalOfAQuadIsOne) {
   SearchScene scene;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 
@@ -70,7 +70,8 @@ TEST(FibonacciLattice, IsUniformUnitAndTheSameEveryTime) {
                                       [&](const vec3& d) { return glm::dot(d, axis) > 0.98f; });
     EXPECT_NEAR(static_cast<double>(inside), 100.0, 8.0);
   }
-  // Neighbours in the order are neighbours on the sphere: the mean step is some spacings of sqrt(4 pi / n) = 0.035 rad.
+  // Neighbours in the order are neighbours on the sphere: the mean step is some spacings of sqrt(4 pi / n) =
+  // 0.035 rad.
   double steps = 0.0;
   for (uint32_t i = 1; i < count; ++i) steps += glm::length(lattice[i] - lattice[i - 1]);
   EXPECT_LT(steps / count, 0.07);
@@ -124,7 +125,8 @@ TEST(CandidatesFromKeys, WhatIsBeyondTheCapacityIsCountedDeepestFirst) {
 }
 
 TEST(CandidateSearch, FindsEveryImageOfAShoeBox) {
-  // Orders 0 to 3 of a shoe-box: 1 + 6 + 18 + 38 paths (docs: physics of the image method), whatever the receiver.
+  // Orders 0 to 3 of a shoe-box: 1 + 6 + 18 + 38 paths (docs: physics of the image method), whatever the
+  // receiver.
   const scene::Scene scene = room();
   const dvec3 source(2.1, 1.3, 1.7);
   CandidateSearchOptions options;
@@ -210,7 +212,8 @@ TEST(HardCase, N07_CandidatesAtUtmCoordinatesAreTheSame) {
 }
 
 TEST(HardCase, N10_ReflectedRaysDoNotMeetTheirOwnFacetAgain) {
-  // In closed rooms from a millimetre to ten kilometres a sequence never repeats a facet at once, and no ray escapes.
+  // In closed rooms from a millimetre to ten kilometres a sequence never repeats a facet at once, and no ray
+  // escapes.
   for (const double scale : {1e-3, 1.0, 1e3}) {
     TinyScene tiny;
     tiny.box(dvec3(0.0), scale * room_size);

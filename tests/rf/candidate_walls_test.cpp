@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "rf/candidate_search.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {
@@ -36,8 +36,8 @@ Sequences sequences(const CandidateList& list) {
   return all;
 }
 
-/// Plates across the x axis, 0 at x = 0, 1 at x = 3, 2 at x = 6, ..., seen along the axis: what a search may find between
-/// them, written down as it is defined.
+/// Plates across the x axis, 0 at x = 0, 1 at x = 3, 2 at x = 6, ..., seen along the axis: what a search may
+/// find between them, written down as it is defined.
 struct Plates {
   FacetKinds kinds;
   uint32_t max_depth = 0, max_transmissions = 0;
@@ -133,8 +133,8 @@ TEST(CandidateWalls, WithoutTransmissionsWallsAreOpaque) {
   EXPECT_GT(more.size(), fewer.size());
 }
 
-/// Reflecting facets of the paths from `source` to each target among the candidates that at most `depth` interactions and
-/// `transmissions` walls make.
+/// Reflecting facets of the paths from `source` to each target among the candidates that at most `depth`
+/// interactions and `transmissions` walls make.
 std::vector<Sequences> paths(const scene::Scene& scene, const FacetKinds& kinds, const CandidateList& list,
                              const dvec3& source, const std::vector<dvec3>& targets, uint32_t depth,
                              uint32_t transmissions, size_t& through_walls) {
@@ -302,8 +302,8 @@ TEST(CandidateWalls, FourMillimetresApartBothArePassed) {
     EXPECT_TRUE(found.contains({2})) << shift;
     EXPECT_TRUE(found.contains({1})) << shift;
     EXPECT_TRUE(found.contains({0})) << shift;
-    // Ten kilometres out a ray starts again some millimetres behind a wall, as far as fp32 rounds, and may count two as
-    // one: then more is found than was asked for.
+    // Ten kilometres out a ray starts again some millimetres behind a wall, as far as fp32 rounds, and may
+    // count two as one: then more is found than was asked for.
     options.max_transmissions = 1;
     if (shift < 1000.0) {
       EXPECT_FALSE(sequences(search(tiny.build(), kinds, options, {shift - 2, shift, 0}).list).contains({2}));

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "rf/channel/coherence.h"
-#include "rf/channel/subcarriers.h"
+#include "rf/config/subcarriers.h"
 #include "tests/rf/channel_paths.h"
 
 namespace greatx::rf {

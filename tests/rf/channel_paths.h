@@ -9,18 +9,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
 
 namespace greatx::rf::testing {
 
 using Wide = std::complex<long double>;
 inline constexpr long double wide_pi = 3.14159265358979323846264338327950288L;
 
-/// e^{-j 2 pi f tau} with 64 bits of mantissa and the whole turns taken off exactly enough: f tau < 2^23 turns leaves
-/// 2^-41 turns of it, so the product is split first.
+/// e^{-j 2 pi f tau} with 64 bits of mantissa and the whole turns taken off exactly enough: f tau < 2^23
+/// turns leaves 2^-41 turns of it, so the product is split first.
 inline Wide wide_phasor(double frequency_hz, double delay_s) {
   const ExactProduct product = exact_product(frequency_hz, delay_s);
   const long double whole = std::nearbyint(product.value);
@@ -45,7 +45,8 @@ inline std::vector<Path> random_paths(size_t count, double longest_s, uint32_t s
   return paths;
 }
 
-/// A path along +x (departure +x, arrival -x for the direction of arrival that points back) with T = amplitude * I.
+/// A path along +x (departure +x, arrival -x for the direction of arrival that points back) with T =
+/// amplitude * I.
 inline Path plain_path(double delay_s, Complex amplitude = 1.0, bool line_of_sight = true) {
   Path path;
   path.delay_s = delay_s;

@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "rf/antenna/antenna.h"
 #include "rf/channel/statistics.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 
@@ -22,8 +22,10 @@ using testing::HandScene;
 
 constexpr double carrier_hz = 3.5e9;
 
-/// Radiates the same circular polarization everywhere, gain 1. At +x theta-hat is -z and phi-hat +y: the real part of (1,
-/// -j) e^{j omega t} turns from -z to +y, right-handed about the direction in which the wave travels (IEEE Std 145).
+/// Radiates the same circular polarization everywhere, gain 1. At +x theta-hat is -z and phi-hat +y: the real
+/// part of (1,
+/// -j) e^{j omega t} turns from -z to +y, right-handed about the direction in which the wave travels (IEEE
+/// Std 145).
 ArrayPose circular(bool right_handed, const dquat& orientation = {1.0, 0.0, 0.0, 0.0}) {
   const Complex quarter(0.0, right_handed ? -std::sqrt(0.5) : std::sqrt(0.5));
   const PatternTable::Grid grid{5, 8, 0.0};
@@ -53,7 +55,8 @@ double gain(const Path& path, const ArrayPose& tx, const ArrayPose& rx) {
 double friis(double distance) { return std::pow(speed_of_light / carrier_hz / (4 * pi * distance), 2); }
 
 TEST(CircularPolarization, OneHandednessSeesItself) {
-  // Wherever the ends stand and however they are turned: rolling a circularly polarized antenna turns a phase.
+  // Wherever the ends stand and however they are turned: rolling a circularly polarized antenna turns a
+  // phase.
   RandomStream random(52, 1);
   const auto any = [&] { return random.uniform(-1, 1); };
   for (int i = 0; i < 50; ++i) {

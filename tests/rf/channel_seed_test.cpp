@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The formulas of rf/channel/seed_formulas.h, left column, by code of their own; numbers are those of the primer named there.
+// The formulas of rf/channel/seed_formulas.h, left column, by code of their own; numbers are those of the
+// primer named there.
 #include <array>
 #include <cmath>
 
@@ -9,8 +10,8 @@
 
 #include "rf/atmosphere/path_attenuation.h"
 #include "rf/channel/received.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 

@@ -138,7 +138,8 @@ TEST(Taps, PowerOutsideTheWindowIsReported) {
   EXPECT_EQ(outside(0, 100).paths_outside, 1u);
   EXPECT_EQ(outside(11, 20).power_outside, 1.0);
   EXPECT_EQ(outside(11, 20).paths_outside, 2u);
-  // Half a sample off: 1 - sum of (2/((2 l + 1) pi))^2 over 2 L taps about it, near 1/(pi^2 L) on either side.
+  // Half a sample off: 1 - sum of (2/((2 l + 1) pi))^2 over 2 L taps about it, near 1/(pi^2 L) on either
+  // side.
   paths = {plain_path(100.5 / bandwidth)};
   const double share = tap_coverage(paths, std::vector{2.0}, {3.5e9, bandwidth, 51, 100}).power_outside;
   EXPECT_NEAR(share, 2.0 / (pi * pi * 50), 1e-6);

@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
 #include "tests/rf/scenes.h"
 
@@ -105,8 +105,8 @@ TEST(ChannelHardCase, N38_TwoRayGround) {
 }
 
 TEST(ChannelHardCase, N36_N37_N39_PhaseOfLongPathsAtHighFrequency) {
-  // 1 km at 28 GHz and 10 km at 140 GHz: 9.3e4 and 4.7e6 turns; fp32 would be off by 3 and 180 degrees, a delay merely
-  // stored in fp32 by 82.
+  // 1 km at 28 GHz and 10 km at 140 GHz: 9.3e4 and 4.7e6 turns; fp32 would be off by 3 and 180 degrees, a
+  // delay merely stored in fp32 by 82.
   RandomStream random(36, 0);
   for (const auto& [carrier, farthest] : {std::pair{28e9, 1000.0}, std::pair{140e9, 10'000.0}})
     for (int i = 0; i < 200; ++i) {
@@ -115,7 +115,8 @@ TEST(ChannelHardCase, N36_N37_N39_PhaseOfLongPathsAtHighFrequency) {
       const auto paths = solve(hand, {0, 0, 0}, {distance, 0, 0}, 0, carrier);
       static_assert(std::is_same_v<decltype(Path::delay_s), double>);
       const auto found = frequency_response(paths, antenna(), antenna(), single(carrier))[0];
-      // The distance itself in long double: also what rounding it to a delay in fp64 costs is inside the bound.
+      // The distance itself in long double: also what rounding it to a delay in fp64 costs is inside the
+      // bound.
       const long double turns = static_cast<long double>(carrier) * distance / 299792458.0L;
       const Wide expected = std::polar(1.0L, -2 * wide_pi * (turns - std::nearbyint(turns)));
       const Wide turned = Wide(found.real(), found.imag()) * std::conj(expected);

@@ -1,22 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole paths against closed forms. 0.01 dB and 1e-3 rad are asked; where nothing stands in the way the tests ask for
-// nine digits. Friis and the two-ray ground are in channel_test.cpp, the shoe-box in geometry_test.cpp.
+// Whole paths against closed forms. 0.01 dB and 1e-3 rad are asked; where nothing stands in the way the tests
+// ask for nine digits. Friis and the two-ray ground are in channel_test.cpp, the shoe-box in
+// geometry_test.cpp.
 #include <array>
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/atmosphere/foliage.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
-#include "rf/diffraction.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -55,8 +56,8 @@ void expect_near(Complex found, Complex expected, double tolerance) {
 }
 
 TEST(ClosedForms, SlabAtNormalIncidence) {
-  // Concrete of 10 cm at 3.5 GHz: R = -.422222101 - .007580311j, T = -.136274648 + .270959987j, and T is the field at the
-  // rear face: behind the wall the free way is shorter by its thickness.
+  // Concrete of 10 cm at 3.5 GHz: R = -.422222101 - .007580311j, T = -.136274648 + .270959987j, and T is the
+  // field at the rear face: behind the wall the free way is shorter by its thickness.
   HandScene hand;
   hand.itu_material("concrete", 0.1);
   hand.ground(50.0);
@@ -122,7 +123,8 @@ TEST(ClosedForms, SlabAtAnyAngle) {
 }
 
 TEST(ClosedForms, WallsInARow) {
-  // Two walls at an angle with each other and a reflection between them: the field vector goes through each in turn.
+  // Two walls at an angle with each other and a reflection between them: the field vector goes through each
+  // in turn.
   HandScene hand;
   const uint32_t brick = hand.itu_material("brick", 0.24), glass = hand.itu_material("glass", 0.006);
   const uint32_t first = hand.quad({2, -9, -9}, {2, 9, -9}, {2, 9, 9}, {2, -9, 9}, brick);
@@ -152,8 +154,8 @@ TEST(ClosedForms, WallsInARow) {
 }
 
 TEST(ClosedFormsHardCase, N34_VacuumWallsAreInvisible) {
-  // A room's paths with walls of vacuum put in their way, moving ones: directions, delay and Doppler to the bit, the field to
-  // the rounding of the phase of 0.2 m of vacuum.
+  // A room's paths with walls of vacuum put in their way, moving ones: directions, delay and Doppler to the
+  // bit, the field to the rounding of the phase of 0.2 m of vacuum.
   HandScene hand;
   hand.itu_material("concrete", 0.1);
   const uint32_t vacuum = hand.material("vacuum", 1.0, 0.0, 0.2);
@@ -246,8 +248,8 @@ TEST(ClosedForms, RoughWallsReflectLess) {
 }
 
 TEST(ClosedForms, FriisInRainAndFog) {
-  // 1 km level at 28 GHz, 15 degrees C, 7.5 g/m3: gas 0.1017560, rain of 25 mm/h 4.6236 (H) and 3.8911 (V), fog of 0.5 g/m3
-  // 0.459530 (dB/km)/(g/m3).
+  // 1 km level at 28 GHz, 15 degrees C, 7.5 g/m3: gas 0.1017560, rain of 25 mm/h 4.6236 (H) and 3.8911 (V),
+  // fog of 0.5 g/m3 0.459530 (dB/km)/(g/m3).
   HandScene hand;
   Model model(hand, 28e9);
   const Weather weather{.rain_mm_h = 25.0, .fog_g_m3 = 0.5};

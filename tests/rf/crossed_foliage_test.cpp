@@ -12,7 +12,7 @@
 
 #include "core/hash.h"
 #include "core/random.h"
-#include "rf/candidate_search.h"
+#include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
 
 namespace greatx::rf {
@@ -65,8 +65,8 @@ double inside_convex(const Segment& s, const scene::Scene& scene, double margin)
   return std::max(0.0, leave - enter) * glm::distance(s.a, s.b);
 }
 
-/// Near an edge and along a face, a rounding of the line to the side is far more along it: so the answer is held between
-/// those for the volume `margin` smaller and larger.
+/// Near an edge and along a face, a rounding of the line to the side is far more along it: so the answer is
+/// held between those for the volume `margin` smaller and larger.
 struct Range {
   double least, most;
 };

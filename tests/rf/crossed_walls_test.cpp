@@ -204,8 +204,8 @@ Meeting meet(const scene::Scene& scene, const scene::Facet& facet, const Segment
   return meeting;
 }
 
-/// Parallelograms in all directions, a third of them opaque, against an intersection in fp64 that shares nothing with the
-/// pass; at the local origin and far from it.
+/// Parallelograms in all directions, a third of them opaque, against an intersection in fp64 that shares
+/// nothing with the pass; at the local origin and far from it.
 void check_against_reference(double shift) {
   RandomStream random(5, 77);
   const auto vector = [&](double size) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "rf/crossings.h"
+#include "rf/paths/crossings.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/crossings.h"
+#include "rf/paths/crossings.h"
 
 #include <algorithm>
 
@@ -127,7 +127,8 @@ std::vector<Segment> random_segments(uint32_t walls = 0) {
 
 TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
   std::vector<Segment> alone = random_segments();
-  // Every third one decides for the one before it and the one after it; every other of these is the same as an earlier one.
+  // Every third one decides for the one before it and the one after it; every other of these is the same as
+  // an earlier one.
   for (uint32_t i = 7; i + 1 < alone.size(); i += 6) alone[i] = alone[i - 6 < 7 ? 1 : i - 6];
   std::vector<Segment> batch = alone;
   for (uint32_t i = 1; i + 1 < batch.size(); i += 3) batch[i - 1].only_if = batch[i + 1].only_if = i;

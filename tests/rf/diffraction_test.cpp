@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/diffraction.h"
+#include "rf/field/diffraction.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/channel/phase.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -97,8 +97,8 @@ struct Setting {
   }
 };
 
-/// The corner of a house: walls y = 0 (x > 0) and x = 0 (y < 0), its upright on the z axis; the second one's back may be
-/// turned outwards.
+/// The corner of a house: walls y = 0 (x > 0) and x = 0 (y < 0), its upright on the z axis; the second one's
+/// back may be turned outwards.
 HandScene corner(uint32_t (*material)(HandScene&), bool turned = false) {
   HandScene hand;
   const uint32_t of_walls = material(hand);
@@ -199,8 +199,9 @@ TEST(KellerPoint, Exterior) {
 }
 
 TEST(EdgeDyadic, ConductorFarFromTheBoundariesIsKellers) {
-  // Keller's coefficient of a half-plane, D_{s,h} = -e^{-j pi/4}/(2 sqrt(2 pi k) sin(beta_0)) (sec((phi - phi')/2) -+
-  // sec((phi + phi')/2)), in Balanis' unit vectors and spreading; the uniform factor is 1 + O(1/kL) there.
+  // Keller's coefficient of a half-plane, D_{s,h} = -e^{-j pi/4}/(2 sqrt(2 pi k) sin(beta_0)) (sec((phi -
+  // phi')/2) -+ sec((phi + phi')/2)), in Balanis' unit vectors and spreading; the uniform factor is 1 +
+  // O(1/kL) there.
   const Setting setting(screen(conductor), true);
   const scene::Wedge& wedge = near_edge(setting);
   RandomStream random(22, 0);
@@ -282,7 +283,7 @@ TEST(EdgeDyadic, MovesWithItsBody) {
 }
 
 TEST(EdgeDyadic, FaceThatAnEndLiesInDoesNotReflect) {
-  // As in rf/geometry.h: then only the direct wave is there, and half of it on the shadow boundary.
+  // As in rf/geometry/geometry.h: then only the direct wave is there, and half of it on the shadow boundary.
   const Setting setting(corner(concrete));
   const dvec3 tx(20, 0, 1), sent(0, 0, 1);
   const FieldVector above = setting.total(tx, at(10, pi - 1e-6, 1), sent),
@@ -302,7 +303,8 @@ struct Boundary {
   double incident, observed;
 };
 
-/// Steps of the total field over a boundary, against the slope on both of its sides; relative to the direct wave.
+/// Steps of the total field over a boundary, against the slope on both of its sides; relative to the direct
+/// wave.
 double step(const Setting& setting, const Boundary& boundary, double z, const dvec3& sent) {
   const double epsilon = 1e-6;  // 9 um: more than the facets' tolerance
   const dvec3 tx = at(12, boundary.incident, 3);

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/phase.h"
 #include "core/units.h"
-#include "rf/channel/phase.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -54,8 +54,8 @@ Slab concrete_slab(double frequency_hz, double thickness_m, double cosine) {
 }
 
 TEST(Dispersion, SlabOverTwoGigahertz) {
-  // Through a wall of 10 cm at 60 degrees from its normal, and off it: eq. 43 and 44 at every subcarrier. The wall's own
-  // phase counts once: behind it the wave is where it would be without it but for T e^{jkd cos}.
+  // Through a wall of 10 cm at 60 degrees from its normal, and off it: eq. 43 and 44 at every subcarrier. The
+  // wall's own phase counts once: behind it the wave is where it would be without it but for T e^{jkd cos}.
   constexpr double thickness_m = 0.1;
   for (const double carrier : {5e9, 28e9}) {
     const ChannelGrid grid = two_gigahertz(carrier);
@@ -78,7 +78,8 @@ TEST(Dispersion, SlabOverTwoGigahertz) {
       double flat_error = 0.0;
       for (const bool through : {true, false}) {
         const std::span<const Path> path(&paths[through ? 0 : 1], 1);
-        const auto found = frequency_response_fp64(path, dispersion.spectra(path), end, end, grid);
+        const auto found =
+            frequency_response_fp64(path, dispersion.spectra(path, *model.field.world), end, end, grid);
         const auto flat = frequency_response_fp64(path, end, end, grid);
         for (uint32_t k = 0; k < grid.subcarriers; ++k) {
           const double f = frequency_of(grid, k);
@@ -116,7 +117,7 @@ TEST(Dispersion, AtTheCarrierItIsTheCarriersField) {
   const Model model(hand, grid);
   const Dispersion dispersion(hand.scene, model.field, {}, grid);
   for (const Path& path : room_paths(hand, model.field)) {
-    const TransferSpectrum spectrum = dispersion.spectrum(path);
+    const TransferSpectrum spectrum = dispersion.spectrum(path, *model.field.world);
     ASSERT_EQ(spectrum.size(), 64u);
     EXPECT_EQ(std::memcmp(spectrum[32].data(), path.transfer, sizeof path.transfer), 0);
   }
@@ -138,7 +139,7 @@ TEST(Dispersion, WhatDoesNotDependOnFrequencyStays) {
               .column_spacing_m = 0.05};
   rx.array = {.polarization = Polarization::vh, .columns = 3, .column_spacing_m = 0.043};
   tx.orientation = orientation_from_yaw_pitch_roll(0.7, 0.2, -0.4);
-  const auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths);
+  const auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths, *model.field.world);
   const auto flat = frequency_response_fp64(paths, tx, rx, grid);
   const auto found = frequency_response_fp64(paths, spectra, tx, rx, grid);
   ASSERT_EQ(flat.size(), found.size());
@@ -158,7 +159,7 @@ TEST(Dispersion, AnyOrderOfPathsGivesTheSameBits) {
   const Model model(hand, grid);
   std::vector<Path> paths = room_paths(hand, model.field);
   for (int i = 0; i < 40; ++i) paths.push_back(Path(paths[i % 20]));
-  auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths);
+  auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths, *model.field.world);
   spectra.back()[7][0] *= 1.5;  // paths that differ in their spectra alone
   const auto forward = frequency_response_fp64(paths, spectra, {}, {}, grid);
   std::reverse(paths.begin(), paths.end());
@@ -178,7 +179,8 @@ TEST(Dispersion, AirChangesOverTheBand) {
   model.field.effects.gas = model.field.effects.rain = true;
   model.field.attenuation = path_attenuation(weather, grid.carrier_hz, {true, true, false});
   const Path path = path_field({{}, {dvec3(0.0), dvec3(1000, 0, 0)}, 1000.0}, model.field, {}, {});
-  const TransferSpectrum spectrum = Dispersion(hand.scene, model.field, weather, grid).spectrum(path);
+  const TransferSpectrum spectrum =
+      Dispersion(hand.scene, model.field, weather, grid).spectrum(path, *model.field.world);
   for (uint32_t k = 0; k < 5; ++k) {
     const PathAttenuation air = path_attenuation(weather, frequency_of(grid, k), {true, true, false});
     EXPECT_NEAR(-20.0 * std::log10(std::abs(spectrum[k][0]) * 1000.0), air.gas + air.rain_v, 1e-10);

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/field.h"
+#include "rf/field/field.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/phase.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/channel/phase.h"
-#include "rf/diffraction.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -96,8 +96,8 @@ TEST(PathField, GroundSplitsIntoTeAndTm) {
   EXPECT_NEAR(path.length_m, 10.0, 1e-14);
   const Complex eta = scene::relative_permittivity(*scene::itu_medium("concrete"), frequency_hz, "concrete");
   const FresnelCoefficients fresnel = half_space(eta, 0.6);
-  // Vertical polarization keeps its sense on a conductor (r_TM = +1), horizontal is turned over (r_TE = -1); the -1 of
-  // phi-hat looking back on top.
+  // Vertical polarization keeps its sense on a conductor (r_TM = +1), horizontal is turned over (r_TE = -1);
+  // the -1 of phi-hat looking back on top.
   expect_near(path.transfer[0] * 10.0, fresnel.r_tm, 1e-14);
   expect_near(path.transfer[3] * 10.0, -fresnel.r_te, 1e-14);
   expect_near(path.transfer[1] * 10.0, 0.0, 1e-14);
@@ -105,8 +105,8 @@ TEST(PathField, GroundSplitsIntoTeAndTm) {
 }
 
 TEST(PathField, ConductorMirrorsTheSource) {
-  // Image theory: a conductor's reflection is the field of the mirrored source, turned over: E' = -(E - 2 n (n . E))
-  // for any polarization and angle, and over several walls in turn.
+  // Image theory: a conductor's reflection is the field of the mirrored source, turned over: E' = -(E - 2 n
+  // (n . E)) for any polarization and angle, and over several walls in turn.
   HandScene hand;
   hand.material("conductor", 1.0, 1e30);
   hand.room({7, 5, 3});
@@ -198,7 +198,8 @@ TEST(PathFieldHardCase, N42_Doppler) {
 }
 
 TEST(PathField, DopplerIsTheRateOfThePhase) {
-  // nu = -(f/c) dL/dt: against the difference of lengths half a millisecond before and after, everything moving.
+  // nu = -(f/c) dL/dt: against the difference of lengths half a millisecond before and after, everything
+  // moving.
   HandScene hand;
   hand.material("conductor", 1.0, 1e7);
   hand.ground(200.0);
@@ -230,8 +231,8 @@ TEST(PathField, DopplerIsTheRateOfThePhase) {
 }
 
 TEST(PathField, EdgeDiffractionMovesWithItsEnds) {
-  // nu = -(f/c) d(s' + s)/dt at the corner of a house that moves and turns: the point slides along the edge, which costs
-  // nothing to first order.
+  // nu = -(f/c) d(s' + s)/dt at the corner of a house that moves and turns: the point slides along the edge,
+  // which costs nothing to first order.
   HandScene hand;
   hand.material("conductor", 1.0, 1e7);
   const uint32_t body = hand.body();
@@ -271,8 +272,8 @@ TEST(PathField, EdgeDiffractionMovesWithItsEnds) {
 }
 
 TEST(PathField, DiffractionFillsTheShadowBoundary) {
-  // A receiver that crosses the shadow boundary of a conducting screen: direct and diffracted field together do not jump, and
-  // on the boundary half the free field is left.
+  // A receiver that crosses the shadow boundary of a conducting screen: direct and diffracted field together
+  // do not jump, and on the boundary half the free field is left.
   HandScene hand;
   hand.itu_material("metal");
   const uint32_t screen = hand.quad({0, 0, -50}, {0, -50, -50}, {0, -50, 50}, {0, 0, 50});

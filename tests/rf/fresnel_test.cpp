@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/fresnel.h"
+#include "rf/surface/fresnel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/surfaces.h"
+#include "rf/surface/surfaces.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -28,6 +28,30 @@ Complex concrete() { return conductive(5.24, 0.0462 * std::pow(3.5, 0.7822), fre
 void expect_near(Complex found, Complex expected, double tolerance) {
   EXPECT_NEAR(found.real(), expected.real(), tolerance);
   EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
+}
+
+/// Paths and echoes take it from here: rho of the roughness times sqrt(1 - S^2), each only if its effect is
+/// on.
+TEST(SpecularShare, IsOfRoughnessAndScatteringApartAndTogether) {
+  RadioSurface surface;
+  surface.roughness_m = 0.01;
+  surface.scattering.coefficient = 0.6;
+  const double cosine = 0.7, g = 4.0 * pi * 0.01 * cosine / wavelength_m;
+  const double rho = std::exp(-0.5 * g * g);
+  EXPECT_LT(rho, 0.8);
+  const auto share = [&](std::optional<RoughnessModel> roughness, bool scattering) {
+    return specular_share(surface, cosine, wavelength_m, roughness, scattering);
+  };
+  EXPECT_EQ(share(std::nullopt, false), 1.0);
+  EXPECT_NEAR(share(RoughnessModel::ament, false), rho, 1e-15);
+  EXPECT_NEAR(share(std::nullopt, true), 0.8, 1e-15);
+  EXPECT_NEAR(share(RoughnessModel::ament, true), 0.8 * rho, 1e-15);
+  EXPECT_GT(share(RoughnessModel::miller_brown, false), rho);
+  EXPECT_NEAR(most_roughness_db(0.01, wavelength_m),
+              -20.0 * std::log10(std::exp(-0.5 * std::pow(g / cosine, 2))), 1e-12);
+  EXPECT_EQ(most_roughness_db(0.0, wavelength_m), 0.0);
+  surface.roughness_m = 0.0;
+  EXPECT_EQ(share(RoughnessModel::ament, false), 1.0);
 }
 
 TEST(Fresnel, ConcreteAt3500MHz) {
@@ -84,8 +108,8 @@ TEST(FresnelHardCase, N28_Brewster) {
 }
 
 TEST(FresnelHardCase, N29_AlmostVacuum) {
-  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C + A)
-  // would have no digit left.
+  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C
+  // + A) would have no digit left.
   const double contrast = 0x1p-40, c = 0.6;
   const FresnelCoefficients face = half_space(1.0 + contrast, c);
   EXPECT_NEAR(face.r_te.real() / (-contrast / (4 * c * c)), 1.0, 1e-9);
@@ -155,8 +179,8 @@ TEST(FresnelHardCase, N33_Energy) {
 }
 
 TEST(FresnelHardCase, N33_EnergyOfRandomStacks) {
-  // One to six layers from films to walls, thin and dense media, total reflection included, from normal incidence to 89.99
-  // degrees; from either side the same passes.
+  // One to six layers from films to walls, thin and dense media, total reflection included, from normal
+  // incidence to 89.99 degrees; from either side the same passes.
   RandomStream random(33, 0);
   for (int i = 0; i < 4000; ++i) {
     const double c = i % 4 == 0 ? std::pow(10.0, random.uniform(-3.7, 0.0)) : random.uniform(0.01, 1.0);

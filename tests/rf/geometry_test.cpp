@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -128,7 +128,8 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
     for (size_t k = 0; k < a[i].vertices.size(); ++k)
       EXPECT_LT(glm::length(a[i].vertices[k] - b[i].vertices[k]), 1e-9);
   }
-  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11 m).
+  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11
+  // m).
   HandScene far;
   const dvec3 off(500'000.0, -500'000.0, 0.0);
   far.room({8, 5, 3}, off);
@@ -171,7 +172,8 @@ TEST(ImageMethodHardCase, N17_TransmitterIsReceiver) {
 }
 
 TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
-  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two facets.
+  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two
+  // facets.
   HandScene merged, apart;
   merged.ground(10.0);
   apart.triangle({-10, -10, 0}, {10, -10, 0}, {10, 10, 0});
@@ -206,8 +208,8 @@ TEST(ImageMethodHardCase, N19_DuplicateFacets) {
 }
 
 TEST(ImageMethodHardCase, N20_CornerTie) {
-  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself when both
-  // ends and the edge are in one line as seen from above; xy and yx are then one path.
+  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself
+  // when both ends and the edge are in one line as seen from above; xy and yx are then one path.
   HandScene hand;
   hand.quad({0, 0, 0}, {0, 10, 0}, {0, 10, 10}, {0, 0, 10});  // x = 0, facing +x
   hand.quad({0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0});  // y = 0, facing +y
@@ -281,11 +283,13 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
     std::sort(expected[order].begin(), expected[order].end());
     for (size_t i = 0; i < counts[order]; ++i) EXPECT_NEAR(found[order][i] / expected[order][i], 1.0, 1e-12);
   }
-  for (size_t i = 1; i < paths.size(); ++i) EXPECT_TRUE(sequence_less(paths[i - 1].facets(), paths[i].facets()));
+  for (size_t i = 1; i < paths.size(); ++i)
+    EXPECT_TRUE(sequence_less(paths[i - 1].facets(), paths[i].facets()));
 }
 
 TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {
-  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no duplicates.
+  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no
+  // duplicates.
   HandScene hand;
   for (int i = -4; i < 4; ++i)
     for (int j = -4; j < 4; ++j) hand.quad({i, j, 0}, {i + 1, j, 0}, {i + 1, j + 1, 0}, {i, j + 1, 0});
@@ -396,6 +400,28 @@ TEST(ImageMethod, MovingBodiesAndSources) {
   ASSERT_EQ(paths.size(), 3u);
   EXPECT_NEAR(paths[2].length_m, std::sqrt(256 + 1.0 + 0.25), 1e-12);
   EXPECT_THROW(world.move(0, motion), ContractError);
+}
+
+TEST(FacetWorld, ACopyStaysWhereItIsUntilItTakesPoses) {
+  HandScene hand;
+  hand.ground(50.0);
+  const uint32_t body = hand.body();
+  const uint32_t plate = hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);
+  FacetWorld world(hand.scene);
+  world.move(body, {{{10, 0, 3}, orientation_from_yaw_pitch_roll(0.3, 0, 0)}, {1, 0, 0}, {}, {}});
+  FacetWorld snapshot = world;
+  const dvec3 normal = world.facet(plate).normal, corner = world.corners(plate, 0)[0];
+  world.move(body, {{{-4, 2, 3}, orientation_from_yaw_pitch_roll(1.3, 0, 0)}, {2, 0, 0}, {}, {}});
+  EXPECT_EQ(snapshot.facet(plate).normal, normal);
+  EXPECT_EQ(snapshot.corners(plate, 0)[0], corner);
+  EXPECT_EQ(snapshot.velocity(plate, {10, 0, 3}), dvec3(1, 0, 0));
+  EXPECT_NE(world.facet(plate).normal, normal);
+  snapshot.take_poses(world);
+  EXPECT_EQ(snapshot.facet(plate).normal, world.facet(plate).normal);
+  EXPECT_EQ(snapshot.corners(plate, 0), world.corners(plate, 0));
+  EXPECT_EQ(snapshot.velocity(plate, {0, 0, 0}), dvec3(2, 0, 0));
+  EXPECT_EQ(snapshot.facet(0).offset, world.facet(0).offset);
+  EXPECT_THROW(snapshot.take_poses(FacetWorld(hand.scene)), ContractError);
 }
 
 TEST(ImageMethod, NothingToHit) {

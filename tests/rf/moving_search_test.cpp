@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves, found from the tree of the world at rest: against every sequence there is (host), and against the whole search
-// at every tick, down to the bytes of the paths (device).
+// What moves, found from the tree of the world at rest: against every sequence there is (host), and against
+// the whole search at every tick, down to the bytes of the paths (device).
 #include "rf/search/moving_search.h"
 
 #include <cstring>
@@ -12,8 +12,8 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/geometry.h"
-#include "rf/path_solver.h"
+#include "rf/geometry/geometry.h"
+#include "rf/paths/path_solver.h"
 #include "tests/rf/random_scene.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -100,7 +100,7 @@ struct Street {
 class Channel {
  public:
   enum class Way { whole, reuse, between };
-  Channel(const scene::Scene& scene, const RadioEffects& effects, const PathOptions& options, Way way,
+  Channel(const scene::Scene& scene, const RadioEffects& effects, const PathLimits& options, Way way,
           uint32_t threads = 0)
       : scene_(scene),
         model_(scene, carrier_hz, effects),
@@ -110,9 +110,7 @@ class Channel {
         way_(way),
         threads_(threads),
         fixed_(model_, options),
-        moving_(model_, options) {
-    options_.moving_bodies = true;
-  }
+        moving_(model_, options) {}
 
   std::vector<Path> paths(const EndState& tx, const EndState& rx, const std::vector<Motion>& motions) {
     for (uint32_t body = 1; body < motions.size(); ++body) model_.facets.move(body, motions[body]);
@@ -127,7 +125,7 @@ class Channel {
     const CrossingPass::Pending pending = crossings_.record(slot, segments);
     ring.submit(slot);
     ring.wait(slot);
-    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx);
+    return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx, model_.facets);
   }
 
   CandidateList last;  ///< what moves, or everything
@@ -188,7 +186,7 @@ class Channel {
   RadioModel model_;
   scene::GpuScene gpu_scene_;
   CrossingPass crossings_;
-  PathOptions options_;
+  PathLimits options_;
   Way way_;
   uint32_t threads_;
   PathSolver fixed_, moving_;
@@ -218,7 +216,7 @@ bool touches_body(const scene::Scene& scene, const Path& path, uint32_t body) {
 void expect_the_same(bool walls, uint32_t max_depth, uint32_t threads) {
   const Street street;
   const scene::Scene scene = street.tiny.build();
-  PathOptions options;
+  PathLimits options;
   options.max_depth = max_depth;
   options.max_transmissions = max_depth;
   Channel whole(scene, with_walls(walls), options, Channel::Way::whole, threads);
@@ -358,7 +356,8 @@ struct Boxes {
   dvec3 source{0.0}, target{0.0};
 };
 
-/// No occlusion at all is used where the tree has stopped: so every sequence that has a path in empty space is there.
+/// No occlusion at all is used where the tree has stopped: so every sequence that has a path in empty space
+/// is there.
 TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   size_t with_body = 0, all = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {
@@ -397,8 +396,8 @@ TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   EXPECT_GT(all, with_body);
 }
 
-/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the visibility test alone
-/// would let a path reach the inside of its top, a tolerance below the edge.
+/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the
+/// visibility test alone would let a path reach the inside of its top, a tolerance below the edge.
 TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   TinyScene tiny;
   testing::add_radio_materials(tiny);
@@ -407,7 +406,8 @@ TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   const scene::Scene scene = tiny.build();
   RadioModel model(scene, carrier_hz, {});
   MovingSearch search(model.facets, model.kinds, {});
-  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's inside.
+  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's
+  // inside.
   const dvec3 target(-0.5, 0.0, 0.5);
   for (const double behind : {4e-5, 1e-3, -4e-5}) {
     const dvec3 at(-1.0 + behind, 0.0, 1.0), source = at - dvec3(3.0, 0.0, 3.0);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // All stages together on scenes of a few facets: candidates, geometry, crossings on the device, fields.
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ struct Solved {
 
 /// `end`: which of the two is the source that candidates run from; `windows` false: these are forgotten.
 Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const RadioEffects& effects,
-             const PathOptions& options, Source end = Source::transmitter, bool windows = true) {
+             const PathLimits& options, Source end = Source::transmitter, bool windows = true) {
   gpu::Device& device = test::device();
   scene::GpuScene gpu_scene(device, scene, {});
   const RadioModel model(scene, carrier_hz, effects);
@@ -86,7 +86,7 @@ Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const 
   const CrossingPass::Pending pending = pass.record(slot, segments);
   ring.submit(slot);
   ring.wait(slot);
-  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver),
+  return {solver.finish(link.paths, pass.collect(pending, segments), transmitter, receiver, model.facets),
           link.paths.size()};
 }
 
@@ -187,7 +187,7 @@ TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
   house.object("south", 0, 2).quad({-30, -20, -5}, {30, -20, -5}, {30, -20, 15}, {-30, -20, 15});
   const dvec3 tx(-3, 8, 3), rx(8, -3, 3);
   // Over the vertical edge at the origin; the roof's edges have paths of their own.
-  const auto count = [&](const PathOptions& options, const std::string& chain,
+  const auto count = [&](const PathLimits& options, const std::string& chain,
                          Source end = Source::transmitter) {
     const Solved solved = solve(house.build(), tx, rx, with_edges(), options, end);
     const std::vector<std::string> chains = solved.chains();
@@ -221,7 +221,7 @@ TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {
   for (const double side : {1e-3, 1e-12, 1e-300})
     EXPECT_THROW(scattering_patches(scene, kinds, side, 1000), UserError) << side;
 
-  const PathOptions options{.max_depth = 1, .patch_m = 3.0};
+  const PathLimits options{.max_depth = 1, .patch_m = 3.0};
   const Solved front = solve(scene, {5, 0, 5}, {6, 3, 4}, effects, options);
   const size_t scattered =
       static_cast<size_t>(std::count_if(front.paths.begin(), front.paths.end(), [](const Path& path) {
@@ -275,7 +275,7 @@ TEST(PathSolver, PatchesThatABeamDoesNotReachAreLeftOutBeforeTheyAreTraced) {
   effects.scattering = true;
   for (const uint32_t after : {0u, 1u})
     for (const Source end : {Source::transmitter, Source::receiver}) {
-      const PathOptions options{.max_depth = 2, .max_reflections_after = after, .patch_m = 4.0};
+      const PathLimits options{.max_depth = 2, .max_reflections_after = after, .patch_m = 4.0};
       const dvec3 tx(1, -9, 3), rx(7, 14, 2);
       const Solved with = solve(scene, tx, rx, effects, options, end);
       const Solved without = solve(scene, tx, rx, effects, options, end, false);
@@ -290,7 +290,7 @@ TEST(PathSolver, ASourceThatMovesScattersFromWhereItIs) {
   RadioEffects effects;
   effects.scattering = true;
   const RadioModel model(scene, carrier_hz, effects);
-  const PathOptions options{.max_depth = 2, .patch_m = 4.0};
+  const PathLimits options{.max_depth = 2, .patch_m = 4.0};
   const dvec3 first(1, -9, 3), second(-3, -11, 4);
   CandidateList list = exhaustive_candidates(model.facets.facet_count(), 2);
   PathSolver moved(model, options), there(model, options);
@@ -309,8 +309,8 @@ TEST(PathSolver, ASourceThatMovesScattersFromWhereItIs) {
 }
 
 TEST(PathSolver, AWedgesOwnFaceDoesNotReflectRightBesideIt) {
-  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection just before it
-  // would have a point of its own.
+  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection
+  // just before it would have a point of its own.
   TinyScene tiny = materials();
   tiny.object("wall", 0, 2)
       .face({{dvec3(0, 0, 0), dvec3(10, 0, 0), dvec3(10, 0, 8)},
@@ -356,7 +356,7 @@ TEST(PathSolver, AWedgeDiffractsWhereItsBodyIsNow) {
   list.add({});
   list.wedge_offsets = {0, static_cast<uint32_t>(model.wedges.size())};
   for (uint32_t i = 0; i < model.wedges.size(); ++i) list.wedges.push_back(i);
-  PathSolver solver(model, {.max_depth = 1, .moving_bodies = true});
+  PathSolver solver(model, {.max_depth = 1}, true);
   solver.set_candidates(list, {-3, 1, 3}, Source::transmitter);
   // Over the roof's near and far edges, at y = 1 by symmetry: they move with the van.
   const auto edges = [&] {

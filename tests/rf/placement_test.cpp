@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/placement.h"
+#include "rf/facets/placement.h"
 
 #include <cmath>
 #include <random>

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "rf/path_solver.h"
+#include "rf/paths/path_solver.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/search/beam_search.h"
@@ -65,7 +65,7 @@ class Rig {
 
   /// Looks for candidates; those for the receivers of paths().
   void search(const dvec3& transmitter, const CandidateSource& candidates = by_beams) {
-    PathOptions options;
+    PathLimits options;
     options.max_depth = bounds_.depth;
     options.max_transmissions = bounds_.walls;
     solver_.emplace(model_, options);
@@ -89,8 +89,9 @@ class Rig {
     Links links;
     for (size_t r = 0; r < receivers.size(); ++r) {
       to.position = receivers[r];
-      links.push_back(solver_->finish(
-          geometry[r].paths, std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from, to));
+      links.push_back(solver_->finish(geometry[r].paths,
+                                      std::span(crossings).subspan(first[r], first[r + 1] - first[r]), from,
+                                      to, model_.facets));
     }
     return links;
   }
@@ -309,7 +310,8 @@ TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
     const Links plain = solve(draw.scene, draw.random, draw.bounds);
     const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.bounds);
     expect_same(plain, other, draw.name, {.vertex_m = 1e-9, .length_m = 1e-9});
-    // And the same field by the same facets; of walls that stand in one place another one may have been named.
+    // And the same field by the same facets; of walls that stand in one place another one may have been
+    // named.
     if (draw.random.name == "terrace") continue;
     for (size_t r = 0; r < plain.size(); ++r)
       for (const Path& path : plain[r]) {
@@ -330,7 +332,8 @@ TEST(Properties, NoPathGainsEnergy) {
   for (const Draw& draw : draws(2, {{3, 1}}))
     for (const auto& link : solve(draw.scene, draw.random, draw.bounds))
       for (const Path& path : link) {
-        // What free space of that length leaves of the field bounds it; the norm itself is good to sqrt(1e-16).
+        // What free space of that length leaves of the field bounds it; the norm itself is good to
+        // sqrt(1e-16).
         const double gain = spectral_norm(path.transfer) * path.length_m;
         EXPECT_LE(gain, 1.0 + 1e-7) << draw.name << ": " << text_of(path.interactions, path.length_m);
         if (!path.interactions.empty()) largest = std::max(largest, gain);

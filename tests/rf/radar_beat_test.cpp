@@ -87,7 +87,8 @@ TEST(RadarBeat, RotorTablesOfHardBendsEqualTheDirectSum) {
                              -2 / speed_of_light * 0.15 * omega * std::sin(angle)});
     }
   }
-  // What a cubic bends within a chirp is left out of the fast sum: 2 pi f_c tau''' (N/2 f_s)^3/6 rad of that echo at most.
+  // What a cubic bends within a chirp is left out of the fast sum: 2 pi f_c tau''' (N/2 f_s)^3/6 rad of that
+  // echo at most.
   const double jerk = 2 / speed_of_light * 0.15 * std::pow(2 * pi * 360, 3),
                half = 0.5 * config.waveform.sampled_s();
   double sum = 0.0;
@@ -156,7 +157,8 @@ double turns_between(const std::complex<double>& to, const std::complex<double>&
 }
 
 TEST(RadarBeat, HasTheSquaredDelaysTerm) {
-  // Two frames of slopes S and 2 S: at the sample where the ramp passes f_c their phases differ by S tau^2/2 alone.
+  // Two frames of slopes S and 2 S: at the sample where the ramp passes f_c their phases differ by S tau^2/2
+  // alone.
   RadarSignalConfig config = small_radar();
   config.waveform.slope_hz_per_s = 20e12;
   const EchoList list = whole_frame(config, {point_echo(config, 100.0, 0.0)});

@@ -79,15 +79,16 @@ TEST(RadarCfar, FalseAlarmsOfNoiseComeAtTheirRate) {
     config.processing.cfar.kind = kind;
     for (const bool edges : {false, true}) {
       const auto [share, cells] = alarms(config, kind == RadarCfar::Kind::cell_averaging ? 60 : 12, edges);
-      // Alarms of cells that share training cells go together a little: half as wide again as for independent ones.
+      // Alarms of cells that share training cells go together a little: half as wide again as for independent
+      // ones.
       EXPECT_LT(std::abs(share - 0.01) / std::sqrt(0.01 * 0.99 / cells), 1.5 * 4.42) << edges << " " << share;
     }
   }
 }
 
 TEST(RadarCfar, WindowsThatCorrelateCellsKeepTheRate) {
-  // Few training cells, so that their correlation tells: counted as independent ones they would let half as many alarms again
-  // pass. The effective number is right to second order: within a quarter of the rate.
+  // Few training cells, so that their correlation tells: counted as independent ones they would let half as
+  // many alarms again pass. The effective number is right to second order: within a quarter of the rate.
   RadarSignalConfig config = testing::small_radar();
   config.processing.cfar.false_alarm = 0.002;
   config.processing.cfar.train_range = config.processing.cfar.train_doppler = 1;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "rf/radar/delay.h"
+#include "rf/radar/signal/delay.h"
 #include "tests/rf/radar_support.h"
 
 namespace greatx::rf {

@@ -77,11 +77,11 @@ TEST(RadarDetections, TurnedArraysSeeTheirOwnFrame) {
 
 TEST(RadarDetections, TwoTargetsAreResolvedAndNamed) {
   RadarSignalConfig config = quiet_radar();
-  // The strong one stands among the weak one's training cells: their mean would hide it, their order does not.
+  // The strong one stands among the weak one's training cells: their mean would hide it, their order does
+  // not.
   config.processing.cfar.kind = RadarCfar::Kind::ordered_statistic;
   const double bin = config.waveform.range_bin_m();
-  std::vector<Echo> echoes{point_echo(config, 25 * bin, 0.0),
-                           point_echo(config, 25 * bin + 3 * bin, 0.0),
+  std::vector<Echo> echoes{point_echo(config, 25 * bin, 0.0), point_echo(config, 25 * bin + 3 * bin, 0.0),
                            point_echo(config, 25 * bin, 5.0)};
   for (uint32_t i = 0; i < 3; ++i) echoes[i].instance = 11 + i;
   echoes[1].amplitude *= 0.3;

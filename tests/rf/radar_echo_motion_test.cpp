@@ -4,7 +4,7 @@
 // Delays of echoes while a frame lasts.
 #include <gtest/gtest.h>
 
-#include "rf/radar/echo_tracks.h"
+#include "rf/radar/echoes/echo_tracks.h"
 #include "tests/rf/radar_echo_scenes.h"
 
 namespace greatx::rf {

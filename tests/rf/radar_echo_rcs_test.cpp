@@ -31,7 +31,8 @@ TEST(RadarEchoRcs, PlateAcrossBothItsSides) {
   EXPECT_NEAR(section_db(field_of(list), range_m, range_m), expected, 0.01);
 }
 
-/// One place, two polarizations: not monostatic for the search, but no way leads from one element to the other.
+/// One place, two polarizations: not monostatic for the search, but no way leads from one element to the
+/// other.
 TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
   EchoScene scene(plate());
   const Pose at = looking(from(5.0, 0.0), dvec3(0.0));
@@ -47,7 +48,8 @@ TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
   EXPECT_LT(std::abs(field(horizontal)), 1e-6 * std::abs(alone));
 }
 
-/// Physical optics with the field across the plane of incidence: cos(theta_i) from the currents, and the phases of both ways.
+/// Physical optics with the field across the plane of incidence: cos(theta_i) from the currents, and the
+/// phases of both ways.
 TEST(RadarEchoRcs, BistaticPlate) {
   EchoScene scene(plate());
   for (const auto& [tx, rx] :
@@ -66,8 +68,8 @@ TEST(RadarEchoRcs, BistaticPlate) {
   }
 }
 
-/// Two reflections send back what a plate of the width 2 a min(sin, cos) would. The faces by themselves add their own edges,
-/// which are some -20 dBsm.
+/// Two reflections send back what a plate of the width 2 a min(sin, cos) would. The faces by themselves add
+/// their own edges, which are some -20 dBsm.
 TEST(RadarEchoRcs, DihedralAtSeveralAngles) {
   EchoScene scene(dihedral());
   const dvec3 middle(0.0, 0.0, 0.5 * a);
@@ -110,7 +112,8 @@ TEST(RadarEchoRcs, SphereByFacets) {
   EXPECT_NEAR(section_db(field_of(list), range_m, range_m), -15.029, 0.15);
 }
 
-/// Tubes that are wider than the facets of a mesh miss some; from a third of a facet on the rest is in the silhouette.
+/// Tubes that are wider than the facets of a mesh miss some; from a third of a facet on the rest is in the
+/// silhouette.
 TEST(RadarEchoRcs, ErrorFallsWithTheWidthOfTubes) {
   EchoScene scene(ball(0.1, 20));
   const dvec3 radar(range_m, 0.0, 0.0);

@@ -37,8 +37,8 @@ EchoOptions sector(double half_azimuth_deg, double half_elevation_deg, uint32_t 
   return options;
 }
 
-/// A corner reflector with its apex at (20, 0, 0) that looks back at the origin, and a wall in the plane y = 6. `hides`: a
-/// screen between the radar and the reflector.
+/// A corner reflector with its apex at (20, 0, 0) that looks back at the origin, and a wall in the plane y =
+/// 6. `hides`: a screen between the radar and the reflector.
 TinyScene corner_by_a_wall(bool hides = false) {
   TinyScene tiny;
   const dvec3 o(20.0, 0.0, 0.0);
@@ -76,8 +76,8 @@ TinyScene wall_alone() {
   return tiny;
 }
 
-/// A plate of side 0.1 m at (15, 0, 0) sends what comes from the wall's image of the radar, (0, 12, 0), to the radar: at the
-/// mean of 15 m and 19.21 m, which is behind the wall where it comes in over the wall.
+/// A plate of side 0.1 m at (15, 0, 0) sends what comes from the wall's image of the radar, (0, 12, 0), to
+/// the radar: at the mean of 15 m and 19.21 m, which is behind the wall where it comes in over the wall.
 TEST(RadarEchoScene, GhostsOverAWallAreWhereGeometrySaysBothWays) {
   const dvec3 center(15, 0, 0), image(0, 12, 0);
   const dvec3 normal = glm::normalize(glm::normalize(-center) + glm::normalize(image - center));
@@ -119,7 +119,8 @@ TEST(RadarEchoScene, WhatIsHiddenIsNotSeen) {
   EXPECT_GT(power_at(hidden.find(options, Pose{}), 8.0, 0.1, 1), 1e-11);  // the screen
 }
 
-/// Of a large smooth wall only the glint is left where nothing of its border is seen: lambda/(4 pi 2 R), the image's field.
+/// Of a large smooth wall only the glint is left where nothing of its border is seen: lambda/(4 pi 2 R), the
+/// image's field.
 TEST(RadarEchoScene, LargeWallReflectsAsItsImageWhateverTheTubes) {
   TinyScene tiny;
   tiny.object("wall").quad({10, 40, -40}, {10, -40, -40}, {10, -40, 40}, {10, 40, 40});
@@ -136,8 +137,8 @@ TEST(RadarEchoScene, LargeWallReflectsAsItsImageWhateverTheTubes) {
   }
 }
 
-/// Ends swapped: where the surface reflects from one to the other, exactly so; beside that physical optics is not reciprocal
-/// (cos(theta_i) against cos(theta_s)).
+/// Ends swapped: where the surface reflects from one to the other, exactly so; beside that physical optics is
+/// not reciprocal (cos(theta_i) against cos(theta_s)).
 TEST(RadarEchoScene, Reciprocity) {
   TinyScene tiny;
   tiny.object("plate").quad({0, -0.2, -0.2}, {0, 0.2, -0.2}, {0, 0.2, 0.2}, {0, -0.2, 0.2});
@@ -319,7 +320,8 @@ TEST(RadarEchoScene, MergingStaysWithinItsBound) {
   const double half_aperture = 0.5 * radar_wavelength_m / options.beam_rad;
   for (const double offset : {-0.5e9, 0.5e9})
     for (const double aperture : {-half_aperture, half_aperture}) {
-      // A member is at most a cell off: phases of pi B share/B and pi share, in the mean a third of their sum.
+      // A member is at most a cell off: phases of pi B share/B and pi share, in the mean a third of their
+      // sum.
       const Complex expected = field(all, offset, aperture);
       EXPECT_LT(std::abs(field(merged, offset, aperture) - expected), 0.25 * std::abs(field(all, 0, 0)));
     }
@@ -355,8 +357,8 @@ TEST(RadarEchoScene, FloorOfEdgesIsWhatItSays) {
 }
 
 TEST(RadarEchoScene, HiddenFloorGrowsWithTheFourthPowerOfDistance) {
-  // Border contributions of a slanted plate 10 m away, and of one ten times as large and as far: their cross-sections at the
-  // same aspect are those of edges, which grow with the square of the size.
+  // Border contributions of a slanted plate 10 m away, and of one ten times as large and as far: their
+  // cross-sections at the same aspect are those of edges, which grow with the square of the size.
   const auto find = [](double scale, double border_m2, double hidden_m2, EchoStatistics* statistics) {
     TinyScene tiny;
     tiny.object("plate").quad(dvec3(10, 0.5, -0.5) * scale, dvec3(11, -0.5, -0.5) * scale,
@@ -401,8 +403,8 @@ TEST(RadarEchoScene, DiffuseIsOffByDefaultAndHasThePowerOfItsModel) {
   const double off = clutter(scene.find(options, Pose{}));
   options.diffuse = true;
   const double on = clutter(scene.find(options, Pose{}));
-  // Lambert: the integral of S^2 cos(theta_s) cos(theta_i)/pi over the ground, cos = 2/R, (lambda/4 pi)^2/R^4; half the
-  // ring of ranges 10 to 12 m lies within |y| < 5 and 20 degrees.
+  // Lambert: the integral of S^2 cos(theta_s) cos(theta_i)/pi over the ground, cos = 2/R, (lambda/4
+  // pi)^2/R^4; half the ring of ranges 10 to 12 m lies within |y| < 5 and 20 degrees.
   double expected = 0.0;
   for (double x = 5.0; x < 25.0; x += 0.02)
     for (double y = -5.0; y < 5.0; y += 0.02) {

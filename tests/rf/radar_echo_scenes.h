@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/units.h"
-#include "rf/radar/echo_finder.h"
+#include "rf/radar/echoes/echo_finder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 

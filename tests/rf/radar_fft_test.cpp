@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "rf/radar/fft.h"
+#include "rf/radar/signal/fft.h"
 
 namespace greatx::rf {
 namespace {

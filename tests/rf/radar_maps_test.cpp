@@ -38,8 +38,8 @@ Echo at_bins(const RadarSignalConfig& config, double range_bins, double turns) {
 }
 
 TEST(RadarChain, RadarEquationToAHundredthOfADecibel) {
-  // 12 dBm, 12 dBi, 1 m^2, 77 GHz, 100 m: P_r = P_t G^2 lambda^2 sigma/((4 pi)^3 R^4) = -125.1697 dBm, through echo, cube,
-  // transforms and detection.
+  // 12 dBm, 12 dBi, 1 m^2, 77 GHz, 100 m: P_r = P_t G^2 lambda^2 sigma/((4 pi)^3 R^4) = -125.1697 dBm,
+  // through echo, cube, transforms and detection.
   RadarSignalConfig config = long_range_radar();
   const double gain = from_decibels(12.0);
   for (const double velocity : {0.0, 3.21, -3.7})
@@ -91,7 +91,8 @@ TEST(RadarChainHardCase, N62_AtABinsCentreBetweenBinsAndBeyondTheSpan) {
                 -decibels(maps.doppler_window().scalloping_loss()), 0.02);
     EXPECT_NEAR(decibels(map[20 * chirps + zero + 5] / power),
                 -decibels(maps.doppler_window().scalloping_loss()), 0.02);
-    // Beyond v_max: the turns less a multiple of the chirps; beyond R_max: the bin less a multiple of the samples.
+    // Beyond v_max: the turns less a multiple of the chirps; beyond R_max: the bin less a multiple of the
+    // samples.
     map = map_of(20.0, chirps / 2 + 3, power);
     EXPECT_EQ(peak_of(map), 20 * chirps + 3);  // -chirps/2 + 3 turns
     map = map_of(20.0, -int(chirps) - 2, power);
@@ -174,7 +175,8 @@ TEST(RadarChain, RangeAzimuthShowsPowerAndDirectionWhateverTheVelocity) {
 }
 
 TEST(RadarChain, RotorsFrequencyFromATable) {
-  // A blade's tip as a row of a table. The frequency from chirp to chirp swings by 2 r omega/lambda at the rotor's frequency.
+  // A blade's tip as a row of a table. The frequency from chirp to chirp swings by 2 r omega/lambda at the
+  // rotor's frequency.
   RadarSignalConfig config = small_radar();
   set_row(config, 1, 1);
   config.waveform.samples = 16;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Targets that a radar sees over a mirror, out and back: each sends back what it would to a radar at the image of this one.
+// Targets that a radar sees over a mirror, out and back: each sends back what it would to a radar at the
+// image of this one.
 #include <gtest/gtest.h>
 
 #include "tests/rf/radar_reflectors.h"
@@ -15,8 +16,8 @@ dvec3 mirrored(const dvec3& p, const dvec3& on, const dvec3& normal) {
   return p - 2.0 * glm::dot(normal, p - on) * normal;
 }
 
-/// A mirror of 16 m a quarter of the way from `image` to `target`, at 45 degrees to it and upright as seen from there; where the
-/// radar is then whose image that is.
+/// A mirror of 16 m a quarter of the way from `image` to `target`, at 45 degrees to it and upright as seen
+/// from there; where the radar is then whose image that is.
 struct Mirror {
   dvec3 at, normal;
   dvec3 radar;
@@ -99,7 +100,8 @@ struct Street {
     options.targets = {1};
     return options;
   }
-  /// A plate of `side_m` whose normal is `turn_deg` off the direction of the radar's image; `screen` hides the wall from it.
+  /// A plate of `side_m` whose normal is `turn_deg` off the direction of the radar's image; `screen` hides
+  /// the wall from it.
   TinyScene with_plate(double side_m, double turn_deg, bool screen = false) const {
     TinyScene tiny;
     tiny.object("wall").quad({0, wall_y, -3}, {30, wall_y, -3}, {30, wall_y, 3}, {0, wall_y, 3});

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""radar_points.py FOLDER: point targets before an FMCW radar, from the phase that is sent, and a cube held against it.
+"""radar_points.py FOLDER: point targets before an FMCW radar, from the phase that is sent, and a cube held
+against it.
 
-Nothing here is an expansion: the oscillator's phase is evaluated when a sample is taken and when the wave that arrives then
-was sent, twice the point's distance at that sample before. Waves are plane over the elements, from where the point is at the
-frame's middle.
+Nothing here is an expansion: the oscillator's phase is evaluated when a sample is taken and when the wave
+that arrives then was sent, twice the point's distance at that sample before. Waves are plane over the
+elements, from where the point is at the frame's middle.
 """
 import pathlib
 import sys

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "rf/radar/lanes.h"
-#include "rf/radar/receiver.h"
+#include "rf/radar/signal/lanes.h"
+#include "rf/radar/signal/receiver.h"
 #include "shaders/shared/random.h"
 #include "tests/rf/radar_support.h"
 

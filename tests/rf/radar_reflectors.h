@@ -37,9 +37,9 @@ inline TinyScene trihedral() {
   return tiny;
 }
 
-/// A sphere of some 24 n^2 triangles about a step of r pi/(2 n) wide: a cube of n x n squares a face, blown up, and turned
-/// and shaken so that no rows of facets stand half a wavelength behind each other (those of a regular mesh do somewhere near
-/// the shadow's edge, and send back their own Bragg reflection: up to .7 dB).
+/// A sphere of some 24 n^2 triangles about a step of r pi/(2 n) wide: a cube of n x n squares a face, blown
+/// up, and turned and shaken so that no rows of facets stand half a wavelength behind each other (those of a
+/// regular mesh do somewhere near the shadow's edge, and send back their own Bragg reflection: up to .7 dB).
 inline TinyScene ball(double radius, int n) {
   TinyScene tiny;
   tiny.object("ball");
@@ -66,7 +66,8 @@ inline TinyScene ball(double radius, int n) {
   return tiny;
 }
 
-/// Physical optics of a convex mesh of conductors by brute force: quadrature over 2 m^2 points of every lit triangle.
+/// Physical optics of a convex mesh of conductors by brute force: quadrature over 2 m^2 points of every lit
+/// triangle.
 inline double brute_force_db(const scene::Scene& scene, const dvec3& radar, int m) {
   Complex sum(0.0);
   const double distance = glm::length(radar);
@@ -98,7 +99,8 @@ inline double plate_db(double pattern) {
   return decibels(4.0 * pi * std::pow(a, 4) / (radar_wavelength_m * radar_wavelength_m) * pattern * pattern);
 }
 
-/// 4 pi a^4/lambda^2 (cos(theta) sinc(k a sin(theta)))^2 (C. A. Balanis, Advanced Engineering Electromagnetics, 11.3).
+/// 4 pi a^4/lambda^2 (cos(theta) sinc(k a sin(theta)))^2 (C. A. Balanis, Advanced Engineering
+/// Electromagnetics, 11.3).
 inline double plate_db_at(double degrees) {
   return plate_db(std::cos(radians(degrees)) * sinc(k * a * std::sin(radians(degrees))));
 }
@@ -110,8 +112,9 @@ inline EchoOptions exact(double half_m, uint32_t tubes) {
   return options;
 }
 
-/// 4 pi A^2/lambda^2 of the part of the aperture whose mirror image in the apex is in it, too (A. C. Bonkowski et al. 1953;
-/// for direction cosines (l, m, n), ascending, A = a^2 4 l m/(l + m + n) if l + m <= n, else a^2 (l + m + n - 2/(l + m + n))).
+/// 4 pi A^2/lambda^2 of the part of the aperture whose mirror image in the apex is in it, too (A. C.
+/// Bonkowski et al. 1953; for direction cosines (l, m, n), ascending, A = a^2 4 l m/(l + m + n) if l + m <=
+/// n, else a^2 (l + m + n - 2/(l + m + n))).
 inline double trihedral_db(dvec3 d) {
   const double low = std::min({d.x, d.y, d.z}), high = std::max({d.x, d.y, d.z}), sum = d.x + d.y + d.z,
                mid = sum - low - high;

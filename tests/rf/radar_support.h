@@ -8,14 +8,16 @@
 #include <complex>
 #include <vector>
 
-#include "rf/radar/radar_processor.h"
+#include "rf/radar/signal/radar_processor.h"
+#include "tests/rf/beat_direct.h"
 
 namespace greatx::rf::testing {
 
 inline double dbm_of(double power_w) { return decibels(power_w) + 30.0; }
 inline double isotropic(const dvec3&) { return 1.0; }
 
-/// A row of transmitters * receivers virtual antennas along y, half a wavelength apart: what is nearest is the receivers.
+/// A row of transmitters * receivers virtual antennas along y, half a wavelength apart: what is nearest is
+/// the receivers.
 inline void set_row(RadarSignalConfig& config, uint32_t transmitters, uint32_t receivers) {
   const double half = 0.5 * config.waveform.wavelength_m();
   config.waveform.transmitters = transmitters;
@@ -26,8 +28,8 @@ inline void set_row(RadarSignalConfig& config, uint32_t transmitters, uint32_t r
   for (uint32_t r = 0; r < receivers; ++r) config.arrays.receive_m.push_back({0, half * r, 0});
 }
 
-/// 77 GHz, 213 MHz over 64 samples (0.70 m a bin, 45 m in all), 32 chirps of each of two transmitters (up to 8.1 m/s), two
-/// receivers.
+/// 77 GHz, 213 MHz over 64 samples (0.70 m a bin, 45 m in all), 32 chirps of each of two transmitters (up to
+/// 8.1 m/s), two receivers.
 inline RadarSignalConfig small_radar() {
   RadarSignalConfig config;
   config.waveform.slope_hz_per_s = 5e12;
@@ -39,8 +41,8 @@ inline RadarSignalConfig small_radar() {
   return config;
 }
 
-/// The echo of a point at `range_m` (at the frame's middle) that recedes at `velocity_m_s`, in a direction by azimuth and
-/// elevation: radar equation, elements of gain `gain`.
+/// The echo of a point at `range_m` (at the frame's middle) that recedes at `velocity_m_s`, in a direction by
+/// azimuth and elevation: radar equation, elements of gain `gain`.
 inline Echo point_echo(const RadarSignalConfig& config, double range_m, double velocity_m_s,
                        double azimuth = 0.0, double elevation = 0.0, double rcs_m2 = 1.0, double gain = 1.0) {
   Echo echo;

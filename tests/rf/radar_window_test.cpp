@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "rf/radar/window.h"
+#include "rf/radar/signal/window.h"
 #include "tests/rf/radar_support.h"
 
 namespace greatx::rf {

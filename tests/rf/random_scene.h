@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small scenes drawn from a seed, that can be shifted, turned, cut finer and renumbered. Corners are multiples of
-// 2^-10 m, so that a shift by whole metres is exact in fp64 up to 10^9 m.
+// Small scenes drawn from a seed, that can be shifted, turned, cut finer and renumbered. Corners are
+// multiples of 2^-10 m, so that a shift by whole metres is exact in fp64 up to 10^9 m.
 #pragma once
 
 #include <numeric>

@@ -11,9 +11,9 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "rf/channel/frequency_response.h"
-#include "rf/diffraction.h"
-#include "rf/field.h"
-#include "rf/geometry.h"
+#include "rf/field/diffraction.h"
+#include "rf/field/field.h"
+#include "rf/geometry/geometry.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -39,8 +39,9 @@ std::array<std::array<Complex, 2>, 2> ports(const std::vector<Path>& paths, cons
   return {{{h[0], h[1]}, {h[2], h[3]}}};
 }
 
-/// Relative difference between one way and the other, for V, H and both circular polarizations at either end. An antenna
-/// that sends V + jH takes up E_V + jE_H: its receiving pattern under C_R^H is the conjugate of its transmitting one.
+/// Relative difference between one way and the other, for V, H and both circular polarizations at either end.
+/// An antenna that sends V + jH takes up E_V + jE_H: its receiving pattern under C_R^H is the conjugate of
+/// its transmitting one.
 double reciprocity_error(const std::vector<Path>& forward, const std::vector<Path>& backward) {
   const dquat a = orientation_from_yaw_pitch_roll(0.7, 0.2, -0.4),
               b = orientation_from_yaw_pitch_roll(-2, 0.5, 1);
@@ -75,8 +76,9 @@ struct ScreenRoom {
 };
 
 TEST(ReciprocityHardCase, N52_ConductorScene) {
-  // Reflections to depth 3 and the diffraction at the screen's edge, one by one and in sum. Luebbers' coefficients are not
-  // reciprocal: with 1e7 S/m a diffracted path alone is off by 5e-6 of itself, and what is left of it in the sum by less.
+  // Reflections to depth 3 and the diffraction at the screen's edge, one by one and in sum. Luebbers'
+  // coefficients are not reciprocal: with 1e7 S/m a diffracted path alone is off by 5e-6 of itself, and what
+  // is left of it in the sum by less.
   for (const double conductivity : {1e7, 1e30}) {
     const ScreenRoom room(conductivity);
     const FacetWorld world(room.hand.scene);
@@ -102,7 +104,8 @@ TEST(ReciprocityHardCase, N52_ConductorScene) {
 }
 
 TEST(Reciprocity, LayeredWalls) {
-  // Reflected and passed from either side; a wall of layers is not the same from behind, yet lets through the same.
+  // Reflected and passed from either side; a wall of layers is not the same from behind, yet lets through the
+  // same.
   HandScene hand;
   const uint32_t wall = hand.material("plaster on concrete", 2.73, 0.01, 0.02);
   hand.scene.materials[wall].radio->layers.push_back({*scene::itu_medium("concrete"), 0.1});
@@ -118,7 +121,8 @@ TEST(Reciprocity, LayeredWalls) {
 }
 
 TEST(ReciprocityHardCase, N50_UprightAntennas) {
-  // Pitch of +-90 degrees: the rotation stays one, the field follows it continuously, and yaw and roll are one angle.
+  // Pitch of +-90 degrees: the rotation stays one, the field follows it continuously, and yaw and roll are
+  // one angle.
   RandomStream random(50, 0);
   for (const double pitch : {pi / 2, -pi / 2})
     for (int i = 0; i < 20; ++i) {
@@ -143,7 +147,8 @@ TEST(ReciprocityHardCase, N50_UprightAntennas) {
 }
 
 TEST(ReciprocityHardCase, N51_HalfTurns) {
-  // a -> -a: antennas turned over, and an echo that comes back the way it went. No NaN, no power lost; twice is nothing.
+  // a -> -a: antennas turned over, and an echo that comes back the way it went. No NaN, no power lost; twice
+  // is nothing.
   RandomStream random(51, 0);
   for (int i = 0; i < 50; ++i) {
     const auto direction = [&] {
@@ -170,7 +175,8 @@ TEST(ReciprocityHardCase, N51_HalfTurns) {
   ASSERT_EQ(paths.size(), 1u);
   const Path echo = path_field(paths[0], {&world, &surfaces}, {}, {});
   EXPECT_EQ(echo.departure, echo.arrival);
-  // Straight down and back: a conductor turns the field over, and both ends have the same theta-hat and phi-hat.
+  // Straight down and back: a conductor turns the field over, and both ends have the same theta-hat and
+  // phi-hat.
   EXPECT_LT(std::abs(echo.transfer[0] * 6.0 + 1.0) + std::abs(echo.transfer[3] * 6.0 + 1.0), 1e-12);
   EXPECT_LT(std::abs(echo.transfer[1]) + std::abs(echo.transfer[2]), 1e-12);
 }

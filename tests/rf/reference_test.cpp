@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "rf/geometry.h"
+#include "rf/geometry/geometry.h"
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/reference/occluders.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/scattering.h"
+#include "rf/surface/scattering.h"
 
 #include <cmath>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "rf/field.h"
+#include "rf/field/field.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
@@ -146,8 +146,8 @@ TEST(Scattering, MatrixIsUnitaryAndAFunctionOfThePatch) {
 }
 
 TEST(Scattering, PhasesAreUniformAndIndependent) {
-  // A sum of n independent unit phasors has |sum|^2 distributed exponentially with mean n: beyond 14 n with probability
-  // e^-14 = 8e-7. Six sums.
+  // A sum of n independent unit phasors has |sum|^2 distributed exponentially with mean n: beyond 14 n with
+  // probability e^-14 = 8e-7. Six sums.
   constexpr uint32_t count = 20'000;
   Complex te{0.0}, tm{0.0}, crossed{0.0}, both{0.0}, apart{0.0}, neighbours{0.0};
   ScatteringMatrix before = scattering_matrix(0.5, 3, 99, 0);
@@ -189,7 +189,8 @@ struct Patch {
 };
 
 TEST(Scattering, EnergyBalanceOfAPatch) {
-  // The integral of |E_s|^2 r^2 over the hemisphere = S^2 Gamma^2 |E_i|^2 cos(theta_i) dA, for any polarization.
+  // The integral of |E_s|^2 r^2 over the hemisphere = S^2 Gamma^2 |E_i|^2 cos(theta_i) dA, for any
+  // polarization.
   const dvec3 point(3, -2, 0);
   const struct {
     Complex theta, phi;
@@ -254,8 +255,8 @@ TEST(Scattering, BothSidesOfAWallScatter) {
 }
 
 TEST(Scattering, ReflectionsBeforeAndAfterAreImages) {
-  // A conducting wall x = 10: what comes to the patch over it comes from the mirrored transmitter, and what leaves over it
-  // goes to the mirrored receiver.
+  // A conducting wall x = 10: what comes to the patch over it comes from the mirrored transmitter, and what
+  // leaves over it goes to the mirrored receiver.
   Patch patch({.coefficient = 0.5, .pattern = ScatteringPattern::directive, .cross_polarization = 0.1}, 4.0,
               0.0);
   const uint32_t conductor = patch.hand.material("conductor", 1.0, 1e30);
@@ -296,7 +297,8 @@ TEST(Scattering, ReflectionsBeforeAndAfterAreImages) {
 }
 
 TEST(Scattering, WhatIsScatteredIsNotReflected) {
-  // S^2 to the hemisphere and 1 - S^2 of the reflected power straight on: together what a smooth surface reflects.
+  // S^2 to the hemisphere and 1 - S^2 of the reflected power straight on: together what a smooth surface
+  // reflects.
   Patch patch({.coefficient = 0.6}, 4.0, 0.0);
   const FacetWorld world(patch.hand.scene);
   const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);

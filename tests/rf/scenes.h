@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/description/scene.h"
 
 namespace greatx::rf::testing {
 

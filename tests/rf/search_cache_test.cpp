@@ -15,7 +15,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/wedges.h"
+#include "rf/search/search_key.h"
+#include "scene/description/wedges.h"
 #include "tests/rf/search_scenes.h"
 #include "tests/support/temporary_folder.h"
 

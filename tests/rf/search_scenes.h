@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rf/facet_kind.h"
-#include "rf/path.h"
+#include "rf/facets/facet_kind.h"
+#include "rf/geometry/path.h"
 #include "rf/search/beam_search.h"
 #include "tests/rf/scenes.h"
 
@@ -32,12 +32,13 @@ struct SearchScene {
   void box(const dvec3& low, const dvec3& high);
 };
 
-/// What a search and all that follows find: [receivers], line of sight, reflections and walls passed; canonical order.
-/// Crossings by the reference's occluders, on the host.
+/// What a search and all that follows find: [receivers], line of sight, reflections and walls passed;
+/// canonical order. Crossings by the reference's occluders, on the host.
 std::vector<std::vector<GeometricPath>> solve(const SearchScene& scene, const CandidateList& list);
 
-/// The default options and no clearance at all: every path of the reference, none twice and no other, whether bounded by
-/// windows or not; one and two threads the same. Returns the reference's paths by number of interactions.
+/// The default options and no clearance at all: every path of the reference, none twice and no other, whether
+/// bounded by windows or not; one and two threads the same. Returns the reference's paths by number of
+/// interactions.
 std::vector<size_t> expect_perfect(const SearchScene& scene, const std::string& name);
 
 }  // namespace greatx::rf::testing

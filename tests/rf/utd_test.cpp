@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rf/utd.h"
+#include "rf/field/utd.h"
 
 #include <cmath>
 
@@ -18,7 +18,8 @@ constexpr Complex j{0.0, 1.0};
 
 double error(Complex found, Complex expected) { return std::abs(found - expected); }
 
-/// int_0^x e^{-j t^2} dt by Gauss and Legendre's rule, five points a panel: shares nothing with the code under test.
+/// int_0^x e^{-j t^2} dt by Gauss and Legendre's rule, five points a panel: shares nothing with the code
+/// under test.
 Complex fresnel_integral(double x) {
   constexpr double node[3] = {0.0, 0.5384693101056831, 0.9061798459386640};
   constexpr double weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
@@ -36,8 +37,9 @@ Complex fresnel_integral(double x) {
   return sum;
 }
 
-/// Sommerfeld's half-plane: u(beta) = e^{jk rho cos(beta)} (e^{j pi/4}/sqrt(pi)) int_{-sqrt(2 k rho) cos(beta/2)}^inf
-/// e^{-j t^2} dt; the field is u(phi - phi') -+ u(phi + phi') (Born and Wolf, Principles of Optics, 7th ed., 11.5).
+/// Sommerfeld's half-plane: u(beta) = e^{jk rho cos(beta)} (e^{j pi/4}/sqrt(pi)) int_{-sqrt(2 k rho)
+/// cos(beta/2)}^inf e^{-j t^2} dt; the field is u(phi - phi') -+ u(phi + phi') (Born and Wolf, Principles of
+/// Optics, 7th ed., 11.5).
 Complex sommerfeld(double k_rho, double incident, double observed, double hard) {
   const auto part = [&](double beta) {
     const double c = std::cos(0.5 * beta), x = std::sqrt(2.0 * k_rho) * std::abs(c);
@@ -92,7 +94,8 @@ TEST(Utd, ErfcxOnTheDiagonal) {
 }
 
 TEST(Utd, ErfcxIsSmoothWhereTheFormulaChanges) {
-  // The pole's term is dropped near w = 4.5, t^4 beside w^4 at w = 1e5: no step. The derivative there is 2 z^2/w e - ...
+  // The pole's term is dropped near w = 4.5, t^4 beside w^4 at w = 1e5: no step. The derivative there is 2
+  // z^2/w e - ...
   for (const double w : {40.0 / (std::sqrt(2.0) * pi) * std::sqrt(pi / 12.5), 1e5}) {
     const Complex below = erfcx_on_diagonal(w * (1.0 - 1e-15)), above = erfcx_on_diagonal(w * (1.0 + 1e-15));
     EXPECT_LT(error(above, below), 5e-15 * std::abs(below));
@@ -155,8 +158,8 @@ TEST(Utd, ConductingHalfPlaneIsSommerfelds) {
   RecordProperty("worst", fmt::format("{:.1e}", worst));
 }
 
-/// The exact field of a conducting wedge in a plane wave (D. S. Jones, "The Theory of Electromagnetism", 9.19): (2/n)
-/// sum eps_m j^{m/n} J_{m/n}(k rho) cos cos, or 4/n sum j^{m/n} J sin sin.
+/// The exact field of a conducting wedge in a plane wave (D. S. Jones, "The Theory of Electromagnetism",
+/// 9.19): (2/n) sum eps_m j^{m/n} J_{m/n}(k rho) cos cos, or 4/n sum j^{m/n} J sin sin.
 Complex wedge_series(double n, double k_rho, double incident, double observed, bool hard) {
   Complex sum = hard ? Complex(0.5 * std::cyl_bessel_j(0.0, k_rho)) : Complex(0.0);
   for (int m = 1; m / n < 2.0 * k_rho + 60.0; ++m) {
@@ -218,7 +221,8 @@ TEST(Utd, ConductorIsReciprocal) {
 }
 
 TEST(UtdHardCase, N44_ContinuousAcrossEveryBoundary) {
-  // The total field at, 1e-12 and 1e-5 rad beside each boundary; its slope there is some sqrt(k rho) per radian.
+  // The total field at, 1e-12 and 1e-5 rad beside each boundary; its slope there is some sqrt(k rho) per
+  // radian.
   const Complex r0(-0.6, 0.1), rn(0.35, -0.2);
   for (const double n : {1.2, 1.5, 1.9, 2.0}) {
     for (const double incident : {0.4, 0.9 * (n - 1.0) * pi, 0.5 * n * pi, 0.7 * n * pi}) {
@@ -278,8 +282,8 @@ TEST(UtdHardCase, N44_ExactlyOnABoundary) {
 }
 
 TEST(UtdHardCase, N45_GrazingTheEdgeIsFinite) {
-  // L -> 0 (sin beta_0 -> 0 or s -> 0): each term without dimension tends to its value on the boundary, 1/2 times the
-  // angular factor; sqrt(L)/sin(beta_0) = sqrt(s s'/(s + s')) has no pole either.
+  // L -> 0 (sin beta_0 -> 0 or s -> 0): each term without dimension tends to its value on the boundary, 1/2
+  // times the angular factor; sqrt(L)/sin(beta_0) = sqrt(s s'/(s + s')) has no pole either.
   const UtdAngles angles = utd_angles(1.5, 0.7, 3.0);
   const UtdTerms none = utd_terms(angles, 100.0, 0.0);
   for (const double distance : {1e-300, 1e-30, 1e-12}) {
@@ -343,8 +347,9 @@ TEST(Utd, LuebbersAnglesAreTheReflectionsOnTheirBoundaries) {
 }
 
 TEST(Utd, KnifeEdge) {
-  // An absorbing half-plane far away: Fresnel and Kirchhoff's knife edge, 20 log10 |(1 + j)/2 int_nu^inf e^{-j pi t^2/2}|
-  // (Rec. ITU-R P.526): 6.0206 dB at nu = 0, 13.8641 dB at nu = 1, and 1.0010 dB of gain at nu = -1.
+  // An absorbing half-plane far away: Fresnel and Kirchhoff's knife edge, 20 log10 |(1 + j)/2 int_nu^inf
+  // e^{-j pi t^2/2}| (Rec. ITU-R P.526): 6.0206 dB at nu = 0, 13.8641 dB at nu = 1, and 1.0010 dB of gain at
+  // nu = -1.
   const double k_distance = 1e9;
   for (const auto& [nu, loss_db] :
        {std::pair{0.0, 6.0206}, std::pair{1.0, 13.8641}, std::pair{-1.0, -1.0010}}) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/build.h"
+#include "scene/build/build.h"
 
 #include <cmath>
 #include <set>
@@ -17,8 +17,8 @@ using test::GltfWriter;
 using test::has_note;
 using test::json;
 
-Placement placement_of(const Model& model, const std::string& name = "") {
-  Placement placement;
+ModelPlacement placement_of(const Model& model, const std::string& name = "") {
+  ModelPlacement placement;
   placement.name = name;
   placement.model = &model;
   return placement;
@@ -130,7 +130,7 @@ TEST(BuildScene, FlatNormalsWhereTheFileHasNone) {
 
 TEST(BuildScene, OriginIsTheCentreInWholeMetres) {
   const Model model = quad({vec3(10, 0, 0), vec3(14.4f, 0, 0), vec3(14.4f, 3, 0), vec3(10, 3, 0)}).load();
-  Placement placement = placement_of(model);
+  ModelPlacement placement = placement_of(model);
   placement.pose.position = dvec3(500000.0, 5400000.0, 35.0);
   const Scene scene = build_scene({placement}, {});
   EXPECT_EQ(scene.origin, dvec3(500012.0, 5400000.0, 37.0));
@@ -151,12 +151,12 @@ TEST(BuildScene, EmptySceneIsAWorldWithNothingInIt) {
 
 TEST(BuildScene, MovingBodiesKeepTheirOwnFrame) {
   const Model ground = quad().load(), car = box().load();
-  Placement moving = placement_of(car, "car");
+  ModelPlacement moving = placement_of(car, "car");
   moving.moving = true;
   moving.scale = dvec3(2.0);
   moving.pose.position = dvec3(0.0, 0.0, 0.5);  // in the body's frame, whatever the origin
   moving.semantic_class = SemanticClass::vehicle;
-  Placement second = moving;
+  ModelPlacement second = moving;
   second.name = "taxi";
   const Scene scene = build_scene({moving, placement_of(ground, "ground"), second}, {});
   expect_consistent(scene);
@@ -191,7 +191,7 @@ TEST(BuildScene, InstanceNamesAreUnique) {
 
 TEST(BuildScene, PoseAndScaleOfAPlacement) {
   const Model model = quad().load();
-  Placement placement = placement_of(model);
+  ModelPlacement placement = placement_of(model);
   placement.pose.position = dvec3(10, 20, 30);
   placement.pose.orientation = orientation_from_yaw_pitch_roll(pi / 2, 0, 0);
   placement.scale = dvec3(2, 1, 3);
@@ -199,7 +199,7 @@ TEST(BuildScene, PoseAndScaleOfAPlacement) {
   // East 0…2 turns to north, up 0…3.
   EXPECT_NEAR(glm::distance(scene.bounds.min, dvec3(10, 20, 30)), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(scene.bounds.max, dvec3(10, 22, 33)), 0.0, 1e-12);
-  Placement bad = placement;
+  ModelPlacement bad = placement;
   bad.scale.y = 0.0;
   expect_user_error([&] { build_scene({bad}, {}); }, {"scale", "test.glb"});
   bad = placement;
@@ -250,12 +250,12 @@ TEST(BuildScene, LightsMoveWithTheirPlacement) {
                {"translation", {1, 2, 0}},
                {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   const Model model = writer.load();
-  Placement placement = placement_of(model, "post");
+  ModelPlacement placement = placement_of(model, "post");
   placement.pose.position = dvec3(5e5, 0, 0);
   placement.pose.orientation = orientation_from_yaw_pitch_roll(pi / 2, 0, 0);
   BuildOptions options;
   options.origin = dvec3(5e5, 0, 0);
-  Placement moving = placement;
+  ModelPlacement moving = placement;
   moving.moving = true;
   moving.name = "car";
   moving.pose = Pose();
@@ -355,8 +355,8 @@ TEST(BuildScene, HashCoversWhatReachesASensor) {
 
 // ------------------------------------------------------------------------------------------------ facets
 
-/// `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of the world); `lift`
-/// moves vertices off it.
+/// `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of the
+/// world); `lift` moves vertices off it.
 GltfWriter grid(uint32_t columns, uint32_t rows, const std::function<float(uint32_t, uint32_t)>& lift) {
   std::vector<vec3> positions;
   std::vector<uint32_t> indices;
@@ -394,7 +394,8 @@ TEST(HardCase, N18_ATessellatedWallMakesOneFacet) {
 }
 
 TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
-  // Offsets that sit on the rounding edge of every decimal grid, jittered across it by less than the tolerance.
+  // Offsets that sit on the rounding edge of every decimal grid, jittered across it by less than the
+  // tolerance.
   for (const float offset : {0.0f, 0.5e-4f, 1e-4f, 0.5e-3f, 0.5f, 1.0f, 12.345f}) {
     const auto jitter = [&](uint32_t column, uint32_t row) {
       return offset + ((column + row) % 2 ? 4e-5f : -4e-5f);
@@ -408,7 +409,7 @@ TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
   // Walls tilted so that their normals straddle the bins of direction.
   for (int step = -5; step <= 5; ++step) {
     const double angle = pi / 4 + step * 1e-5;
-    Placement placement;
+    ModelPlacement placement;
     const Model model = grid(4, 4, [](uint32_t, uint32_t) { return 0.0f; }).load();
     placement.model = &model;
     placement.pose.orientation = orientation_from_yaw_pitch_roll(angle, angle, 0);
@@ -525,13 +526,13 @@ TEST(HardCase, N07_ShiftedToUtmEqualsUnshifted) {
   const int top = nodes.append("nodes", {{"children", {0}}, {"translation", {utm.x, utm.z, -utm.y}}});
   nodes.document["scenes"][0]["nodes"] = {top};
   const Model node_model = nodes.load();
-  Placement turned = placement_of(model, "a");
+  ModelPlacement turned = placement_of(model, "a");
   turned.pose.orientation = orientation_from_yaw_pitch_roll(0.4, 0.1, -0.2);
   turned.pose.position = dvec3(3.25, -8.5, 1.125);
-  Placement shifted = turned;
+  ModelPlacement shifted = turned;
   shifted.pose.position += utm;
   const Scene near = build_scene({placement_of(model, "b"), turned}, {});
-  Placement other = placement_of(model, "b");
+  ModelPlacement other = placement_of(model, "b");
   other.pose.position = utm;
   const Scene by_pose = build_scene({other, shifted}, {});
   const Scene by_node = build_scene({placement_of(node_model, "b"), shifted}, {});
@@ -562,7 +563,7 @@ TEST(HardCase, N07_ShiftedToUtmEqualsUnshifted) {
 TEST(HardCase, N07_TheOriginOfAHalfMetreCentreDoesNotFlip) {
   const Model model = quad().load();  // centre at x = 0.5, z = 0.5
   for (const double shift : {0.0, 0.1, 0.7, 500000.0, 499999.7, 4999999.9}) {
-    Placement placement = placement_of(model);
+    ModelPlacement placement = placement_of(model);
     placement.pose.position = dvec3(shift, 0, 0);
     const Scene scene = build_scene({placement}, {});
     EXPECT_LE(std::abs(scene.origin.x - (shift + 0.5)), 0.5 + 1e-6);
@@ -575,7 +576,7 @@ TEST(HardCase, N08_ATinyPartBesideALargeTileKeepsItsBounds) {
   const Model tile =
       quad({vec3(-5000, 0, 5000), vec3(5000, 0, 5000), vec3(5000, 0, -5000), vec3(-5000, 0, -5000)}).load();
   const Model part = box().load();
-  Placement small = placement_of(part, "bolt");
+  ModelPlacement small = placement_of(part, "bolt");
   small.scale = dvec3(1e-4);
   small.pose.position = dvec3(1.5, 2.5, 3.5);
   const Scene scene = build_scene({placement_of(tile, "tile"), small}, {});
@@ -600,7 +601,7 @@ TEST(HardCase, N14_NegativeScaleMendsWindingAndNormals) {
     expect_consistent(by_node);
     EXPECT_NEAR(enclosed(by_node), 6.0 * std::abs(scale.x * scale.y * scale.z), 1e-9);
     const Model model = box().load();
-    Placement placement = placement_of(model);
+    ModelPlacement placement = placement_of(model);
     placement.scale = scale;
     EXPECT_NEAR(enclosed(build_scene({placement}, at_zero())), 6.0 * std::abs(scale.x * scale.y * scale.z),
                 1e-9);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Edges that many triangles share, against every triangle asked about every other.
-#include "scene/facets.h"
+#include "scene/build/facets.h"
 
 #include <cmath>
 #include <limits>
@@ -55,7 +55,8 @@ void expect_same(const FacetInput& input, const BuildOptions& options, uint32_t 
   }
 }
 
-// Clusters about the angles that are allowed, sizes over two decades, edges long and hardly there, noise of none and much.
+// Clusters about the angles that are allowed, sizes over two decades, edges long and hardly there, noise of
+// none and much.
 TEST(Facets, ACrowdedEdgeGivesTheSameFacets) {
   RandomStream random(5, 17);
   BuildOptions options;

@@ -19,7 +19,7 @@
 
 #include "core/error.h"
 #include "core/vec.h"
-#include "scene/model.h"
+#include "scene/gltf/model.h"
 
 namespace greatx::scene::test {
 

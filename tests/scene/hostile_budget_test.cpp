@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that grows with
-// the file. No test here measures time: what was quadratic would run into the time limit of the test run.
+// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that
+// grows with the file. No test here measures time: what was quadratic would run into the time limit of the
+// test run.
 #include <cmath>
 
 #include "core/budget.h"
-#include "scene/build.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_file.h"
+#include "scene/build/build.h"
+#include "scene/gltf/gltf_accessor.h"
+#include "scene/gltf/gltf_file.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {

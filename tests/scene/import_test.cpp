@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/scene_import.h"
+#include "apps/files/scene_import.h"
 #include "core/error.h"
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "scene/import/mitsuba.h"
 #include "scene/import/ply_mesh.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/material.h"
+#include "scene/material/material.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/model.h"
+#include "scene/gltf/model.h"
 
 #include "tests/scene/gltf_writer.h"
 #include "tests/scene/png.h"
@@ -86,7 +86,8 @@ std::vector<uint32_t> unrolled(int mode) {
 }
 
 TEST(Model, StripsAndFansKeepTheirWinding) {
-  // glTF 2.0, section 3.7.2.1: strip p_i = {v_i, v_(i+1+i%2), v_(i+2-i%2)}, fan p_i = {v_(i+1), v_(i+2), v_0}.
+  // glTF 2.0, section 3.7.2.1: strip p_i = {v_i, v_(i+1+i%2), v_(i+2-i%2)}, fan p_i = {v_(i+1), v_(i+2),
+  // v_0}.
   EXPECT_EQ(unrolled(5), (std::vector<uint32_t>{0, 1, 2, 1, 3, 2, 2, 3, 4}));
   EXPECT_EQ(unrolled(6), (std::vector<uint32_t>{1, 2, 0, 2, 3, 0, 3, 4, 0}));
 }

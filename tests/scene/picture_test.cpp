@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has made), and
-// damaged ones.
-#include "scene/picture.h"
+// Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has
+// made), and damaged ones.
+#include "scene/files/picture.h"
 
 #include <cmath>
 #include <csetjmp>
@@ -33,7 +33,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr uint32_t width = 37, height = 23;
 
-Picture decode(const Bytes& file, const Budget& budget = budget::model_textures) {
+DecodedPicture decode(const Bytes& file, const Budget& budget = budget::model_textures) {
   Spending memory(budget);
   return decode_picture(file, "x.glb: material 'm'", memory);
 }
@@ -173,7 +173,7 @@ TEST(Picture, EveryPngIsTheSameToTheBit) {
       const Bytes png = png_of(file);
       const std::vector<uint8_t> expected = by_stb(png);
       ASSERT_EQ(expected.size(), size_t{4} * width * height);
-      const Picture picture = decode(png);
+      const DecodedPicture picture = decode(png);
       EXPECT_EQ(picture.width, width);
       EXPECT_EQ(picture.height, height);
       EXPECT_EQ(picture.rgba, expected)
@@ -195,7 +195,7 @@ TEST(Picture, EveryJpegIsTheSameWithinRounding) {
                                                               {4, true, 1, JCS_YCCK}}) {
     const Bytes jpeg = jpeg_of(kind);
     const std::vector<uint8_t> expected = by_stb(jpeg);
-    const Picture picture = decode(jpeg);
+    const DecodedPicture picture = decode(jpeg);
     ASSERT_EQ(picture.rgba.size(), expected.size());
     int largest = 0;
     for (size_t i = 0; i < expected.size(); ++i)
@@ -246,8 +246,8 @@ TEST(Picture, WhatIsCutOffOrForeignIsRefused) {
           << size;
 }
 
-/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files: decoded or refused, nothing else (under
-/// the sanitizers too).
+/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files: decoded or refused, nothing
+/// else (under the sanitizers too).
 TEST(Picture, DamageIsSurvived) {
   std::mt19937 random(17);
   size_t refused = 0;

@@ -4,8 +4,8 @@
 // Where a material's radio properties come from: name, extension, sidecar.
 #include <set>
 
-#include "scene/build.h"
-#include "scene/scene_hash.h"
+#include "scene/build/build.h"
+#include "scene/description/scene_hash.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {
@@ -136,6 +136,58 @@ TEST(RadioMaterial, FoliageErrors) {
     refuse({{"foliage", "weissberger"}, {key, 1}}, {"no surface", fmt::format("'{}'", key)});
 }
 
+TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
+  const Model model = quad_with(with_extension({{"itu", "concrete"}, {"thickness_m", 0.2}})).load();
+  const Scene scene = build_scene({{"", &model, {}, dvec3(1.0), false, {}}}, {.name = "s"});
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0], Material(scene.materials[0]));
+  using Change = void (*)(Material&);
+  const std::vector<Change> changes{[](Material& m) { m.pbr.base_color.x = 0.3f; },
+                                    [](Material& m) { m.pbr.metallic = 0.3f; },
+                                    [](Material& m) { m.pbr.roughness = 0.3f; },
+                                    [](Material& m) { m.pbr.emissive.z = 0.3f; },
+                                    [](Material& m) { m.pbr.normal_scale = 0.3f; },
+                                    [](Material& m) { m.pbr.alpha_cutoff = 0.3f; },
+                                    [](Material& m) { m.pbr.alpha_mode = AlphaMode::mask; },
+                                    [](Material& m) { m.pbr.double_sided = !m.pbr.double_sided; },
+                                    [](Material& m) { m.pbr.transmission = 0.3f; },
+                                    [](Material& m) { m.pbr.base_color_texture = 3; },
+                                    [](Material& m) { m.pbr.metallic_roughness_texture = 3; },
+                                    [](Material& m) { m.pbr.normal_texture = 3; },
+                                    [](Material& m) { m.pbr.emissive_texture = 3; },
+                                    [](Material& m) { m.radio->layers[0].thickness_m = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.extrapolate = true; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].a = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].b = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].c = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].d = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].min_hz = 0.3; },
+                                    [](Material& m) { m.radio->layers[0].medium.rows[0].max_hz = 0.3; },
+                                    [](Material& m) { m.radio->scattering_coefficient = 0.3; },
+                                    [](Material& m) { m.radio->pattern = ScatteringPattern::directive; },
+                                    [](Material& m) { m.radio->pattern_exponent = 3.0; },
+                                    [](Material& m) { m.radio->backscatter_exponent = 3.0; },
+                                    [](Material& m) { m.radio->backscatter_share = 0.3; },
+                                    [](Material& m) { m.radio->cross_polarization = 0.3; },
+                                    [](Material& m) { m.radio->roughness_m = 0.3; },
+                                    [](Material& m) { m.radio->foliage = Foliage{}; },
+                                    [](Material& m) { m.radio.reset(); },
+                                    [](Material& m) { m.reflectance_905nm = 0.3f; },
+                                    [](Material& m) { m.reflectance_1550nm = 0.3f; }};
+  std::set<std::string> hashes{hash_of(scene)};
+  for (size_t i = 0; i < changes.size(); ++i) {
+    Scene changed = scene;
+    changes[i](changed.materials[0]);
+    EXPECT_NE(changed.materials[0], scene.materials[0]) << i;
+    EXPECT_TRUE(hashes.insert(hash_of(changed)).second) << i;
+  }
+  // Names and sources are told apart, but decide nothing.
+  Scene renamed = scene;
+  renamed.materials[0].name = "other";
+  EXPECT_NE(renamed.materials[0], scene.materials[0]);
+  EXPECT_TRUE(hashes.contains(hash_of(renamed)));
+}
+
 TEST(RadioMaterial, FoliageIsPartOfTheHash) {
   const auto hash_with = [](json fields) {
     const Model model = quad_with(with_extension(std::move(fields))).load();
@@ -153,7 +205,7 @@ TEST(RadioMaterial, FoliagesThatDifferStayApart) {
               hard = quad_with(with_extension({{"foliage", {{"attenuation_db_per_m", 0.5}}}})).load(),
               same = quad_with(with_extension({{"foliage", "weissberger"}})).load();
   const auto placed = [](const Model& model, const char* name) {
-    return Placement{name, &model, {}, dvec3(1.0), false, {}};
+    return ModelPlacement{name, &model, {}, dvec3(1.0), false, {}};
   };
   const Scene scene = build_scene({placed(soft, "a"), placed(hard, "b"), placed(same, "c")}, {.name = "s"});
   EXPECT_EQ(scene.materials.size(), 2u);

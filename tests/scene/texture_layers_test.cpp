@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which images textures become: layers of their size, side by side in larger ones, roughness in the alpha of colours.
-#include "scene/texture_layers.h"
+// Which images textures become: layers of their size, side by side in larger ones, roughness in the alpha of
+// colours.
+#include "scene/device/texture_layers.h"
 
 #include <gtest/gtest.h>
 

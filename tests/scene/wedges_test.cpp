@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/wedges.h"
+#include "scene/description/wedges.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
 #include "core/units.h"
-#include "scene/build.h"
+#include "scene/build/build.h"
 #include "tests/scene/gltf_writer.h"
 
 namespace greatx::scene {
@@ -29,7 +29,8 @@ struct Hand {
     scene.facets.push_back(made);
     return static_cast<uint32_t>(scene.facets.size() - 1);
   }
-  /// The parallelogram at `o` with sides u and v, in cells_u x cells_v quads of two triangles each, facing u x v.
+  /// The parallelogram at `o` with sides u and v, in cells_u x cells_v quads of two triangles each, facing u
+  /// x v.
   uint32_t plate(const dvec3& o, const dvec3& u, const dvec3& v, int cells_u = 1, int cells_v = 1,
                  uint32_t body = 0) {
     std::vector<FacetTriangle> triangles;
@@ -148,7 +149,7 @@ TEST(FindWedges, FromAFile) {
                         3, 7, 6, 3, 6, 2, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5},
                        writer.itu_material());
   const Model model = writer.load();
-  Placement still, turned;
+  ModelPlacement still, turned;
   still.model = turned.model = &model;
   still.name = "still", turned.name = "turned";
   turned.moving = true;
@@ -200,7 +201,8 @@ TEST(FindWedges, FootBeyondTheGround) {
 }
 
 TEST(FindWedges, LShapedHouse) {
-  // 6 uprights, 6 edges of the roof, 6 of the floor: one upright is a corner of a yard, and its wide side lies inside.
+  // 6 uprights, 6 edges of the roof, 6 of the floor: one upright is a corner of a yard, and its wide side
+  // lies inside.
   Hand hand;
   const std::vector<dvec3> plan{{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {3, 3, 0}, {3, 8, 0}, {0, 8, 0}};
   const dvec3 up(0, 0, 4);
@@ -285,12 +287,14 @@ TEST(FindWedges, TouchingHouses) {
   Hand flush;  // side by side and as high: no wedge on the common roof line, but on the taller pair's
   flush.box({0, 0, 0}, {4, 4, 4});
   flush.box({4, 0, 0}, {4, 4, 4});
-  // Of 24 edges those around the common wall make flat seams: 4 less on each box; the long ones stay per facet pair.
+  // Of 24 edges those around the common wall make flat seams: 4 less on each box; the long ones stay per
+  // facet pair.
   EXPECT_EQ(wedges_of(flush).size(), 16u);
   Hand steps;
   steps.box({0, 0, 0}, {4, 4, 4});
   steps.box({4, 0, 0}, {4, 4, 7});
-  // The lower one loses its four edges at the common wall; of the taller's the top stays, and its uprights from 4 to 7.
+  // The lower one loses its four edges at the common wall; of the taller's the top stays, and its uprights
+  // from 4 to 7.
   const std::vector<Wedge> wedges = wedges_of(steps);
   EXPECT_EQ(wedges.size(), 8u + 11u);
   Hand diagonal;
@@ -373,7 +377,8 @@ TEST(FindWedges, PagesOfABookHaveOneSpine) {
 }
 
 TEST(FindWedgesHardCase, N47_SplitEdgesAndDiagonalsMakeNoMore) {
-  // Each wall and the roof in another grid, no common vertices but the corners: still 12 edges of full length.
+  // Each wall and the roof in another grid, no common vertices but the corners: still 12 edges of full
+  // length.
   Hand hand;
   const dvec3 x(4, 0, 0), y(0, 5, 0), z(0, 0, 6), o(7, 8, 9);
   hand.plate(o, y, x, 3, 2);

@@ -32,7 +32,7 @@ BezierTrajectory drawn_bezier() {
 
 TEST(BezierPath, MatchesBernsteinInClosedForm) {
   const std::array<dvec3, 4> p = {dvec3(0, 0, 10), dvec3(10, 20, 12), dvec3(-5, 30, 20), dvec3(40, 10, 15)};
-  const auto path = path_of(bezier_of(p));
+  const auto path = course_of(bezier_of(p));
   const double T = 10.0;
   EXPECT_FALSE(path->is_static());
   const Motion start = path->at(0), middle = path->at(5), end = path->at(T);
@@ -48,12 +48,12 @@ TEST(BezierPath, MatchesBernsteinInClosedForm) {
 
 TEST(BezierPath, DerivativesMatchDifferences) {
   const auto path =
-      path_of(bezier_of({dvec3(0, 0, 10), dvec3(10, 20, 12), dvec3(-5, 30, 20), dvec3(40, 10, 15)}));
+      course_of(bezier_of({dvec3(0, 0, 10), dvec3(10, 20, 12), dvec3(-5, 30, 20), dvec3(40, 10, 15)}));
   for (double t = 0.5; t < 10; t += 0.73) expect_derivatives(*path, t, 10.0);
 }
 
 TEST(BezierPath, LooksAlongItsVelocityWithoutRoll) {
-  const auto path = path_of(drawn_bezier(), 3);
+  const auto path = course_of(drawn_bezier(), 3);
   for (double t = 0; t <= 10; t += 0.25) {
     const Motion motion = path->at(t);
     expect_near(forward(motion), glm::normalize(motion.velocity), 1e-12);
@@ -62,7 +62,7 @@ TEST(BezierPath, LooksAlongItsVelocityWithoutRoll) {
 }
 
 TEST(BezierPath, SpeedIsTheLimitOfDistanceOverTime) {
-  const auto path = path_of(drawn_bezier(), 5);
+  const auto path = course_of(drawn_bezier(), 5);
   double previous = 1e300;
   for (const double dt : {0.1, 0.01, 0.001}) {
     const double error = glm::distance((path->at(4 + dt).pose.position - path->at(4).pose.position) / dt,
@@ -84,7 +84,7 @@ TEST(BezierPath, EndsKeepToBoxAndDistanceForThousandSeeds) {
   scenario.nodes.push_back(bs);
   for (uint64_t seed = 0; seed < 1000; ++seed) {
     scenario.seed = seed;
-    const auto paths = make_paths(scenario, 0);
+    const auto paths = make_node_courses(scenario, 0);
     const std::array<dvec3, 2> ends = {paths[0]->at(0).pose.position, paths[0]->at(10).pose.position};
     for (const dvec3& p : ends) {
       const double distance = glm::distance(p, dvec3(10, 0, 25));
@@ -105,7 +105,7 @@ TEST(BezierPath, EndsAreUniformInTheBox) {
   // Mean of n uniform numbers: z-test at 4.5 sigma (7e-6) a coordinate.
   const int n = 4000;
   dvec3 sum{0};
-  for (uint64_t seed = 0; seed < n; ++seed) sum += path_of(drawn_bezier(), seed)->at(0).pose.position;
+  for (uint64_t seed = 0; seed < n; ++seed) sum += course_of(drawn_bezier(), seed)->at(0).pose.position;
   const dvec3 z = (sum / double(n) - dvec3(0, 0, 35)) / (dvec3(200, 100, 50) / std::sqrt(12.0 * n));
   EXPECT_LT(std::abs(z.x), 4.5);
   EXPECT_LT(std::abs(z.y), 4.5);
@@ -114,7 +114,7 @@ TEST(BezierPath, EndsAreUniformInTheBox) {
 
 TEST(BezierPath, DependsOnSeedSequenceAndNameOnly) {
   const auto positions = [](const Scenario& scenario, uint32_t sequence, size_t node) {
-    const auto path = std::move(make_paths(scenario, sequence)[node]);
+    const auto path = std::move(make_node_courses(scenario, sequence)[node]);
     return std::array{path->at(0).pose.position, path->at(3.3).pose.position, path->at(10).pose.position};
   };
   const Scenario alone = scenario_of(drawn_bezier(), 42);
@@ -139,7 +139,7 @@ TEST(BezierPath, FollowsAMovingReferenceAtBothEnds) {
   car.name = "car";
   car.trajectory = way_points({{0, {-90, 0, 0}, {}}, {10, {90, 0, 0}, {}}});
   scenario.nodes.push_back(car);
-  const auto paths = make_paths(scenario, 0);
+  const auto paths = make_node_courses(scenario, 0);
   for (const double t : {0.0, 10.0})
     EXPECT_LE(glm::distance(paths[0]->at(t).pose.position, paths[1]->at(t).pose.position), 40.0);
 }
@@ -156,7 +156,7 @@ TEST(BezierPath, LimitsThatCannotBeMetNameTheNode) {
     std::get<BezierTrajectory>(scenario.nodes[0].trajectory).min_distance_m = low;
     std::get<BezierTrajectory>(scenario.nodes[0].trajectory).max_distance_m = high;
     try {
-      make_paths(scenario, 0);
+      make_node_courses(scenario, 0);
     } catch (const UserError& error) {
       return error.what();
     }
@@ -172,7 +172,7 @@ TEST(BezierPath, LimitsThatCannotBeMetNameTheNode) {
 }
 
 TEST(BezierPath, GoesStraightOnBeyondTheRun) {
-  const auto path = path_of(drawn_bezier(), 9);
+  const auto path = course_of(drawn_bezier(), 9);
   const Motion end = path->at(10), later = path->at(10.1);
   expect_near(later.velocity, end.velocity, 0.0);
   expect_near(later.pose.position, end.pose.position + 0.1 * end.velocity, 1e-12);
@@ -184,7 +184,7 @@ TEST(BezierPath, RunOfOneTickRestsAtTheStart) {
   Scenario scenario =
       scenario_of(bezier_of({dvec3(1, 2, 3), dvec3(2, 2, 3), dvec3(3, 2, 3), dvec3(4, 2, 3)}));
   scenario.ticks = 1;
-  const auto paths = make_paths(scenario, 0);
+  const auto paths = make_node_courses(scenario, 0);
   for (const double t : {0.0, 0.05}) {
     const Motion motion = paths[0]->at(t);
     expect_finite(motion);
@@ -195,7 +195,7 @@ TEST(BezierPath, RunOfOneTickRestsAtTheStart) {
 
 TEST(HardCase, N60_CoincidentControlPointsAtTheStart) {
   const dvec3 p(5, 5, 5);
-  const auto path = path_of(bezier_of({p, p, p + dvec3(0, 3, 0), p + dvec3(3, 6, 0)}));
+  const auto path = course_of(bezier_of({p, p, p + dvec3(0, 3, 0), p + dvec3(3, 6, 0)}));
   const Motion start = path->at(0);
   expect_finite(start);
   EXPECT_EQ(start.velocity, dvec3(0));
@@ -208,7 +208,7 @@ TEST(HardCase, N60_CoincidentControlPointsAtTheStart) {
 
 TEST(HardCase, N60_CoincidentControlPointsAtTheEnd) {
   const dvec3 p(500000.3, 5400000.7, 5);
-  const auto path = path_of(bezier_of({p + dvec3(-9, -9, 0), p + dvec3(-3, 0, 0), p, p}));
+  const auto path = course_of(bezier_of({p + dvec3(-9, -9, 0), p + dvec3(-3, 0, 0), p, p}));
   const Motion end = path->at(10);
   expect_finite(end);
   EXPECT_EQ(end.velocity, dvec3(0));
@@ -219,7 +219,7 @@ TEST(HardCase, N60_CoincidentControlPointsAtTheEnd) {
 TEST(HardCase, N60_ThreeCoincidentControlPoints) {
   const dvec3 p(5, 5, 5), q(5, 5 - 7, 5);
   for (const std::array<dvec3, 4>& points : {std::array{p, p, p, q}, std::array{p, q, q, q}}) {
-    const auto path = path_of(bezier_of(points));
+    const auto path = course_of(bezier_of(points));
     for (const double t : {0.0, 1e-9, 1e-3, 5.0, 9.999, 10.0}) {
       const Motion motion = path->at(t);
       expect_finite(motion);
@@ -230,7 +230,7 @@ TEST(HardCase, N60_ThreeCoincidentControlPoints) {
 
 TEST(HardCase, N60_CuspInTheMiddleKeepsTheAttitudeBefore) {
   // B' = 0 at u = 1/2, then straight back.
-  const auto path = path_of(bezier_of({dvec3(0), dvec3(2, 0, 0), dvec3(2, 0, 0), dvec3(0)}));
+  const auto path = course_of(bezier_of({dvec3(0), dvec3(2, 0, 0), dvec3(2, 0, 0), dvec3(0)}));
   expect_near(forward(path->at(4.9)), {1, 0, 0}, 1e-12);
   expect_near(forward(path->at(5.0)), {1, 0, 0}, 1e-12);
   expect_near(forward(path->at(5.1)), {-1, 0, 0}, 1e-12);
@@ -239,7 +239,7 @@ TEST(HardCase, N60_CuspInTheMiddleKeepsTheAttitudeBefore) {
 
 TEST(HardCase, N60_ZeroLengthKeepsItsPose) {
   const dvec3 p(5, 6, 7);
-  const auto path = path_of(bezier_of({p, p, p, p}));
+  const auto path = course_of(bezier_of({p, p, p, p}));
   EXPECT_TRUE(path->is_static());
   for (const double t : {-1.0, 0.0, 5.0, 10.0, 11.0}) {
     const Motion motion = path->at(t);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes against projected vertices, dense samples and rays in fp64; how much of an object is seen in closed form and
-// against counting.
-#include "sim/sensors/boxes.h"
+// Boxes against projected vertices, dense samples and rays in fp64; how much of an object is seen in closed
+// form and against counting.
+#include "sim/sensors/camera/boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/camera/lens.h"
+#include "renderer/lens/lens.h"
 #include "tests/renderer/camera_rig.h"
 
 namespace greatx::sim {
@@ -280,7 +280,8 @@ TEST(Boxes, BehindALensHoldTheirMasks) {
       EXPECT_TRUE(is_found || !mask) << i;
       if (!is_found) continue;
       const ObjectBox& box = found[at++];
-      // Alone: every pixel's centre, and no side a whole pixel beyond the last one (corners reach between centres).
+      // Alone: every pixel's centre, and no side a whole pixel beyond the last one (corners reach between
+      // centres).
       constexpr double small = 1.0 / 128, nearest = 0.75;
       for (size_t side = 0; mask && side < 4; ++side) {
         const double center = (*mask)[side] + 0.5, edge = box.amodal[static_cast<int>(side)],

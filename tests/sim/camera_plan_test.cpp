@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "sim/plan/effect_plan.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {
@@ -28,8 +29,8 @@ std::string message_of(const std::string& sensor) {
 
 TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
   using testing::StartsWith;
-  // 640x480 behind fx 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, where the picture shows
-  // r' = 0.6086: 194.7 px.
+  // 640x480 behind fx 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, where the
+  // picture shows r' = 0.6086: 194.7 px.
   const std::string message =
       "s.yaml:8: camera car/front: distortion: expected a model that does not fold within the picture, found "
       "one that holds up to a radius of 0.9129 (194.7 pixels from the principal point)";

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "sim/channel/antennas.h"
+#include "sim/plan/antennas.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::sim {

@@ -126,7 +126,8 @@ TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
     for (size_t link = 0; link < now.size(); ++link) {
       all += now[link].size();
       for (const auto& [id, path] : now[link]) {
-        // An id is a sequence of interactions and a sequence of interactions is an id, at whatever tick and link.
+        // An id is a sequence of interactions and a sequence of interactions is an id, at whatever tick and
+        // link.
         const auto known = ever.emplace(id, path).first;
         EXPECT_TRUE(known->second.types == path.types && known->second.facets == path.facets &&
                     known->second.elements == path.elements)
@@ -152,8 +153,8 @@ TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
 }
 
 TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
-  // Of reflections and walls. What an edge adds turns by half where the wave that it belongs to begins or ends: that is
-  // what keeps their sum continuous (rf_diffraction).
+  // Of reflections and walls. What an edge adds turns by half where the wave that it belongs to begins or
+  // ends: that is what keeps their sum continuous (rf_diffraction).
   const RadioRun r = run(scenario({0, 2, 3}), street());
   size_t compared = 0;
   double largest = 0.0;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks docs/scenario.schema.json: it accepts the good scenarios, and of the bad ones refuses exactly those that
-bad_scenarios.json says a schema can find (the others need more than one field, or files, to be seen).
+"""Checks docs/scenario.schema.json: it accepts the good scenarios, and of the bad ones refuses exactly those
+that bad_scenarios.json says a schema can find (the others need more than one field, or files, to be seen).
 
 usage: check_schema.py SCHEMA FOLDER
 """

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/consistency.h"
+#include "sim/compare/consistency.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "sim/error_statistics.h"
+#include "sim/compare/error_statistics.h"
 
 namespace greatx::sim {
 namespace {

@@ -4,6 +4,7 @@
 // Arrays in their near field: every two elements apart against closed forms, and what a plane wave costs.
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <sched.h>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "sim/plan/array_plan.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
@@ -69,6 +71,27 @@ double nmse_db(const std::vector<std::complex<float>>& a, const std::vector<std:
 
 constexpr const char* forced = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: on}\n";
 constexpr const char* plane = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: off}\n";
+
+/// The one rule that runs, `greatx paths --cfr` and Python go by.
+TEST(EveryElement, OneRuleSaysWhichLinksAreSolvedElementByElement) {
+  const auto within = [](const std::string& effects, const std::string& channel, const char* from) {
+    const Scenario parsed =
+        parse_scenario(scenario({5.0}, effects, "rows: 4, columns: 8", channel), "test.yaml", ".");
+    const ChannelConfig& config = parsed.channels[0];
+    rf::AntennaArray panel, single;
+    panel.rows = 4, panel.columns = 8;
+    panel.row_spacing_m = panel.column_spacing_m = 0.5 * speed_of_light / config.carrier_hz;
+    return every_element_within_m(parsed, config, from == std::string("panel") ? panel : single, single);
+  };
+  EXPECT_NEAR(within("", "", "panel"), 0.3105, 1e-4);
+  EXPECT_NEAR(within("effects: {every_element: auto}\n", "", "panel"), 0.3105, 1e-4);
+  EXPECT_EQ(within("effects: {every_element: on}\n", "", "panel"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(within("effects: {every_element: off}\n", "", "panel"), 0.0);
+  for (const char* effects : {"", "effects: {every_element: on}\n"}) {
+    EXPECT_EQ(within(effects, ", candidates: rays", "panel"), 0.0) << effects;
+    EXPECT_EQ(within(effects, "", "one antenna"), 0.0) << effects;
+  }
+}
 
 TEST(EveryElement, IsFriisBetweenEveryTwoElements) {
   const RadioRun r = run(scenario({5.0}, forced), nothing());

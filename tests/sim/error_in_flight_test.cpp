@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors that are raised while the tick after is in flight: the simulator goes down with the device at work, under
-// validation, and says nothing but the error.
+// Errors that are raised while the tick after is in flight: the simulator goes down with the device at work,
+// under validation, and says nothing but the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
@@ -47,7 +48,8 @@ std::vector<Beside> kinds() {
           {"none", "", ""}};
 }
 
-/// A node that drives towards a wall at x = 10 m and is 1 cm before it at tick 3; `radar_first`: in the order of the sensors.
+/// A node that drives towards a wall at x = 10 m and is 1 cm before it at tick 3; `radar_first`: in the order
+/// of the sensors.
 std::string yaml(const Beside& beside, bool radar, bool radar_first) {
   const std::string radar_yaml =
       "{name: radar, type: radar, rate_hz: 10, waveform: {chirps: 16, samples: 64}, echoes: {tubes: 500}}";
@@ -64,24 +66,20 @@ std::string yaml(const Beside& beside, bool radar, bool radar_first) {
          sensors + "]\n" + beside.channels;
 }
 
-World world_of(const Scenario& scenario) {
+scene::Scene scene_of_a_wall() {
   test::TinyScene tiny;
   tiny.object("wall").quad({10, 6, -3}, {10, -6, -3}, {10, -6, 3}, {10, 6, 3});
   tiny.object("ground").quad({-10, -10, -2}, {20, -10, -2}, {20, 10, -2}, {-10, 10, -2});
   scene::Scene scene = tiny.build();
   for (scene::Material& material : scene.materials)
     material.radio = testing::radio_material("concrete").radio;
-  World world{std::move(scene), std::vector<uint32_t>(scenario.nodes.size(), 0)};
-  world.scene.hash = scene::hash_of(world.scene);
-  return world;
+  return scene;
 }
 
 /// Runs until something throws. Returns how many packets were handed over before.
 template <typename Error>
 size_t packets_until(const std::string& yaml, size_t most_packets, const char* message) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
-  const World world = world_of(scenario);
-  const EffectPlan plan = make_effect_plan(scenario, world.scene);
+  const Experiment experiment = testing::experiment_in(yaml, scene_of_a_wall());
   struct Full : RecordSink {
     size_t packets = 0, most = 0;
     void write(Packet) override {
@@ -91,7 +89,7 @@ size_t packets_until(const std::string& yaml, size_t most_packets, const char* m
   } sink;
   sink.most = most_packets;
   try {
-    Simulator simulator(test::device(), scenario, world, plan);
+    Simulator simulator(test::device(), experiment);
     simulator.start(0);
     while (simulator.step(sink)) continue;
     ADD_FAILURE() << "no error";

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Event cameras in whole runs: instants between ticks, memory, resuming, other sensors beside them.
-#include "sim/sensors/event_sensor.h"
+#include "sim/sensors/event/event_sensor.h"
 
 #include <numeric>
 
@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -166,7 +167,8 @@ TEST(EventSensor, SequencesDifferInNoiseAlone) {
 }
 
 TEST(EventSensor, FlowStepsFollowTheTurning) {
-  // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the corners.
+  // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the
+  // corners.
   const auto pictures = [](double turn_deg) {
     const KeptRun r =
         keep_run(head + van(false) + eye(turn_deg, dvs(", steps: {by: flow, max_px: 0.5, most: 32}", "10")));

@@ -10,6 +10,7 @@
 
 #include "assets/assets.h"
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -142,8 +143,8 @@ std::map<std::pair<uint16_t, int>, Shot> surfaces_of(const KeptRun& run) {
   return shots;
 }
 
-/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is weaker by what the air
-/// takes there and back.
+/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is
+/// weaker by what the air takes there and back.
 TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
   const auto embedded = std::ranges::find(embedded_scenarios(), "city_fog", &EmbeddedScenario::name);
   Scenario fog = parse_scenario(std::string(embedded->text), "city_fog.yaml", ".");
@@ -158,9 +159,10 @@ TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
   clear.environment.fog_g_m3 = 0.0;
   Scenario blind = fog;  // to its own noise
   blind.effects["lidar_detection"] = blind.effects["lidar_backscatter"] = Switch::off;
-  const World world = load_world(fog);
-  const KeptRun in_fog = keep_run(fog, world), in_clear = keep_run(clear, world),
-                all = keep_run(blind, world);
+  const auto world = std::make_shared<const World>(load_world(fog));
+  const KeptRun in_fog = keep_run(make_experiment(fog, world)),
+                in_clear = keep_run(make_experiment(clear, world)),
+                all = keep_run(make_experiment(blind, world));
   EXPECT_TRUE(in_fog.plan.lidar_haze.on && in_fog.plan.lidar_detection.on &&
               in_fog.plan.lidar_backscatter.on);
   const auto with = surfaces_of(in_fog), without = surfaces_of(in_clear), whatever = surfaces_of(all);

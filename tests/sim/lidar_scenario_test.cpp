@@ -6,8 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/shot_csv.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/shot_csv.h"
 
 namespace greatx::sim {
 namespace {

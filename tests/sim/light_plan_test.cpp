@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "renderer/light/twilight.h"
+#include "renderer/daylight/twilight.h"
 #include "sim/scenario/date_time.h"
 
 namespace greatx::sim {
@@ -52,8 +52,8 @@ TEST(LightPlan, BelowTheHorizonTheSkyIsThatOfTwilight) {
 }
 
 TEST(LightPlan, PlaceAndTimeGiveDayAndNight) {
-  // Paris, June solstice, close to local noon: 64.6 degrees high in the south; the level as published, within the
-  // earth's 3.3 % from the sun.
+  // Paris, June solstice, close to local noon: 64.6 degrees high in the south; the level as published, within
+  // the earth's 3.3 % from the sun.
   const ResolvedLight noon = resolve(paris("2026-06-21T13:53:00+02:00"));
   EXPECT_NEAR(degrees(noon.sun_elevation), 90.0 - 48.8738 + 23.43, 0.05);
   EXPECT_LT(noon.key.direction.y, -0.4);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where bodies are at the tick and at any other time.
-#include "sim/moment.h"
+#include "sim/world/moment.h"
 
 #include <gtest/gtest.h>
+
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {
@@ -55,7 +57,7 @@ TEST(Moment, BodiesFollowTheirNodesBetweenTicks) {
   EXPECT_TRUE(same_bits(moment.context.body_pose_at(0, 0.1234), Pose{}));
   for (const auto& [name, node] : {std::pair{"car", 1u}, {"uav", 3u}}) {
     const uint32_t body = world.scene.body_index(name);
-    const Motion there = courses.paths[node]->at(0.1234), found = moment.context.body_motion_at(body, 0.1234);
+    const Motion there = courses.nodes[node]->at(0.1234), found = moment.context.body_motion_at(body, 0.1234);
     EXPECT_EQ(found.pose.position, there.pose.position - dvec3(100, -20, 3)) << name;
     EXPECT_EQ(found.pose.orientation, there.pose.orientation) << name;
     EXPECT_EQ(found.velocity, there.velocity) << name;

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channels that keep their search between ticks, among meshes that move, against the same with a whole search at every tick.
+// Channels that keep their search between ticks, among meshes that move, against the same with a whole search
+// at every tick.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "rf/channel/dispersion.h"
+#include "sim/channel/channel_snapshot.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "tests/support/gpu_fixture.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -71,7 +76,7 @@ TEST(MovingChannel, BothEndsMove) {
   }
 }
 
-/// The tick after it is recorded before a tick's fields are worked out: bodies have to be put back for that.
+/// The tick after it is recorded before a tick's fields are worked out, which need the facets as they stood.
 TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
   for (const std::string reflect : {"on", "off"}) {
     std::string yaml = street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", "");
@@ -87,6 +92,46 @@ TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
       expect_same_bytes(same, alone);
     }
   }
+}
+
+/// Results that outlive a tick have its facets, whatever is solved after it.
+TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
+  const Experiment experiment = make_experiment(
+      parse_scenario(street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", ""), "test.yaml", "."));
+  ChannelSnapshot snapshot(test::device(), experiment, 0, {.tick = 1});
+  const rf::Dispersion dispersion(experiment.scene(), snapshot.model().field_model(), {},
+                                  {experiment.scenario.channels[0].carrier_hz, 30e6, 3, 1, 0.0});
+  const auto solve = [&] {
+    std::vector<ChannelSnapshot::Link> links;
+    snapshot.solve([&](ChannelSnapshot::Link link) {
+      links.push_back(std::move(link));
+      return true;
+    });
+    return links;
+  };
+  const auto spectra_of = [&](const ChannelSnapshot::Link& link) {
+    return dispersion.spectra(link.paths, *link.world);
+  };
+  // One of a body that moves: these come last.
+  const uint32_t facet = snapshot.model().facets.facet_count() - 1;
+  const std::vector<ChannelSnapshot::Link> before = solve();
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before[0].world, before[1].world) << "links of a tick share one";
+  const dvec3 stood = before[0].world->facet(facet).centroid;
+  const auto spectra = spectra_of(before[0]);
+  snapshot.move(0, 3);
+  std::vector<ChannelSnapshot::Link> after = solve();
+  EXPECT_NE(before[0].world, after[0].world);
+  EXPECT_EQ(before[0].world->facet(facet).centroid, stood);
+  EXPECT_NE(after[0].world->facet(facet).centroid, stood);
+  EXPECT_TRUE(spectra_of(before[0]) == spectra);
+  // Facets that nobody holds any more are posed anew, not copied anew.
+  const rf::FacetWorld* const released = after[0].world.get();
+  after.clear();
+  snapshot.move(0, 4);
+  const std::vector<ChannelSnapshot::Link> again = solve();
+  EXPECT_EQ(again[0].world.get(), released);
+  EXPECT_EQ(again[0].world->facet(facet).centroid, snapshot.model().facets.facet(facet).centroid);
 }
 
 TEST(MovingChannel, DiffractionWithMovingReflectorsSearchesWholeAndSaysSo) {

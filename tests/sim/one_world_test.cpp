@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One world: a corner reflector comes towards a node that carries every sensor, and all of them say the same of it.
+// One world: a corner reflector comes towards a node that carries every sensor, and all of them say the same
+// of it.
 //
-// The corner is a triangular trihedral of metal whose apex is its node's origin and whose axis looks at the sensors. Both nodes
-// go along one line, so that the distance of apex and sensors is known at any time:
+// The corner is a triangular trihedral of metal whose apex is its node's origin and whose axis looks at the
+// sensors. Both nodes go along one line, so that the distance of apex and sensors is known at any time:
 //   R(t) = first_m - closing_m_s t.
-// - Radar: three reflections at three perpendicular planes are a reflection at the apex, so every way back to a point of it is
+// - Radar: three reflections at three perpendicular planes are a reflection at the apex, so every way back to
+//   a point of it is
 //   2 R long, whatever facets it takes first: all of the trihedral's main echo has the delay 2 R/c.
-// - Radio: for the same reason a path of three reflections from an antenna at d beside the sensors to one at -d is
+// - Radio: for the same reason a path of three reflections from an antenna at d beside the sensors to one at
+//   -d is
 //   |(s + d) + (s - d)| = 2 R long (s from the apex): exactly, not nearly.
 // - LiDAR and camera: the shot and the pixel along the axis meet the apex.
 #include <cmath>
@@ -18,7 +21,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "scene/scene_hash.h"
+#include "scene/description/scene_hash.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/tiny_scene.h"
 
@@ -40,7 +44,8 @@ scene::Material metal() {
   return material;
 }
 
-/// Static: a wall behind, askew to the line, so that it sends nothing back. Body 1: the corner, open towards its x.
+/// Static: a wall behind, askew to the line, so that it sends nothing back. Body 1: the corner, open towards
+/// its x.
 scene::Scene corner_scene() {
   test::TinyScene scene;
   const uint32_t metallic = scene.material_as(metal());
@@ -109,9 +114,8 @@ std::string scenario(const Rates& rates) {
 }
 
 KeptRun run(const Rates& rates) {
-  const Scenario parsed = parse_scenario(scenario(rates), "test.yaml", ".");
-  World world{corner_scene(), {0, 1}, {0, 1}};
-  return keep_run(parsed, world);
+  auto world = std::make_shared<const World>(World{corner_scene(), {0, 1}, {0, 1}, {}, {}});
+  return keep_run(make_experiment(parse_scenario(scenario(rates), "test.yaml", "."), std::move(world)));
 }
 
 uint32_t id_of(const KeptRun& r, const std::string& name) {
@@ -125,16 +129,17 @@ double seconds(const Packet& packet) { return 1e-9 * static_cast<double>(packet.
 constexpr size_t middle_pixel = 32 * 65 + 32, middle_shot = 10 * 21 + 10;
 
 /// Depth along the ray of the middle pixel, whose centre looks at the apex.
-/// Bound: the rasterizer puts corners to 1/256 of a pixel (2 tan 5 deg R/65 = 0.032 m wide), and next to the apex the faces go
-/// back by sqrt(2) of what one looks beside it: 0.032 m/512 x 1.42 < 1e-4 m; fp32 adds 1e-6 m.
+/// Bound: the rasterizer puts corners to 1/256 of a pixel (2 tan 5 deg R/65 = 0.032 m wide), and next to the
+/// apex the faces go back by sqrt(2) of what one looks beside it: 0.032 m/512 x 1.42 < 1e-4 m; fp32 adds 1e-6
+/// m.
 void expect_depth(const KeptRun& r, size_t packet) {
   EXPECT_NEAR(r.array<float>(packet, "rig/camera", "depth_ray")[middle_pixel],
               distance_at(seconds(r.packets[packet])), 1e-4);
   EXPECT_EQ(r.array<uint16_t>(packet, "rig/camera", "instance")[middle_pixel], id_of(r, "corner"));
 }
 
-/// The shot along the axis, at its own time. Bound: coordinates up to 12 m in fp32, 1e-6 m, rotated and added a few times, and
-/// the slope of the faces: 1e-5 m.
+/// The shot along the axis, at its own time. Bound: coordinates up to 12 m in fp32, 1e-6 m, rotated and added
+/// a few times, and the slope of the faces: 1e-5 m.
 void expect_lidar(const KeptRun& r, size_t packet, double sweep_s) {
   const auto range = r.array<float>(packet, "rig/lidar", "range"),
              time = r.array<float>(packet, "rig/lidar", "time_offset");
@@ -145,10 +150,13 @@ void expect_lidar(const KeptRun& r, size_t packet, double sweep_s) {
 }
 
 /// The corner's detection, at the frame's middle. Bounds:
-/// - the corner sends back what meets a hexagon of half-width rho = edge sqrt(2)/3 about the axis, and what goes by a point rho
+/// - the corner sends back what meets a hexagon of half-width rho = edge sqrt(2)/3 about the axis, and what
+///   goes by a point rho
 ///   beside the axis goes 2 sqrt(R^2 + rho^2): farther by up to rho^2/2R, 1.7 mm. Never nearer;
-/// - noise, 48 dB below the cell: sqrt(6/SNR)/2 pi bins at best (D. C. Rife, R. R. Boorstyn, IEEE Trans. Inf. Theory 20(5), 1974),
-///   0.0016, a third more under a Hann window. Five times that: 0.01 bins, of range and of velocity. What faces and edges
+/// - noise, 48 dB below the cell: sqrt(6/SNR)/2 pi bins at best (D. C. Rife, R. R. Boorstyn, IEEE Trans. Inf.
+///   Theory 20(5), 1974),
+///   0.0016, a third more under a Hann window. Five times that: 0.01 bins, of range and of velocity. What
+/// faces and edges
 ///   send back by themselves is below that;
 /// - what passes as range for velocity (f_c/S = 3 ms) is taken off before: of 0.01 velocity bins, 0.02 mm.
 void expect_radar(const KeptRun& r, size_t packet) {
@@ -166,7 +174,8 @@ void expect_radar(const KeptRun& r, size_t packet) {
   EXPECT_LT(range[0], expected_m + 0.5 * rho_m * rho_m / expected_m + 0.01 * bin_m);
   EXPECT_NEAR(velocity[0], -closing_m_s, 0.01 * velocity_bin);
   EXPECT_EQ(r.array<uint32_t>(packet, "rig/radar", "instance")[0], id_of(r, "corner"));
-  // In front, but for the angle's noise: half a wavelength between two elements, 0.3 rad of phase at the very most.
+  // In front, but for the angle's noise: half a wavelength between two elements, 0.3 rad of phase at the very
+  // most.
   const auto point = r.array<float>(packet, "rig/radar", "detections");
   EXPECT_NEAR(point[0], range[0], 0.01 * range[0]);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What turns on a node, in the channel: its surfaces shift what they reflect by Doppler, and block what they come in front of.
+// What turns on a node, in the channel: its surfaces shift what they reflect by Doppler, and block what they
+// come in front of.
 #include <cmath>
 #include <fstream>
 
@@ -9,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/glb_writer.h"
-#include "scene/generator/materials.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,7 +27,7 @@ const dvec3 axle(4, -3, 5);
 /// A mill with one upright vane whose outer face is `face_m` off the axle, 4 m wide and 2 m high.
 std::filesystem::path write_mill(const std::filesystem::path& folder) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder vane, post;
   vane.box(material("motor_metal"), {face_m - 0.02, -2.0, -1.0}, {face_m, 2.0, 1.0});
   post.box(material("motor_metal"), {-0.05, -0.05, -5.0}, {0.05, 0.05, -1.5});
@@ -83,7 +84,8 @@ TEST(PartsChannel, DopplerOffAVaneIsThatOfTheClosedForm) {
     for (size_t tick = 0; tick < 5; ++tick) {
       const double angle = radians(-8.0) + omega * 1e-3 * static_cast<double>(tick), step = 1e-6;
       const Closed now(tx, rx, angle);
-      // By the path's length over time, and by the speed of the point that reflects: 2 v cos(incidence) / lambda.
+      // By the path's length over time, and by the speed of the point that reflects: 2 v cos(incidence) /
+      // lambda.
       const double slope =
           (Closed(tx, rx, angle + omega * step).length_m - Closed(tx, rx, angle - omega * step).length_m) /
           (2.0 * step);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rotors that turn, through the whole simulator: every sensor sees the blades where they are, none those of its own node.
+// Rotors that turn, through the whole simulator: every sensor sees the blades where they are, none those of
+// its own node.
 #include <cmath>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 
 namespace greatx::sim {
@@ -54,22 +56,22 @@ std::string hover(const std::string& watching, const std::string& carried = "") 
 
 struct Ran {
   explicit Ran(const std::string& yaml)
-      : scenario(parse_scenario(yaml, "test.yaml", ".")),
-        world(load_world(scenario)),
-        courses(make_courses(scenario, world, 0)),
-        run(keep_run(scenario, world)) {}
+      : experiment(make_experiment(parse_scenario(yaml, "test.yaml", "."))),
+        courses(make_courses(experiment.scenario, world, 0)),
+        run(keep_run(experiment)) {}
   bool is_rotor(uint32_t id) const { return id > 0 && world.scene.bodies[body(id)].joint.has_value(); }
   uint32_t body(uint32_t id) const { return world.scene.instances[id - 1].body; }
   Pose pose(uint32_t body, size_t tick) const {
     return body_motion(world, courses, body, 0.1 * double(tick)).pose;
   }
-  Scenario scenario;
-  World world;
+  Experiment experiment;
+  const World& world = *experiment.world;
   Courses courses;
   KeptRun run;
 };
 
-/// The point of a pixel's centre in local coordinates; the cameras above look straight down with their top to +x.
+/// The point of a pixel's centre in local coordinates; the cameras above look straight down with their top to
+/// +x.
 dvec3 point_at(size_t pixel, double depth, const dvec3& eye) {
   const double right = (static_cast<double>(pixel % width) + 0.5 - 0.5 * width) / focal,
                down = (static_cast<double>(pixel / width) + 0.5 - 0.5 * height) / focal;
@@ -80,7 +82,7 @@ dvec2 pixel_of(const dvec3& point, const dvec3& eye) {
   return {0.5 * width + focal * d.y / d.z, 0.5 * height + focal * d.x / d.z};
 }
 
-/// Blades and hubs reach 0.66 m from their axis and lie within 4 cm (scene/generator/quadrotor.cpp).
+/// Blades and hubs reach 0.66 m from their axis and lie within 4 cm (scene/generator/objects/quadrotor.cpp).
 void expect_on_rotor(const dvec3& in_rotor, double slack) {
   EXPECT_LE(std::hypot(in_rotor.x, in_rotor.y), 0.66 + slack);
   EXPECT_GE(in_rotor.z, -0.022 - slack);
@@ -90,7 +92,7 @@ void expect_on_rotor(const dvec3& in_rotor, double slack) {
 TEST(PartsRun, PicturesAndSweepsMeetTheBladesWhereTheyAre) {
   const Ran r(hover(looks_down("camera", "depth, ids, flow", 0.0) + scans_down("lidar", 0.0)));
   EXPECT_EQ(r.run.counters.submits, r.run.statistics.ticks);
-  EXPECT_LT(r.run.statistics.consistency.depth.max(), 1e-4);
+  EXPECT_LT(r.run.statistics.consistency.at(depth_figure).max(), 1e-4);
   const dvec3 eye = dvec3(0, 0, 10) - r.world.scene.origin;
   size_t seen = 0, flows = 0;
   std::set<uint32_t> rotors;
@@ -129,10 +131,11 @@ TEST(PartsRun, ASensorSeesNoPartOfItsOwnNode) {
   EXPECT_EQ(hits(hidden, "uav/camera"), 0u);
   EXPECT_GT(hits(seen, "uav/camera"), 100u);
   for (const uint16_t id : hidden.run.array<uint16_t>(1, "uav/camera", "instance")) EXPECT_EQ(id, 0);
-  // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing else.
-  EXPECT_EQ(hidden.run.statistics.consistency.lidar.count(), 0u);
-  EXPECT_GT(seen.run.statistics.consistency.lidar.count(), 10u);
-  EXPECT_LT(seen.run.statistics.consistency.lidar.max(), 1e-4);
+  // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing
+  // else.
+  EXPECT_EQ(hidden.run.statistics.consistency.at(lidar_figure).count(), 0u);
+  EXPECT_GT(seen.run.statistics.consistency.at(lidar_figure).count(), 10u);
+  EXPECT_LT(seen.run.statistics.consistency.at(lidar_figure).max(), 1e-4);
 }
 
 TEST(PartsRun, TheBoxHoldsThePartsAndKeepsItsSize) {

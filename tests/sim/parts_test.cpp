@@ -10,9 +10,10 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "scene/generator/glb_writer.h"
-#include "scene/generator/materials.h"
-#include "sim/moment.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/world/moment.h"
 #include "tests/support/temporary_folder.h"
 
 namespace greatx::sim {
@@ -100,7 +101,8 @@ TEST(Parts, EveryCornerOfABladeIsWhereTheClosedFormHasIt) {
 
 TEST(Parts, TurnAboutTheirOwnHub) {
   const Flight f(flying(four_rotors));
-  // scene/generator/quadrotor.cpp: on a circle of half the diagonal, 2.2 m, front left first; the model's mount on top.
+  // scene/generator/objects/quadrotor.cpp: on a circle of half the diagonal, 2.2 m, front left first; the
+  // model's mount on top.
   const Pose mount{dvec3(0.1, 0.2, -0.3),
                    orientation_from_yaw_pitch_roll(radians(30.0), radians(10.0), radians(5.0))};
   for (int rotor = 0; rotor < 4; ++rotor) {
@@ -245,7 +247,7 @@ TEST(Parts, WhatTheModelDoesNotHaveIsSaid) {
 /// What hangs on a node turns with it; nodes without meshes are parts as well; equal names get numbers.
 TEST(Parts, AreWholeBranchesOfTheModel) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder cube;
   cube.box(material("motor_metal"), dvec3(-0.1), dvec3(0.1));
   const int mesh = writer.add_mesh("cube", cube);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/scenario/pattern_csv.h"
+#include "sim/scenario/parse/pattern_csv.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,8 @@ std::string file(const std::string& header, const std::vector<std::string>& rows
 }
 
 std::string flat(double, double) { return "3"; }
-/// A different complex number for every direction, the same at both ends of the circle, 0.5 strong at the poles.
+/// A different complex number for every direction, the same at both ends of the circle, 0.5 strong at the
+/// poles.
 std::string field_at(double theta, double phi) {
   const bool pole = theta == 0.0 || theta == 180.0;
   const double turn = std::fmod(phi + 360.0, 360.0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Effects that distance decides follow every end that there is: points given from outside, mounts and elements far from
-// their node, what moves and reflects.
+// Effects that distance decides follow every end that there is: points given from outside, mounts and
+// elements far from their node, what moves and reflects.
 #include <cmath>
 #include <complex>
 
@@ -11,13 +11,14 @@
 
 #include "rf/atmosphere/bounds.h"
 #include "sim/channel/radio_map.h"
-#include "sim/plan/plan_options.h"
 #include "sim/plan/radio_plan.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
 namespace {
 
+using sim::testing::experiment_in;
 using sim::testing::RadioRun;
 using sim::testing::run;
 using test::TinyScene;
@@ -39,12 +40,10 @@ std::string scenario(double carrier_hz, const std::string& weather,
 
 /// The paths of `asked`, of a call that has `all` points.
 std::vector<rf::Path> paths_to(const std::string& yaml, const dvec3& asked, const std::vector<dvec3>& all) {
-  const Scenario parsed = parse_scenario(yaml, "test.yaml", ".");
-  const World world{TinyScene().build(), std::vector<uint32_t>(parsed.nodes.size(), 0)};
   scene::Bounds points;
   for (const dvec3& point : all) points.add(point);
-  const EffectPlan plan = make_effect_plan(parsed, world.scene, points);
-  ChannelSnapshot snapshot(test::device(), parsed, world, plan, gpu_scene_options(plan), 0, {});
+  const Experiment experiment = experiment_in(yaml, TinyScene().build(), points);
+  ChannelSnapshot snapshot(test::device(), experiment, 0, {});
   std::vector<rf::Path> paths;
   snapshot.solve(std::span(&asked, 1), 0, [&](ChannelSnapshot::Link link) {
     paths = std::move(link.paths);

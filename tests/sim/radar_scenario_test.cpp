@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -11,13 +11,14 @@
 #include <gmock/gmock.h>
 
 #include "core/units.h"
-#include "sim/channel/radio_map_values.h"
-#include "sim/plan/plan_options.h"
+#include "sim/channel/radio_map_run.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
 namespace {
 
+using sim::testing::experiment_in;
 using sim::testing::radio_material;
 using sim::testing::RadioRun;
 using sim::testing::run;
@@ -69,18 +70,17 @@ std::string two_stations(const std::vector<dvec3>& terminals) {
 class Site {
  public:
   Site(const std::string& yaml, const scene::Scene& scene)
-      : scenario_(parse_scenario(yaml, "test.yaml", ".")),
-        world_{scene, std::vector<uint32_t>(scenario_.nodes.size(), 0)},
-        plan_(make_effect_plan(scenario_, world_.scene)),
-        snapshot_(test::device(), scenario_, world_, plan_, gpu_scene_options(plan_), 0, {}) {}
+      : experiment_(experiment_in(yaml, scene)), snapshot_(test::device(), experiment_, 0, {}) {}
 
   MapCells cells(const MapGrid& grid, const MapHeight& height, bool beyond = false) const {
     const std::vector<dvec3> ends{{80, 1.1, 5.2}, {120.3, -2.4, 6.1}};
-    return place_cells(grid, height, world_.scene, snapshot_.model().kinds, snapshot_.moment().bodies, ends,
-                       beyond);
+    return place_cells(grid, height, experiment_.scene(), snapshot_.model().kinds, snapshot_.moment().bodies,
+                       ends, beyond);
   }
+  const Experiment& experiment() const { return experiment_; }
+  ChannelSnapshot& snapshot() { return snapshot_; }
   std::vector<rf::LinkStatistics> solve(const MapCells& cells, size_t first = 0, size_t most = ~size_t{0}) {
-    RadioMapSolver solver(snapshot_, scenario_, 0, {});
+    RadioMapSolver solver(snapshot_, {});
     std::vector<rf::LinkStatistics> links;
     solver.solve(cells, first, [&](std::span<const rf::LinkStatistics> more) {
       links.insert(links.end(), more.begin(), more.end());
@@ -90,9 +90,7 @@ class Site {
   }
 
  private:
-  Scenario scenario_;
-  World world_;
-  EffectPlan plan_;
+  Experiment experiment_;
   ChannelSnapshot snapshot_;
 };
 
@@ -261,6 +259,58 @@ TEST(RadioMap, ACellIsAReceiverPutThereToTheBit) {
   }
   EXPECT_GT(with_several, 5u);  // else the test says nothing
   EXPECT_GT(in_shadow, 2u);
+}
+
+TEST(RadioMapRun, IsItsStepsOneAfterTheOther) {
+  Site site(two_stations({{100, 0, 1.5}}), street());
+  const ChannelConfig& config = site.experiment().scenario.channels[0];
+  MapRequest request;
+  request.min_m = dvec2(85, -20);
+  request.max_m = dvec2(120, 15);
+  request.cell_m = 2.5;
+  request.power_dbm = {20.0, 30.0};
+  request.bandwidth_hz = 1e6;
+  request.inside_solids = true;
+  const MapGrid grid = make_map_grid({85, -20}, {120, 15}, 2.5, 2);
+  const scene::Bounds box = map_bounds(request, config, site.experiment().scene()),
+                      by_hand = bounds_of_cells(grid, request.height, site.experiment().scene());
+  EXPECT_EQ(box.min, by_hand.min);
+  EXPECT_EQ(box.max, by_hand.max);
+
+  RadioMapRun run(site.snapshot(), request, {});
+  EXPECT_EQ(run.transmitters(), (std::vector<dvec3>{{80, 1.1, 5.2}, {120.3, -2.4, 6.1}}));
+  EXPECT_EQ(run.power().transmit_dbm, request.power_dbm);
+  MapCells cells = site.cells(grid, request.height);
+  cells.solve_inside = true;
+  EXPECT_EQ(run.cells().z_m, cells.z_m);
+  EXPECT_EQ(run.cells().placement, cells.placement);
+  std::vector<rf::LinkStatistics> links;
+  run.solve(0, [&](std::span<const rf::LinkStatistics> more) {
+    links.insert(links.end(), more.begin(), more.end());
+    return true;
+  });
+  expect_same(links, site.solve(cells));
+  const RadioMap map = run.map(links);
+  EXPECT_EQ(map.transmitters(), 2u);
+  EXPECT_EQ(map_array(map, map_quantity("rss")).shape, (std::vector<int64_t>{2, 14, 14}));
+  EXPECT_EQ(map_placement(cells).shape, (std::vector<int64_t>{14, 14}));
+}
+
+TEST(RadioMapRun, SaysBeforeTheSceneWhatItCannotDo) {
+  const Site site(two_stations({{100, 0, 1.5}}), street());
+  const ChannelConfig& config = site.experiment().scenario.channels[0];
+  MapRequest request;
+  request.power_dbm = {1.0, 2.0, 3.0};
+  EXPECT_THAT([&] { check_map_request(request, config); },
+              ThrowsMessage<UserError>(HasSubstr("--power: expected 1 number, or 2")));
+  request = {};
+  request.bandwidth_hz = 0.0;
+  EXPECT_THAT([&] { check_map_request(request, config); },
+              ThrowsMessage<UserError>(HasSubstr("--bandwidth")));
+  request = {};
+  request.cell_m = -1.0;
+  EXPECT_THAT([&] { map_bounds(request, config, site.experiment().scene()); },
+              ThrowsMessage<UserError>(HasSubstr("--cell")));
 }
 
 TEST(RadioMap, AnyPartAndAnyNumberOfThreadsGivesTheSameBits) {

@@ -12,7 +12,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "rf/radio_model.h"
+#include "rf/paths/radio_model.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/radio_run.h"
 
 namespace greatx::sim {
@@ -218,7 +219,8 @@ TEST(RadioPlan, WeatherThatIsNoneIsAnErrorByField) {
   }
 }
 
-// ------------------------------------------------------------------------------------------- what is left out
+// ------------------------------------------------------------------------------------------- what is left
+// out
 
 /// The number of dB in "at most 0.00123 dB ...".
 double bound_db(const Effect& effect) {
@@ -282,7 +284,8 @@ TEST(RadioPlan, ForcedWhereThereIsNothingItChangesNoByte) {
 }
 
 TEST(RadioPlan, WallsThatAreDarkAreOpaqueAmongOthers) {
-  // 2 mm of metal take thousands of dB: as a half-space, to the last byte, even beside panes that let waves pass.
+  // 2 mm of metal take thousands of dB: as a half-space, to the last byte, even beside panes that let waves
+  // pass.
   const scene::Material pane = radio_material("glass", 0.01);
   for (const scene::Material& ground : {radio_material("medium_dry_ground"), pane}) {
     const RadioRun thick = run(scenario("", switches("transmission: on")),

@@ -4,10 +4,13 @@
 // Runs of one channel, "csi", in scenes that the test makes by hand.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "scene/scene_hash.h"
+#include "scene/description/scene_hash.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/tiny_scene.h"
 
@@ -25,12 +28,18 @@ struct RadioRun : test::KeptRun {
   uint64_t counter(const std::string& name) const { return KeptRun::counter("csi." + name); }
 };
 
-/// The scenario's nodes move nothing of the scene. Ticks before `first` are left out, as by a resume.
-inline RadioRun run(const std::string& yaml, const scene::Scene& scene, int64_t first = 0) {
-  const Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
+/// The scenario's nodes move nothing of the scene. `points` is make_experiment()'s.
+inline Experiment experiment_in(const std::string& yaml, const scene::Scene& scene,
+                                const scene::Bounds& points = {}) {
+  Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
   World world{scene, std::vector<uint32_t>(scenario.nodes.size(), 0)};
   world.scene.hash = scene::hash_of(scene);
-  return {test::keep_run(scenario, world, 0, first)};
+  return make_experiment(std::move(scenario), std::make_shared<const World>(std::move(world)), points);
+}
+
+/// Ticks before `first` are left out, as by a resume.
+inline RadioRun run(const std::string& yaml, const scene::Scene& scene, int64_t first = 0) {
+  return {test::keep_run(experiment_in(yaml, scene), 0, first)};
 }
 
 using test::expect_same_bytes;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/scenario/receiver_list.h"
+#include "sim/scenario/parse/receiver_list.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

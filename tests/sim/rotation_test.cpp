@@ -10,7 +10,8 @@ namespace greatx::sim {
 namespace {
 
 TEST(HardCase, N58_RotorsDoNotDriftInAnHour) {
-  // 90 turns a second on millisecond ticks: 9/100 of a turn a tick. The same hundred shares for ever, to the bit.
+  // 90 turns a second on millisecond ticks: 9/100 of a turn a tick. The same hundred shares for ever, to the
+  // bit.
   const Rational tick_rate{1000, 1};
   const Clock clock(tick_rate);
   const Rotation rotor(tick_rate, {{90, 1}, false}, 0.0);
@@ -21,7 +22,8 @@ TEST(HardCase, N58_RotorsDoNotDriftInAnHour) {
     ASSERT_EQ(rotor.turns(clock.seconds(hour + tick)), expected) << tick;
     ASSERT_EQ(rotor.turns(clock.seconds(100'000 * hour + tick)), expected) << tick;  // eleven years
   }
-  // A rate that no binary fraction is, on ticks of broadcast video: 1000/7 * 1001/30000 = 143/30 turns a tick.
+  // A rate that no binary fraction is, on ticks of broadcast video: 1000/7 * 1001/30000 = 143/30 turns a
+  // tick.
   const Rational video{30000, 1001};
   const Rotation odd(video, {{1000, 7}, false}, 0.0);
   for (const int64_t tick : {0, 1, 29, 30, 107'892'107, 107'892'120})

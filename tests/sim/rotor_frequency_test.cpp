@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A rotor of two blades before a radar and two ends of a channel: both hear the same blade frequency, at the same instants.
+// A rotor of two blades before a radar and two ends of a channel: both hear the same blade frequency, at the
+// same instants.
 //
-// The rotor is a bar through its axle, upright faces, seen edge-on from its own height. Each of its two broad faces flashes
-// once a turn, when its normal n(t) = (cos, sin)(wt + p) points at the sensors: at
+// The rotor is a bar through its axle, upright faces, seen edge-on from its own height. Each of its two broad
+// faces flashes once a turn, when its normal n(t) = (cos, sin)(wt + p) points at the sensors: at
 //   f = blades * rpm / 60,   t_k = (pi - p + k pi) / w      (the sensors are at -x of the axle).
-// The mirror point is D sin(angle off the flash) from the bar's middle, so that a flash lasts while that is less than half the
-// bar's length, and the way over it is shortest, its Doppler zero, at t_k.
+// The mirror point is D sin(angle off the flash) from the bar's middle, so that a flash lasts while that is
+// less than half the bar's length, and the way over it is shortest, its Doppler zero, at t_k.
 //
-// A tick is a chirp of the radar's one frame: both are sampled at the same 1/interval_s over the same T = chirps interval_s.
+// A tick is a chirp of the radar's one frame: both are sampled at the same 1/interval_s over the same T =
+// chirps interval_s.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -19,8 +21,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/glb_writer.h"
-#include "scene/generator/materials.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/mesh/scene_writer.h"
 #include "tests/support/kept_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,10 +36,11 @@ constexpr double rpm = 1433.0, phase_deg = 40.0, sample_hz = 1600.0, distance_m 
 constexpr uint32_t blades = 2, samples = 256;
 constexpr double blade_hz = blades * rpm / 60.0, span_s = samples / sample_hz;
 
-/// The bar's faces are +-y of itself, so that its phase is that of its length; the pole that carries it is out of sight.
+/// The bar's faces are +-y of itself, so that its phase is that of its length; the pole that carries it is
+/// out of sight.
 std::filesystem::path write_rotor(const std::filesystem::path& folder) {
   using namespace scene::generator;
-  GlbWriter writer;
+  SceneWriter writer;
   MeshBuilder bar, pole;
   bar.box(material("motor_metal"), {-half_length_m, -0.004, -0.05}, {half_length_m, 0.004, 0.05});
   pole.box(material("motor_metal"), {-0.05, -0.05, -5.0}, {0.05, 0.05, -1.5});
@@ -74,7 +77,8 @@ std::string scenario(const std::filesystem::path& model) {
 
 /// Instants at which a turning normal points at the sensors, within the span.
 std::vector<double> expected_flashes() {
-  // A face's normal stands 90 degrees ahead of the bar, so that it first points at -x after 90 degrees less the phase.
+  // A face's normal stands 90 degrees ahead of the bar, so that it first points at -x after 90 degrees less
+  // the phase.
   std::vector<double> instants;
   for (double t = (90.0 - phase_deg) / 360.0 / (rpm / 60.0); t < span_s; t += 1.0 / blade_hz)
     instants.push_back(t);
@@ -141,7 +145,8 @@ double frequency_of(const std::vector<double>& instants) {
   return static_cast<double>(instants.size() - 1) / (instants.back() - instants.front());
 }
 
-/// The strongest line between 2/T and a quarter of the sample rate of a series under a Hann window, its mean taken away.
+/// The strongest line between 2/T and a quarter of the sample rate of a series under a Hann window, its mean
+/// taken away.
 double strongest_line(const std::vector<double>& series) {
   std::vector<double> window(samples), value(samples);
   double mean = 0.0;
@@ -174,16 +179,23 @@ void expect_instants(const std::vector<double>& found, double bound_s) {
 }
 
 /// Bounds:
-/// - the Doppler's zero: the mirror point's distance from the middle is odd about a flash, D (x - a x^3), a < 1, x the angle.
-///   Between samples h = w/sample_hz = 0.094 rad apart the straight line misses its zero by at most a h^3/9 sqrt(3) = 5.3e-5 rad,
+/// - the Doppler's zero: the mirror point's distance from the middle is odd about a flash, D (x - a x^3), a <
+///   1, x the angle.
+///   Between samples h = w/sample_hz = 0.094 rad apart the straight line misses its zero by at most a h^3/9
+/// sqrt(3) = 5.3e-5 rad,
 ///   0.36 us;
-/// - instants by power: the first and the last sample of what is symmetric about a flash are each less than a sample from its
+/// - instants by power: the first and the last sample of what is symmetric about a flash are each less than a
+///   sample from its
 ///   ends, so their middle is less than half a sample from the flash;
 /// - a frequency by n instants: twice the bound of one, over the time from the first to the last;
-/// - lines: T resolves 1/T = 6.25 Hz, but lines f = 7.6/T apart are kept apart by the window: one pulls another by the slope of the
-///   Hann window's response there over its curvature at the top, (1/(7.6 (7.6^2 - 1)))/1.29 = 0.0018/T. Those that sampling folds
-///   back lie halfway between (1600 Hz are 33.5 f), 3.8/T away: 0.015/T times their strength, some 4 % (of pulses of four
-///   samples, near the fourth null of their spectrum). With one of each on both sides: 0.005/T; asked for: 0.01/T.
+/// - lines: T resolves 1/T = 6.25 Hz, but lines f = 7.6/T apart are kept apart by the window: one pulls
+///   another by the slope of the
+///   Hann window's response there over its curvature at the top, (1/(7.6 (7.6^2 - 1)))/1.29 = 0.0018/T. Those
+/// that sampling folds
+///   back lie halfway between (1600 Hz are 33.5 f), 3.8/T away: 0.015/T times their strength, some 4 % (of
+/// pulses of four
+///   samples, near the fourth null of their spectrum). With one of each on both sides: 0.005/T; asked for:
+/// 0.01/T.
 TEST(RotorBladeFrequency, IsTheSameInRadarAndChannel) {
   const test::TemporaryFolder folder;
   const KeptRun run = keep_run(scenario(write_rotor(folder.path())));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml or to `base`, or a text of its own) gives exactly
-// the message it should, at the right line.
+// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml or to `base`, or a text of
+// its own) gives exactly the message it should, at the right line.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

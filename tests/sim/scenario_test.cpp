@@ -10,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "scene/description/scene.h"
 #include "scene/generator/generate.h"
-#include "scene/scene.h"
+#include "sim/scenario/parse/load_scenario.h"
 
 namespace greatx::sim {
 namespace {
@@ -178,7 +179,8 @@ TEST(Scenario, EverythingSenses) {
   EXPECT_EQ(csi.subcarrier_spacing_hz, 100e6 / 64);
   EXPECT_EQ(csi.time_samples, 14u);
   EXPECT_EQ(csi.rays, 100000u);
-  EXPECT_EQ(csi.search, "once");
+  EXPECT_EQ(csi.candidates, ChannelConfig::Candidates::rays);
+  EXPECT_EQ(csi.search, ChannelConfig::Search::once);
   EXPECT_EQ(s.channels[1].rate_hz, (Rational{30000, 1001}));
   EXPECT_EQ(s.channels[1].subcarrier_spacing_hz, 15e3);
 }

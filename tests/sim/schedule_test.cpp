@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/schedule.h"
+#include "sim/run/schedule.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 std::vector<int64_t> ticks_with_something_due(const Schedule& schedule, int64_t end) {
   std::vector<int64_t> ticks;
   for (int64_t tick = 0; tick < end; ++tick)
-    if (!schedule.due(tick).empty()) ticks.push_back(tick);
+    if (!schedule.due(tick, 0).empty()) ticks.push_back(tick);
   return ticks;
 }
 
@@ -35,19 +35,38 @@ TEST(Schedule, NothingAddedIsNeverDue) {
   const Schedule schedule(Rational::make(1000, 1));
   EXPECT_EQ(schedule.next(0, 50), 50);
   EXPECT_EQ(schedule.previous(50), -1);
-  EXPECT_TRUE(schedule.due(0).empty());
+  EXPECT_TRUE(schedule.due(0, 0).empty());
 }
 
 TEST(Schedule, DueNamesTheSample) {
   Schedule schedule(Rational::make(1000, 1));
   schedule.add(Rational::make(10, 1));
   schedule.add(Rational::make(30, 1));
-  const std::vector<Due> due = schedule.due(100);
+  const std::vector<Due> due = schedule.due(100, 0);
   ASSERT_EQ(due.size(), 2u);
   EXPECT_EQ(due[0].sample, 1);
   EXPECT_EQ(due[1].sample, 3);
-  EXPECT_EQ(schedule.due(33).size(), 1u);
-  EXPECT_TRUE(schedule.due(34).empty());
+  EXPECT_EQ(schedule.due(33, 0).size(), 1u);
+  EXPECT_TRUE(schedule.due(34, 0).empty());
+}
+
+TEST(Schedule, ASensorWithoutARateFiresWheneverAnotherOneDoes) {
+  Schedule schedule(Rational::make(1000, 1));
+  schedule.add(std::nullopt);
+  EXPECT_EQ(schedule.next(0, 50), 50) << "it follows nothing";
+  EXPECT_TRUE(schedule.due(0, 0).empty());
+  schedule.add(Rational::make(10, 1));
+  schedule.add(std::nullopt);
+  schedule.add(Rational::make(30, 1));
+  EXPECT_TRUE(schedule.due(34, 2).empty());
+  const auto fired = [&](int64_t tick, int64_t before) {
+    std::vector<std::pair<uint32_t, int64_t>> all;
+    for (const Due& due : schedule.due(tick, before)) all.emplace_back(due.sensor, due.sample);
+    return all;
+  };
+  using testing::ElementsAre, testing::Pair;
+  EXPECT_THAT(fired(33, 1), ElementsAre(Pair(0u, 1), Pair(2u, 1), Pair(3u, 1)));
+  EXPECT_THAT(fired(100, 3), ElementsAre(Pair(0u, 3), Pair(1u, 1), Pair(2u, 3), Pair(3u, 3)));
 }
 
 }  // namespace

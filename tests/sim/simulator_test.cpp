@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The whole tick on small generated scenes, under validation.
-#include "sim/simulator.h"
+#include "sim/run/simulator.h"
 
 #include <cstring>
 #include <numeric>
@@ -86,8 +86,8 @@ TEST(HardCase, N64_WithoutASensorNothingIsDueAndNothingComes) {
   EXPECT_EQ(r.statistics.ticks, 0);
   EXPECT_EQ(r.counters.submits, 0u);
   EXPECT_TRUE(r.packets.empty());
-  EXPECT_EQ(r.statistics.consistency.depth.count(), 0u);
-  EXPECT_EQ(r.statistics.consistency.line_of_sight.count(), 0u);
+  EXPECT_EQ(r.statistics.consistency.at(depth_figure).count(), 0u);
+  EXPECT_EQ(r.statistics.consistency.at(sight_figure).count(), 0u);
 }
 
 TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
@@ -106,13 +106,13 @@ TEST(Consistency, ModalitiesSeeOneWorld) {
   const KeptRun r =
       keep_run(head + city + "nodes:\n" + bs + uav(camera + lidar + antenna, uav_model) + channel());
   const Consistency& c = r.statistics.consistency;
-  EXPECT_GT(c.depth.count(), 100u);
-  EXPECT_LT(c.depth.max(), 1e-4);
-  EXPECT_GT(c.lidar.count(), 20u);
+  EXPECT_GT(c.at(depth_figure).count(), 100u);
+  EXPECT_LT(c.at(depth_figure).max(), 1e-4);
+  EXPECT_GT(c.at(lidar_figure).count(), 20u);
   // The largest may be a beam that meets something smaller than a pixel.
-  EXPECT_LT(c.lidar.quantile(0.99), 1e-4);
-  EXPECT_GT(c.line_of_sight.count(), 0u);
-  EXPECT_LT(c.line_of_sight.max(), 1e-12);
+  EXPECT_LT(c.at(lidar_figure).quantile(0.99), 1e-4);
+  EXPECT_GT(c.at(sight_figure).count(), 0u);
+  EXPECT_LT(c.at(sight_figure).max(), 1e-12);
 }
 
 TEST(Plan, ACameraAloneBuildsNothingOfRadioOrLidar) {
@@ -220,8 +220,8 @@ TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   }
 }
 
-// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is level: a nose that
-// points up would tilt the receiver's polarization.
+// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is
+// level: a nose that points up would tilt the receiver's polarization.
 TEST(Channel, FreeSpaceIsFriis) {
   const std::string yaml =
       head + "nodes:\n" + bs_isotropic +

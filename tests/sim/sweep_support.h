@@ -34,7 +34,8 @@ struct Range {
 using Ranges = std::map<std::string, std::vector<Range>>;
 Ranges ranges_of(const nlohmann::json& schema);
 
-/// Texts to put in a number's place: what no number should be, and the schema's ends and what lies just beyond.
+/// Texts to put in a number's place: what no number should be, and the schema's ends and what lies just
+/// beyond.
 std::vector<std::string> ends_and_beyond(const std::vector<Range>& ranges);
 
 }  // namespace greatx::sim::test

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every number of a scenario at its ends and beyond: an error that names file and line, or a run; never a broken
-// contract, a crash, an allocation without end. What is swept are the numbers of scenarios/sweep/*.yaml, which have
-// everything that the schema knows.
+// Every number of a scenario at its ends and beyond: an error that names file and line, or a run; never a
+// broken contract, a crash, an allocation without end. What is swept are the numbers of
+// scenarios/sweep/*.yaml, which have everything that the schema knows.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -15,8 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/dataset_format.h"
-#include "sim/simulator.h"
+#include "io/dataset/dataset_format.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/sim/sweep_support.h"
 
 namespace greatx::sim {
@@ -73,18 +74,8 @@ class Sweep : public testing::TestWithParam<std::string> {
   const std::string text_ = read(folder / (GetParam() + ".yaml"));
 };
 
-struct Planned {
-  Scenario scenario;
-  World world;
-  EffectPlan plan;
-};
-
-Planned planned(const std::string& text) {
-  Planned result;
-  result.scenario = parse_scenario(text, "sweep.yaml", folder);
-  result.world = load_world(result.scenario);
-  result.plan = make_effect_plan(result.scenario, result.world.scene);
-  return result;
+Experiment planned(const std::string& text) {
+  return make_experiment(parse_scenario(text, "sweep.yaml", folder));
 }
 
 /// Whether an alternative of the schema has the value; true if it is no number.
@@ -140,10 +131,10 @@ struct Check : RecordSink {
   }
 };
 
-void run_a_tick(gpu::Device& device, Planned planned) {
-  planned.scenario.ticks = 1;
+void run_a_tick(gpu::Device& device, Experiment experiment) {
+  experiment.scenario.ticks = 1;
   Check sink;
-  Simulator simulator(device, planned.scenario, planned.world, planned.plan);
+  Simulator simulator(device, experiment);
   sink.sensors = simulator.sensors();
   simulator.start(0);
   while (simulator.step(sink)) {
@@ -179,7 +170,8 @@ std::vector<std::string> accepted_ends(const std::string& text, const Number& nu
   return ends;
 }
 
-/// Each run builds a simulator of its own, three minutes for all: every fourth number, unless GREATX_SWEEP=all.
+/// Each run builds a simulator of its own, three minutes for all: every fourth number, unless
+/// GREATX_SWEEP=all.
 bool chosen(size_t index) {
   const char* const sweep = std::getenv("GREATX_SWEEP");
   return (sweep != nullptr && std::string(sweep) == "all") || index % 4 == 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/scenario/trajectory_csv.h"
+#include "sim/scenario/parse/trajectory_csv.h"
 
 #include <filesystem>
 

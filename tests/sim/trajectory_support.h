@@ -29,8 +29,8 @@ inline Scenario scenario_of(Trajectory trajectory, uint64_t seed = 1) {
   return scenario;
 }
 
-inline std::unique_ptr<Path> path_of(Trajectory trajectory, uint64_t seed = 1, uint32_t sequence = 0) {
-  return std::move(make_paths(scenario_of(std::move(trajectory), seed), sequence)[0]);
+inline std::unique_ptr<Course> course_of(Trajectory trajectory, uint64_t seed = 1, uint32_t sequence = 0) {
+  return std::move(make_node_courses(scenario_of(std::move(trajectory), seed), sequence)[0]);
 }
 
 inline WayPointTrajectory way_points(std::vector<WayPoint> points, bool smooth = true) {
@@ -54,7 +54,7 @@ inline void expect_finite(const Motion& m) {
 }
 
 /// Velocity, acceleration and angular velocity against central differences of the pose.
-inline void expect_derivatives(const Path& path, double time_s, double scale) {
+inline void expect_derivatives(const Course& path, double time_s, double scale) {
   SCOPED_TRACE(time_s);
   const double h = 1e-5;
   const Motion before = path.at(time_s - h), now = path.at(time_s), after = path.at(time_s + h);

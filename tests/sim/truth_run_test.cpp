@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras' ground truth through the whole simulator: several cameras in one submission, each with the bytes that it has
-// alone; flow to the camera's own next sample; boxes that stand where the poses say.
+// Cameras' ground truth through the whole simulator: several cameras in one submission, each with the bytes
+// that it has alone; flow to the camera's own next sample; boxes that stand where the poses say.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ namespace {
 
 using glm::dmat3;
 
-/// Linear Rec. 709 to XYZ, and the white that its (1, 1, 1) is.
+/// The matrix from linear Rec. 709 to XYZ, and the white of its (1, 1, 1).
 const dmat3 xyz_from_rgb = glm::transpose(dmat3(dvec3(10135552.0, 8788810.0, 4435075.0) / 24577794.0,
                                                 dvec3(2613072.0, 8788810.0, 887015.0) / 12288897.0,
                                                 dvec3(1425312.0, 8788810.0, 70074185.0) / 73733382.0));
@@ -24,7 +24,7 @@ const dvec3 white = xyz_from_rgb * dvec3(1.0);
 struct Plane {
   int64_t height = 0, width = 0;
   std::vector<dvec3> pixels;
-  /// The edge goes on outside.
+  /// Returns a pixel. Outside the picture, the edge goes on.
   const dvec3& at(int64_t y, int64_t x) const {
     return pixels[static_cast<size_t>(std::clamp<int64_t>(y, 0, height - 1) * width +
                                       std::clamp<int64_t>(x, 0, width - 1))];
@@ -33,7 +33,8 @@ struct Plane {
 
 double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
-/// Section 4.1.1: an opponent space linear in light, in which contrast sensitivities were measured.
+/// Returns a colour in the opponent space of section 4.1.1. It is linear in light, and contrast sensitivities
+/// were measured in it.
 dvec3 ycxcz_from_rgb(const dvec3& rgb) {
   const dvec3 n = (xyz_from_rgb * rgb) / white;
   return {116.0 * n.y - 16.0, 500.0 * (n.x - n.y), 200.0 * (n.y - n.z)};
@@ -43,7 +44,7 @@ dvec3 rgb_from_ycxcz(const dvec3& c) {
   return glm::inverse(xyz_from_rgb) * (dvec3(y + c.y / 500.0, y, y - c.z / 200.0) * white);
 }
 
-/// CIE 1976 L*a*b*, a* and b* scaled by lightness (Hunt's effect, section 4.1.2).
+/// Returns CIE 1976 L*a*b*, with a* and b* scaled by lightness (Hunt's effect, section 4.1.2).
 dvec3 hunt_lab(const dvec3& rgb) {
   const auto f = [](double t) {
     constexpr double d = 6.0 / 29.0;
@@ -66,7 +67,7 @@ Plane ycxcz(const Array& picture) {
   return plane;
 }
 
-/// Weights at offsets -radius..radius in both directions, one per channel.
+/// Holds weights at offsets -radius..radius in both directions, one per channel.
 struct Kernel {
   int64_t radius = 0;
   std::vector<dvec3> weights;
@@ -89,7 +90,7 @@ struct Kernel {
   }
 };
 
-/// Contrast sensitivity as Gaussians (table 1): achromatic, red-green, blue-yellow.
+/// Returns the contrast sensitivity as Gaussians (table 1): achromatic, red-green, blue-yellow.
 Kernel contrast_sensitivity(double ppd) {
   struct Gaussians {
     double a1, b1, a2, b2;
@@ -113,8 +114,9 @@ Kernel contrast_sensitivity(double ppd) {
   return kernel;
 }
 
-/// First (edges) or second (points) derivative of a Gaussian along x, as wide as an edge's response (section 4.2); its
-/// positive weights sum to 1, its negative ones to -1. x in the first channel, the same along y in the second.
+/// Returns the first (edges) or second (points) derivative of a Gaussian along x, as wide as an edge's
+/// response (section 4.2). Its positive weights sum to 1, its negative ones to -1. The first channel is along
+/// x, the second the same along y.
 Kernel feature_detector(double ppd, bool points) {
   const double sd = 0.5 * 0.082 * ppd;
   const auto weight = [&](double along, double across) {
@@ -130,7 +132,7 @@ Kernel feature_detector(double ppd, bool points) {
   return kernel;
 }
 
-/// How strong the feature is at each pixel.
+/// Returns how strong the feature is at each pixel.
 std::vector<double> feature_strength(const Plane& plane, const Kernel& detector) {
   Plane lightness = plane;
   for (dvec3& pixel : lightness.pixels) pixel = dvec3((pixel.x + 16.0) / 116.0);
@@ -142,7 +144,8 @@ std::vector<double> feature_strength(const Plane& plane, const Kernel& detector)
 
 constexpr double color_exponent = 0.7, feature_exponent = 0.5;
 
-/// Section 4.1.3: differences up to 40 % of the largest possible fill 95 % of the range.
+/// Returns the error of section 4.1.3: differences up to 40 % of the largest possible one fill 95 % of the
+/// range.
 double color_error(const dvec3& reference, const dvec3& test) {
   static const double largest =
       std::pow(hyab(hunt_lab({0.0, 1.0, 0.0}), hunt_lab({0.0, 0.0, 1.0})), color_exponent);
@@ -151,7 +154,7 @@ double color_error(const dvec3& reference, const dvec3& test) {
   return d < knee ? pt / knee * d : pt + (d - knee) / (largest - knee) * (1.0 - pt);
 }
 
-/// What is left of it at that distance, as CIELAB.
+/// Returns the part of a picture that the eye perceives at that distance, as CIELAB.
 Plane perceived(const Plane& plane, const Kernel& filter) {
   Plane lab = filter.filter(plane);
   for (dvec3& pixel : lab.pixels) pixel = hunt_lab(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How different two pictures look when one flips between them: LDR-FLIP (P. Andersson, J. Nilsson, T. Akenine-Möller,
-// M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph.
-// Interact. Tech. 3(2), HPG 2020), from the paper's formulas.
+// Measures how different two pictures look when one flips between them: LDR-FLIP (P. Andersson, J. Nilsson,
+// T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating
+// Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), HPG 2020), from the paper's formulas.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,8 @@ struct Flip {
   double mean = 0.0;
 };
 
-/// u8 [h, w, 3] sRGB, both of one shape. 67 pixels per degree: a monitor of 0.7 m and 3840 pixels seen from 0.7 m.
+/// Compares two u8 [h, w, 3] sRGB pictures of one shape. 67 pixels per degree is a monitor of 0.7 m and 3840
+/// pixels seen from 0.7 m.
 Flip flip(const Array& reference, const Array& test, double pixels_per_degree = 67.0);
 
 }  // namespace greatx::test

@@ -31,11 +31,11 @@ gpu::Device& device() {
 
 int run(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  setenv("GREATX_CACHE", "off", 0);  // tests find what they find, not what a run before them has found
+  setenv("GREATX_CACHE", "off", 0);  // tests do not use the results of earlier runs
   testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
   int result = RUN_ALL_TESTS();
   if (shared_device == nullptr) return result;
-  // Objects that outlive the device, and leaks, are told of while it is destroyed.
+  // Objects that outlive the device, and leaks, are reported while the device is destroyed.
   const std::shared_ptr<gpu::ValidationLog> log = shared_device->validation_log();
   shared_device.reset();
   for (const std::string& message : log->take()) {

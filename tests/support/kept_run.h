@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A sequence of a scenario, gone through without files: all that it delivered, and what it did on the GPU.
+// Runs a sequence of a scenario without files, and keeps everything that it delivered and its work on the
+// GPU.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/simulator.h"
+#include "sim/experiment/experiment.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace greatx::test {
@@ -31,7 +34,7 @@ struct KeptRun {
       if (spec.name == sensor) return spec;
     throw std::runtime_error("no sensor " + sensor);
   }
-  /// Of a sensor in a packet; null if it did not fire.
+  /// Returns an array of a sensor in a packet; null if the sensor did not fire.
   const Array* find(size_t packet, const std::string& sensor, const std::string& name) const {
     return find(packets.at(packet), sensor, name);
   }
@@ -43,14 +46,14 @@ struct KeptRun {
   std::span<const T> array(size_t packet, const std::string& sensor, const std::string& name) const {
     return array(packet, sensor, name).as<T>();
   }
-  /// An array of every record of a sensor, in order of ticks.
+  /// Returns an array of every record of a sensor, in order of ticks.
   std::vector<Array> arrays(const std::string& sensor, const std::string& name) const {
     std::vector<Array> all;
     for (const Packet& packet : packets)
       if (const Array* found = find(packet, sensor, name)) all.push_back(*found);
     return all;
   }
-  /// Ragged arrays joined.
+  /// Returns ragged arrays joined.
   template <typename T>
   std::vector<T> joined(const std::string& sensor, const std::string& name) const {
     std::vector<T> all;
@@ -59,13 +62,13 @@ struct KeptRun {
     return all;
   }
   uint64_t counter(const std::string& name) const { return statistics.counters.at(name); }
-  /// Empty if there is none.
+  /// Returns an empty text if there is no such note.
   std::string note(const std::string& name) const {
     for (const auto& [key, text] : statistics.notes)
       if (key == name) return text;
     return {};
   }
-  /// Whether a pipeline was built with this in its name.
+  /// Returns whether a pipeline was built with `part` in its name.
   bool built(const std::string& part) const {
     return std::ranges::any_of(counters.pipelines,
                                [&](const std::string& name) { return name.find(part) != std::string::npos; });
@@ -84,7 +87,7 @@ struct KeptRun {
   }
 };
 
-/// What `after` counts beyond `before`.
+/// Returns the counts of `after` beyond those of `before`.
 inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
   after.pipelines.erase(after.pipelines.begin(),
                         after.pipelines.begin() + static_cast<std::ptrdiff_t>(before.pipelines.size()));
@@ -100,18 +103,17 @@ inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
 }
 
 /// Ticks before `first_tick` are left out, as by a resume.
-inline KeptRun keep_run(const sim::Scenario& scenario, const sim::World& world, uint32_t sequence = 0,
-                        int64_t first_tick = 0) {
+inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0, int64_t first_tick = 0) {
   struct Keep : RecordSink {
     std::vector<Packet> packets;
     void write(Packet packet) override { packets.push_back(std::move(packet)); }
   } keep;
   KeptRun run;
-  run.plan = sim::make_effect_plan(scenario, world.scene);
-  run.instances = world.scene.instances;
+  run.plan = experiment.plan;
+  run.instances = experiment.scene().instances;
   const gpu::Counters before = device().counters();
   {
-    sim::Simulator simulator(device(), scenario, world, run.plan);
+    sim::Simulator simulator(device(), experiment);
     run.sensors = simulator.sensors();
     simulator.start(sequence, first_tick);
     while (simulator.step(keep)) {
@@ -123,11 +125,10 @@ inline KeptRun keep_run(const sim::Scenario& scenario, const sim::World& world, 
   return run;
 }
 inline KeptRun keep_run(const std::string& yaml, uint32_t sequence = 0, int64_t first_tick = 0) {
-  const sim::Scenario scenario = sim::parse_scenario(yaml, "test.yaml", ".");
-  return keep_run(scenario, sim::load_world(scenario), sequence, first_tick);
+  return keep_run(sim::make_experiment(sim::parse_scenario(yaml, "test.yaml", ".")), sequence, first_tick);
 }
 
-/// Every record of two packets, with the same sensors.
+/// Compares every record of two packets with the same sensors.
 inline void expect_same_bytes(const std::vector<SensorSpec>& sensors, const Packet& a, const Packet& b,
                               const std::string& what = {}) {
   ASSERT_EQ(a.tick, b.tick) << what;
@@ -145,7 +146,7 @@ inline void expect_same_bytes(const std::vector<SensorSpec>& sensors, const Pack
     }
   }
 }
-/// Every array of every packet.
+/// Compares every array of every packet.
 inline void expect_same_bytes(const KeptRun& a, const KeptRun& b, const std::string& what = {}) {
   ASSERT_EQ(a.packets.size(), b.packets.size()) << what;
   for (size_t p = 0; p < a.packets.size(); ++p)

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// In a build with AddressSanitizer: leaks of the Vulkan loader, its layers and drivers are not ours; all others are faults.
-// The names are the sanitizers' own (sanitizer/lsan_interface.h).
+// In a build with AddressSanitizer, leaks of the Vulkan loader, its layers and drivers are not faults of
+// greatx; all others are. The sanitizers choose the names of these functions (sanitizer/lsan_interface.h).
 #include <dlfcn.h>
 
-// The loader and the sanitizers' library look for these in the program, where all else is hidden.
+// The loader and the sanitizers' library look for these functions in the program, where all others are
+// hidden.
 #pragma GCC visibility push(default)
 extern "C" {
 
-/// Drivers stay loaded: a leak can be laid at the door of its library only while that is in memory.
+/// Keeps drivers loaded: a leak can be attributed to its library only while the library is in memory.
 int dlclose(void* /*handle*/) noexcept { return 0; }
 
 const char* __lsan_default_suppressions();

@@ -9,7 +9,7 @@
 
 namespace greatx::test {
 
-/// A folder of its own, gone with the object.
+/// Makes a folder of its own and removes it with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

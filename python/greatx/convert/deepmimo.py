@@ -4,8 +4,8 @@
 
 A path's amplitude is that between upright isotropic antennas of vertical polarization at both ends,
     a = lambda/(4 pi) transfer[theta, theta] e^{-j 2 pi f_c tau},
-whatever the antennas of the channel: DeepMIMO puts arrays and patterns on itself. power is 20 lg |a| (dBW at 0 dBW
-transmitted), phase is the angle of a in degrees, of the time convention e^{+j omega t}, at the carrier.
+whatever the antennas of the channel: DeepMIMO puts arrays and patterns on itself. power is 20 lg |a| (dBW at
+0 dBW transmitted), phase is the angle of a in degrees, of the time convention e^{+j omega t}, at the carrier.
 """
 from __future__ import annotations
 
@@ -39,13 +39,15 @@ Point = Tuple[Record, int]  # a receiver at a record
 
 def write_deepmimo(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel: Optional[str] = None,
                    sequence: Optional[int] = None, layout: str = "snapshots") -> Dict[str, Any]:
-    """Writes a channel of one sequence to the folder `out`, whose name is the scenario's; counts of what was written.
+    """Writes a channel of one sequence to the folder `out`, whose name is the scenario's; counts of what was
+    written.
 
-    layout "snapshots": a tick is a snapshot (of one tick alone the scenario is static); "users": every receiver at every
-    tick is a user of a static scenario, for which the transmitters must stand still.
-    Beside what DeepMIMO reads there are doppler_*.npz in Hz (for `Dataset.set_doppler`), and the times of the snapshots
-    under "greatx" in params.json.
-    Paths whose vertical amplitude is 0 are left out and counted. DatasetError, or FileExistsError for a folder in use.
+    layout "snapshots": a tick is a snapshot (of one tick alone the scenario is static); "users": every
+    receiver at every tick is a user of a static scenario, for which the transmitters must stand still.
+    Beside what DeepMIMO reads there are doppler_*.npz in Hz (for `Dataset.set_doppler`), and the times of the
+    snapshots under "greatx" in params.json.
+    Paths whose vertical amplitude is 0 are left out and counted. DatasetError, or FileExistsError for a
+    folder in use.
     """
     if layout not in LAYOUTS:
         raise ValueError(f"layout {layout!r}: expected one of {', '.join(LAYOUTS)}")

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Paths and channels as arrays in the conventions of Sionna RT 2.2 (sionna.rt.Paths with synthetic arrays;
-docs/converters.md). Delays are absolute: `cir` and `cfr` are those of Sionna's methods with normalize_delays=False.
+docs/converters.md). Delays are absolute: `cir` and `cfr` are those of Sionna's methods with
+normalize_delays=False.
 """
 from __future__ import annotations
 
@@ -26,8 +27,8 @@ INVALID = 0xFFFFFFFF  #: in `objects`: there is none
 
 @dataclasses.dataclass
 class SionnaPaths:
-    """Named as sionna.rt.Paths names them. Links with fewer paths than `path` are padded: a, angles, Doppler and vertices
-    with 0, tau with -1, interactions with 0, objects with INVALID; `valid` is False there."""
+    """Named as sionna.rt.Paths names them. Links with fewer paths than `path` are padded: a, angles, Doppler
+    and vertices with 0, tau with -1, interactions with 0, objects with INVALID; `valid` is False there."""
 
     a: np.ndarray  #: complex64 [rx, rx_ant, tx, tx_ant, path]: coefficients without e^{-j 2 pi f_c tau}
     tau: np.ndarray  #: float64 [rx, tx, path] s, absolute
@@ -98,8 +99,9 @@ def _paths(record: Record, sensor: Sensor) -> SionnaPaths:
 
 def write_sionna(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel: Optional[str] = None,
                  sequence: Optional[int] = None) -> Dict[str, int]:
-    """OUT/sequence_0000/000000.npz, ...: a file a record, with the fields of SionnaPaths and `tick`, `time_s`. Of one
-    sequence or (None) of all. Counts of what was written; DatasetError, or FileExistsError for a folder in use."""
+    """OUT/sequence_0000/000000.npz, ...: a file a record, with the fields of SionnaPaths and `tick`,
+    `time_s`. Of one sequence or (None) of all. Counts of what was written; DatasetError, or FileExistsError
+    for a folder in use."""
     sequences = dataset.sequences if sequence is None else [pick_sequence(dataset, sequence)]
     sensors = [pick_channel(s, channel) for s in sequences]
     for sensor in sensors:

@@ -105,8 +105,8 @@ TEST_P(EveryKind, NoFaceLiesInAnother) {
 }
 
 TEST_P(EveryKind, FlatFacesAreFlatToAMicrometre) {
-  // Two triangles of one material across an edge are either one plane, so that they merge into one facet, or clearly
-  // bent. Ground, plants and hedges have shapes of their own.
+  // Two triangles of one material across an edge are either one plane, so that they merge into one facet, or
+  // clearly bent. Ground, plants and hedges have shapes of their own.
   using Corner = std::array<int64_t, 3>;
   const auto key = [](const dvec3& p) {
     return Corner{std::llround(p.x * 1e3), std::llround(p.y * 1e3), std::llround(p.z * 1e3)};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What shines by night, and how much: photometry of lamps, luminance and share of lit windows, lamps of vehicles.
+// What shines by night, and how much: photometry of lamps, luminance and share of lit windows, lamps of
+// vehicles.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scene/generator/materials.h"
-#include "scene/generator/textures.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/paint/textures.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {
@@ -21,7 +22,8 @@ constexpr double full_candelas = 1000.0;  // emission of factor 1.0, cd/m^2
 
 double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }
 
-/// Luminous intensity towards an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone Angles").
+/// Luminous intensity towards an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone
+/// Angles").
 double candelas(const PunctualLight& light, double angle) {
   const double peak = static_cast<double>(light.intensity) * luminance(light.color);
   if (light.type == PunctualLight::Type::point) return peak;
@@ -129,11 +131,11 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
   size_t seen = 0;
   for (const generator::MaterialSpec& spec : generator::material_library()) {
     if (spec.lit < 0 || spec.texture == "poster") continue;
-    const generator::Picture picture = generator::make_texture(spec.texture);
-    const generator::Raster &lit = picture.lit[static_cast<size_t>(spec.lit)],
-                            &surface = picture.metallic_roughness;
+    const generator::TextureMaps maps = generator::make_texture(spec.texture);
+    const generator::Raster &lit = maps.lit[static_cast<size_t>(spec.lit)],
+                            &surface = maps.metallic_roughness;
     ASSERT_EQ(4 * lit.rgb.size(), surface.rgb.size()) << spec.name;
-    ASSERT_EQ(2 * lit.width, picture.color.width) << spec.name;
+    ASSERT_EQ(2 * lit.width, maps.color.width) << spec.name;
     size_t panes = 0, lit_panes = 0, glowing_wall = 0;
     double sum = 0.0, peak = 0.0;
     for (size_t i = 0; i < lit.rgb.size(); i += 3) {
@@ -175,8 +177,8 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
 
 TEST(Night, EveningsAndWallsDiffer) {
   for (const char* name : {"facade_brick", "facade_glass", "facade_balcony", "shopfront"}) {
-    const generator::Picture picture = generator::make_texture(name);
-    EXPECT_NE(picture.lit[0].rgb, picture.lit[1].rgb) << name;
+    const generator::TextureMaps maps = generator::make_texture(name);
+    EXPECT_NE(maps.lit[0].rgb, maps.lit[1].rgb) << name;
   }
   // Walls start with different bays: more than a few of the eight occur, none is most of them.
   const Soup soup = load_soup({.kind = "city", .seed = 2, .size_m = 300});

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/build.h"
-#include "scene/generator/canvas.h"
+#include "scene/build/build.h"
+#include "scene/generator/paint/texture_painter.h"
 #include "tests/scene/generator/soup.h"
 
 namespace greatx::scene {
@@ -21,11 +21,12 @@ dvec3 normal_of(const generator::Raster& raster, uint32_t x, uint32_t y) {
 }
 
 TEST(Relief, ARampLeansAgainstItsRise) {
-  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the picture.
-  generator::Canvas canvas(64, 64, {});
+  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the
+  // picture.
+  generator::TexturePainter painter(64, 64, {});
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) canvas.raise(x, y, x + 1, y + 1, 4 * x + 2 * y);
-  const generator::Raster raster = canvas.picture().normal;
+    for (int x = 0; x < 64; ++x) painter.raise(x, y, x + 1, y + 1, 4 * x + 2 * y);
+  const generator::Raster raster = painter.maps().normal;
   ASSERT_EQ(raster.rgb.size(), 3u * 64 * 64);
   // Perpendicular to (1, 0, 1/4) and, since +y is up the picture, to (0, -1, 1/8).
   const dvec3 expected = glm::normalize(dvec3(-0.25, 0.125, 1.0));
@@ -38,14 +39,14 @@ TEST(Relief, ARampLeansAgainstItsRise) {
 
 TEST(Relief, FurrowsAreWhatTheColourShows) {
   // The mean slope of each of the eight pixels of a row, and its colour: the deeper, the darker.
-  const generator::Picture picture = generator::make_texture("crop");
+  const generator::TextureMaps maps = generator::make_texture("crop");
   std::array<double, 8> slope{}, color{}, count{};
   for (uint32_t y = 0; y < 512; ++y) {
     if (y % 256 >= 38 && y % 256 < 64) continue;  // wheel tracks
     for (uint32_t x = 0; x < 512; ++x) {
-      const dvec3 n = normal_of(picture.normal, x, y);
+      const dvec3 n = normal_of(maps.normal, x, y);
       slope[y % 8] += n.y / n.z;
-      color[y % 8] += picture.color.rgb[3 * (y * 512 + x)];
+      color[y % 8] += maps.color.rgb[3 * (y * 512 + x)];
       ++count[y % 8];
     }
   }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/generator/generate.h"
-#include "scene/model.h"
+#include "scene/gltf/model.h"
 
 namespace greatx::scene {
 
@@ -39,8 +39,8 @@ struct Soup {
 
 Soup load_soup(const GenerateOptions& options);
 
-/// Directed edges that are not met by exactly as many in the opposite direction: 0 for closed, consistently wound
-/// surfaces. Corners are compared in whole millimetres of `local` (or of `corners` with `world`).
+/// Directed edges that are not met by exactly as many in the opposite direction: 0 for closed, consistently
+/// wound surfaces. Corners are compared in whole millimetres of `local` (or of `corners` with `world`).
 size_t open_edges(const std::vector<SoupTriangle>& triangles, bool world = false);
 
 /// Volumes enclosed by each connected part, m^3; positive where the faces look outwards.

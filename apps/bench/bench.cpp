@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/bench/camera_bench.h"
+#include "apps/bench/lidar_bench.h"
+#include "apps/bench/measure.h"
+#include "apps/bench/radar_bench.h"
+#include "apps/bench/radio_bench.h"
+#include "apps/bench/recall.h"
+#include "apps/bench/rig_bench.h"
+#include "apps/console/command_line.h"
+#include "apps/console/json_text.h"
+#include "apps/console/progress.h"
+#include "apps/console/session.h"
+#include "apps/console/summary.h"
+#include "apps/console/watch.h"
+#include "io/dataset/dataset_writer.h"
+#include "sim/run/simulator.h"
+#include "sim/scenario/parse/load_scenario.h"
+
+namespace greatx::apps {
+
+namespace {
+
+struct Options {
+  ScenarioOptions scenario;
+  RunOptions run;
+  int64_t warm_up = 5;
+  bool discard = false, json = false;
+  bool recall = false;
+  RecallOptions recall_options;
+  bool camera = false;
+  CameraBenchOptions camera_options;
+  bool lidar = false;
+  LidarBenchOptions lidar_options;
+  bool radar = false;
+  RadarBenchOptions radar_options;
+  bool radio = false;
+  RadioBenchOptions radio_options;
+  bool rig = false;
+  RigBenchOptions rig_options;
+};
+
+void print(const nlohmann::json& result) {
+  const auto row = [](const std::string& name, const nlohmann::json& d) {
+    if (d["count"].get<size_t>() == 0) return;
+    std::cout << fmt::format("  {:<28} {:9.2f} {:9.2f} {:9.2f}   x {}\n", name, d["min"].get<double>(),
+                             d["median"].get<double>(), d["max"].get<double>(), d["count"].get<size_t>());
+  };
+  std::cout << fmt::format(
+      "{} on {} ({})\nset-up {:.0f} ms, first packet after {:.0f} ms, peak memory {:.0f} MiB\n",
+      result["scenario"].get<std::string>(), result["device"].get<std::string>(),
+      result["driver"].get<std::string>(), result["setup_ms"].get<double>(),
+      result["first_packet_ms"].get<double>(), result["peak_rss_bytes"].get<double>() / (1 << 20));
+  std::cout << fmt::format("  {:<28} {:>9} {:>9} {:>9}   (ms)\n", "", "min", "median", "max");
+  row(result["written"].get<bool>() ? "full tick, written" : "full tick, discarded", result["tick_ms"]);
+  for (const auto& [name, pass] : result["pass_ms"].items()) row("  gpu " + name, pass);
+  for (const auto& [name, pass] : result["host_ms"].items()) row("  host " + name, pass);
+}
+
+void run(const Options& options) {
+  const Clock::time_point begin = Clock::now();
+  const sim::Experiment experiment = sim::make_experiment(load_scenario(options.scenario));
+  const sim::Scenario& scenario = experiment.scenario;
+  gpu::Device device(options.run.device_options());
+  sim::Simulator simulator(device, experiment);
+  ScratchFolder scratch;
+  Discard discard;
+  std::unique_ptr<io::DatasetWriter> writer;
+  if (!options.discard) {
+    writer = std::make_unique<io::DatasetWriter>(scratch.path(),
+                                                 dataset_info(experiment, device, simulator.sensors()));
+    writer->begin_sequence(0);
+  }
+  RecordSink& sink = writer ? static_cast<RecordSink&>(*writer) : discard;
+  simulator.keep_pass_samples(true);
+  install_interrupt_handler();
+  const TerminalWatch watch(options.json);
+  simulator.start(0);
+  const double setup_ms = milliseconds_since(begin);
+
+  Progress progress("bench", scenario.ticks, options.json);
+  std::vector<double> ticks;
+  double first_packet_ms = 0.0;
+  size_t passes_to_drop = 0;
+  bool stopped = false;
+  for (int64_t i = 0;; ++i) {
+    const Clock::time_point tick_begin = Clock::now();
+    const bool more = simulator.step(sink);
+    if (i == 1) first_packet_ms = milliseconds_since(begin);
+    stopped = more && interrupted();
+    if (!more || stopped) break;
+    if (i >= options.warm_up) ticks.push_back(milliseconds_since(tick_begin));
+    passes_to_drop = static_cast<size_t>(options.warm_up);
+    progress.update(std::min(simulator.next_tick(), scenario.ticks));
+  }
+  const Clock::time_point drain_begin = Clock::now();
+  if (writer) writer->end_sequence();
+  const double drain_ms = milliseconds_since(drain_begin);
+  check_validation(device);
+
+  const sim::RunStatistics statistics = simulator.statistics();
+  nlohmann::json result = summary_of(statistics, device, milliseconds_since(begin) / 1000.0);
+  result["scenario"] = scenario.name;
+  result["written"] = !options.discard;
+  result["warm_up"] = options.warm_up;
+  result["setup_ms"] = setup_ms;
+  result["first_packet_ms"] = first_packet_ms;
+  result["drain_ms"] = drain_ms;
+  result["tick_ms"] = distribution(ticks);
+  const auto rows = [&](const std::map<std::string, sim::PassTotal>& passes) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const auto& [name, pass] : passes) {
+      std::vector<double> samples = pass.samples;
+      samples.erase(samples.begin(),
+                    samples.begin() + static_cast<std::ptrdiff_t>(std::min(samples.size(), passes_to_drop)));
+      if (!samples.empty()) json[name] = distribution(std::move(samples));
+    }
+    return json;
+  };
+  result["pass_ms"] = rows(statistics.passes);
+  result["host_ms"] = rows(statistics.host);
+  result["finished"] = !stopped;
+  if (options.json)
+    std::cout << json_text(result) << '\n';
+  else
+    print(result);
+  if (stopped)
+    throw Interrupted(
+        fmt::format("bench: the figures are those of {} of {} ticks", statistics.ticks, scenario.ticks));
+}
+
+/// One of the benchmarks that print a table of their own.
+template <typename BenchOptions>
+void run_rows(const Options& options, BenchOptions bench_options,
+              nlohmann::json (*bench)(const ScenarioOptions&, const RunOptions&, const BenchOptions&),
+              std::string (*text)(const nlohmann::json&)) {
+  bench_options.warm_up = options.warm_up;
+  const TerminalWatch watch(options.json);  // that shows searches; without a handler, Ctrl-C ends at once
+  const nlohmann::json result = bench(options.scenario, options.run, bench_options);
+  std::cout << (options.json ? json_text(result) + "\n" : text(result));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("bench", "time a scenario: every pass and the full tick, end to end");
+  auto options = std::make_shared<Options>();
+  options->scenario.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("--warm-up", options->warm_up, "ticks that are run and not counted")
+      ->capture_default_str()
+      ->check(integer_of(0, sim::most_ticks));
+  command->add_flag("--discard", options->discard, "simulate only: encode and write nothing");
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_flag(
+      "--recall", options->recall,
+      "hold the specular paths against an exhaustive reference instead; without SCENARIO: in a room, a "
+      "street canyon and the city");
+  RecallOptions& recall = options->recall_options;
+  command->add_option("--count", recall.receivers, "of --recall: receivers drawn from the seed")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command->add_option("--receivers", recall.receiver_file, "of --recall: CSV of positions x, y, z instead")
+      ->check(CLI::ExistingFile);
+  command->add_option("--depth", recall.max_depth, "of --recall: reflections and walls passed on a path")
+      ->capture_default_str()
+      ->check(integer_of(0, 6));
+  command->add_option("--walls", recall.max_transmissions, "of --recall: of them walls passed")
+      ->capture_default_str()
+      ->check(integer_of(0, 6));
+  command->add_option("--max-rays", recall.max_rays_log2, "of --recall: rays from 2^14 to 2^this; 0: none")
+      ->capture_default_str()
+      ->check(integer_of(0, 24));
+  command->add_flag(
+      "--camera", options->camera,
+      "time the first camera alone instead, row by row: antialiasing, each effect, night, lamps");
+  command->add_option("--pictures", options->camera_options.pictures, "of --camera: measured of each row")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command->add_flag(
+      "--lidar", options->lidar,
+      "time the first LiDAR alone instead, row by row: single rays, each effect, rings, returns");
+  command->add_option("--sweeps", options->lidar_options.sweeps, "of --lidar: measured of each row")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command->add_option("--channels", options->lidar_options.channels, "of --lidar: of all rows but the last")
+      ->capture_default_str()
+      ->check(integer_of(1, 1024));
+  command
+      ->add_option("--azimuth-steps", options->lidar_options.azimuth_steps,
+                   "of --lidar: of all rows but the last")
+      ->capture_default_str()
+      ->check(integer_of(1, 4096));
+  command->add_flag(
+      "--radar", options->radar,
+      "time the first radar alone instead, row by row: whole frames, echoes by numbers of tubes "
+      "with their error");
+  command->add_option("--frames", options->radar_options.frames, "of --radar: measured of each row")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command->add_flag(
+      "--radio", options->radio,
+      "time the first channel alone instead, stage by stage: first CIR, search, ticks without and "
+      "with diffraction and scattering, many receivers in one call");
+  command->add_option("--many", options->radio_options.receivers, "of --radio: receivers in one call")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command
+      ->add_option("--map-cells", options->radio_options.map_cells,
+                   "of --radio: also a radio map of so many cells of 1 m along each side, e.g. 300 [none]")
+      ->check(integer_of(1, 2000));
+  command
+      ->add_option("--row-seconds", options->radio_options.seconds,
+                   "of --radio: a row of ticks ends after so long")
+      ->capture_default_str()
+      ->check(number_of(1e-3, 1e6));
+  command->add_flag("--rig", options->rig,
+                    "time the whole tick, written, and the tick without each sensor in turns instead: what "
+                    "each one costs");
+  command->add_option("--rounds", options->rig_options.rounds, "of --rig: measured of each row")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  command->add_option("--block", options->rig_options.block, "of --rig: ticks of a round")
+      ->capture_default_str()
+      ->check(integer_of(1, 1'000'000));
+  const char* const modes[] = {"--recall", "--camera", "--lidar", "--radar", "--radio", "--rig"};
+  for (const char* a : modes)
+    for (const char* b : modes)
+      if (a != b) command->get_option(a)->excludes(command->get_option(b));
+  command->callback([options, command] {
+    if (options->camera) return run_rows(*options, options->camera_options, camera_bench, camera_bench_text);
+    if (options->lidar) return run_rows(*options, options->lidar_options, lidar_bench, lidar_bench_text);
+    if (options->radar) return run_rows(*options, options->radar_options, radar_bench, radar_bench_text);
+    if (options->radio) return run_rows(*options, options->radio_options, radio_bench, radio_bench_text);
+    if (options->rig) return run_rows(*options, options->rig_options, rig_bench, rig_bench_text);
+    if (!options->recall) return run(*options);
+    options->recall_options.scenario = options->scenario;
+    options->recall_options.run = options->run;
+    options->recall_options.json = options->json;
+    options->recall_options.every_scene = command->count("SCENARIO") == 0;
+    run_recall(options->recall_options);
+  });
+}
+
+}  // namespace greatx::apps

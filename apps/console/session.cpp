@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/console/session.h"
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "apps/console/command_line.h"
+#include "assets/assets.h"
+#include "core/hash.h"
+#include "scene/description/scene.h"
+#include "sim/scenario/parse/load_scenario.h"
+#include "sim/scenario/parse/override.h"
+#include "sim/world/instance_boxes.h"
+
+namespace greatx::apps {
+
+void ScenarioOptions::add_to(CLI::App& command) {
+  std::vector<std::string_view> names;
+  for (const EmbeddedScenario& embedded : embedded_scenarios()) names.push_back(embedded.name);
+  command
+      .add_option("SCENARIO", scenario,
+                  fmt::format("scenario file (.yaml), or an embedded one: {}", fmt::join(names, ", ")))
+      ->capture_default_str();
+  command.add_option("--assets", assets, "folder to look in for files that are not beside the scenario");
+  command.add_option("--seed", seed, "instead of the scenario's seed");
+  command.add_option("--ticks", ticks, "instead of the scenario's length")
+      ->check(integer_of(1, sim::most_ticks));
+  command.add_option("--sequences", sequences, "instead of the scenario's number of sequences")
+      ->check(integer_of(1, sim::most_sequences));
+}
+
+void RunOptions::add_to(CLI::App& command) {
+  command.add_option(
+      "--device", device,
+      "index or part of the name of a Vulkan device (greatx info) [$GREATX_DEVICE, else the best]");
+  command.add_flag("--validation", validation,
+                   "run under the Vulkan validation layer; a message is an error");
+}
+
+sim::Scenario load_scenario(const ScenarioOptions& options) {
+  sim::Scenario scenario;
+  const auto embedded = std::find_if(embedded_scenarios().begin(), embedded_scenarios().end(),
+                                     [&](const EmbeddedScenario& s) { return s.name == options.scenario; });
+  if (embedded != embedded_scenarios().end()) {
+    scenario = sim::parse_scenario(std::string(embedded->text), std::string(embedded->name) + ".yaml", ".",
+                                   options.assets);
+  } else {
+    const std::filesystem::path file = options.scenario;
+    std::error_code unreadable;  // a link to itself, say
+    if (!std::filesystem::is_regular_file(file, unreadable)) {
+      std::vector<std::string_view> names;
+      for (const EmbeddedScenario& s : embedded_scenarios()) names.push_back(s.name);
+      throw_user_error("{}: no such scenario: expected a YAML file or one of {}", options.scenario,
+                       fmt::join(names, ", "));
+    }
+    scenario = sim::load_scenario(file, options.assets);
+  }
+  sim::override_scenario(scenario, {options.seed, options.ticks, options.sequences});
+  if (options.ticks && scenario.trajectory_ticks && scenario.ticks > *scenario.trajectory_ticks)
+    spdlog::warn("{}: its curves end at tick {} of {}; from there on they go straight", scenario.name,
+                 *scenario.trajectory_ticks - 1, scenario.ticks);
+  return scenario;
+}
+
+uint32_t find_channel(const std::string& name, const sim::Scenario& scenario) {
+  if (scenario.channels.empty())
+    throw_user_error("{}: channels: expected one channel or more, found none", scenario.name);
+  if (name.empty()) return 0;
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scenario.channels.size(); ++i) {
+    if (scenario.channels[i].name == name) return i;
+    names.push_back(scenario.channels[i].name);
+  }
+  throw_user_error("--channel: expected one of {}, found '{}'", fmt::join(names, ", "), name);
+}
+
+void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario) {
+  if (tick >= scenario.ticks)
+    throw_user_error("--tick: expected 0 to {}, the last tick of {}, found {}", scenario.ticks - 1,
+                     scenario.name, tick);
+  if (sequence >= scenario.sequences)
+    throw_user_error("--sequence: expected 0 to {}, found {}", scenario.sequences - 1, sequence);
+}
+
+io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
+                             const std::vector<SensorSpec>& sensors) {
+  const sim::Scenario& scenario = experiment.scenario;
+  const scene::Scene& scene = experiment.scene();
+  nlohmann::json run;
+  run["greatx"] = GREATX_VERSION;
+  run["scenario"] = scenario.name;
+  run["seed"] = scenario.seed;
+  run["scene_sha256"] = scene.hash;
+  run["scenario_sha256"] = Sha256().update(scenario.text).hex();
+  run["device"] = device.info().name;
+  run["driver"] = device.info().driver;
+  run["vulkan"] = device.info().api_version;
+  run["local_origin_m"] = {scene.origin.x, scene.origin.y, scene.origin.z};
+  run["semantic_classes"] = scene::semantic_class_names();
+  run["instances"] = nlohmann::json::array();
+  const std::vector<sim::InstanceBox> boxes = sim::instance_boxes(*experiment.world);
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
+    run["instances"].push_back({{"name", instance.name}, {"class", scene::name_of(instance.semantic_class)}});
+    nlohmann::json& entry = run["instances"].back();
+    if (boxes[i].node) entry["node"] = scenario.nodes[*boxes[i].node].name;
+    if (!boxes[i].box.empty())
+      entry["box_m"] = {{boxes[i].box.min.x, boxes[i].box.min.y, boxes[i].box.min.z},
+                        {boxes[i].box.max.x, boxes[i].box.max.y, boxes[i].box.max.z}};
+  }
+  run["materials"] = nlohmann::json::array();
+  for (const scene::Material& material : scene.materials) run["materials"].push_back(material.name);
+  run["effects"] = nlohmann::json::object();
+  for (const sim::Effect* effect : experiment.plan.all()) run["effects"][effect->name] = effect->on;
+
+  io::DatasetInfo info;
+  info.run_json = run.dump();
+  info.scenario_text = scenario.text;
+  info.run_key = Sha256().update(info.run_json).hex();
+  info.tick_rate = scenario.tick_rate_hz.str();
+  info.sensors = sensors;
+  info.sequences = scenario.sequences;
+  info.ticks_per_sequence = scenario.ticks;
+  return info;
+}
+
+void check_validation(const gpu::Device& device) {
+  const std::vector<std::string> messages = device.validation_log()->take();
+  if (messages.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
+}
+
+}  // namespace greatx::apps

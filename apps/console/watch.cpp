@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/console/watch.h"
+
+#include <cstdio>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "apps/console/progress.h"
+
+namespace greatx::apps {
+
+TerminalWatch::TerminalWatch(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1), scope_(*this) {}
+
+bool TerminalWatch::look(const WorkState& state) noexcept {
+  if (interrupted()) return false;
+  constexpr double soon_s = 1.0;
+  const auto now = std::chrono::steady_clock::now();
+  if (!visible_ || state.what == nullptr || state.seconds < soon_s ||
+      (drawn_ && now - last_ < std::chrono::milliseconds(200)))
+    return true;
+  last_ = now;
+  drawn_ = true;
+  std::fputs(progress_line(state.what, state.share, state.seconds).c_str(), stderr);
+  std::fflush(stderr);
+  return true;
+}
+
+void TerminalWatch::stage_ended() noexcept {
+  if (!drawn_) return;
+  drawn_ = false;
+  std::fputs("\r\x1b[K", stderr);  // whatever comes next on the terminal begins a line
+  std::fflush(stderr);
+}
+
+}  // namespace greatx::apps

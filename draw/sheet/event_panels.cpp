@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "draw/sheet/picture_panel.h"
+
+namespace greatx::io {
+
+namespace {
+
+/// The events since the record before, summed by pixel.
+class EventPanel : public FramePanel {
+ public:
+  EventPanel(const PanelSource& source, int64_t width, int64_t height)
+      : source_(source), width_(width), height_(height) {}
+  std::string title() const override { return source_.spec().name + ": ON red, OFF blue"; }
+  double aspect() const override { return static_cast<double>(height_) / static_cast<double>(width_); }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const IndexRow& record = source_.chosen[row];
+    const Array x = source_.load(record, "x", {DType::u16}, {-1}),
+                y = source_.load(record, "y", {DType::u16}, {-1}),
+                p = source_.load(record, "p", {DType::u8}, {-1});
+    expect_same_rows(source_, {&x, &y, &p});
+    try {
+      canvas.picture(picture,
+                     event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
+    } catch (const UserError& error) {
+      throw_user_error("{}, tick {}: {}", source_.place(), record.tick, error.what());
+    }
+    const size_t count = p.as<uint8_t>().size();
+    const auto on = static_cast<size_t>(std::count(p.as<uint8_t>().begin(), p.as<uint8_t>().end(), 1));
+    std::string text = fmt::format("ON {} OFF {}", on, count - on);
+    if (const double ms = interval_ms(record); ms > 0.0) text += fmt::format(" in {:.4g} ms", ms);
+    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
+  }
+
+ private:
+  double interval_ms(const IndexRow& record) const {
+    const std::vector<IndexRow> rows = source_.reader.records_of(source_.sequence, source_.sensor);
+    for (size_t i = 1; i < rows.size(); ++i)
+      if (rows[i].tick == record.tick)
+        return 1e-6 * static_cast<double>(rows[i].time_ns - rows[i - 1].time_ns);
+    return 0.0;
+  }
+  PanelSource source_;
+  int64_t width_, height_;
+};
+
+/// Grey pictures as they are.
+class DifferencePanel : public PicturePanel {
+ public:
+  explicit DifferencePanel(const PanelSource& source)
+      : PicturePanel(source, "difference_picture", "differences", {DType::u8}) {}
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const Array grey = load(row);
+    const std::span<const uint8_t> values = grey.as<uint8_t>();
+    Array rgb(DType::u8, {grey.shape[0], grey.shape[1], 3});
+    for (size_t i = 0; i < values.size(); ++i) std::fill_n(rgb.as<uint8_t>().begin() + 3 * i, 3, values[i]);
+    canvas.picture(picture, rgb);
+    caption(canvas, legend,
+            fmt::format("{} brighter  {} darker", std::count(values.begin(), values.end(), 255),
+                        std::count(values.begin(), values.end(), 0)));
+  }
+};
+
+}  // namespace
+
+Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
+                    int64_t width, int64_t height) {
+  std::vector<int> on(static_cast<size_t>(width * height)), off(on.size());
+  for (size_t i = 0; i < p.size(); ++i) {
+    if (x[i] >= width || y[i] >= height)
+      throw_user_error("event {}: at ({}, {}), outside of {} x {} pixels", i, x[i], y[i], width, height);
+    ++(p[i] ? on : off)[static_cast<size_t>(y[i] * width + x[i])];
+  }
+  // One event shows clearly, three or more are full colour.
+  const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
+  Array rgb(DType::u8, {height, width, 3});
+  for (size_t i = 0; i < on.size(); ++i) {
+    const int count = on[i] + off[i];
+    const double strength = count == 0 ? 0.0 : std::min(1.0, 0.4 + 0.2 * count);
+    const double share = count == 0 ? 0.0 : static_cast<double>(on[i]) / count;
+    for (size_t c = 0; c < 3; ++c)
+      rgb.as<uint8_t>()[3 * i + c] = static_cast<uint8_t>(
+          std::lround(grey[c] + strength * (blue[c] + share * (red[c] - blue[c]) - grey[c])));
+  }
+  return rgb;
+}
+
+void add_event_panels(const PanelSource& source, Panels& panels) {
+  const JsonDocument metadata = metadata_of(source);
+  const JsonValue root = metadata.root();
+  constexpr int64_t longest_side = 16384;
+  if (root.has("width") && root.has("height") && source.has("x") && source.has("y") && source.has("p"))
+    panels.frames.push_back(std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
+                                                         root.at("height").integer(1, longest_side)));
+  if (source.has("difference_picture")) panels.frames.push_back(std::make_unique<DifferencePanel>(source));
+}
+
+}  // namespace greatx::io

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "draw/sheet/panels.h"
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+namespace greatx::io {
+
+namespace {
+
+/// How a kind of sensor gets onto the sheet.
+struct Maker {
+  std::string_view kind;  ///< SensorSpec::kind
+  void (*add)(const PanelSource&, Panels&);
+  /// A picture per moment, drawn for every sensor of the kind; else over time, for the first one only.
+  bool frames;
+  bool intervals = false;  ///< see is_about_intervals()
+};
+constexpr Maker makers[] = {
+    {"camera", add_camera_panels, true}, {"event_camera", add_event_panels, true, true},
+    {"lidar", add_lidar_panels, true},   {"radar", add_radar_panels, true},
+    {"csi", add_csi_panels, false},      {"pose", add_pose_panels, false},
+};
+
+/// Null: nothing is known about the kind.
+const Maker* maker_of(std::string_view kind) {
+  const auto* const found = std::ranges::find(makers, kind, &Maker::kind);
+  return found == std::end(makers) ? nullptr : found;
+}
+
+constexpr double farthest_m = 1e12;
+constexpr size_t most_nodes = 1'000'000;
+
+/// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
+Pose mount_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  Pose mount;
+  if (!metadata.root().has("body_from_sensor")) return mount;
+  const JsonValue json = metadata.root().at("body_from_sensor");
+  if (json.has("position_m")) {
+    const std::vector<JsonValue> p = json.at("position_m").tuple(3);
+    for (int i = 0; i < 3; ++i) mount.position[i] = p[static_cast<size_t>(i)].number(-farthest_m, farthest_m);
+  }
+  if (json.has("orientation_wxyz")) {
+    const std::vector<JsonValue> q = json.at("orientation_wxyz").tuple(4);
+    const auto part = [&](size_t i) { return q[i].number(-1.01, 1.01); };
+    mount.orientation = dquat(part(0), part(1), part(2), part(3));
+  }
+  return mount;
+}
+
+}  // namespace
+
+bool PanelSource::has(std::string_view array) const {
+  return std::any_of(spec().arrays.begin(), spec().arrays.end(),
+                     [&](const ArraySpec& candidate) { return candidate.name == array; });
+}
+
+Array PanelSource::load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
+                        const std::vector<int64_t>& shape) const {
+  const auto& arrays = spec().arrays;
+  const auto declared =
+      std::find_if(arrays.begin(), arrays.end(), [&](const ArraySpec& a) { return a.name == array; });
+  bool fits = declared != arrays.end() &&
+              std::find(types.begin(), types.end(), declared->dtype) != types.end() &&
+              declared->shape.size() == shape.size();
+  for (size_t axis = 0; fits && axis < shape.size(); ++axis)
+    fits = shape[axis] < 0 ||
+           (shape[axis] == 0 ? declared->shape[axis] > 0 : declared->shape[axis] == shape[axis]);
+  if (!fits) {
+    std::vector<std::string> names, axes;
+    for (const DType type : types) names.emplace_back(numpy_name(type));
+    for (const int64_t extent : shape) axes.push_back(extent > 0 ? std::to_string(extent) : "n");
+    throw_user_error("{}: expected an array {} of {} [{}], found {}", place(), array,
+                     fmt::join(names, " or "), fmt::join(axes, ", "),
+                     declared == arrays.end() ? "none"
+                                              : fmt::format("{} [{}]", numpy_name(declared->dtype),
+                                                            fmt::join(declared->shape, ", ")));
+  }
+  Array loaded = reader.load(sequence, row, array);
+  if (const std::string bad = find_bad_value(spec(), *declared, loaded); !bad.empty())
+    throw_user_error("{}, tick {}: expected finite values, found {}", place(), row.tick, bad);
+  return loaded;
+}
+
+std::string PanelSource::place() const {
+  return (reader.folder() / sequence_folder(sequence) / spec().name).string();
+}
+
+JsonDocument metadata_of(const PanelSource& source) {
+  const SensorSpec& sensor = source.spec();
+  return JsonDocument(
+      sensor.metadata_json.empty() ? "{}" : sensor.metadata_json,
+      {fmt::format("{}: {}: metadata", (source.reader.folder() / dataset_file).string(), sensor.name), 0});
+}
+
+double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most) {
+  return metadata.root().has(key) ? metadata.root().at(key).number(least, most) : otherwise;
+}
+
+void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays) {
+  for (const Array* array : arrays)
+    if (array->shape[0] != (*arrays.begin())->shape[0])
+      throw_user_error("{}: expected arrays of as many rows, found {} and {}", source.place(),
+                       (*arrays.begin())->shape[0], array->shape[0]);
+}
+
+void add_panels(const PanelSource& source, Panels& panels) {
+  if (const Maker* const maker = maker_of(source.spec().kind)) maker->add(source, panels);
+}
+
+bool has_panels(std::string_view kind) { return maker_of(kind) != nullptr; }
+
+bool has_frame_panels(std::string_view kind) {
+  const Maker* const maker = maker_of(kind);
+  return maker != nullptr && maker->frames;
+}
+
+bool is_about_intervals(std::string_view kind) {
+  const Maker* const maker = maker_of(kind);
+  return maker != nullptr && maker->intervals;
+}
+
+std::vector<std::string> node_names(const PanelSource& pose) {
+  const JsonDocument metadata = metadata_of(pose);
+  std::vector<std::string> names;
+  if (!metadata.root().has("nodes")) return names;
+  for (const JsonValue& name : metadata.root().at("nodes").list(most_nodes)) names.push_back(name.text());
+  return names;
+}
+
+std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row) {
+  const std::vector<SensorSpec>& sensors = source.reader.sensors();
+  const auto has = [](const SensorSpec& sensor, const char* name) {
+    return std::any_of(sensor.arrays.begin(), sensor.arrays.end(),
+                       [&](const ArraySpec& array) { return array.name == name; });
+  };
+  const auto pose = std::find_if(sensors.begin(), sensors.end(), [&](const SensorSpec& s) {
+    return s.kind == "pose" && has(s, "position") && has(s, "orientation");
+  });
+  if (pose == sensors.end()) return std::nullopt;
+  const PanelSource poses{source.reader, source.sequence, static_cast<size_t>(pose - sensors.begin()), {}};
+  const std::vector<std::string> names = node_names(poses);
+  const std::string node = source.spec().name.substr(0, source.spec().name.find('/'));
+  const auto found = std::find(names.begin(), names.end(), node);
+  if (found == names.end()) return std::nullopt;
+  const std::vector<IndexRow> rows =
+      source.reader.records_of(source.sequence, static_cast<size_t>(pose - sensors.begin()));
+  const auto at =
+      std::find_if(rows.begin(), rows.end(), [&](const IndexRow& r) { return r.tick == row.tick; });
+  if (at == rows.end()) return std::nullopt;
+  const auto number = static_cast<size_t>(found - names.begin());
+  const Array positions = poses.load(*at, "position", {DType::f64}, {0, 3});
+  const Array orientations = poses.load(*at, "orientation", {DType::f64}, {0, 4});
+  expect_same_rows(poses, {&positions, &orientations});
+  if (number >= static_cast<size_t>(positions.shape[0]))
+    throw_user_error("{}: expected poses of {} nodes, found {}", poses.place(), names.size(),
+                     positions.shape[0]);
+  const std::span<const double> p = positions.as<double>().subspan(3 * number, 3);
+  const std::span<const double> q = orientations.as<double>().subspan(4 * number, 4);
+  return Pose{{p[0], p[1], p[2]}, dquat(q[0], q[1], q[2], q[3])} * mount_of(source);
+}
+
+}  // namespace greatx::io

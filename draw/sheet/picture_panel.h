@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the panels of pictures have in common: one array of a camera or an event camera, a picture per moment.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "draw/sheet/panels.h"
+
+namespace greatx::io {
+
+/// Of pixels that see nothing.
+inline constexpr Color color_of_sky{48, 52, 62};
+
+class PicturePanel : public FramePanel {
+ public:
+  /// `array`: of one of the types, of shape [h, w] or [h, w, channels]; it sets the picture's aspect. `what`:
+  /// the title, behind the sensor's name.
+  PicturePanel(const PanelSource& source, std::string array, const char* what,
+               std::initializer_list<DType> types, int64_t channels = 0)
+      : source_(source),
+        array_(std::move(array)),
+        title_(source.spec().name + " " + what),
+        types_(types),
+        channels_(channels) {
+    for (const ArraySpec& spec : source.spec().arrays)
+      if (spec.name == array_ && spec.shape.size() >= 2 && spec.shape[0] > 0 && spec.shape[1] > 0)
+        aspect_ = static_cast<double>(spec.shape[0]) / static_cast<double>(spec.shape[1]);
+  }
+  std::string title() const override { return title_; }
+  double aspect() const override { return aspect_; }
+
+ protected:
+  Array load(size_t row) const {
+    return source_.load(source_.chosen[row], array_, types_,
+                        channels_ > 0 ? std::vector<int64_t>{0, 0, channels_} : std::vector<int64_t>{0, 0});
+  }
+  static void caption(Canvas& canvas, const Rect& legend, std::string_view text) {
+    canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
+  }
+
+  PanelSource source_;
+  std::string array_, title_;
+  std::vector<DType> types_;
+  int64_t channels_;
+  double aspect_ = 0.75;
+};
+
+}  // namespace greatx::io

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a radar saw: power over range and velocity, and over the ground as its beams see it, with detections
+// on both.
+#include <algorithm>
+#include <cmath>
+
+#include "draw/sheet/panels.h"
+
+namespace greatx::io {
+
+namespace {
+
+/// What the axes of maps read, from the sensor's metadata.
+struct Axes {
+  double range_bin_m = 1.0, velocity_min = -1.0, velocity_bin = 1.0, azimuth_min = -1.0, azimuth_max = 1.0;
+};
+
+Axes axes_of(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  Axes axes;
+  axes.range_bin_m = number_of(metadata, "range_bin_m", axes.range_bin_m, 1e-6, 1e9);
+  axes.velocity_min = number_of(metadata, "velocity_min_m_s", axes.velocity_min, -1e9, 1e9);
+  axes.velocity_bin = number_of(metadata, "velocity_bin_m_s", axes.velocity_bin, 1e-9, 1e9);
+  axes.azimuth_min = number_of(metadata, "azimuth_min_rad", axes.azimuth_min, -7.0, 7.0);
+  axes.azimuth_max = number_of(metadata, "azimuth_max_rad", axes.azimuth_max, -7.0, 7.0);
+  if (axes.azimuth_max <= axes.azimuth_min)
+    metadata.root()
+        .at("azimuth_max_rad")
+        .fail(fmt::format("more than azimuth_min_rad, {}", axes.azimuth_min));
+  return axes;
+}
+
+double dbm(float watt) { return watt > 0.0f ? 10.0 * std::log10(static_cast<double>(watt)) + 30.0 : -400.0; }
+
+/// Maps of all rows on one scale: from the noise's middle up to the strongest cell.
+class RadarPanel : public FramePanel {
+ public:
+  RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source)) {
+    double top = -400.0;
+    std::vector<double> middles;
+    for (const IndexRow& row : source_.chosen) {
+      const Array map = source_.load(row, array, {DType::f32}, {0, 0});
+      rows_ = map.shape.at(0);
+      columns_ = map.shape.at(1);
+      std::vector<double>& levels = maps_.emplace_back();
+      for (const float watt : map.as<float>()) levels.push_back(dbm(watt));
+      std::vector<double> sorted = levels;
+      std::nth_element(sorted.begin(), sorted.begin() + std::ssize(sorted) / 2, sorted.end());
+      middles.push_back(sorted[sorted.size() / 2]);
+      top = std::max(top, *std::max_element(levels.begin(), levels.end()));
+      load_detections(row);
+    }
+    if (middles.empty()) return;
+    const double floor = *std::min_element(middles.begin(), middles.end());
+    scale_ = {std::clamp(floor - 1.0, top - 60.0, top - 12.0), top, false};
+  }
+
+ protected:
+  struct Detection {
+    float range, velocity, azimuth;
+    bool real;
+  };
+  Color color(size_t row, int64_t range, int64_t column) const {
+    const double level = maps_[row][static_cast<size_t>(range * columns_ + column)];
+    return viridis(std::clamp(scale_.at(level), 0.0, 1.0));
+  }
+  /// Ranges that are worth their room: as far as something was detected, and a fifth more.
+  double farthest_m() const {
+    double farthest = 0.0;
+    for (const auto& row : detections_)
+      for (const Detection& d : row) farthest = std::max(farthest, 1.2 * static_cast<double>(d.range));
+    const double all = static_cast<double>(rows_) * axes_.range_bin_m;
+    return farthest > 0.0 ? std::min(std::max(farthest, 0.25 * all), all) : all;
+  }
+  static void mark(Canvas& canvas, double x, double y, const Detection& d) {
+    canvas.circle(x, y, 6.0, 1.6, d.real ? Color{255, 92, 92} : theme::dim);
+  }
+  void draw_scale(Canvas& canvas, const Rect& legend) const {
+    draw_color_bar(
+        canvas, legend, scale_, [](double t) { return viridis(t); }, "dBm");
+  }
+
+  PanelSource source_;
+  Axes axes_;
+  int64_t rows_ = 1, columns_ = 1;
+  std::vector<std::vector<double>> maps_;           ///< dBm, one a row
+  std::vector<std::vector<Detection>> detections_;  ///< one list a row
+  Scale scale_{-140.0, -80.0, false};
+
+ private:
+  void load_detections(const IndexRow& row) {
+    std::vector<Detection>& list = detections_.emplace_back();
+    if (!source_.has("detections")) return;
+    const auto column = [&](const char* name) { return source_.load(row, name, {DType::f32}, {-1}); };
+    const Array range = column("range"), velocity = column("velocity"), azimuth = column("azimuth"),
+                instance = source_.load(row, "instance", {DType::u32}, {-1});
+    expect_same_rows(source_, {&range, &velocity, &azimuth, &instance});
+    for (size_t i = 0; i < range.as<float>().size(); ++i)
+      list.push_back({range.as<float>()[i], velocity.as<float>()[i], azimuth.as<float>()[i],
+                      instance.as<uint32_t>()[i] != 0});
+  }
+};
+
+class RangeDopplerPanel : public RadarPanel {
+ public:
+  explicit RangeDopplerPanel(const PanelSource& source) : RadarPanel(source, "range_doppler") {}
+  std::string title() const override { return source_.spec().name + " range-Doppler"; }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const double far_m = farthest_m();
+    const int ranges = std::max(1, static_cast<int>(std::lround(far_m / axes_.range_bin_m)));
+    canvas.clip(picture);
+    canvas.raster(picture, static_cast<int>(columns_), ranges,
+                  [&](int x, int y) { return color(row, ranges - 1 - y, x); });
+    const double pixels = picture.height / far_m;
+    for (const Detection& d : detections_[row])
+      mark(canvas,
+           picture.x + ((d.velocity - axes_.velocity_min) / axes_.velocity_bin + 0.5) * picture.width /
+                           static_cast<double>(columns_),
+           picture.bottom() - d.range * pixels, d);
+    const double step = round_down(far_m / 2.5);
+    for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // a label is whole
+      canvas.text(picture.x + 6, picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
+                  tick_text(i * step) + " m", theme::text_scale, theme::text);
+    const std::string velocity = tick_text(std::round(-10.0 * axes_.velocity_min) / 10.0);
+    const int y = picture.bottom() - 20;
+    canvas.text(picture.x + 6, y, "-" + velocity, theme::text_scale, theme::text);
+    canvas.text(picture.x + picture.width / 2, y, "0", theme::text_scale, theme::text, Align::center);
+    canvas.text(picture.right() - 6, y, "+" + velocity + " m/s", theme::text_scale, theme::text,
+                Align::right);
+    canvas.unclip();
+    draw_scale(canvas, legend);
+  }
+};
+
+/// The range-azimuth map laid out over the ground, forward up.
+class RangeAzimuthPanel : public RadarPanel {
+ public:
+  explicit RangeAzimuthPanel(const PanelSource& source) : RadarPanel(source, "range_azimuth") {}
+  std::string title() const override { return source_.spec().name + " from above"; }
+
+  void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
+    const double far_m = farthest_m(), foot_y = picture.bottom() - 10.0,
+                 foot_x = picture.x + 0.5 * picture.width;
+    const double pixels = std::min(picture.height - 24.0, 0.5 * picture.width) / far_m;
+    canvas.clip(picture);
+    canvas.fill(picture, theme::panel);
+    for (int y = picture.y; y < picture.bottom(); ++y)
+      for (int x = picture.x; x < picture.right(); ++x) {
+        const double ahead = (foot_y - y) / pixels, left = (foot_x - x) / pixels;
+        const double range = std::hypot(ahead, left), azimuth = std::atan2(left, ahead);
+        const auto bin = static_cast<int64_t>(std::lround(range / axes_.range_bin_m));
+        const double share = (azimuth - axes_.azimuth_min) / (axes_.azimuth_max - axes_.azimuth_min);
+        if (range > far_m || bin >= rows_ || share < 0.0 || share > 1.0) continue;
+        canvas.blend(x, y, color(row, bin, std::lround(share * static_cast<double>(columns_ - 1))));
+      }
+    const double ring = round_down(far_m / 1.9);
+    for (int i = 1; i * ring <= far_m; ++i) {
+      canvas.circle(foot_x, foot_y, i * ring * pixels, 1.0, theme::dim);
+      canvas.text(static_cast<int>(foot_x) + 4, static_cast<int>(foot_y - i * ring * pixels) + 3,
+                  tick_text(i * ring) + " m", theme::text_scale, theme::text);
+    }
+    for (const Detection& d : detections_[row]) {
+      const double range = static_cast<double>(d.range) * pixels, azimuth = static_cast<double>(d.azimuth);
+      mark(canvas, foot_x - range * std::sin(azimuth), foot_y - range * std::cos(azimuth), d);
+    }
+    canvas.disc(foot_x, foot_y, 4.0, theme::text);
+    canvas.unclip();
+    draw_scale(canvas, legend);
+  }
+};
+
+}  // namespace
+
+void add_radar_panels(const PanelSource& source, Panels& panels) {
+  if (source.has("range_doppler")) panels.frames.push_back(std::make_unique<RangeDopplerPanel>(source));
+  if (source.has("range_azimuth")) panels.frames.push_back(std::make_unique<RangeAzimuthPanel>(source));
+}
+
+}  // namespace greatx::io

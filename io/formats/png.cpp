@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/formats/png.h"
+
+#include <array>
+#include <bit>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <png.h>
+#include <utility>
+
+#include <libdeflate.h>
+
+#include "io/formats/picture_shape.h"
+
+namespace greatx::io {
+
+namespace {
+
+// Of libdeflate. Against libpng with zlib's level 1, CPU time of a picture of 640x480: RGB 5.9 ms instead of
+// 10.5 and 5 % smaller; depth in 24 bits 3.2 instead of 5.2 and 14 % smaller; ids 1.3 instead of 1.4 and 30 %
+// smaller. Level 2 takes half as long again for RGB, level 1 is the slower one for ids.
+constexpr int color_level = 1, grey_level = 2;
+// In all lines: other filters are no faster and mostly larger.
+constexpr std::byte filter_up{2};
+constexpr uint32_t largest_side = (1 << 24) - 1;
+
+struct Layout {
+  uint32_t width = 0, height = 0;
+  int bit_depth = 8, color_type = PNG_COLOR_TYPE_GRAY;
+  size_t row_bytes() const {
+    return size_t{width} * (color_type == PNG_COLOR_TYPE_RGB ? 3 : 1) * static_cast<size_t>(bit_depth / 8);
+  }
+};
+
+/// What libpng's callbacks share. libpng leaves a failed call by longjmp, so the functions that call setjmp
+/// below own nothing that needs a destructor: whatever does lies here or with their callers.
+struct ReadSession {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::span<const std::byte> in;    ///< what is left of the file
+  char message[128] = "no memory";  ///< of the error
+
+  ReadSession() = default;
+  ReadSession(const ReadSession&) = delete;
+  ReadSession& operator=(const ReadSession&) = delete;
+  ~ReadSession() { png_destroy_read_struct(&png, &info, nullptr); }
+  static ReadSession& of(png_structp png) { return *static_cast<ReadSession*>(png_get_error_ptr(png)); }
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+  ReadSession& session = ReadSession::of(png);
+  std::snprintf(session.message, sizeof(session.message), "%s", message);
+  png_longjmp(png, 1);
+}
+
+void on_read(png_structp png, png_bytep data, size_t size) {
+  std::span<const std::byte>& in = ReadSession::of(png).in;
+  if (size > in.size()) png_error(png, "the file is cut off");
+  std::memcpy(data, in.data(), size);
+  in = in.subspan(size);
+}
+
+/// libpng keeps 16-bit values in big-endian order.
+void match_byte_order(png_structp png, const Layout& layout) {
+  if (layout.bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
+}
+
+/// Everything before the pixels. Warnings are errors: a file of a data set has nothing to warn about.
+bool read_header(ReadSession& session, Layout& layout, bool& interlaced) {
+  session.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, on_error, on_error);
+  if (session.png != nullptr) session.info = png_create_info_struct(session.png);
+  if (session.info == nullptr || setjmp(png_jmpbuf(session.png)) != 0) return false;
+  png_set_read_fn(session.png, nullptr, on_read);
+  png_set_user_limits(session.png, largest_side, largest_side);
+  png_read_info(session.png, session.info);
+  layout = {png_get_image_width(session.png, session.info), png_get_image_height(session.png, session.info),
+            png_get_bit_depth(session.png, session.info), png_get_color_type(session.png, session.info)};
+  interlaced = png_get_interlace_type(session.png, session.info) != PNG_INTERLACE_NONE;
+  return true;
+}
+
+bool read_pixels(ReadSession& session, const Layout& layout, std::byte* pixels) {
+  if (setjmp(png_jmpbuf(session.png)) != 0) return false;
+  match_byte_order(session.png, layout);
+  for (uint32_t y = 0; y < layout.height; ++y)
+    png_read_row(session.png, reinterpret_cast<png_bytep>(pixels + y * layout.row_bytes()), nullptr);
+  png_read_end(session.png, nullptr);
+  return true;
+}
+
+void append_word(Bytes& out, uint32_t word) {
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::byte>(word >> shift));
+}
+
+/// Length, type, data, checksum of type and data (section 5.3 of the standard). `fill` appends the data.
+template <typename Fill>
+void append_chunk(Bytes& out, const char (&type)[5], Fill&& fill) {
+  const size_t length_at = out.size();
+  append_word(out, 0);
+  append(out, std::as_bytes(std::span(type, 4)));
+  fill();
+  const auto length = static_cast<uint32_t>(out.size() - length_at - 8);
+  for (int i = 0; i < 4; ++i) out[length_at + size_t(i)] = static_cast<std::byte>(length >> (24 - 8 * i));
+  append_word(out, libdeflate_crc32(0, out.data() + length_at + 4, length + 4));
+}
+
+/// Each line behind its filter's number, less the line above; 16-bit values in big-endian order.
+Bytes filtered(const Layout& layout, const std::byte* pixels) {
+  const size_t row = layout.row_bytes();
+  const bool swap = layout.bit_depth == 16 && std::endian::native == std::endian::little;
+  Bytes lines((row + 1) * layout.height), above(row), line(row);
+  std::byte* to = lines.data();
+  for (uint32_t y = 0; y < layout.height; ++y) {
+    const std::byte* from = pixels + y * row;
+    for (size_t i = 0; i < row; ++i) line[i] = from[swap ? i ^ 1 : i];
+    *to++ = filter_up;
+    for (size_t i = 0; i < row; ++i)
+      to[i] =
+          static_cast<std::byte>(std::to_integer<unsigned>(line[i]) - std::to_integer<unsigned>(above[i]));
+    to += row;
+    std::swap(line, above);
+  }
+  return lines;
+}
+
+/// Bytes of `pixels`: line after line, 16-bit values as the machine has them.
+Bytes encode(const Layout& layout, std::span<const std::byte> pixels) {
+  GREATX_CHECK(pixels.size() == layout.height * layout.row_bytes(), "{} bytes for {}x{} pixels",
+               pixels.size(), layout.width, layout.height);
+  const Bytes lines = filtered(layout, pixels.data());
+  const int level = layout.color_type == PNG_COLOR_TYPE_RGB ? color_level : grey_level;
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+  GREATX_CHECK(compressor != nullptr, "libdeflate: no memory");
+
+  constexpr uint8_t signature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  Bytes out;
+  append(out, std::as_bytes(std::span(signature)));
+  append_chunk(out, "IHDR", [&] {
+    append_word(out, layout.width);
+    append_word(out, layout.height);
+    for (const int byte : {layout.bit_depth, layout.color_type, PNG_COMPRESSION_TYPE_BASE,
+                           PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE})
+      out.push_back(static_cast<std::byte>(byte));
+  });
+  append_chunk(out, "IDAT", [&] {
+    const size_t begin = out.size();
+    out.resize(begin + libdeflate_zlib_compress_bound(compressor.get(), lines.size()));
+    const size_t size = libdeflate_zlib_compress(compressor.get(), lines.data(), lines.size(),
+                                                 out.data() + begin, out.size() - begin);
+    GREATX_CHECK(size > 0 && size < (1u << 31), "libdeflate: {} bytes of {}", size, lines.size());
+    out.resize(begin + size);
+  });
+  append_chunk(out, "IEND", [] {});
+  return out;
+}
+
+Layout layout_of(const Array& image, int bit_depth, int color_type) {
+  const bool rgb = image.shape.size() == 3;
+  GREATX_CHECK(image.shape.size() >= 2 && image.shape.size() <= 3 && (!rgb || image.shape[2] == 3) &&
+                   image.shape[0] > 0 && image.shape[1] > 0 && image.shape[0] <= largest_side &&
+                   image.shape[1] <= largest_side,
+               "image of {} axes", image.shape.size());
+  return {static_cast<uint32_t>(image.shape[1]), static_cast<uint32_t>(image.shape[0]), bit_depth,
+          color_type};
+}
+
+Array narrowed(const Array& image) {
+  Array narrow(DType::u16, image.shape);
+  const std::span<const uint32_t> from = image.as<uint32_t>();
+  const std::span<uint16_t> to = narrow.as<uint16_t>();
+  for (size_t i = 0; i < from.size(); ++i) {
+    if (from[i] > 65535u)
+      throw_user_error("pixel {} has the value {}, but a 16-bit PNG holds at most 65535", i, from[i]);
+    to[i] = static_cast<uint16_t>(from[i]);
+  }
+  return narrow;
+}
+
+struct Palette {
+  std::vector<uint8_t> colors;   ///< RGB triples in order of first use
+  std::vector<uint8_t> indices;  ///< [width * height]
+};
+
+/// The picture with `bits` bits dropped from each channel; false if more than 256 colours remain.
+bool quantise(std::span<const uint8_t> rgb, int bits, Palette& palette) {
+  palette = {};
+  const int half = bits == 0 ? 0 : 1 << (bits - 1);
+  constexpr uint32_t slots = 1024;  // open addressing, never more than a quarter full
+  constexpr uint32_t empty = 0xffffffffu;
+  std::array<uint32_t, slots> keys;
+  std::array<uint8_t, slots> values;
+  keys.fill(empty);
+  for (size_t i = 0; i < rgb.size(); i += 3) {
+    std::array<uint8_t, 3> color;
+    for (size_t c = 0; c < 3; ++c) color[c] = static_cast<uint8_t>((rgb[i + c] >> bits << bits) + half);
+    const uint32_t key = static_cast<uint32_t>(color[0] << 16 | color[1] << 8 | color[2]);
+    uint32_t slot = (key * 0x9E3779B1u) >> 22;
+    while (keys[slot] != key && keys[slot] != empty) slot = (slot + 1) % slots;
+    if (keys[slot] == empty) {
+      if (palette.colors.size() == 3 * 256) return false;
+      keys[slot] = key;
+      values[slot] = static_cast<uint8_t>(palette.colors.size() / 3);
+      palette.colors.insert(palette.colors.end(), color.begin(), color.end());
+    }
+    palette.indices.push_back(values[slot]);
+  }
+  return true;
+}
+
+/// Of RGB, by libpng's simplified interface.
+Bytes encode_small(const Layout& layout, std::span<const uint8_t> rgb, int most_dropped_bits) {
+  Palette palette;
+  bool indexed = false;
+  for (int bits = 0; bits <= most_dropped_bits && !indexed; ++bits) indexed = quantise(rgb, bits, palette);
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = layout.width;
+  image.height = layout.height;
+  image.format = indexed ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
+  image.colormap_entries = static_cast<uint32_t>(palette.colors.size() / 3);
+  const uint8_t* const pixels = indexed ? palette.indices.data() : rgb.data();
+  const auto row_stride = static_cast<png_int_32>(indexed ? layout.width : 3 * layout.width);
+  Bytes out(PNG_IMAGE_PNG_SIZE_MAX(image));
+  size_t size = out.size();
+  const int written =
+      png_image_write_to_memory(&image, out.data(), &size, 0, pixels, row_stride, palette.colors.data());
+  GREATX_CHECK(written != 0, "libpng: {}", image.message);
+  out.resize(size);
+  return out;
+}
+
+}  // namespace
+
+Bytes encode_png(const Array& image, PngCoding coding) {
+  const bool rgb = image.shape.size() == 3;
+  if (coding != PngCoding::fast) {
+    GREATX_CHECK(rgb && image.dtype == DType::u8, "{} of {} axes", numpy_name(image.dtype),
+                 image.shape.size());
+    constexpr int most_dropped_bits = 3;
+    return encode_small(layout_of(image, 8, PNG_COLOR_TYPE_RGB), image.as<uint8_t>(),
+                        coding == PngCoding::small_inexact ? most_dropped_bits : 0);
+  }
+  switch (image.dtype) {
+    case DType::u8:
+      return encode(layout_of(image, 8, rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY), image.bytes);
+    case DType::u16:
+      GREATX_CHECK(!rgb, "image of {} axes", image.shape.size());
+      return encode(layout_of(image, 16, PNG_COLOR_TYPE_GRAY), image.bytes);
+    case DType::u32:
+      return encode_png(narrowed(image));
+    default:
+      GREATX_CHECK(false, "no PNG holds {}", numpy_name(image.dtype));
+  }
+  return {};
+}
+
+Array decode_png(std::span<const std::byte> file, const std::string& name,
+                 const std::vector<int64_t>& expected_shape) {
+  ReadSession session;
+  session.in = file;
+  Layout layout;
+  bool interlaced = false;
+  if (!read_header(session, layout, interlaced))
+    throw_user_error("{}: cannot be read as PNG: {}", name, session.message);
+  const bool rgb = layout.color_type == PNG_COLOR_TYPE_RGB;
+  const bool known = (layout.bit_depth == 8 && (rgb || layout.color_type == PNG_COLOR_TYPE_GRAY)) ||
+                     (layout.bit_depth == 16 && layout.color_type == PNG_COLOR_TYPE_GRAY);
+  if (!known || interlaced) {
+    throw_user_error(
+        "{}: expected 8-bit RGB, 8-bit or 16-bit grey, not interlaced, found depth {}, colour type {}{}",
+        name, layout.bit_depth, layout.color_type, interlaced ? ", interlaced" : "");
+  }
+  const int64_t height = layout.height, width = layout.width;
+  const DType dtype = layout.bit_depth == 16 ? DType::u16 : DType::u8;
+  const std::vector<int64_t> shape =
+      rgb ? std::vector<int64_t>{height, width, 3} : std::vector<int64_t>{height, width};
+  check_picture_shape(name, dtype, shape, expected_shape);
+  Array image(dtype, shape);
+  if (!read_pixels(session, layout, image.bytes.data()))
+    throw_user_error("{}: cannot be read as PNG: {}", name, session.message);
+  return image;
+}
+
+uint32_t depth24_code(float depth_m) {
+  GREATX_CHECK(depth_m >= 0.0f, "depth of {} m", depth_m);
+  if (depth_m >= static_cast<float>(depth24_range_m)) return depth24_full_scale;
+  // Exact enough in fp64: 24 bits of depth times 24 bits of scale; half a code is added, the fraction
+  // dropped.
+  return static_cast<uint32_t>(static_cast<double>(depth_m) * (depth24_full_scale / depth24_range_m) + 0.5);
+}
+
+Bytes encode_png_depth24(const Array& depth) {
+  GREATX_CHECK(depth.dtype == DType::f32 && depth.shape.size() == 2, "{} of {} axes", numpy_name(depth.dtype),
+               depth.shape.size());
+  const std::span<const float> metres = depth.as<float>();
+  std::vector<uint8_t> pixels(metres.size() * 3);
+  for (size_t i = 0; i < metres.size(); ++i) {
+    const uint32_t code = depth24_code(metres[i]);
+    pixels[3 * i] = static_cast<uint8_t>(code);
+    pixels[3 * i + 1] = static_cast<uint8_t>(code >> 8);
+    pixels[3 * i + 2] = static_cast<uint8_t>(code >> 16);
+  }
+  return encode(layout_of(depth, 8, PNG_COLOR_TYPE_RGB), std::as_bytes(std::span(pixels)));
+}
+
+Array decode_png_depth24(std::span<const std::byte> file, const std::string& name,
+                         const std::vector<int64_t>& expected_shape) {
+  std::vector<int64_t> colors = expected_shape;
+  if (!colors.empty()) colors.push_back(3);
+  const Array image = decode_png(file, name, colors);
+  if (image.shape.size() != 3) throw_user_error("{}: expected an 8-bit RGB PNG", name);
+  const std::span<const uint8_t> pixels = image.as<uint8_t>();
+  Array depth(DType::f32, {image.shape[0], image.shape[1]});
+  const std::span<float> metres = depth.as<float>();
+  for (size_t i = 0; i < metres.size(); ++i) {
+    const uint32_t code = pixels[3 * i] | static_cast<uint32_t>(pixels[3 * i + 1]) << 8 |
+                          static_cast<uint32_t>(pixels[3 * i + 2]) << 16;
+    metres[i] = static_cast<float>(code * (depth24_range_m / depth24_full_scale));
+  }
+  return depth;
+}
+
+}  // namespace greatx::io

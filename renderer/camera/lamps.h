@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Assigns lamps to clusters of a camera's view: screen tiles and slices of depth (O. Olsson, M. Billeter, U.
+// Assarsson, "Clustered Deferred and Forward Shading", HPG 2012). The host makes the clusters for each
+// picture. A pixel then looks only at the lamps of its cluster, so that the cost follows the lamps that reach
+// the visible surfaces.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "renderer/camera/camera.h"
+#include "renderer/camera/camera_view.h"
+#include "scene/description/scene.h"
+
+namespace greatx::render {
+
+/// The illuminance at which a lamp without a stated range ends, lux.
+inline constexpr double lamp_least_lux = 1e-3;
+
+/// Returns the reach of a lamp in metres: its range, or sqrt(I / lamp_least_lux) if it states none; +inf for
+/// a directional one.
+double lamp_reach(const scene::PunctualLight& light);
+
+/// Returns the words that shaders/camera/lamps.glsl reads (shaders/shared/camera.h has their layout). A lamp
+/// is in every cluster that its light reaches and in few others: the bounds are those of a sphere around its
+/// cone. `body_poses` are in local coordinates; the index is the body.
+std::vector<uint32_t> cluster_lamps(const CameraView& view, std::span<const scene::PunctualLight> lights,
+                                    std::span<const Pose> body_poses, LampCounts& counts);
+
+}  // namespace greatx::render

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/facets/placement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "shaders/shared/rf.h"
+
+namespace greatx::rf {
+
+namespace {
+
+constexpr size_t rays_around = 8, rays_above = 1 + rays_around, rays = rays_above + rays_around;
+
+/// Upwards, then all around 8 degrees over the horizon, where what has no floor is closed, but what covers a
+/// lot as well; then along the horizon, where only walls are met. No other direction lies in a plane that
+/// people build.
+std::array<dvec3, rays> directions() {
+  std::array<dvec3, rays> all{glm::normalize(dvec3(0.0123, 0.0079, 1.0))};
+  for (size_t i = 1; i < rays; ++i) {
+    const double azimuth = 2.0 * pi * (static_cast<double>(i) + 0.1618) / rays_around,
+                 elevation = i < rays_above ? radians(8.0) : 0.0;
+    all[i] = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+              std::sin(elevation)};
+  }
+  return all;
+}
+
+double largest_coordinate(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double tolerance_of(const dvec3& point, const dvec3& corner) {
+  return shared::visibility_tolerance(
+      static_cast<float>(std::max(largest_coordinate(point), largest_coordinate(corner))));
+}
+
+/// On which side of an edge a ray from the origin passes. The two triangles of an edge ask with its ends in
+/// opposite order and get opposite answers, whatever the rounding, so that exactly one of them meets the ray.
+bool left_of(const dvec3& direction, const dvec3& from, const dvec3& to) {
+  const bool swapped = std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
+  const dvec3 &low = swapped ? to : from, &high = swapped ? from : to;
+  return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
+}
+
+/// Nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time Collision
+/// Detection", 5.1.5).
+dvec3 nearest_on(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
+  const auto on_side = [&](const dvec3& from, const dvec3& to) {
+    const dvec3 along = to - from;
+    const double length2 = glm::dot(along, along);
+    return length2 > 0.0 ? from + std::clamp(glm::dot(p - from, along) / length2, 0.0, 1.0) * along : from;
+  };
+  const dvec3 normal = glm::cross(b - a, c - a);
+  const double area2 = glm::dot(normal, normal);
+  const auto inside = [&](const dvec3& from, const dvec3& to) {
+    return glm::dot(glm::cross(to - from, p - from), normal) >= 0.0;
+  };
+  if (area2 > 0.0 && inside(a, b) && inside(b, c) && inside(c, a))
+    return p - glm::dot(p - a, normal) / area2 * normal;
+  dvec3 nearest = on_side(a, b);
+  for (const dvec3& other : {on_side(b, c), on_side(c, a)})
+    if (glm::length(other - p) < glm::length(nearest - p)) nearest = other;
+  return nearest;
+}
+
+}  // namespace
+
+/// Where a ray goes through a surface: out of the solid (+1) or into it (-1).
+struct Surroundings::Hit {
+  double distance = 0.0;
+  uint32_t facet = 0;
+  int sign = 0;
+  bool operator<(const Hit& other) const {
+    return std::tie(distance, facet, sign) < std::tie(other.distance, other.facet, other.sign);
+  }
+};
+
+Surroundings::Surroundings(const scene::Scene& scene, const FacetKinds& kinds) : scene_(&scene) {
+  GREATX_CHECK(kinds.size() == scene.facets.size(), "kinds of {} facets, the scene has {}", kinds.size(),
+               scene.facets.size());
+  std::map<std::pair<uint32_t, bool>, Shell> shells;
+  for (uint32_t index = 0; index < scene.facets.size(); ++index) {
+    if (kinds[index] == FacetKind::absent) continue;
+    const scene::Facet& facet = scene.facets[index];
+    const bool foliage = kinds[index] == FacetKind::foliage;
+    Shell& shell = shells
+                       .try_emplace({facet.body, foliage},
+                                    Shell{facet.body, foliage, {}, {}, {}, scene::TriangleTree({})})
+                       .first->second;
+    for (uint32_t t = 0; t < facet.triangle_count; ++t) {
+      const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
+      shell.triangles.push_back(triangle);
+      shell.facets.push_back(index);
+      for (const dvec3& corner : triangle.corners) shell.bounds.add(corner);
+    }
+  }
+  for (auto& [key, shell] : shells) {
+    shell.tree = scene::TriangleTree(shell.triangles);
+    shells_.push_back(std::move(shell));
+  }
+}
+
+/// Where the ray goes through surfaces, up to a distance, in its order.
+std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec3& point,
+                                                  const dvec3& direction, double reach_m) const {
+  std::vector<uint32_t> near;
+  shell.tree.near_segment(point, point + reach_m * direction, 0.0, near);
+  std::vector<Hit> list;
+  for (const uint32_t index : near) {
+    const dvec3* corners = shell.triangles[index].corners;
+    const dvec3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
+    const bool left = left_of(direction, a, b);
+    if (left_of(direction, b, c) != left || left_of(direction, c, a) != left) continue;
+    const dvec3 normal = glm::cross(b - a, c - a);
+    const double slope = glm::dot(normal, direction), height = glm::dot(normal, a);
+    if (slope == 0.0) continue;
+    // What the point lies on is on neither side of it.
+    if (std::abs(height) <= tolerance_of(point, corners[0]) * glm::length(normal)) continue;
+    const double distance = height / slope;
+    if (distance > 0.0 && distance < reach_m)
+      list.push_back({distance, shell.facets[index], slope > 0.0 ? 1 : -1});
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// A facet of the surface that the ray comes out of without having gone in, or none.
+uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const {
+  const double all = glm::length(shell.bounds.size()) + glm::length(point - shell.bounds.center()) + 1.0;
+  // From inside a house its wall is near: the first look is short.
+  for (const double reach : {std::min(32.0, all), all}) {
+    const std::vector<Hit> list = hits(shell, point, direction, reach);
+    int out = 0;
+    for (size_t i = 0; i < list.size();) {
+      // Both sides of a sheet, or two walls back to back, are passed at once.
+      const double end = list[i].distance + 1e-6;
+      if (end > reach) break;
+      uint32_t left = Placement::none;
+      for (; i < list.size() && list[i].distance <= end; ++i) {
+        out += list[i].sign;
+        if (list[i].sign > 0) left = list[i].facet;
+      }
+      if (out > 0) return left;
+    }
+  }
+  return Placement::none;
+}
+
+/// Whether what is met first straight below is the top of something: the point is over a floor, not in the
+/// ground.
+bool Surroundings::floor_below(const Shell& shell, const dvec3& point) const {
+  const double reach = std::max(0.0, point.z - shell.bounds.min.z) + 1.0;
+  const std::vector<Hit> list = hits(shell, point, -directions()[0], 2.0 * reach);
+  return !list.empty() && list.front().sign < 0;
+}
+
+/// Inside of what all rays come out of, beneath what only those upwards do; else one ray gets away.
+void Surroundings::surround(const Shell& shell, const dvec3& point, Placement& placement) const {
+  static const std::array<dvec3, rays> all = directions();
+  std::array<uint32_t, rays> facets{};
+  size_t out = 0;
+  while (out < rays && (facets[out] = comes_out_of(shell, point, all[out])) != Placement::none) ++out;
+  if (out == rays)
+    (shell.foliage ? placement.foliage : placement.solid) = most_named(facets);
+  else if (out >= rays_above && shell.body == 0 && !shell.foliage && !floor_below(shell, point))
+    placement.beneath = most_named(std::span(facets).first(rays_above));
+}
+
+/// A facet of the object that most of the rays come out of.
+uint32_t Surroundings::most_named(std::span<const uint32_t> facets) const {
+  /// How many rays come out of its object, then of its material there.
+  const auto votes = [&](uint32_t facet) {
+    const scene::Facet& own = scene_->facets[facet];
+    std::pair<size_t, size_t> count;
+    for (const uint32_t other : facets) {
+      const scene::Facet& f = scene_->facets[other];
+      count.first += f.instance == own.instance;
+      count.second += f.instance == own.instance && f.material == own.material;
+    }
+    return count;
+  };
+  return *std::max_element(facets.begin(), facets.end(),
+                           [&](uint32_t a, uint32_t b) { return votes(a) < votes(b); });
+}
+
+void Surroundings::touch(const Shell& shell, const dvec3& point, Placement& placement) const {
+  const double reach = tolerance_of(point, glm::max(glm::abs(shell.bounds.min), glm::abs(shell.bounds.max)));
+  std::vector<uint32_t> near;
+  shell.tree.near_segment(point, point, reach, near);
+  for (const uint32_t index : near) {
+    const dvec3* corners = shell.triangles[index].corners;
+    const double distance = glm::length(nearest_on(point, corners[0], corners[1], corners[2]) - point);
+    if (distance > tolerance_of(point, corners[0])) continue;
+    if (placement.surface != Placement::none && placement.surface_m <= distance) continue;
+    placement.surface = shell.facets[index];
+    placement.surface_m = distance;
+  }
+}
+
+Placement Surroundings::of(const dvec3& point, std::span<const Pose> body_poses, uint32_t own_body) const {
+  Placement placement;
+  for (const Shell& shell : shells_) {
+    if (shell.body != 0 && scene_->owner_of(shell.body) == own_body) continue;
+    GREATX_CHECK(shell.body < body_poses.size() || shell.body == 0, "body {} of {} poses", shell.body,
+                 body_poses.size());
+    const dvec3 at = shell.body == 0 ? point : body_poses[shell.body].inverse().apply(point);
+    const double room = tolerance_of(at, shell.bounds.max);
+    // Below the static world is in the ground, if it has one.
+    const bool below = at.z < shell.bounds.min.z - room && shell.body != 0;
+    const bool beside = at.x < shell.bounds.min.x - room || at.y < shell.bounds.min.y - room;
+    if (below || beside || glm::any(glm::greaterThan(at, shell.bounds.max + room))) continue;
+    if ((shell.foliage ? placement.foliage : placement.solid) == Placement::none)
+      surround(shell, at, placement);
+    if (!shell.foliage) touch(shell, at, placement);
+  }
+  return placement;
+}
+
+std::string describe(const Placement& placement, const scene::Scene& scene, const FacetKinds& kinds) {
+  const auto name_of = [&](uint32_t facet) {
+    const scene::Facet& f = scene.facets[facet];
+    return fmt::format("'{}' (material {})", scene.instances[f.instance].name,
+                       scene.materials[f.material].name);
+  };
+  std::string text;
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (placement.solid != Placement::none)
+    add(fmt::format("lies inside {}: {}", name_of(placement.solid),
+                    kinds[placement.solid] == FacetKind::wall ? "what is outside it sees through walls alone"
+                                                              : "it sees only what is inside"));
+  if (placement.beneath != Placement::none && placement.solid == Placement::none)
+    add(fmt::format("lies beneath {}, an open surface with nothing below: {}", name_of(placement.beneath),
+                    kinds[placement.beneath] == FacetKind::wall ? "what is above it sees through that alone"
+                                                                : "it sees nothing that is above"));
+  if (placement.surface != Placement::none)
+    add(fmt::format(
+        "lies on a surface of {}, {:.2g} mm off it: that one neither blocks nor hides anything from it",
+        name_of(placement.surface), 1e3 * placement.surface_m));
+  if (placement.foliage != Placement::none)
+    add(fmt::format("lies inside the foliage of {}: every path of it is attenuated",
+                    name_of(placement.foliage)));
+  return text.empty() ? "is free" : text;
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/field/diffraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+namespace {
+
+dvec3 edge_direction(const scene::Wedge& wedge) { return glm::normalize(wedge.b - wedge.a); }
+
+double tolerance_m(const scene::Wedge& wedge) {
+  const double length = glm::distance(wedge.a, wedge.b);
+  return 1e-9 * length + 1e-13 * (glm::length(wedge.a) + length);
+}
+
+/// Across the edge: in (tangent_0, normal_0).
+dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
+  return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
+}
+
+dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
+
+/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)? Very near the
+/// edge the tolerance would be any angle.
+bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
+  const double off = std::abs(face.x * at.y - face.y * at.x);
+  return off <= tolerance && off <= 0.05 * glm::dot(face, at);
+}
+
+/// One face's reflection between the edge's unit vectors.
+struct FaceReflection {
+  Complex beta_beta, beta_phi, phi_beta, phi_phi;
+};
+
+/// The specular reflection of a ray that meets a face at `angle` about the edge, whose direction from a to b
+/// makes `cos_beta0` with it, phi counted from that face. With N = sqrt(cos^2 angle + cos^2 beta_0 sin^2
+/// angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi') and (cos angle, cos beta_0
+/// sin angle)/N on (beta_0, phi); p = k x s.
+FaceReflection face_reflection(double angle, double cos_beta0, const FresnelCoefficients& r) {
+  double c = std::cos(angle), d = cos_beta0 * std::sin(angle);
+  const double norm = std::hypot(c, d);
+  // Normal incidence: r_TE = -r_TM, and any s gives the same.
+  if (norm < 1e-8) {
+    c = 1.0, d = 0.0;
+  } else {
+    c /= norm, d /= norm;
+  }
+  const Complex mixed = (r.r_te + r.r_tm) * (c * d);
+  return {r.r_tm * (d * d) - r.r_te * (c * c), mixed, -mixed, r.r_te * (d * d) - r.r_tm * (c * c)};
+}
+
+/// A face of the wedge as the wave in the exterior meets it.
+struct Face {
+  uint32_t material;
+  bool from_front;
+  double tolerance_m;
+};
+
+Face face_of(uint32_t facet, const dvec3& exterior_normal, const FacetWorld& world) {
+  const PosedFacet& posed_facet = world.facet(facet);
+  return {posed_facet.material, glm::dot(posed_facet.normal, exterior_normal) > 0.0, posed_facet.tolerance_m};
+}
+
+FresnelCoefficients fresnel(const Face& face, double cos_theta, const RadioSurfaces& surfaces,
+                            const SpecularShare& share) {
+  const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // rounding only
+  FresnelCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
+  const double kept = share ? share(face.material, cosine) : 1.0;
+  r.r_te *= kept;
+  r.r_tm *= kept;
+  return r;
+}
+
+}  // namespace
+
+scene::Wedge posed(const scene::Wedge& wedge, const FacetWorld& world) {
+  if (wedge.body == 0) return wedge;
+  const Pose& pose = world.motion(wedge.body).pose;
+  scene::Wedge moved = wedge;
+  moved.a = pose.apply(wedge.a);
+  moved.b = pose.apply(wedge.b);
+  moved.tangent_0 = pose.rotate(wedge.tangent_0);
+  moved.normal_0 = pose.rotate(wedge.normal_0);
+  return moved;
+}
+
+std::optional<dvec3> keller_point(const scene::Wedge& wedge, const dvec3& before, const dvec3& after,
+                                  KellerRefusal* why) {
+  const dvec3 edge = edge_direction(wedge), from = before - wedge.a, to = after - wedge.a;
+  const double length = glm::distance(wedge.a, wedge.b), tolerance = tolerance_m(wedge);
+  const double z_before = glm::dot(from, edge), z_after = glm::dot(to, edge);
+  const double d_before = glm::length(from - z_before * edge), d_after = glm::length(to - z_after * edge);
+  KellerRefusal refusal = KellerRefusal::none;
+  double z = 0.0;
+  if (d_before <= tolerance || d_after <= tolerance) {
+    refusal = KellerRefusal::on_the_line;
+  } else {
+    z = (z_before * d_after + z_after * d_before) / (d_before + d_after);
+    if (!(z >= -tolerance && z <= length + tolerance)) {
+      refusal = KellerRefusal::beyond_the_edge;
+    } else if (!in_exterior(wedge, before) || !in_exterior(wedge, after)) {
+      refusal = KellerRefusal::not_outside;
+    }
+  }
+  if (why) *why = refusal;
+  if (refusal != KellerRefusal::none) return std::nullopt;
+  return wedge.a + z * edge;
+}
+
+bool in_exterior(const scene::Wedge& wedge, const dvec3& point) {
+  const dvec2 at = across(wedge, point - wedge.a);
+  const double angle = std::atan2(at.y, at.x), wide = wedge.n * pi;
+  if ((angle < 0.0 ? angle + 2.0 * pi : angle) <= wide) return true;
+  const double tolerance = tolerance_m(wedge) + 1e-13 * glm::length(point);
+  return on_face({1.0, 0.0}, at, tolerance) || on_face(face_n_direction(wedge), at, tolerance);
+}
+
+bool in_shadow(const scene::Wedge& wedge, const dvec3& source, const dvec3& observer) {
+  return utd_angles(wedge.n, across(wedge, source - wedge.a), across(wedge, observer - wedge.a)).in_shadow();
+}
+
+EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
+                       double after_m, const FacetWorld& world, const RadioSurfaces& surfaces,
+                       const SpecularShare& share) {
+  const dvec3 edge = edge_direction(wedge);
+  const dvec3 turn_in = glm::cross(edge, in), turn_out = glm::cross(edge, out);
+  const double sin_in = glm::length(turn_in), sin_out = glm::length(turn_out);
+  GREATX_CHECK(sin_in > 0.0 && sin_out > 0.0 && before_m > 0.0 && after_m > 0.0 &&
+                   std::abs(glm::dot(in - out, edge)) < 1e-3,
+               "diffraction from cos(beta_0) {} to {}, {} m before, {} m after", glm::dot(in, edge),
+               glm::dot(out, edge), before_m, after_m);
+  EdgeDyadic dyadic;
+  dyadic.phi_in = -turn_in / sin_in;
+  dyadic.beta_in = glm::cross(dyadic.phi_in, in);
+  dyadic.phi_out = turn_out / sin_out;
+  dyadic.beta_out = glm::cross(dyadic.phi_out, out);
+
+  const dvec2 source = -across(wedge, in), observer = across(wedge, out);
+  const UtdAngles angles = utd_angles(wedge.n, source, observer);
+  const double distance = before_m / (before_m + after_m) * after_m * sin_in * sin_out;  // L
+  const UtdTerms d = utd_terms(angles, 2.0 * pi / surfaces.wavelength_m(), distance);
+  const Complex direct = -(d[UtdTerm::shadow_n] + d[UtdTerm::shadow_0]);
+  dyadic.matrix[0] = dyadic.matrix[3] = direct;
+
+  const double cos_beta0 = 0.5 * glm::dot(in + out, edge), sin_beta0 = std::sqrt(sin_in * sin_out);
+  const FaceAngles at = luebbers_angles(angles);
+  const auto add = [&](UtdTerm term, const Face& face, const dvec2& along, double angle, double towards) {
+    if (on_face(along, before_m * source, face.tolerance_m) ||
+        on_face(along, after_m * observer, face.tolerance_m))
+      return;
+    const FaceReflection m =
+        face_reflection(angle, towards, fresnel(face, sin_beta0 * std::sin(angle), surfaces, share));
+    dyadic.matrix[0] += d[term] * m.beta_beta;
+    dyadic.matrix[1] += d[term] * m.beta_phi;
+    dyadic.matrix[2] += d[term] * m.phi_beta;
+    dyadic.matrix[3] += d[term] * m.phi_phi;
+  };
+  const dvec2 face_n = face_n_direction(wedge);
+  const dvec3 normal_n = face_n.y * wedge.tangent_0 - face_n.x * wedge.normal_0;  // into the exterior
+  const uint32_t facet_n = wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n;
+  add(UtdTerm::reflection_0, face_of(wedge.facet_0, wedge.normal_0, world), {1.0, 0.0}, at.face_0, cos_beta0);
+  // From face n the edge runs the other way.
+  add(UtdTerm::reflection_n, face_of(facet_n, normal_n, world), face_n, at.face_n, -cos_beta0);
+  return dyadic;
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/field/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "rf/antenna/field_vector.h"
+#include "rf/atmosphere/foliage.h"
+#include "rf/field/diffraction.h"
+
+namespace greatx::rf {
+namespace {
+
+dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
+  return direction - 2.0 * glm::dot(direction, normal) * normal;
+}
+
+bool bends(InteractionType type) {
+  return type == InteractionType::diffraction || type == InteractionType::scattering;
+}
+
+/// The straight runs of a path, from the transmitter on.
+struct Runs {
+  std::vector<size_t> vertices;   ///< [runs + 1] where the path turns, its ends included
+  std::vector<dvec3> directions;  ///< [runs] unit vectors
+  size_t bend = 0;  ///< the run that starts at the path's diffraction or scattering; 0: there is none
+  double before_m = 0.0, after_m = 0.0;  ///< unfolded lengths on both sides of the bend
+  bool scattered = false;                ///< there: what is scattered spreads anew
+};
+
+/// Directions of the runs [first, last), all joined by reflections; returns the sum of their lengths.
+double set_directions(const GeometricPath& path, const FacetWorld& world, size_t first, size_t last,
+                      Runs& runs) {
+  const auto along = [&](size_t run) {
+    return path.vertices[runs.vertices[run + 1]] - path.vertices[runs.vertices[run]];
+  };
+  size_t longest = first;
+  double longest_m = 0.0, sum_m = 0.0;
+  for (size_t run = first; run < last; ++run) {
+    const double length = glm::length(along(run));
+    sum_m += length;
+    if (length > longest_m) longest = run, longest_m = length;
+  }
+  GREATX_CHECK(longest_m > 0.0, "path of {} interactions with no length before or after one",
+               path.interactions.size());
+  runs.directions[longest] = along(longest) / longest_m;
+  const auto normal_before = [&](size_t run) {  // of the facet that the run starts from
+    return world.facet(path.interactions[runs.vertices[run] - 1].element).normal;
+  };
+  for (size_t run = longest; run + 1 < last; ++run)
+    runs.directions[run + 1] = mirrored(runs.directions[run], normal_before(run + 1));
+  for (size_t run = longest; run > first; --run)
+    runs.directions[run - 1] = mirrored(runs.directions[run], normal_before(run));
+  return sum_m;
+}
+
+Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
+  Runs runs;
+  runs.vertices.push_back(0);
+  for (size_t i = 0; i < path.interactions.size(); ++i) {
+    if (path.interactions[i].type == InteractionType::transmission) continue;
+    if (bends(path.interactions[i].type)) {
+      GREATX_CHECK(runs.bend == 0, "path with more than one diffraction or scattering");
+      runs.bend = runs.vertices.size();
+      runs.scattered = path.interactions[i].type == InteractionType::scattering;
+    }
+    runs.vertices.push_back(i + 1);
+  }
+  runs.vertices.push_back(path.vertices.size() - 1);
+  const size_t count = runs.vertices.size() - 1;
+  runs.directions.resize(count);
+  if (runs.bend > 0) runs.before_m = set_directions(path, world, 0, runs.bend, runs);
+  runs.after_m = set_directions(path, world, runs.bend, count, runs);
+  return runs;
+}
+
+/// Any unit vector perpendicular to k.
+dvec3 any_perpendicular(const dvec3& k) {
+  const dvec3 axis = std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+  return glm::normalize(glm::cross(k, axis));
+}
+
+/// s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM, t_TE =
+/// t_TM to 1e-16: any s gives the same field.
+dvec3 across(const dvec3& k, const dvec3& normal) {
+  const dvec3 product = glm::cross(k, normal);
+  const double sine = glm::length(product);
+  return sine > 1e-8 ? product / sine : any_perpendicular(k);
+}
+
+/// The field of a path on its way: what unit fields along theta and phi at the transmitter have become.
+class Travelling {
+ public:
+  Travelling(const FieldModel& model, const dvec3& departure) : model_(model) {
+    columns_[0].add(1.0, theta_hat(departure));
+    columns_[1].add(1.0, phi_hat(departure));
+  }
+  const FieldVector& column(int index) const { return columns_[index]; }
+
+  void through_air(const dvec3& direction, double length_m) {
+    if (model_.attenuation.none()) return;
+    for (FieldVector& field : columns_) field = model_.attenuation.after(field, direction, length_m);
+  }
+
+  void reflect(const PosedFacet& facet, const dvec3& in, const dvec3& out) {
+    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const double kept = specular_share(facet.material, cosine);
+    const dvec3 s = across(in, facet.normal);
+    map(s, glm::cross(in, s), s, glm::cross(out, s),
+        {kept * fresnel.r_te, Complex(0.0), Complex(0.0), kept * fresnel.r_tm});
+  }
+
+  void transmit(const PosedFacet& facet, const dvec3& direction) {
+    const double towards = glm::dot(direction, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const SheetTransmission sheet = model_.surfaces->transmit(facet.material, towards < 0.0, cosine);
+    const dvec3 s = across(direction, facet.normal), p = glm::cross(direction, s);
+    map(s, p, s, p, {sheet.te, Complex(0.0), Complex(0.0), sheet.tm});
+  }
+
+  void scatter(const PosedFacet& facet, const Interaction& patch, double area_m2, const dvec3& in,
+               const dvec3& out) {
+    GREATX_CHECK(area_m2 > 0.0, "patch {} of facet {} has {} m^2", patch.patch, patch.element, area_m2);
+    const double towards = glm::dot(in, facet.normal), cosine = std::min(1.0, std::abs(towards));
+    const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+    const FresnelCoefficients fresnel = model_.surfaces->reflect(facet.material, towards < 0.0, cosine);
+    const DiffuseScattering& surface = model_.surfaces->surface(facet.material).scattering;
+    const double amplitude =
+        surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
+    const ScatteringMatrix m =
+        scattering_matrix(surface.cross_polarization, model_.effects.seed, patch.element, patch.patch);
+    const Complex te = amplitude * fresnel.r_te, tm = amplitude * fresnel.r_tm;
+    const dvec3 s_in = across(in, normal), s_out = across(out, normal);
+    map(s_in, glm::cross(in, s_in), s_out, glm::cross(out, s_out),
+        {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
+  }
+
+  /// Spreads by the whole length from there on, too (edge_dyadic).
+  void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
+                double after_m) {
+    const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
+    const EdgeDyadic edge =
+        edge_dyadic(wedge, in, out, before_m, after_m, *model_.world, *model_.surfaces, share);
+    for (FieldVector& field : columns_) field = edge.apply(field);
+  }
+
+ private:
+  /// From components on (s_in, p_in) to those on (s_out, p_out): the matrix [ss sp; ps pp], out by in.
+  void map(const dvec3& s_in, const dvec3& p_in, const dvec3& s_out, const dvec3& p_out,
+           const ScatteringMatrix& by) {
+    for (FieldVector& field : columns_) {
+      const Complex s = field.along(s_in), p = field.along(p_in);
+      field = {};
+      field.add(by.ss * s + by.sp * p, s_out);
+      field.add(by.ps * s + by.pp * p, p_out);
+    }
+  }
+
+  double specular_share(uint32_t material, double cosine) const {
+    const FieldEffects& effects = model_.effects;
+    return rf::specular_share(model_.surfaces->surface(material), cosine, model_.surfaces->wavelength_m(),
+                              effects.roughness ? std::optional(effects.roughness_model) : std::nullopt,
+                              effects.scattering);
+  }
+
+  const FieldModel& model_;
+  FieldVector columns_[2];
+};
+
+double foliage_amplitude(const FieldModel& model, double depth_m) {
+  if (!model.effects.foliage || depth_m == 0.0) return 1.0;
+  GREATX_CHECK(model.foliage.has_value(), "{} m of foliage that the field model does not know", depth_m);
+  return std::pow(10.0, -foliage_db(*model.foliage, model.surfaces->carrier_hz(), depth_m) / 20.0);
+}
+
+const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interaction) {
+  GREATX_CHECK(interaction.element < model.wedges.size(), "wedge {} of {}", interaction.element,
+               model.wedges.size());
+  return model.wedges[interaction.element];
+}
+
+/// What the path does to the two unit fields at the transmitter, spreading included.
+void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
+                  Complex (&transfer)[4]) {
+  const FacetWorld& world = *model.world;
+  Travelling field(model, runs.directions.front());
+  size_t run = 0;
+  for (size_t i = 0; i <= path.interactions.size(); ++i) {
+    const dvec3& in = runs.directions[run];
+    field.through_air(in, glm::length(path.vertices[i + 1] - path.vertices[i]));
+    if (i == path.interactions.size()) break;
+    const Interaction& interaction = path.interactions[i];
+    const dvec3& out = interaction.type == InteractionType::transmission ? in : runs.directions[++run];
+    switch (interaction.type) {
+      case InteractionType::reflection:
+        field.reflect(world.facet(interaction.element), in, out);
+        break;
+      case InteractionType::transmission:
+        field.transmit(world.facet(interaction.element), in);
+        break;
+      case InteractionType::scattering:
+        field.scatter(world.facet(interaction.element), interaction, path.patch_area_m2, in, out);
+        break;
+      case InteractionType::diffraction:
+        field.diffract(posed(wedge_of(model, interaction), world), in, out, runs.before_m, runs.after_m);
+        break;
+      case InteractionType::none:
+        GREATX_CHECK(false, "interaction {} is none", i);
+    }
+  }
+  double spreading = runs.scattered ? 1.0 / (runs.before_m * runs.after_m) : 1.0 / path.length_m;
+  spreading *= foliage_amplitude(model, path.foliage_m);
+  const dvec3 arrival = -runs.directions.back(), theta = theta_hat(arrival), phi = phi_hat(arrival);
+  for (int column = 0; column < 2; ++column) {
+    transfer[column] = field.column(column).along(theta) * spreading;
+    transfer[2 + column] = field.column(column).along(phi) * spreading;
+  }
+}
+
+/// Rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
+double closing_rate(const GeometricPath& path, const FieldModel& model, const Runs& runs,
+                    const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
+  double rate = glm::dot(transmitter_velocity, runs.directions.front()) -
+                glm::dot(receiver_velocity, runs.directions.back());
+  for (size_t run = 1; run < runs.directions.size(); ++run) {
+    const size_t vertex = runs.vertices[run];
+    const Interaction& interaction = path.interactions[vertex - 1];
+    const uint32_t facet = interaction.type == InteractionType::diffraction
+                               ? wedge_of(model, interaction).facet_0
+                               : interaction.element;
+    rate += glm::dot(model.world->velocity(facet, path.vertices[vertex]),
+                     runs.directions[run] - runs.directions[run - 1]);
+  }
+  return rate;
+}
+
+void check(const GeometricPath& path) {
+  GREATX_CHECK(path.vertices.size() == path.interactions.size() + 2 && path.length_m > 0.0,
+               "path of {} interactions, {} vertices, {} m", path.interactions.size(), path.vertices.size(),
+               path.length_m);
+}
+
+}  // namespace
+
+Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
+                const dvec3& receiver_velocity) {
+  check(geometry);
+  const Runs runs = runs_of(geometry, *model.world);
+  Path path;
+  path.interactions = geometry.interactions;
+  path.vertices = geometry.vertices;
+  path.length_m = geometry.length_m;
+  path.foliage_m = geometry.foliage_m;
+  path.patch_area_m2 = geometry.patch_area_m2;
+  path.delay_s = geometry.length_m / speed_of_light;
+  path.doppler_hz = closing_rate(geometry, model, runs, transmitter_velocity, receiver_velocity) /
+                    model.surfaces->wavelength_m();
+  path.departure = runs.directions.front();
+  path.arrival = -runs.directions.back();
+  set_transfer(geometry, model, runs, path.transfer);
+  return path;
+}
+
+void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]) {
+  check(geometry);
+  set_transfer(geometry, model, runs_of(geometry, *model.world), transfer);
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/field/utd.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr Complex j{0.0, 1.0};
+constexpr int node_count = 12;
+
+/// The midpoint rule's nodes t_k = (k + 1/2) h and weights e^{-t_k^2}; h balances the rule's error
+/// e^{-(pi/h)^2} with the truncated tail e^{-(node_count h)^2}.
+struct MidpointRule {
+  double step;
+  std::array<double, node_count> squared_node, weight;
+};
+
+MidpointRule make_midpoint_rule() {
+  MidpointRule rule{};
+  rule.step = std::sqrt(pi / (node_count + 0.5));
+  for (int k = 0; k < node_count; ++k) {
+    const double node = (k + 0.5) * rule.step;
+    rule.squared_node[k] = node * node;
+    rule.weight[k] = std::exp(-node * node);
+  }
+  return rule;
+}
+
+constexpr bool adds_pi(uint32_t term) {
+  return term == static_cast<uint32_t>(UtdTerm::shadow_n) ||
+         term == static_cast<uint32_t>(UtdTerm::reflection_n);
+}
+constexpr bool reflects(uint32_t term) { return term >= static_cast<uint32_t>(UtdTerm::reflection_n); }
+
+/// N of a term: the whole turns of 2 n pi nearest to beta +- pi.
+double turns_of(uint32_t term, const UtdAngles& angles, double& beta_and_pi) {
+  const double beta = reflects(term) ? angles.observed + angles.incident : angles.observed - angles.incident;
+  beta_and_pi = adds_pi(term) ? beta + pi : beta - pi;
+  return std::nearbyint(beta_and_pi / (2.0 * angles.n * pi));
+}
+
+void check(const UtdAngles& angles) {
+  const double wide = angles.n * pi + 1e-6;
+  GREATX_CHECK(angles.n > 1.0 && angles.n <= 2.0, "an exterior of {} pi: expected (1, 2]", angles.n);
+  GREATX_CHECK(angles.incident >= -1e-6 && angles.incident <= wide && angles.observed >= -1e-6 &&
+                   angles.observed <= wide,
+               "angles {} and {} of an exterior of {}", angles.incident, angles.observed, angles.n * pi);
+}
+
+/// y cot y, |y| <= pi/2.
+double y_cot_y(double y) { return y == 0.0 ? 1.0 : y / std::tan(y); }
+
+Complex term_value(uint32_t term, double delta, double n, double wave_times_distance) {
+  const double half = 0.5 * delta, sine = std::abs(std::sin(half));
+  const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
+  // On the boundary itself: the lit side, which is delta > 0 for the terms with + pi and delta < 0 for the
+  // others.
+  const double side = delta != 0.0 ? std::copysign(1.0, delta) : adds_pi(term) ? 1.0 : -1.0;
+  const double sign = adds_pi(term) ? -side : side;
+  return 0.5 * sign * sinc * y_cot_y(0.5 * delta / n) *
+         erfcx_on_diagonal(std::sqrt(2.0 * wave_times_distance) * sine);
+}
+
+}  // namespace
+
+Complex erfcx_on_diagonal(double w) {
+  GREATX_CHECK(w >= 0.0, "argument {}", w);
+  static const MidpointRule rule = make_midpoint_rule();
+  const double squared = w * w;  // z = e^{j pi/4} w, z^2 = j w^2
+  // (2 z h/pi) sum e^{-t^2}/(z^2 + t^2)
+  double re = 0.0, im = 0.0;
+  for (int k = 0; k < node_count; ++k) {
+    const double t2 = rule.squared_node[k];
+    if (squared < 1e10) {
+      const double share = rule.weight[k] / (squared * squared + t2 * t2);
+      re += share * t2;
+      im -= share * squared;
+    } else {  // t^4 is lost beside w^4, which may overflow
+      re += rule.weight[k] * (t2 / squared) / squared;
+      im -= rule.weight[k] / squared;
+    }
+  }
+  const double scale = std::sqrt(2.0) * w * rule.step / pi;  // 2 z h/pi = scale (1 + j)
+  Complex value(scale * (re - im), scale * (re + im));
+  // The pole at t = jz, which the rule steps over: 2 e^{z^2}/(1 + e^{2 pi z/h}). Beyond e^{-40} it is
+  // nothing.
+  const double decay = std::sqrt(2.0) * pi * w / rule.step;
+  if (decay < 40.0) {
+    const Complex shrunk = std::polar(std::exp(-decay), -decay);
+    value += 2.0 * std::polar(1.0, squared) * shrunk / (1.0 + shrunk);
+  }
+  return value;
+}
+
+Complex transition_function(double x) {
+  GREATX_CHECK(x >= 0.0, "argument {}", x);
+  const double w = std::sqrt(x);
+  return std::polar(std::sqrt(pi) * w, 0.25 * pi) * erfcx_on_diagonal(w);
+}
+
+UtdAngles utd_angles(double n, double incident, double observed) {
+  UtdAngles angles{n, incident, observed, {}};
+  check(angles);
+  for (uint32_t term = 0; term < 4; ++term) {
+    double sum = 0.0;
+    const double turns = turns_of(term, angles, sum);
+    angles.delta[term] = sum - 2.0 * n * pi * turns;
+  }
+  return angles;
+}
+
+UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
+  // Into [0, n pi]. A point on a face may be off it by its tolerance, which is an angle to reckon with near
+  // the edge.
+  const double wide = n * pi;
+  const auto from_face_0 = [&](const dvec2& direction) {
+    const double turned = std::atan2(direction.y, direction.x);
+    const double angle = turned < 0.5 * wide - pi ? turned + 2.0 * pi : turned;
+    GREATX_CHECK(angle > -0.1 && angle < wide + 0.1, "angle {} of an exterior of {}", angle, wide);
+    return std::min(std::max(angle, 0.0), wide);
+  };
+  UtdAngles angles = utd_angles(n, from_face_0(source), from_face_0(observer));
+  for (uint32_t term = 0; term < 4; ++term) {
+    if (std::abs(angles.delta[term]) > 1.0) continue;  // far from the boundary: nothing to cancel
+    double sum = 0.0;
+    const double turned = 2.0 * n * pi * turns_of(term, angles, sum);
+    const dvec2 opposite(-source.x, reflects(term) ? source.y : -source.y);
+    const double c = std::cos(turned), s = std::sin(turned);
+    const dvec2 boundary =
+        turned == 0.0 ? opposite : dvec2(c * opposite.x - s * opposite.y, s * opposite.x + c * opposite.y);
+    angles.delta[term] =
+        std::atan2(boundary.x * observer.y - boundary.y * observer.x, glm::dot(boundary, observer));
+  }
+  return angles;
+}
+
+bool UtdAngles::in_shadow() const {
+  const double beta = observed - incident;
+  const double past = beta > 0.0 ? delta[static_cast<uint32_t>(UtdTerm::shadow_0)]
+                                 : -delta[static_cast<uint32_t>(UtdTerm::shadow_n)];
+  // Near the boundary N = 0 and delta is exact; elsewhere the angles decide.
+  const double rough = std::abs(beta) - pi;
+  return std::abs(rough) < 0.5 ? past > 0.0 : rough > 0.0;
+}
+
+UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m) {
+  GREATX_CHECK(wave_number > 0.0 && distance_m >= 0.0, "wave number {} rad/m, distance {} m", wave_number,
+               distance_m);
+  UtdTerms terms;
+  for (uint32_t term = 0; term < 4; ++term)
+    terms.d[term] = term_value(term, angles.delta[term], angles.n, wave_number * distance_m);
+  return terms;
+}
+
+SoftHard utd_coefficients(const UtdAngles& angles, double wave_number, double distance_m, double sin_beta0,
+                          const SoftHard& reflection_0, const SoftHard& reflection_n) {
+  GREATX_CHECK(sin_beta0 > 0.0 && sin_beta0 <= 1.0, "sin(beta_0) = {}: expected (0, 1]", sin_beta0);
+  const UtdTerms terms = utd_terms(angles, wave_number, distance_m);
+  const double scale = std::sqrt(distance_m) / sin_beta0;
+  const Complex incident = terms[UtdTerm::shadow_n] + terms[UtdTerm::shadow_0];
+  const Complex face_0 = terms[UtdTerm::reflection_0], face_n = terms[UtdTerm::reflection_n];
+  return {scale * (incident + reflection_n.soft * face_n + reflection_0.soft * face_0),
+          scale * (incident + reflection_n.hard * face_n + reflection_0.hard * face_0)};
+}
+
+FaceAngles luebbers_angles(const UtdAngles& angles) {
+  const double wide = angles.n * pi;
+  double nearness = 0.5 * wide - angles.incident;
+  if (std::abs(nearness) < 1e-9) nearness = angles.observed - 0.5 * wide;
+  // Rounding only: the nearer face is at most half of the exterior, which is no more than 2 pi, away.
+  const auto incident_at = [](double incident) { return std::min(std::max(incident, 0.0), pi); };
+  const auto leaving_for = [](double observed) { return pi - std::min(std::max(observed, 0.0), 0.5 * pi); };
+  if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed)};
+  return {leaving_for(angles.observed), incident_at(wide - angles.incident)};
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/geometry/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "core/watch.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double shortest_line_of_sight_m = 1e-9;
+
+/// A path that meets the edge between two facets touches both at one point. It exists (as the limit of paths
+/// beside it) only if each facet lies on the side of the other that reflects: the corner of a room, not that
+/// of a house; and never for two facets of one plane.
+bool joins_as_corner(const PosedFacet& a, double side_a, const PosedFacet& b, double side_b) {
+  return side_a * a.distance(b.centroid) > a.tolerance_m && side_b * b.distance(a.centroid) > b.tolerance_m;
+}
+
+bool same_polyline(const GeometricPath& a, const GeometricPath& b) {
+  const double tolerance = std::max(1e-6, 1e-9 * a.length_m);
+  if (a.vertices.size() != b.vertices.size() || std::abs(a.length_m - b.length_m) > tolerance) return false;
+  for (size_t i = 0; i < a.vertices.size(); ++i)
+    if (glm::length(a.vertices[i] - b.vertices[i]) > tolerance) return false;
+  return true;
+}
+
+}  // namespace
+
+void keep_distinct(std::vector<GeometricPath>& paths) {
+  std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
+    return interactions_less(a.interactions, b.interactions);
+  });
+  size_t kept = 0;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const auto known = [&](const GeometricPath& other) { return same_polyline(other, paths[i]); };
+    const auto end = paths.begin() + static_cast<ptrdiff_t>(kept);
+    if (std::find_if(paths.begin(), end, known) != end) continue;
+    if (kept != i) paths[kept] = std::move(paths[i]);
+    ++kept;
+  }
+  paths.resize(kept);
+}
+
+ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const CandidateList& candidates,
+                     Source end)
+    : world_(&world), source_(source), end_(end) {
+  GREATX_CHECK(candidates.is_canonical(), "{} candidate sequences are not in canonical order",
+               candidates.size());
+  build(candidates);
+  mirror(source);
+  for (size_t i = 0; i < candidates.windows.size(); ++i)
+    if (const uint32_t index = node_of_sequence_[i]; index != none) {
+      const PlaneWindow& window = candidates.windows[i];
+      Node& node = nodes_[index];
+      node.min_u = window.min_u, node.max_u = window.max_u, node.min_v = window.min_v,
+      node.max_v = window.max_v;
+    }
+  build_filter();
+}
+
+void ImageTree::build(const CandidateList& candidates) {
+  std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; looked up only, never walked
+  child_of.reserve(candidates.size());
+  nodes_.reserve(candidates.size());
+  node_of_sequence_.assign(candidates.size(), none);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    checkpoint();
+    uint32_t node = none;
+    for (const uint32_t facet : candidates.sequence(i)) {
+      GREATX_CHECK(facet < world_->facet_count(), "candidate {}: facet {} of {}", i, facet,
+                   world_->facet_count());
+      const uint64_t key = (uint64_t{node} << 32) | facet;
+      const auto [entry, is_new] = child_of.try_emplace(key, static_cast<uint32_t>(nodes_.size()));
+      if (is_new) {
+        nodes_.push_back({.slot = facet, .parent = node, .depth = node == none ? 1 : nodes_[node].depth + 1});
+        used_facets_.push_back(facet);
+      }
+      node = entry->second;
+    }
+    node_of_sequence_[i] = node;
+    if (node == none)
+      line_of_sight_ = true;
+    else
+      nodes_[node].candidate = true;
+  }
+  std::sort(used_facets_.begin(), used_facets_.end());
+  used_facets_.erase(std::unique(used_facets_.begin(), used_facets_.end()), used_facets_.end());
+  for (Node& node : nodes_)
+    node.slot =
+        static_cast<uint32_t>(std::ranges::lower_bound(used_facets_, node.slot) - used_facets_.begin());
+  images_.resize(nodes_.size());
+}
+
+void ImageTree::update(const dvec3& source) {
+  mirror(source);
+  build_filter();
+}
+
+void ImageTree::mirror(const dvec3& source) {
+  source_ = source;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    const PosedFacet& facet = world_->facet(used_facets_[node.slot]);
+    const dvec3 before = node.parent == none ? source_ : images_[node.parent];
+    const double distance = facet.distance(before);
+    images_[i] = before - 2.0 * distance * facet.normal;
+    node.distance = -distance;
+    const dvec2 at = facet.plane_coordinates(before);  // mirroring keeps them
+    node.u = at.x;
+    node.v = at.y;
+    node.min_u = facet.min_u, node.max_u = facet.max_u, node.min_v = facet.min_v, node.max_v = facet.max_v;
+  }
+}
+
+uint32_t ImageTree::depth(size_t sequence) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  return node == none ? 0 : nodes_[node].depth;
+}
+
+const dvec3& ImageTree::image(size_t sequence) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  return node == none ? source_ : images_[node];
+}
+
+bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) const {
+  const uint32_t node = node_of_sequence_[sequence];
+  if (node == none) return true;
+  Chain chain;
+  if (!trace(node, point, chain)) return false;
+  for (size_t i = chain.facets.size(); i-- > 0;) {
+    path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
+    path.vertices.push_back(chain.points[i]);
+  }
+  return true;
+}
+
+/// By which a node's window is wider than trace() asks for, so that no path that exists is lost before.
+/// Roundings of u and v grow with the distance to the image, not with the facet.
+double ImageTree::room(const Node& node, double tolerance_m) {
+  return 2.0 * tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
+}
+
+void ImageTree::build_filter() {
+  filtered_.clear();
+  std::vector<ImageWindow> windows;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (!node.candidate) continue;
+    const double wider = room(node, world_->facet(used_facets_[node.slot]).tolerance_m);
+    filtered_.push_back(i);
+    windows.push_back({node.slot, node.distance, node.u, node.v, node.min_u - wider, node.max_u + wider,
+                       node.min_v - wider, node.max_v + wider});
+  }
+  filter_.build(windows, static_cast<uint32_t>(used_facets_.size()));
+}
+
+/// Does the straight line from the node's image to the target pass the window of its facet?
+bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
+  if (node.distance * target.distance >= 0.0) return false;  // the target is behind the mirror
+  const double t = node.distance / (node.distance - target.distance);
+  const double u = node.u + t * (target.u - node.u), v = node.v + t * (target.v - node.v);
+  const double room = ImageTree::room(node, target.tolerance);
+  return u >= node.min_u - room && u <= node.max_u + room && v >= node.min_v - room && v <= node.max_v + room;
+}
+
+/// Walks from the target back to the source, cutting the line to each image with that image's facet.
+bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
+  chain.facets.clear();
+  chain.points.clear();
+  const PosedFacet* previous = nullptr;
+  double previous_side = 0.0;
+  dvec3 from = target;
+  for (uint32_t index = leaf; index != none; index = nodes_[index].parent) {
+    const Node& node = nodes_[index];
+    const uint32_t facet_index = used_facets_[node.slot];
+    const PosedFacet& facet = world_->facet(facet_index);
+    const double side = node.distance > 0.0 ? -1.0 : 1.0;  // where the path is: opposite to the image
+    const double behind = std::abs(node.distance);
+    double before = side * facet.distance(from);
+    if (behind <= facet.tolerance_m) return false;
+    if (before < (previous ? -facet.tolerance_m : facet.tolerance_m)) return false;
+    before = std::max(before, 0.0);
+    const dvec3 image = images_[index];
+    const dvec3 hit = image + behind / (behind + before) * (from - image);
+    if (!world_->contains(facet_index, facet.plane_coordinates(hit))) return false;
+    if (previous && glm::length(hit - from) <= 4.0 * (facet.tolerance_m + previous->tolerance_m) &&
+        !joins_as_corner(facet, side, *previous, previous_side))
+      return false;
+    chain.facets.push_back(facet_index);
+    chain.points.push_back(hit);
+    from = hit;
+    previous = &facet;
+    previous_side = side;
+  }
+  return true;
+}
+
+/// Nodes whose image the target sees through the facet, were nothing before it.
+std::vector<uint32_t> ImageTree::seen_from(const dvec3& target) const {
+  std::vector<uint32_t> indices, nodes;
+  for (uint32_t slot = 0; slot < used_facets_.size(); ++slot) {
+    checkpoint();
+    const PosedFacet& facet = world_->facet(used_facets_[slot]);
+    const dvec2 at = facet.plane_coordinates(target);
+    const TargetInFacet seen{facet.distance(target), at.x, at.y, facet.tolerance_m};
+    indices.clear();
+    filter_.collect(slot, seen.distance, seen.u, seen.v, indices);
+    for (const uint32_t index : indices)
+      if (may_reach(nodes_[filtered_[index]], seen)) nodes.push_back(filtered_[index]);
+  }
+  return nodes;
+}
+
+std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
+  std::vector<GeometricPath> paths;
+  const double direct = glm::length(target - source_);
+  const bool outwards = end_ == Source::transmitter;
+  const dvec3 first = outwards ? source_ : target, last = outwards ? target : source_;
+  if (line_of_sight_ && direct > shortest_line_of_sight_m) paths.push_back({{}, {first, last}, direct, 0.0});
+  Chain chain;
+  for (const uint32_t index : seen_from(target)) {
+    checkpoint();
+    if (!trace(index, target, chain)) continue;
+    if (outwards) {  // the chain runs from the target back
+      std::reverse(chain.facets.begin(), chain.facets.end());
+      std::reverse(chain.points.begin(), chain.points.end());
+    }
+    GeometricPath path;
+    path.vertices.push_back(first);
+    for (size_t i = 0; i < chain.facets.size(); ++i) {
+      path.interactions.push_back({InteractionType::reflection, chain.facets[i]});
+      path.vertices.push_back(chain.points[i]);
+    }
+    path.vertices.push_back(last);
+    path.length_m = glm::length(target - images_[index]);
+    paths.push_back(std::move(path));
+  }
+  keep_distinct(paths);
+  return paths;
+}
+
+std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
+                                       const dvec3& receiver, const CandidateList& candidates) {
+  return ImageTree(world, transmitter, candidates).solve(receiver);
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/paths/midpoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/watch.h"
+#include "rf/field/diffraction.h"
+#include "rf/search/beam_search.h"
+
+namespace greatx::rf {
+
+namespace {
+
+struct Triangle {
+  dvec3 corners[3];
+};
+
+/// How many pieces a triangle is cut into, at least: by its area, and along its longest side.
+double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
+  const dvec3 &a = triangle.corners[0], &b = triangle.corners[1], &c = triangle.corners[2];
+  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)}),
+               area = 0.5 * glm::length(glm::cross(b - a, c - a));
+  const double of_area =
+      area / (0.25 * std::sqrt(3.0)) / side_m / side_m;  // the largest piece is equilateral
+  return std::max(of_area, longest / side_m);
+}
+
+[[noreturn]] void too_many_patches(double side_m, size_t most) {
+  throw_user_error("scattering_patch_m: {} m makes more than {} patches of this scene; expected a larger one",
+                   side_m, most);
+}
+
+/// Of what is numbered with 32 bits.
+uint32_t number_of(size_t count, const char* what) {
+  if (count > ~0u)
+    throw_user_error("paths: {} {}, expected at most {}; a smaller max_depth, a larger scattering_patch_m",
+                     count, what, ~0u);
+  return static_cast<uint32_t>(count);
+}
+
+/// Halves the longest side until none is longer than `side_m`; the pieces in order, first half first.
+void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Patch>& patches, size_t first,
+         size_t most) {
+  int longest = 0;
+  double length = 0.0;
+  for (int side = 0; side < 3; ++side) {
+    const double l = glm::length(triangle.corners[(side + 1) % 3] - triangle.corners[side]);
+    if (l > length) longest = side, length = l;
+  }
+  const dvec3 &a = triangle.corners[longest], &b = triangle.corners[(longest + 1) % 3],
+              &c = triangle.corners[(longest + 2) % 3];
+  if (length > side_m) {
+    const dvec3 middle = 0.5 * (a + b);
+    cut({{a, middle, c}}, side_m, facet, patches, first, most);
+    cut({{middle, b, c}}, side_m, facet, patches, first, most);
+    return;
+  }
+  if (patches.size() >= most) too_many_patches(side_m, most);
+  patches.push_back({facet, static_cast<uint32_t>(patches.size() - first), (a + b + c) / 3.0,
+                     0.5 * glm::length(glm::cross(b - a, c - a))});
+}
+
+void reverse(GeometricPath& path) {
+  std::reverse(path.interactions.begin(), path.interactions.end());
+  std::reverse(path.vertices.begin(), path.vertices.end());
+}
+
+}  // namespace
+
+std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
+                                      size_t most) {
+  std::vector<Patch> patches;
+  for (uint32_t index = 0; index < scene.facets.size(); ++index) {
+    const scene::Facet& facet = scene.facets[index];
+    const scene::Material& material = scene.materials[facet.material];
+    const bool hard = kinds[index] == FacetKind::opaque || kinds[index] == FacetKind::wall;
+    if (!hard || !material.radio || material.radio->scattering_coefficient == 0.0) continue;
+    const size_t first = patches.size();
+    for (uint32_t t = 0; t < facet.triangle_count; ++t) {
+      const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
+      // Before it is cut, since halving ends where fp64 does.
+      if (!(least_pieces(triangle, side_m) <= static_cast<double>(most))) too_many_patches(side_m, most);
+      cut({{triangle.corners[0], triangle.corners[1], triangle.corners[2]}}, side_m, index, patches, first,
+          most);
+    }
+    std::erase_if(patches, [](const Patch& patch) { return patch.area_m2 == 0.0; });
+  }
+  return patches;
+}
+
+/// One prefix and one suffix that meet.
+struct Midpoints::Chain {
+  const ImageTree& tree;
+  const ImageTree& suffixes;
+  uint32_t prefix = 0, suffix = 0;
+
+  /// Source, prefix, `middle` at `point`, suffix, target; false if either side does not get there.
+  bool assemble(const Interaction& middle, const dvec3& point, GeometricPath& path) const {
+    path.vertices.push_back(tree.source());
+    if (!tree.reach(prefix, point, path)) return false;
+    path.interactions.push_back(middle);
+    path.vertices.push_back(point);
+    GeometricPath back;
+    if (!suffixes.reach(suffix, point, back)) return false;
+    path.interactions.insert(path.interactions.end(), back.interactions.rbegin(), back.interactions.rend());
+    path.vertices.insert(path.vertices.end(), back.vertices.rbegin(), back.vertices.rend());
+    path.vertices.push_back(suffixes.source());
+    path.length_m = glm::length(point - tree.image(prefix)) + glm::length(point - suffixes.image(suffix));
+    return true;
+  }
+};
+
+Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
+    : model_(&model), limits_(limits), moving_bodies_(moving_bodies) {
+  if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
+}
+
+/// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of
+/// the wedge's field (edge_dyadic).
+Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidates) const {
+  const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
+    const scene::Wedge& wedge = model_->wedges[index];
+    return facets.empty() || (facets.back() != wedge.facet_0 && facets.back() != wedge.facet_n);
+  };
+  Arrivals arrivals;
+  arrivals.offsets.assign(model_->wedges.size() + 1, 0);
+  number_of(candidates.wedges.size(), "sequences that lead to wedges");
+  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
+    for (const uint32_t wedge : candidates.wedges_of(sequence))
+      arrivals.offsets[wedge + 1] += leads_to(candidates.sequence(sequence), wedge);
+  for (size_t i = 1; i < arrivals.offsets.size(); ++i) arrivals.offsets[i] += arrivals.offsets[i - 1];
+  arrivals.sequences.resize(arrivals.offsets.back());
+  std::vector<uint32_t> next(arrivals.offsets.begin(), arrivals.offsets.end() - 1);
+  for (uint32_t sequence = 0; sequence < candidates.size(); ++sequence)
+    for (const uint32_t wedge : candidates.wedges_of(sequence))
+      if (leads_to(candidates.sequence(sequence), wedge)) arrivals.sequences[next[wedge]++] = sequence;
+  return arrivals;
+}
+
+/// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the
+/// answer] where on the facet; or empty.
+Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
+                                                  std::vector<PlaneWindow>& windows) const {
+  struct Pair {
+    uint32_t facet, prefix, sequence;
+  };
+  std::vector<Pair> pairs;
+  // In the canonical order a sequence comes after the one without its last facet, and so do their order's
+  // neighbours.
+  uint32_t prefix = 0;
+  for (uint32_t i = 0; i < candidates.size(); ++i) {
+    const auto facets = candidates.sequence(i);
+    if (facets.empty() || facets.size() > limits_.max_depth || facets.size() - 1 > most_reflections) continue;
+    const auto shorter = facets.first(facets.size() - 1);
+    while (prefix < i && sequence_less(candidates.sequence(prefix), shorter)) ++prefix;
+    if (std::ranges::equal(candidates.sequence(prefix), shorter)) pairs.push_back({facets.back(), prefix, i});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.facet != b.facet ? a.facet < b.facet : a.prefix < b.prefix;
+  });
+  Arrivals arrivals;
+  arrivals.offsets.assign(model_->kinds.size() + 1, 0);
+  windows.clear();
+  for (const Pair& pair : pairs) {
+    ++arrivals.offsets[pair.facet + 1];
+    arrivals.sequences.push_back(pair.prefix);
+    if (!candidates.windows.empty()) windows.push_back(candidates.windows[pair.sequence]);
+  }
+  for (size_t i = 1; i < arrivals.offsets.size(); ++i) arrivals.offsets[i] += arrivals.offsets[i - 1];
+  return arrivals;
+}
+
+dvec3 Midpoints::center(const Patch& patch) const {
+  const uint32_t body = model_->facets.facet(patch.facet).body;
+  return body == 0 ? patch.center : model_->facets.motion(body).pose.apply(patch.center);
+}
+
+Midpoints::PatchArrivals Midpoints::arrivals_at_patches(const Arrivals& at_facets,
+                                                        const std::vector<PlaneWindow>& windows,
+                                                        const ImageTree& tree) const {
+  PatchArrivals at_patches;
+  at_patches.offsets.push_back(0);
+  GeometricPath path;
+  for (const Patch& patch : patches_) {
+    checkpoint();
+    const PosedFacet& facet = model_->facets.facet(patch.facet);
+    const dvec3 point = center(patch);
+    const dvec2 at = facet.plane_coordinates(point);
+    const double room = 2.0 * facet.tolerance_m;
+    const auto outside = [&](const PlaneWindow& window) {
+      return at.x < window.min_u - room || at.x > window.max_u + room || at.y < window.min_v - room ||
+             at.y > window.max_v + room;
+    };
+    for (uint32_t i = at_facets.offsets[patch.facet]; i < at_facets.offsets[patch.facet + 1]; ++i) {
+      if (!windows.empty() && outside(windows[i])) continue;
+      const uint32_t sequence = at_facets.sequences[i];
+      path.interactions.clear();
+      path.vertices.clear();
+      if (!tree.reach(sequence, point, path)) continue;
+      at_patches.arrivals.push_back({static_cast<uint32_t>(at_patches.facets.size()),
+                                     static_cast<uint32_t>(path.interactions.size()),
+                                     path.vertices.empty() ? tree.source() : path.vertices.back(),
+                                     glm::length(point - tree.image(sequence))});
+      for (const Interaction& reflection : path.interactions) at_patches.facets.push_back(reflection.element);
+      at_patches.points.insert(at_patches.points.end(), path.vertices.begin(), path.vertices.end());
+    }
+    at_patches.offsets.push_back(number_of(at_patches.arrivals.size(), "sequences that lead to patches"));
+    number_of(at_patches.facets.size(), "reflections before patches");
+  }
+  return at_patches;
+}
+
+/// Where nothing is known of what a point sees: every patch may be.
+Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const {
+  PatchArrivals at_patches;
+  at_patches.offsets.push_back(0);
+  for (const Patch& patch : patches_) {
+    at_patches.arrivals.push_back({0, 0, from, glm::length(center(patch) - from)});
+    at_patches.offsets.push_back(static_cast<uint32_t>(at_patches.arrivals.size()));
+  }
+  return at_patches;
+}
+
+void Midpoints::set_candidates(const CandidateList& candidates, const ImageTree& tree) {
+  if (model_->effects.diffraction) at_wedges_ = arrivals_at_wedges(candidates);
+  if (!model_->effects.scattering) return;
+  std::vector<PlaneWindow> windows;
+  at_facets_ = arrivals_at_facets(candidates, limits_.max_reflections_before_scattering, windows);
+  at_patches_ = arrivals_at_patches(at_facets_, windows, tree);
+}
+
+void Midpoints::move(const ImageTree& tree) {
+  if (model_->effects.scattering) at_patches_ = arrivals_at_patches(at_facets_, {}, tree);
+}
+
+void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t index,
+                         std::vector<GeometricPath>& paths) const {
+  const std::optional<dvec3> point =
+      keller_point(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix));
+  if (!point) return;
+  GeometricPath path;
+  if (!chain.assemble({InteractionType::diffraction, index}, *point, path)) return;
+  const size_t middle = chain.tree.depth(chain.prefix) + 1;
+  if (!in_exterior(wedge, path.vertices[middle - 1]) || !in_exterior(wedge, path.vertices[middle + 1]))
+    return;
+  if (!model_->effects.diffraction_lit_region &&
+      !in_shadow(wedge, chain.tree.image(chain.prefix), chain.suffixes.image(chain.suffix)))
+    return;
+  if (chain.tree.end() == Source::receiver) reverse(path);
+  paths.push_back(std::move(path));
+}
+
+/// Every prefix with every suffix at every wedge that both lead to.
+void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
+                               std::vector<GeometricPath>& paths) const {
+  for (uint32_t index = 0; index + 1 < at_wedges_.offsets.size(); ++index) {
+    checkpoint();
+    const auto from = at_wedges_.of(index), to = wedges.of(index);
+    if (from.empty() || to.empty()) continue;
+    const scene::Wedge wedge = posed(model_->wedges[index], model_->facets);
+    for (const uint32_t suffix : to)
+      for (const uint32_t prefix : from)
+        if (tree.depth(prefix) + 1 + suffixes.depth(suffix) <= limits_.max_depth)
+          diffract({tree, suffixes, prefix, suffix}, wedge, index, paths);
+  }
+}
+
+/// Every prefix with every suffix at a patch: what comes from one side is scattered back to it.
+void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t number,
+                        const PatchArrivals& suffixes, std::vector<GeometricPath>& paths) const {
+  const Patch& patch = patches_[number];
+  const PosedFacet& facet = model_->facets.facet(patch.facet);
+  const dvec3 point = center(patch);
+  for (const PatchArrival& after : suffixes.of(number)) {
+    checkpoint();
+    const double to = facet.distance(after.from);
+    if (std::abs(to) <= facet.tolerance_m) continue;
+    for (const PatchArrival& before : at_patches_.of(number)) {
+      const size_t count = before.depth + 1 + after.depth;
+      if (count > limits_.max_depth) continue;
+      const double from = facet.distance(before.from);
+      if (std::abs(from) <= facet.tolerance_m || from * to < 0.0) continue;
+      GeometricPath& path = paths.emplace_back();
+      path.interactions.reserve(count);
+      path.vertices.reserve(count + 2);
+      path.vertices.push_back(tree.source());
+      for (uint32_t i = before.first; i < before.first + before.depth; ++i) {
+        path.interactions.push_back({InteractionType::reflection, at_patches_.facets[i]});
+        path.vertices.push_back(at_patches_.points[i]);
+      }
+      path.interactions.push_back({InteractionType::scattering, patch.facet, patch.number});
+      path.vertices.push_back(point);
+      for (uint32_t i = after.first + after.depth; i-- > after.first;) {
+        path.interactions.push_back({InteractionType::reflection, suffixes.facets[i]});
+        path.vertices.push_back(suffixes.points[i]);
+      }
+      path.vertices.push_back(target);
+      path.length_m = before.length_m + after.length_m;
+      path.patch_area_m2 = patch.area_m2;
+      if (tree.end() == Source::receiver) reverse(path);
+    }
+  }
+}
+
+LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
+                         std::vector<GeometricPath>& paths) const {
+  const bool searched = limits_.max_reflections_after > 0;
+  CandidateList list;
+  LeftOut left_out;
+  Arrivals wedges;
+  if (searched) {
+    BeamSearchOptions search;
+    search.max_depth = limits_.max_reflections_after + 1;
+    search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
+    search.moving_bodies = moving_bodies_;
+    search.source_body = target_body;
+    search.threads = 1;  // targets are solved side by side
+    BeamSearchResult result =
+        BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
+    left_out = {result.overflow(), result.complete_depth()};
+    list = std::move(result.list);
+    wedges = arrivals_at_wedges(list);
+  } else {
+    // Nothing is known of what the target sees: every wedge may be reached straight.
+    list.add({});
+    for (uint32_t i = 0; i <= model_->wedges.size(); ++i) wedges.offsets.push_back(i);
+    wedges.sequences.assign(model_->wedges.size(), 0);
+  }
+  const Source other = tree.end() == Source::transmitter ? Source::receiver : Source::transmitter;
+  const ImageTree suffixes(model_->facets, target, list, other);
+  join_at_wedges(tree, suffixes, wedges, paths);
+  if (patches_.empty() || at_patches_.arrivals.empty()) return left_out;
+  PatchArrivals at_patches;
+  if (searched) {
+    std::vector<PlaneWindow> windows;
+    const Arrivals facets = arrivals_at_facets(list, limits_.max_reflections_after, windows);
+    at_patches = arrivals_at_patches(facets, windows, suffixes);
+  } else {
+    at_patches = straight_to_patches(target);
+  }
+  for (size_t patch = 0; patch < patches_.size(); ++patch) scatter(tree, target, patch, at_patches, paths);
+  return left_out;
+}
+
+}  // namespace greatx::rf

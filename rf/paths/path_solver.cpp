@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/paths/path_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "core/watch.h"
+
+namespace greatx::rf {
+
+namespace {
+
+/// Facets that a path touches at a vertex and that therefore do not stand in its way there.
+struct Touched {
+  uint32_t first = shared::rf_none, second = shared::rf_none;
+};
+
+Touched touched_at(const Interaction& interaction, const std::vector<scene::Wedge>& wedges) {
+  if (interaction.type != InteractionType::diffraction) return {interaction.element, shared::rf_none};
+  const scene::Wedge& wedge = wedges[interaction.element];
+  return {wedge.facet_0, wedge.facet_n};
+}
+
+/// A wall that a segment passes.
+struct Passage {
+  uint32_t facet = 0;
+  double t = 0.0;  ///< along the segment, 0 to 1
+  dvec3 point{0.0};
+};
+
+/// Where the segment meets the planes of these walls, in its own order. Two walls in one plane met at one
+/// point (a seam, a wall that the file has twice) are one.
+std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_t>& walls, const dvec3& a,
+                              const dvec3& b) {
+  std::vector<Passage> list;
+  for (const uint32_t facet : walls) {
+    const double from = world.facet(facet).distance(a), to = world.facet(facet).distance(b);
+    // The GPU met the wall in fp32: to fp64 it may lie beyond an end by a rounding, or along the segment.
+    const double t = from == to ? 0.5 : std::clamp(from / (from - to), 0.0, 1.0);
+    list.push_back({facet, t, a + t * (b - a)});
+  }
+  std::sort(list.begin(), list.end(),
+            [](const Passage& p, const Passage& q) { return p.t != q.t ? p.t < q.t : p.facet < q.facet; });
+  const auto same_wall = [&](const Passage& p, const Passage& q) {
+    const PosedFacet &f = world.facet(p.facet), &g = world.facet(q.facet);
+    return glm::length(p.point - q.point) <= 1e-6 && glm::length(glm::cross(f.normal, g.normal)) <= 1e-9;
+  };
+  list.erase(std::unique(list.begin(), list.end(), same_wall), list.end());
+  return list;
+}
+
+/// The path with its walls as interactions; false if something blocks it.
+bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<const Crossing> crossings,
+                  GeometricPath& full) {
+  full = {{}, {path.vertices.front()}, path.length_m, 0.0};
+  full.patch_area_m2 = path.patch_area_m2;
+  for (size_t i = 0; i < crossings.size(); ++i) {
+    const Crossing& crossing = crossings[i];
+    if (crossing.blocked) return false;
+    full.foliage_m += crossing.foliage_m;
+    for (const Passage& wall : passages(world, crossing.walls, path.vertices[i], path.vertices[i + 1])) {
+      full.interactions.push_back({InteractionType::transmission, wall.facet});
+      full.vertices.push_back(wall.point);
+    }
+    if (i < path.interactions.size()) full.interactions.push_back(path.interactions[i]);
+    full.vertices.push_back(path.vertices[i + 1]);
+  }
+  return true;
+}
+
+/// The interaction that is a diffraction or a scattering.
+std::optional<size_t> bend_of(const GeometricPath& path) {
+  for (size_t i = 0; i < path.interactions.size(); ++i)
+    if (path.interactions[i].type == InteractionType::diffraction ||
+        path.interactions[i].type == InteractionType::scattering)
+      return i;
+  return std::nullopt;
+}
+
+/// Segments straight from a patch to an end of the link (0: the transmitter, 1: the receiver): all paths that
+/// are scattered there share them. Looked up only, never walked.
+struct StraightToPatches {
+  std::unordered_map<uint64_t, uint32_t> to[2];
+};
+
+/// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first,
+/// where it leads straight to an end, and the others only if that one is clear. `segments` from `first` on
+/// are the path's.
+void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
+                 StraightToPatches& straight) {
+  const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;
+  const size_t leader = first + (to_receiver || !to_transmitter ? bend + 1 : bend);
+  for (size_t i = first; i < segments.size(); ++i)
+    if (i != leader) segments[i].only_if = static_cast<uint32_t>(leader);
+  const Interaction& patch = path.interactions[bend];
+  if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
+  const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
+  const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
+  // The paths that may pass most walls, those of fewest interactions, come first. finish() counts walls
+  // again.
+  if (!is_new && segments[known->second].walls >= segments[leader].walls)
+    segments[leader].same_as = known->second;
+}
+
+bool less(const GeometricPath& a, const GeometricPath& b) {
+  return interactions_less(a.interactions, b.interactions);
+}
+
+/// Reflections alone before a diffraction, that before a scattering; shorter chains before longer ones.
+bool matters_more(const GeometricPath& a, const GeometricPath& b) {
+  const auto kind = [](const GeometricPath& path) {
+    InteractionType most = InteractionType::reflection;
+    for (const Interaction& interaction : path.interactions) most = std::max(most, interaction.type);
+    return most;
+  };
+  const InteractionType kind_a = kind(a), kind_b = kind(b);
+  return kind_a != kind_b ? kind_a < kind_b : a.interactions.size() < b.interactions.size();
+}
+
+}  // namespace
+
+void keep_most(LinkGeometry& link, uint64_t most) {
+  if (link.paths.size() <= most) return;
+  link.overflow += link.paths.size() - most;
+  std::stable_sort(link.paths.begin(), link.paths.end(), matters_more);
+  link.paths.resize(most);
+  std::sort(link.paths.begin(), link.paths.end(), less);
+}
+
+PathSolver::PathSolver(const RadioModel& model, const PathLimits& limits, bool moving_bodies)
+    : model_(&model), limits_(limits), field_(model.field_model()) {
+  if (model.effects.diffraction || model.effects.scattering) midpoints_.emplace(model, limits, moving_bodies);
+}
+
+void PathSolver::set_candidates(const CandidateList& candidates, const dvec3& source, Source end) {
+  tree_.emplace(model_->facets, source, candidates, end);
+  if (midpoints_) midpoints_->set_candidates(candidates, *tree_);
+}
+
+void PathSolver::move_source(const dvec3& source) {
+  GREATX_CHECK(tree_.has_value(), "the source moved to ({}, {}, {}) before it had candidates", source.x,
+               source.y, source.z);
+  tree_->update(source);
+  if (midpoints_) midpoints_->move(*tree_);
+}
+
+LinkGeometry PathSolver::geometry(const EndState& end) const {
+  const dvec3& target = end.position;
+  GREATX_CHECK(tree_.has_value(), "no candidates for the target at ({}, {}, {})", target.x, target.y,
+               target.z);
+  LinkGeometry link;
+  link.paths = tree_->solve(target);
+  if (!model_->effects.line_of_sight)
+    std::erase_if(link.paths, [](const GeometricPath& path) { return path.interactions.empty(); });
+  if (!model_->effects.reflection)
+    std::erase_if(link.paths, [](const GeometricPath& path) { return !path.interactions.empty(); });
+  if (midpoints_) {
+    link.searched = midpoints_->solve(*tree_, target, end.body, link.paths);
+    std::sort(link.paths.begin(), link.paths.end(), less);
+  }
+  keep_most(link, limits_.max_paths);
+  return link;
+}
+
+uint32_t PathSolver::walls_allowed(const GeometricPath& path) const {
+  if (!model_->effects.transmission || path.interactions.size() >= limits_.max_depth) return 0;
+  const uint32_t left = limits_.max_depth - static_cast<uint32_t>(path.interactions.size());
+  return std::min({left, limits_.max_transmissions, shared::crossings_max});
+}
+
+void PathSolver::add_segments(std::span<const GeometricPath> paths, const EndState& transmitter,
+                              const EndState& receiver, std::vector<Segment>& segments) const {
+  const auto body_or_none = [](uint32_t body) { return body == 0 ? shared::rf_none : body; };
+  StraightToPatches straight;
+  for (const GeometricPath& path : paths) {
+    const size_t count = path.interactions.size(), first = segments.size();
+    const uint32_t walls = walls_allowed(path);
+    for (size_t i = 0; i <= count; ++i) {
+      Segment segment{.a = path.vertices[i], .b = path.vertices[i + 1], .walls = walls};
+      if (i > 0) {
+        const Touched touched = touched_at(path.interactions[i - 1], model_->wedges);
+        segment.facet_a = touched.first, segment.other_a = touched.second;
+      }
+      if (i < count) {
+        const Touched touched = touched_at(path.interactions[i], model_->wedges);
+        segment.facet_b = touched.first, segment.other_b = touched.second;
+      }
+      if (i == 0) segment.body_a = body_or_none(transmitter.body);
+      if (i == count) segment.body_b = body_or_none(receiver.body);
+      segments.push_back(segment);
+    }
+    if (const std::optional<size_t> bend = bend_of(path)) hang_on_one(path, *bend, first, segments, straight);
+  }
+}
+
+std::vector<Path> PathSolver::finish(std::span<const GeometricPath> paths,
+                                     std::span<const Crossing> crossings, const EndState& transmitter,
+                                     const EndState& receiver, const FacetWorld& world) const {
+  FieldModel field = field_;
+  field.world = &world;
+  std::vector<GeometricPath> lit;
+  size_t first = 0;
+  for (const GeometricPath& path : paths) {
+    const size_t count = path.interactions.size() + 1;
+    GREATX_CHECK(first + count <= crossings.size(), "{} answers for {} segments and more", crossings.size(),
+                 first + count);
+    GeometricPath full;
+    const bool clear = insert_walls(world, path, crossings.subspan(first, count), full);
+    first += count;
+    if (!clear || full.interactions.size() > limits_.max_depth) continue;
+    if (full.interactions.size() - path.interactions.size() > limits_.max_transmissions) continue;
+    lit.push_back(std::move(full));
+  }
+  GREATX_CHECK(first == crossings.size(), "{} segments, {} answers", first, crossings.size());
+  std::sort(lit.begin(), lit.end(), less);
+  std::vector<Path> fields;
+  fields.reserve(lit.size());
+  for (const GeometricPath& path : lit) {
+    checkpoint();
+    fields.push_back(path_field(path, field, transmitter.velocity, receiver.velocity));
+  }
+  return fields;
+}
+
+}  // namespace greatx::rf

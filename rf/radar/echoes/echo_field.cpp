@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/echo_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "rf/surface/scattering.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr Complex j{0.0, 1.0};
+
+/// s = k x n / |k x n|; at normal incidence any will do, since r_TE = -r_TM there.
+dvec3 across(const dvec3& k, const dvec3& normal) {
+  const dvec3 product = glm::cross(k, normal);
+  const double sine = glm::length(product);
+  if (sine > 1e-8) return product / sine;
+  return glm::normalize(glm::cross(k, std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+}
+
+FieldVector crossed(const dvec3& a, const FieldVector& b) {
+  return {glm::cross(a, b.re), glm::cross(a, b.im)};
+}
+
+FieldVector sum(const FieldVector& a, const FieldVector& b) { return {a.re + b.re, a.im + b.im}; }
+
+/// A wave that meets a surface: the side it comes from, the wave that leaves.
+struct Bounce {
+  dvec3 normal{0.0}, out{0.0};  ///< normal on the lit side
+  double cosine = 0.0;
+  FieldVector reflected;
+};
+
+Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const FieldVector& field,
+              const dvec3& in) {
+  Bounce b;
+  const double towards = glm::dot(in, facet.normal);
+  b.normal = towards < 0.0 ? facet.normal : -facet.normal;
+  b.cosine = std::min(1.0, std::abs(towards));
+  b.out = in - 2.0 * towards * facet.normal;
+  const FresnelCoefficients fresnel = surfaces.reflect(facet.material, towards < 0.0, b.cosine);
+  const dvec3 s = across(in, b.normal);
+  b.reflected.add(fresnel.r_te * field.along(s), s);
+  b.reflected.add(fresnel.r_tm * field.along(glm::cross(in, s)), glm::cross(b.out, s));
+  return b;
+}
+
+void scale(FieldVector& field, double by) { field.re *= by, field.im *= by; }
+
+/// Patches are counted on the facet's own plane coordinates.
+uint32_t patch_of(const PosedFacet& facet, const dvec3& point, double side_m) {
+  const dvec2 p = glm::floor(facet.plane_coordinates(point) / side_m);
+  return (static_cast<uint32_t>(static_cast<int64_t>(p.x)) & 0xffffu) |
+         (static_cast<uint32_t>(static_cast<int64_t>(p.y)) << 16);
+}
+
+}  // namespace
+
+EchoField::EchoField(const FacetWorld& world, const RadioSurfaces& surfaces, const EchoOptions& options,
+                     const TurnedElement& transmitter, const TurnedElement& receiver,
+                     const dvec3& receiver_at)
+    : world_(world),
+      surfaces_(surfaces),
+      options_(options),
+      transmitter_(transmitter),
+      receiver_(receiver),
+      receiver_at_(receiver_at),
+      wavenumber_(2.0 * pi / surfaces.wavelength_m()) {}
+
+FieldVector EchoField::radiated(const dvec3& departure) const {
+  Jones jones[1];
+  transmitter_.respond(departure, jones);
+  FieldVector field;
+  field.add(jones[0].theta, theta_hat(departure));
+  field.add(jones[0].phi, phi_hat(departure));
+  return field;
+}
+
+Complex EchoField::received(const FieldVector& field, const dvec3& arrival) const {
+  Jones jones[1];
+  receiver_.respond(arrival, jones);
+  return jones[0].theta * field.along(theta_hat(arrival)) + jones[0].phi * field.along(phi_hat(arrival));
+}
+
+double EchoField::coherent_share(uint32_t material, double cos_in, double cos_out) const {
+  return specular_share(
+      surfaces_.surface(material), std::min(1.0, 0.5 * (cos_in + cos_out)), surfaces_.wavelength_m(),
+      options_.roughness ? std::optional(RoughnessModel::ament) : std::nullopt, options_.diffuse);
+}
+
+FieldVector EchoField::incident(const EchoPoint& point, dvec3& direction) const {
+  direction = point.departure;
+  FieldVector field = radiated(direction);
+  for (size_t i = 0; i + 1 < point.chain.size(); ++i) {
+    const PosedFacet& facet = world_.facet(point.chain[i]);
+    Bounce at = bounce(surfaces_, facet, field, direction);
+    field = at.reflected;
+    scale(field, coherent_share(facet.material, at.cosine, at.cosine));
+    direction = at.out;
+  }
+  return field;
+}
+
+dvec3 EchoField::mirrored_receiver(uint32_t facet) const {
+  const PosedFacet& mirror = world_.facet(facet);
+  return receiver_at_ - 2.0 * mirror.distance(receiver_at_) * mirror.normal;
+}
+
+Complex EchoField::density(const EchoPoint& point) const {
+  dvec3 in;
+  const FieldVector field = incident(point, in);
+  const PosedFacet& facet = world_.facet(point.chain.back());
+  dvec3 receiver = receiver_at_;
+  if (point.mirror != EchoPoint::none) receiver = mirrored_receiver(point.mirror);
+  const dvec3 arm = receiver - point.point;
+  const double distance = glm::length(arm);
+  const dvec3 out = arm / distance;
+  const Bounce at = bounce(surfaces_, facet, field, in);
+  const double cos_out = glm::dot(out, at.normal);
+  if (cos_out <= 0.0 || at.cosine <= 0.0) return 0.0;
+  const FieldVector electric = sum(field, at.reflected);
+  const FieldVector magnetic = sum(crossed(in, field), crossed(at.out, at.reflected));  // eta H
+  // eta J - r x M, J = n x H, M = -n x E; what lies along r is dropped by `received`, whose axes are across
+  // it.
+  const FieldVector source = sum(crossed(at.normal, magnetic), crossed(out, crossed(at.normal, electric)));
+  const double kept = coherent_share(facet.material, at.cosine, cos_out);
+  const double wavelength = surfaces_.wavelength_m();
+  const Complex scale_by =
+      -j * (wavelength / (4.0 * pi)) * (wavenumber_ / (4.0 * pi)) * kept / (point.length_m * distance);
+  if (point.mirror == EchoPoint::none) return scale_by * received(source, -out);
+  const PosedFacet& mirror = world_.facet(point.mirror);
+  const Bounce over = bounce(surfaces_, mirror, source, out);
+  return scale_by * coherent_share(mirror.material, over.cosine, over.cosine) *
+         received(over.reflected, -over.out);
+}
+
+Complex EchoField::diffuse(const EchoPoint& point, double area_m2) const {
+  const PosedFacet& facet = world_.facet(point.chain.back());
+  const DiffuseScattering& surface = surfaces_.surface(facet.material).scattering;
+  if (surface.coefficient == 0.0) return 0.0;
+  dvec3 in;
+  const FieldVector field = incident(point, in);
+  const dvec3 arm = receiver_at_ - point.point;
+  const double distance = glm::length(arm);
+  const dvec3 out = arm / distance;
+  const double towards = glm::dot(in, facet.normal);
+  const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+  const double cosine = std::min(1.0, std::abs(towards));
+  const FresnelCoefficients fresnel = surfaces_.reflect(facet.material, towards < 0.0, cosine);
+  const double amplitude =
+      surface.coefficient * std::sqrt(scattering_pattern(surface, in, out, normal) * cosine * area_m2);
+  const ScatteringMatrix m = scattering_matrix(surface.cross_polarization, options_.seed, point.chain.back(),
+                                               patch_of(facet, point.point, options_.diffuse_patch_m));
+  const dvec3 s_in = across(in, normal), s_out = across(out, normal);
+  const Complex te = amplitude * fresnel.r_te * field.along(s_in);
+  const Complex tm = amplitude * fresnel.r_tm * field.along(glm::cross(in, s_in));
+  FieldVector scattered;
+  scattered.add(m.ss * te + m.sp * tm, s_out);
+  scattered.add(m.ps * te + m.pp * tm, glm::cross(out, s_out));
+  return surfaces_.wavelength_m() / (4.0 * pi) / (point.length_m * distance) * received(scattered, -out);
+}
+
+Complex EchoField::direct(const dvec3& transmitter_at) const {
+  const dvec3 arm = receiver_at_ - transmitter_at;
+  const double distance = glm::length(arm);
+  GREATX_CHECK(distance > 0.0, "transmitter and receiver in one place");
+  return surfaces_.wavelength_m() / (4.0 * pi * distance) *
+         received(radiated(arm / distance), -arm / distance);
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/echo_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "rf/radar/echoes/echo_merge.h"
+#include "rf/radar/echoes/echo_tracks.h"
+#include "rf/radar/echoes/tube_echoes.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double track_error = 1e-3;  ///< of a wavelength
+constexpr double rate_step_s = 1e-6;  ///< over which rates are taken
+constexpr size_t echo_chunk = 256;
+
+void check(const EchoOptions& o) {
+  if (o.max_bounces < 1 || o.max_bounces > most_bounces)
+    throw_user_error("radar bounces: expected 1 to {}, found {}", most_bounces, o.max_bounces);
+  if (o.tubes < 1) throw_user_error("radar tubes: expected 1 at least, found {}", o.tubes);
+  if (!(o.target_tube_m > 0.0))
+    throw_user_error("radar tube on targets: expected more than 0 m, found {}", o.target_tube_m);
+  if (!(o.antenna_radius_m >= 0.0))
+    throw_user_error("radar antenna: expected a radius of 0 m or more, found {}", o.antenna_radius_m);
+  if (!(o.border_floor_m2 >= 0.0))
+    throw_user_error("radar floor: expected a cross-section of 0 m^2 or more, found {}", o.border_floor_m2);
+  if (!(o.hidden_floor_m2 >= 0.0))
+    throw_user_error("radar floor: expected a hidden cross-section of 0 m^2 or more, found {}",
+                     o.hidden_floor_m2);
+  if (!(o.merge_share >= 0.0 && o.bandwidth_hz > 0.0 && o.beam_rad > 0.0))
+    throw_user_error(
+        "radar merging: expected a share >= 0, a bandwidth and a beam > 0, found {}, {} Hz, {} rad",
+        o.merge_share, o.bandwidth_hz, o.beam_rad);
+  if (!(o.diffuse_patch_m > 0.0))
+    throw_user_error("radar patches: expected more than 0 m, found {}", o.diffuse_patch_m);
+}
+
+TurnedElement turned(const EchoEnd& end, const Pose& pose) {
+  return {end.pattern, std::span(&end.slant, 1), pose.orientation};
+}
+
+/// What every raw echo needs to be told apart by, and how it moves.
+class Movers {
+ public:
+  Movers(const scene::Scene& scene, const FacetWorld& world, const RawEchoes& raw, const EchoMotion& motion,
+         const dvec3& transmitter, uint32_t threads)
+      : scene_(scene),
+        world_(world),
+        raw_(raw),
+        motion_(motion),
+        transmitter_(transmitter),
+        threads_(threads),
+        asked_(std::make_unique<bool[]>(scene.bodies.size())) {
+    for (const uint32_t facet : raw.chains)
+      if (world.facet(facet).body != 0) asked_[world.facet(facet).body] = true;
+  }
+
+  std::vector<uint32_t> instances() const {
+    std::vector<uint32_t> all;
+    for (const RawEcho& echo : raw_.echoes)
+      all.push_back(echo.bounces == 0 ? 0 : scene_.facets[raw_.chain(echo).back()].instance + 1);
+    return all;
+  }
+  CarriedPath vertices(const RawEcho& echo) const {
+    return carried_vertices(world_, transmitter_, echo.departure, raw_.chain(echo), echo.point);
+  }
+  PoseTable poses(std::vector<double> times) const {
+    return PoseTable(motion_, std::span(asked_.get(), scene_.bodies.size()), std::move(times));
+  }
+  /// Of path length, m/s, in the middle of the frame.
+  std::vector<double> rates() const {
+    std::vector<double> rates(raw_.echoes.size(), 0.0);
+    if (motion_.frame_s() == 0.0) return rates;
+    const double middle = motion_.slot_start_s.front() + 0.5 * motion_.frame_s();
+    const PoseTable table = poses({middle - 0.5 * rate_step_s, middle + 0.5 * rate_step_s});
+    if (!moves(table)) return rates;
+    parallel_for((rates.size() + echo_chunk - 1) / echo_chunk, threads_, [&](size_t part) {
+      for (size_t i = part * echo_chunk; i < std::min(rates.size(), (part + 1) * echo_chunk); ++i) {
+        const CarriedPath path = vertices(raw_.echoes[i]);
+        rates[i] = (table.length(path, 1) - table.length(path, 0)) / rate_step_s;
+      }
+    });
+    return rates;
+  }
+
+ private:
+  bool moves(const PoseTable& table) const {
+    if (table.transmitter(0) != table.transmitter(1) || table.receiver(0) != table.receiver(1)) return true;
+    for (uint32_t body = 1; body < scene_.bodies.size(); ++body) {
+      if (!asked_[body]) continue;
+      const Pose &a = table.body(body, 0), &b = table.body(body, 1);
+      if (a.position != b.position || a.orientation != b.orientation) return true;
+    }
+    return false;
+  }
+
+  const scene::Scene& scene_;
+  const FacetWorld& world_;
+  const RawEchoes& raw_;
+  const EchoMotion& motion_;
+  dvec3 transmitter_;
+  uint32_t threads_;
+  std::unique_ptr<bool[]> asked_;  ///< [bodies]
+};
+
+void keep_strongest(std::vector<MergedEcho>& merged, uint32_t most, EchoStatistics& statistics) {
+  if (merged.size() <= most) return;
+  std::vector<uint32_t> order(merged.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    const double x = std::norm(merged[a].amplitude), y = std::norm(merged[b].amplitude);
+    return x != y ? x > y : a < b;
+  });
+  statistics.left_out = order.size() - most;
+  for (size_t i = most; i < order.size(); ++i)
+    statistics.left_out_power += std::norm(merged[order[i]].amplitude);
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  std::vector<MergedEcho> kept;
+  for (const uint32_t i : order) kept.push_back(merged[i]);
+  merged.swap(kept);
+}
+
+Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all, const scene::Scene& scene) {
+  Echo echo;
+  echo.amplitude = merged.amplitude;
+  echo.departure = raw.departure;
+  echo.arrival = raw.arrival;
+  echo.point = raw.point;
+  echo.bounces = raw.bounces;
+  if (raw.bounces > 0) {
+    const scene::Facet& facet = scene.facets[all.chain(raw).back()];
+    echo.instance = facet.instance + 1;
+    echo.material = facet.material + 1;
+  }
+  return echo;
+}
+
+/// The delays of all echoes; those that no cubic follows get a table each, in their order.
+void add_tracks(const Movers& movers, const RawEchoes& raw, std::span<const MergedEcho> merged,
+                const EchoMotion& motion, double wavelength_m, uint32_t threads, EchoList& list) {
+  const PoseTable poses = movers.poses(track_times(motion));
+  std::vector<uint8_t> fits(list.echoes.size());
+  const size_t chunks = (list.echoes.size() + echo_chunk - 1) / echo_chunk;
+  parallel_for(chunks, threads, [&](size_t part) {
+    for (size_t i = part * echo_chunk; i < std::min(list.echoes.size(), (part + 1) * echo_chunk); ++i)
+      fits[i] = fit_track(poses, movers.vertices(raw.echoes[merged[i].strongest]), track_error * wavelength_m,
+                          list.echoes[i].delay);
+  });
+  std::vector<uint32_t> wild;
+  for (uint32_t i = 0; i < fits.size(); ++i)
+    if (!fits[i]) wild.push_back(i);
+  if (wild.empty()) return;
+  std::vector<double> times = motion.slot_start_s;
+  for (const double start : motion.slot_start_s) times.push_back(start + rate_step_s);
+  const PoseTable at_slots = movers.poses(std::move(times));
+  list.tables.resize(wild.size() * motion.slot_start_s.size());
+  parallel_for(wild.size(), threads, [&](size_t row) {
+    const auto table =
+        track_table(at_slots, movers.vertices(raw.echoes[merged[wild[row]].strongest]), rate_step_s);
+    std::copy(table.begin(), table.end(), list.tables.begin() + row * table.size());
+    DelayTrack& track = list.echoes[wild[row]].delay;
+    track.coefficients = {table[table.size() / 2][0], table[table.size() / 2][1], 0.0, 0.0};
+    track.mid_s = motion.slot_start_s[table.size() / 2];
+    track.table = static_cast<int32_t>(row);
+  });
+}
+
+}  // namespace
+
+EchoFinder::EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, const EchoEnd& transmitter,
+                       const std::optional<EchoEnd>& receiver, const EchoOptions& options)
+    : scene_(&scene),
+      surfaces_(surfaces),
+      transmitter_(transmitter),
+      receiver_(receiver.value_or(transmitter)),
+      monostatic_(!receiver.has_value()),
+      options_((check(options), options)),
+      world_(scene.scene()),
+      trees_(scene.scene()),
+      traced_(options.max_bounces + (monostatic_ && options.max_bounces >= mirror_bounces ? 1 : 0)) {
+  const bool on_cpu = scene.device().info().type == "cpu";
+  const bool on_host =
+      options.tracing == EchoTracing::host || (options.tracing == EchoTracing::automatic && on_cpu);
+  const bool over_mirrors = traced_ > options.max_bounces && options.mirror_budget > 0;
+  if (on_host || over_mirrors) tracer_.emplace(scene.scene(), trees_);
+  if (!on_host) pass_.emplace(scene, traced_, monostatic_, transmitter.own_body != 0);
+  if (over_mirrors) mirrors_.emplace(scene.scene(), world_, surfaces_);
+}
+
+std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) const {
+  const scene::Scene& scene = scene_->scene();
+  std::vector<TargetBox> boxes;
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
+    const bool named =
+        std::find(options_.targets.begin(), options_.targets.end(), i) != options_.targets.end();
+    const bool moving = options_.moving_targets && instance.body != 0 &&
+                        scene.owner_of(instance.body) != transmitter_.own_body;
+    if (!named && !moving) continue;
+    scene::Bounds bounds = instance.bounds;
+    if (instance.body != 0) bounds.add(scene.reach_of(instance.body));  // with the parts that it carries
+    boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body], i, instance.body});
+  }
+  return boxes;
+}
+
+std::shared_ptr<const RayGrid> EchoFinder::grid_for(const Pose& transmitter,
+                                                    std::span<const Pose> body_poses) const {
+  const std::vector<TargetBox> boxes = targets(body_poses);
+  std::vector<TargetImage> images;
+  if (mirrors_)
+    images = mirrors_->find(boxes, world_, trees_, *tracer_, transmitter.position, transmitter_.own_body);
+  return std::make_shared<const RayGrid>(options_, transmitter, boxes, images);
+}
+
+EchoFinder::Pending EchoFinder::record(gpu::TickSlot& slot, const Pose& transmitter, const Pose& receiver,
+                                       std::span<const Pose> body_poses) {
+  GREATX_CHECK(body_poses.size() == scene_->scene().bodies.size(), "{} poses of {} bodies", body_poses.size(),
+               scene_->scene().bodies.size());
+  GREATX_CHECK(!monostatic_ || transmitter.position == receiver.position, "a monostatic radar in two places");
+  Pending pending;
+  pending.transmitter = transmitter, pending.receiver = receiver;
+  pending.body_poses.assign(body_poses.begin(), body_poses.end());
+  if (!pass_) return pending;
+  pose_world(body_poses);
+  pending.grid = grid_for(transmitter, body_poses);
+  std::vector<vec3> directions(pending.grid->size());
+  for (uint32_t tube = 0; tube < directions.size(); ++tube) directions[tube] = vec3(pending.grid->axis(tube));
+  pending.rays = pass_->record(slot, rays_of(pending), directions);
+  return pending;
+}
+
+void EchoFinder::pose_world(std::span<const Pose> body_poses) {
+  for (uint32_t body = 1; body < body_poses.size(); ++body) {
+    const Pose &now = body_poses[body], &before = world_.motion(body).pose;
+    if (now.position == before.position && now.orientation == before.orientation) continue;
+    Motion motion;
+    motion.pose = now;
+    world_.move(body, motion);
+  }
+}
+
+void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<const uint32_t> hits) const {
+  const scene::Scene& scene = scene_->scene();
+  for (uint32_t tube = 0; tube < grid.size(); ++tube) {
+    const uint32_t index = RayHits::facet(hits[tube]);
+    if (index == VisibleCell::nothing) continue;
+    const PosedFacet& facet = world_.facet(index);
+    const double distance = std::abs(facet.distance(at));
+    if (distance >= options_.antenna_radius_m) continue;  // nothing on the plane is nearer
+    const double reach = distance / std::abs(glm::dot(facet.normal, grid.axis(tube)));
+    if (reach < options_.antenna_radius_m)
+      throw_user_error("radar '{}': expected nothing within {} m of its antenna, found '{}' at {:.4f} m",
+                       transmitter_.name, options_.antenna_radius_m,
+                       scene.instances[scene.facets[index].instance].name, reach);
+  }
+}
+
+EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics) {
+  const scene::Scene& scene = scene_->scene();
+  pose_world(pending.body_poses);
+  const TurnedElement transmitter = turned(transmitter_, pending.transmitter);
+  const TurnedElement receiver = turned(receiver_, pending.receiver);
+  const EchoField field(world_, surfaces_, options_, transmitter, receiver, pending.receiver.position);
+  const auto reflects = [&](uint32_t facet) { return field.reflects(facet); };
+  const std::shared_ptr<const RayGrid> grid =
+      pending.grid ? pending.grid : grid_for(pending.transmitter, pending.body_poses);
+  const dvec3& source = pending.transmitter.position;
+  EchoTracer::Answer traced;
+  const auto last = [&](uint32_t first, uint32_t second) {
+    return traced_ > options_.max_bounces && mirrors(world_, first, second) ? traced_ : options_.max_bounces;
+  };
+  if (!pass_)
+    traced = tracer_->trace(world_, rays_of(pending), *grid, traced_, monostatic_, reflects, last,
+                            options_.threads);
+  const std::span<const uint32_t> words = pass_ ? pass_->collect(pending.rays) : traced.words;
+  const bool direct = pass_ ? pass_->direct(pending.rays) : traced.direct;
+  check_antenna(source, *grid, words);
+  RayHits hits(words, grid->size());
+  if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
+  RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
+  const dvec3 arm = pending.receiver.position - source;
+  // Two elements at one place (of other polarizations) have no way from one to the other.
+  if (const double length = glm::length(arm); !monostatic_ && direct && length > 0.0) {
+    raw.echoes.push_back({field.direct(source), arm / length, -arm / length, source, length, 0, 0});
+  }
+
+  EchoStatistics counted;
+  counted.tubes = grid->size();
+  counted.target_tubes = grid->target_tubes();
+  counted.target_tube_m = grid->target_tube_m();
+  counted.mirror_tubes = grid->mirror_tubes();
+  counted.mirror_tube_m = grid->mirror_tube_m();
+  counted.contributions = raw.echoes.size();
+  counted.below_floor = raw.below_floor;
+  const Movers movers(scene, world_, raw, motion, source, options_.threads);
+  MergeCells cells;
+  cells.wavelength_m = surfaces_.wavelength_m();
+  cells.length_m = options_.merge_share * speed_of_light / options_.bandwidth_hz;
+  cells.rate_mps =
+      motion.frame_s() > 0.0 ? options_.merge_share * cells.wavelength_m / motion.frame_s() : 0.0;
+  cells.direction = options_.merge_share * options_.beam_rad;
+  cells.compare_arrival = !monostatic_;
+  std::vector<MergedEcho> merged = merge(raw, movers.rates(), movers.instances(), cells);
+  keep_strongest(merged, options_.max_echoes, counted);
+
+  EchoList list;
+  list.first_slot = motion.first_slot;
+  list.slots = static_cast<uint32_t>(motion.slot_start_s.size());
+  for (const MergedEcho& echo : merged)
+    list.echoes.push_back(echo_of(echo, raw.echoes[echo.strongest], raw, scene));
+  add_tracks(movers, raw, merged, motion, cells.wavelength_m, options_.threads, list);
+  if (statistics != nullptr) *statistics = counted;
+  return list;
+}
+
+EchoList EchoFinder::find(const Pose& transmitter, const Pose& receiver, std::span<const Pose> body_poses,
+                          EchoStatistics* statistics) {
+  gpu::Device& device = scene_->device();
+  gpu::TickSlot slot;
+  slot.upload = gpu::Arena(device, gpu::Memory::upload, 1u << 20, "echoes upload");
+  slot.readback = gpu::Arena(device, gpu::Memory::readback, 1u << 20, "echoes readback");
+  Pending pending;
+  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
+    slot.cmd = &cmd;
+    scene_->record_update(slot, body_poses);
+    pending = record(slot, transmitter, receiver, body_poses);
+    cmd.barrier(gpu::sync::compute_write, gpu::sync::host_read);
+  });
+  return collect(pending, at_rest(transmitter, receiver, {body_poses.begin(), body_poses.end()}), statistics);
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/echo_tracer.h"
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "rf/radar/signal/lanes.h"
+#include "shaders/shared/radar.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr uint32_t tubes_at_once = 256;
+/// Of the largest coordinate: how far a reflected ray starts from its surface, as lib/trace.glsl has it, so
+/// that what lies in the same plane but for the roundings of its fp32 corners is not met.
+constexpr double lift = 4.2e-7;
+
+double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+using Lane [[gnu::vector_size(32), gnu::may_alias]] = float;
+using Bits [[gnu::vector_size(32), gnu::may_alias]] = int32_t;
+
+/// One bit for each lane that is not 0.
+inline uint32_t mask_of(const Bits& lanes) {
+#if defined(__SSE2__)
+  const __m128* halves = reinterpret_cast<const __m128*>(&lanes);
+  return static_cast<uint32_t>(_mm_movemask_ps(halves[0]) | (_mm_movemask_ps(halves[1]) << 4));
+#else
+  uint32_t mask = 0;
+  for (int k = 0; k < 8; ++k) mask |= (static_cast<uint32_t>(lanes[k]) & 1u) << k;
+  return mask;
+#endif
+}
+
+double area_of(const scene::Bounds& bounds) {
+  const dvec3 size = bounds.size();
+  return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+}  // namespace
+
+struct EchoTracer::Build {
+  std::vector<Piece> pieces;
+  std::vector<scene::Bounds> bounds;  ///< [pieces]
+  std::vector<uint32_t> order;
+};
+
+EchoTracer::Piece EchoTracer::piece_of(const scene::Facet& facet, uint32_t index,
+                                       std::span<const dvec3> corners) {
+  Piece piece{facet.normal, facet.offset, index, static_cast<uint32_t>(sides_.size()),
+              static_cast<uint32_t>(corners.size())};
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const dvec3 along = corners[(i + 1) % corners.size()] - corners[i];
+    const dvec3 inwards = glm::normalize(glm::cross(facet.normal, along));
+    sides_.push_back({inwards, -glm::dot(inwards, corners[i])});
+    piece.room = std::max({piece.room, 1e-9 * glm::length(along), 1e-13 * largest(corners[i])});
+  }
+  return piece;
+}
+
+EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
+  for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    Build work;
+    Tree tree{0, body, scene.owner_of(body), {}};
+    for (uint32_t facet = 0; facet < scene.facets.size(); ++facet) {
+      if (scene.facets[facet].body != body) continue;
+      for (const uint32_t index : trees.pieces(facet)) {
+        const std::span<const dvec3> corners = trees.corners(index);
+        scene::Bounds bounds;
+        for (const dvec3& corner : corners) bounds.add(corner);
+        // Boxes are tested in fp32: wider by more than its roundings.
+        const double room = 1e-6 * std::max(largest(bounds.min), largest(bounds.max)) + 1e-6;
+        bounds.min -= room, bounds.max += room;
+        tree.bounds.add(bounds);
+        work.order.push_back(static_cast<uint32_t>(work.pieces.size()));
+        work.pieces.push_back(piece_of(scene.facets[facet], facet, corners));
+        work.bounds.push_back(bounds);
+      }
+    }
+    if (work.pieces.empty()) continue;
+    tree.root = build(work, 0, static_cast<uint32_t>(work.order.size()));
+    trees_.push_back(tree);
+  }
+}
+
+/// Where to cut [first, first + count) of work.order, which is partitioned; 0: nowhere.
+static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scene::Bounds>& bounds,
+                            uint32_t first, uint32_t count, uint32_t bins) {
+  scene::Bounds centers;
+  for (uint32_t i = 0; i < count; ++i) centers.add(bounds[order[first + i]].center());
+  const dvec3 size = centers.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  if (!(size[axis] > 0.0)) return count / 2;
+  const auto bin_of = [&](uint32_t i) {
+    const double share = (bounds[i].center()[axis] - centers.min[axis]) / size[axis];
+    return std::min(bins - 1, static_cast<uint32_t>(share * bins));
+  };
+  std::vector<scene::Bounds> box(bins);
+  std::vector<uint32_t> held(bins, 0);
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t bin = bin_of(order[first + i]);
+    box[bin].add(bounds[order[first + i]]);
+    ++held[bin];
+  }
+  std::vector<double> above(bins, 0.0);  // cost of bins from here on
+  scene::Bounds sum;
+  uint32_t in = 0;
+  for (uint32_t bin = bins; bin-- > 1;) {
+    if (!box[bin].empty()) sum.add(box[bin]);
+    in += held[bin];
+    above[bin] = in == 0 ? 0.0 : in * area_of(sum);
+  }
+  double least = 1e300;
+  uint32_t best = 0;
+  sum = {}, in = 0;
+  for (uint32_t bin = 1; bin < bins; ++bin) {
+    if (!box[bin - 1].empty()) sum.add(box[bin - 1]);
+    in += held[bin - 1];
+    if (in == 0 || in == count) continue;
+    const double cost = in * area_of(sum) + above[bin];
+    if (cost < least) least = cost, best = bin;
+  }
+  const auto middle = std::stable_partition(order.begin() + first, order.begin() + first + count,
+                                            [&](uint32_t i) { return bin_of(i) < best; });
+  return static_cast<uint32_t>(middle - order.begin()) - first;
+}
+
+uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
+  struct Range {
+    uint32_t first, count;
+    double area;
+  };
+  const auto range_of = [&](uint32_t from, uint32_t held) {
+    scene::Bounds box;
+    for (uint32_t i = 0; i < held; ++i) box.add(work.bounds[work.order[from + i]]);
+    return Range{from, held, area_of(box)};
+  };
+  std::array<Range, wide> ranges{range_of(first, count)};
+  uint32_t used = 1;
+  while (used < wide) {  // the one that most rays meet is cut again
+    uint32_t widest = wide;
+    for (uint32_t i = 0; i < used; ++i)
+      if (ranges[i].count > leaf_size && (widest == wide || ranges[i].area > ranges[widest].area)) widest = i;
+    if (widest == wide) break;
+    const Range range = ranges[widest];
+    const uint32_t left = cut_by_area(work.order, work.bounds, range.first, range.count, bins);
+    ranges[widest] = range_of(range.first, left);
+    ranges[used++] = range_of(range.first + left, range.count - left);
+  }
+  const uint32_t index = static_cast<uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  for (uint32_t k = 0; k < wide; ++k) {
+    scene::Bounds box;
+    uint32_t child = 0, held = 0;
+    if (k < used) {
+      for (uint32_t i = 0; i < ranges[k].count; ++i) box.add(work.bounds[work.order[ranges[k].first + i]]);
+      if (ranges[k].count <= leaf_size) {
+        child = static_cast<uint32_t>(pieces_.size()), held = ranges[k].count;
+        for (uint32_t i = 0; i < held; ++i) pieces_.push_back(work.pieces[work.order[ranges[k].first + i]]);
+      } else {
+        child = build(work, ranges[k].first, ranges[k].count);
+      }
+    }
+    Node& node = nodes_[index];
+    for (int axis = 0; axis < 3; ++axis) {
+      node.box[axis][0][k] = k < used ? static_cast<float>(box.min[axis]) : 1e30f;
+      node.box[axis][1][k] = k < used ? static_cast<float>(box.max[axis]) : -1e30f;
+    }
+    node.child[k] = child, node.count[k] = held;
+  }
+  return index;
+}
+
+inline void EchoTracer::test(const Piece& piece, const Side* sides, Query& query) {
+  if (piece.facet == query.leaving) return;
+  const double towards = glm::dot(piece.normal, query.direction);
+  const double t = (piece.offset - glm::dot(piece.normal, query.origin)) / towards;
+  if (!(t > 0.0 && t <= query.nearest) || (t == query.nearest && piece.facet >= query.facet)) return;
+  const dvec3 at = query.origin + t * query.direction;
+  for (uint32_t i = 0; i < piece.side_count; ++i) {
+    const Side& side = sides[piece.first_side + i];
+    if (glm::dot(side.normal, at) + side.offset < -piece.room) return;
+  }
+  query.nearest = t, query.facet = piece.facet;
+}
+
+GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root,
+                                   Query& query) {
+  struct Entry {
+    uint32_t node;
+    float at;
+  };
+  std::array<Entry, 256> stack;
+  uint32_t depth = 0;
+  float origin[3], inverse[3];
+  uint32_t far[3];  // which end of a box a ray leaves by
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = query.direction[axis];
+    origin[axis] = static_cast<float>(query.origin[axis]);
+    inverse[axis] = static_cast<float>(1.0 / (std::abs(d) < 1e-20 ? 1e-20 : d));
+    far[axis] = inverse[axis] > 0.0f ? 1u : 0u;
+  }
+  stack[depth++] = {root, 0.0f};
+  while (depth > 0) {
+    const Entry entry = stack[--depth];
+    if (entry.at > query.nearest) continue;
+    const Node& node = nodes[entry.node];
+    Lane in{}, out = in + static_cast<float>(query.nearest) * 1.000001f;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lane* ends = reinterpret_cast<const Lane*>(node.box[axis]);
+      const Lane low = (ends[1u - far[axis]] - origin[axis]) * inverse[axis];
+      const Lane high = (ends[far[axis]] - origin[axis]) * inverse[axis];
+      in = in > low ? in : low;
+      out = out < high ? out : high;
+    }
+    uint32_t met = mask_of(in * 0.999998f <= out * 1.000002f);
+    const uint32_t bottom = depth;
+    for (; met != 0; met &= met - 1) {
+      const uint32_t k = static_cast<uint32_t>(std::countr_zero(met));
+      if (node.count[k] > 0) {
+        for (uint32_t i = 0; i < node.count[k]; ++i) test(pieces[node.child[k] + i], sides, query);
+        if (query.any && query.facet != ~0u) return;
+        continue;
+      }
+      const float at = in[k];
+      uint32_t place = depth++;  // the nearest is looked at first
+      while (place > bottom && stack[place - 1].at < at) stack[place] = stack[place - 1], --place;
+      stack[place] = {node.child[k], at};
+    }
+  }
+}
+
+std::vector<EchoTracer::Standing> EchoTracer::standing(const FacetWorld& world, const Hidden& hidden) const {
+  std::vector<Standing> all;
+  for (const Tree& tree : trees_) {
+    if (tree.body != 0 && (tree.owner == hidden[0] || tree.owner == hidden[1])) continue;
+    Standing& one = all.emplace_back();
+    one.tree = &tree;
+    if (tree.body == 0) continue;
+    const Pose& pose = world.motion(tree.body).pose;
+    const dvec3 size = tree.bounds.size();
+    one.back = pose.inverse();
+    one.center = pose.apply(tree.bounds.center());
+    one.squared_radius = 0.25 * glm::dot(size, size);
+  }
+  return all;
+}
+
+void EchoTracer::meet_all(std::span<const Standing> trees, Query& query) const {
+  const double squared = glm::dot(query.direction, query.direction);
+  for (const Standing& one : trees) {
+    if (one.tree->body == 0) {
+      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, query);
+    } else {
+      const dvec3 across = glm::cross(one.center - query.origin, query.direction);
+      if (glm::dot(across, across) > one.squared_radius * squared) continue;
+      Query own = query;
+      own.origin = one.back.apply(query.origin), own.direction = one.back.rotate(query.direction);
+      meet(nodes_.data(), pieces_.data(), sides_.data(), one.tree->root, own);
+      query.nearest = own.nearest, query.facet = own.facet;
+    }
+    if (query.any && query.facet != ~0u) return;
+  }
+}
+
+bool EchoTracer::sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to,
+                      uint32_t leaving) const {
+  Query query{from, to - from, 1.0, leaving, ~0u, true};
+  meet_all(trees, query);
+  return query.facet == ~0u;
+}
+
+EchoTracer::View EchoTracer::view(const FacetWorld& world, uint32_t hidden_owner) const {
+  View view;
+  view.trees_ = standing(world, {hidden_owner, 0});
+  return view;
+}
+
+EchoTracer::Met EchoTracer::first(const View& view, const dvec3& origin, const dvec3& direction,
+                                  uint32_t leaving) const {
+  Query query{origin, direction};
+  query.leaving = leaving;
+  meet_all(view.trees_, query);
+  return {query.facet, query.nearest};
+}
+
+EchoTracer::Answer EchoTracer::trace(const FacetWorld& world, const EchoRays& rays, const RayGrid& grid,
+                                     uint32_t max_bounces, bool monostatic,
+                                     const std::function<bool(uint32_t facet)>& reflects,
+                                     const std::function<uint32_t(uint32_t first, uint32_t second)>& last,
+                                     uint32_t threads) const {
+  Answer answer;
+  const uint32_t tubes = grid.size();
+  answer.words.assign(size_t{tubes} * max_bounces, shared::radar_none);
+  const std::vector<Standing> own = standing(world, {rays.source_body, 0}),
+                              both = standing(world, {rays.source_body, rays.receiver_body});
+  answer.direct = !monostatic && sees(both, rays.source, rays.receiver, ~0u);
+  parallel_for((tubes + tubes_at_once - 1) / tubes_at_once, threads, [&](size_t part) {
+    const uint32_t first = static_cast<uint32_t>(part) * tubes_at_once;
+    for (uint32_t tube = first; tube < std::min(tubes, first + tubes_at_once); ++tube) {
+      Query query{rays.source, grid.axis(tube)};
+      uint32_t most = max_bounces, before = ~0u;
+      for (uint32_t bounce = 0; bounce < most; ++bounce) {
+        query.nearest = 1e30, query.facet = ~0u;
+        meet_all(own, query);
+        if (query.facet == ~0u) break;
+        if (bounce == 1) most = last(before, query.facet);
+        before = query.facet;
+        const PosedFacet& facet = world.facet(query.facet);
+        const double towards = glm::dot(facet.normal, query.direction);
+        const dvec3 normal = towards < 0.0 ? facet.normal : -facet.normal;
+        const dvec3 at = query.origin + query.nearest * query.direction;
+        query.origin = at + lift * largest(at) * normal;
+        query.leaving = query.facet;
+        bool seen = monostatic && bounce == 0;
+        if (!monostatic && glm::dot(rays.receiver - query.origin, normal) > 0.0)
+          seen = sees(both, query.origin, rays.receiver, query.facet);
+        answer.words[size_t{bounce} * tubes + tube] = query.facet | (seen ? shared::radar_sees_receiver : 0u);
+        if (!reflects(query.facet)) break;
+        query.direction -= 2.0 * towards * facet.normal;
+      }
+    }
+  });
+  return answer;
+}
+
+}  // namespace greatx::rf

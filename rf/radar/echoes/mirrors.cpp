@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/mirrors.h"
+
+#include <array>
+#include <cmath>
+
+namespace greatx::rf {
+namespace {
+
+constexpr double same_distance = 1e-6;  ///< of two ways to find out how far a mirror is, relative
+
+/// A target that is looked for in mirrors.
+struct Sought {
+  const TargetBox* box = nullptr;
+  std::array<dvec3, 9> points;  ///< the middle of the box, and half way to its corners
+  double radius = 0.0;
+};
+
+Sought sought(const TargetBox& box) {
+  Sought target{&box, {}, 0.5 * glm::length(box.bounds.size())};
+  const dvec3 middle = box.bounds.center(), quarter = 0.25 * box.bounds.size();
+  target.points[0] = box.pose.apply(middle);
+  for (int corner = 0; corner < 8; ++corner)
+    target.points[corner + 1] = box.pose.apply(
+        middle + quarter * dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+  return target;
+}
+
+}  // namespace
+
+MirrorFinder::MirrorFinder(const scene::Scene& scene, const FacetWorld& world, const RadioSurfaces& surfaces)
+    : scene_(scene) {
+  for (uint32_t facet = 0; facet < world.facet_count(); ++facet) {
+    const PosedFacet& posed = world.facet(facet);
+    if (surfaces.surface(posed.material).front.empty()) continue;
+    mirrors_.push_back({facet, std::max(posed.max_u - posed.min_u, posed.max_v - posed.min_v)});
+  }
+  std::sort(mirrors_.begin(), mirrors_.end(), [](const Mirror& a, const Mirror& b) {
+    return a.extent_m != b.extent_m ? a.extent_m > b.extent_m : a.facet < b.facet;
+  });
+}
+
+std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, const FacetWorld& world,
+                                            const FacetTrees& trees, const EchoTracer& tracer,
+                                            const dvec3& radar, uint32_t own_body) const {
+  std::vector<TargetImage> images;
+  if (targets.empty()) return images;
+  const EchoTracer::View view = tracer.view(world, own_body);
+  for (const TargetBox& box : targets) {
+    if (box.bounds.empty()) continue;
+    const Sought target = sought(box);
+    const uint32_t owner = scene_.owner_of(box.body);
+    const auto is_target = [&](uint32_t facet) {
+      return box.body == 0 ? scene_.facets[facet].instance == box.instance
+                           : world.facet(facet).owner == owner;
+    };
+    for (const Mirror& mirror : mirrors_) {
+      if (mirror.extent_m < target.radius) break;
+      const PosedFacet& posed = world.facet(mirror.facet);
+      const double side = posed.distance(radar), there = posed.distance(target.points[0]);
+      if (!(side * there > 0.0)) continue;
+      // Where the ray to the image of the middle meets the plane, as far from the facet as a ray to a corner
+      // may be.
+      const double share = side / (side + there);
+      const dvec2 from = posed.plane_coordinates(radar),
+                  at = from + share * (posed.plane_coordinates(target.points[0]) - from);
+      const double room = share * target.radius;
+      if (at.x < posed.min_u - room || at.x > posed.max_u + room || at.y < posed.min_v - room ||
+          at.y > posed.max_v + room)
+        continue;
+      if (is_target(mirror.facet) || (own_body != 0 && posed.owner == own_body)) continue;
+      const auto shows = [&](const dvec3& point) {
+        const double height = posed.distance(point);
+        if (!(side * height > 0.0)) return false;
+        const dvec3 image = point - 2.0 * height * posed.normal;
+        const dvec3 over = radar + side / (side + height) * (image - radar);
+        if (!trees.contains(world, mirror.facet, over)) return false;
+        const dvec3 out = over - radar, on = point - over;
+        const EchoTracer::Met met = tracer.first(view, radar, glm::normalize(out), ~0u);
+        if (met.facet != mirror.facet && met.distance < glm::length(out) * (1.0 - same_distance))
+          return false;
+        const EchoTracer::Met next = tracer.first(view, over, glm::normalize(on), mirror.facet);
+        return next.distance >= glm::length(on) || is_target(next.facet);
+      };
+      if (!std::any_of(target.points.begin(), target.points.end(), shows)) continue;
+      images.push_back({box, posed.normal, posed.offset,
+                        [&world, &trees, facet = mirror.facet, radar](const dvec3& direction) {
+                          const PosedFacet& plane = world.facet(facet);
+                          const double reach = -plane.distance(radar) / glm::dot(plane.normal, direction);
+                          return reach > 0.0 && reach < 1e12 &&
+                                 trees.contains(world, facet, radar + reach * direction);
+                        }});
+    }
+  }
+  return images;
+}
+
+}  // namespace greatx::rf

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small convex polygons in a plane, counter-clockwise: parts of tubes. Nothing is allocated.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/vec.h"
+
+namespace greatx::rf {
+
+/// x . normal + offset >= 0.
+struct HalfPlane {
+  dvec2 normal{0.0};
+  double offset = 0.0;
+  double at(const dvec2& p) const { return glm::dot(normal, p) + offset; }
+};
+
+class Polygon {
+ public:
+  static constexpr uint32_t capacity = 24;
+
+  Polygon() {}  // the corners stay as they are: polygons are made by the million
+  Polygon(const Polygon& other) { *this = other; }
+  Polygon& operator=(const Polygon& other) {
+    std::copy_n(other.points_.begin(), other.count_, points_.begin());
+    count_ = other.count_;
+    return *this;
+  }
+  /// Turned round if the points run clockwise. At most `capacity` points; repeated ones are kept once.
+  explicit Polygon(std::span<const dvec2> points);
+
+  uint32_t size() const { return count_; }
+  bool empty() const { return count_ < 3; }
+  const dvec2& operator[](uint32_t i) const { return points_[i]; }
+  const dvec2& next(uint32_t i) const { return points_[i + 1 < count_ ? i + 1 : 0]; }
+  double area() const;
+  /// Of the area; the mean of the corners if there is none.
+  dvec2 centroid() const;
+  /// The part in a half-plane. A polygon that would grow beyond `capacity` loses its shortest side: its area
+  /// changes by less than anything that a tube resolves.
+  Polygon clipped(const HalfPlane& side) const;
+  /// The half-plane on the inner side of side i.
+  HalfPlane inside(uint32_t i) const;
+
+ private:
+  void push(const dvec2& p);
+  std::array<dvec2, capacity> points_;
+  uint32_t count_ = 0;
+};
+
+Polygon intersection(const Polygon& a, const Polygon& b);
+
+}  // namespace greatx::rf

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A tube on its way, unfolded: where its rays seem to come from, and coordinates that a ray keeps when it is
+// reflected.
+#pragma once
+
+#include <cmath>
+
+#include "core/vec.h"
+#include "rf/facets/facet_world.h"
+
+namespace greatx::rf {
+
+/// Rays leave `source` along axis + u e1 + v e2: straight lines of the (u, v) plane are planes through the
+/// source, so that triangles are polygons there. A reflection mirrors all four vectors; (u, v) of a ray
+/// stays.
+struct TubeBeam {
+  dvec3 source{0.0}, axis{1, 0, 0}, e1{0, 1, 0}, e2{0, 0, 1};
+
+  TubeBeam() = default;
+  TubeBeam(const dvec3& from, const dvec3& unit_axis) : source(from), axis(unit_axis) {
+    const dvec3 up = std::abs(axis.z) < 0.7 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
+    e1 = glm::normalize(glm::cross(up, axis));
+    e2 = glm::cross(axis, e1);
+  }
+  dvec3 along(const dvec2& uv) const { return axis + uv.x * e1 + uv.y * e2; }
+  /// Of a point in front of the source.
+  dvec2 uv(const dvec3& point) const {
+    const dvec3 arm = point - source;
+    return dvec2(glm::dot(arm, e1), glm::dot(arm, e2)) / glm::dot(arm, axis);
+  }
+  /// Distance to a plane along a ray, in lengths of along(uv); not finite along the plane.
+  double reach(const PosedFacet& facet, const dvec3& direction) const {
+    return -facet.distance(source) / glm::dot(facet.normal, direction);
+  }
+  TubeBeam mirrored(const PosedFacet& facet) const {
+    TubeBeam beam = *this;
+    const auto flip = [&](dvec3& v) { v -= 2.0 * glm::dot(facet.normal, v) * facet.normal; };
+    beam.source -= 2.0 * facet.distance(source) * facet.normal;
+    flip(beam.axis), flip(beam.e1), flip(beam.e2);
+    return beam;
+  }
+};
+
+/// A point of a facet's plane by its plane coordinates.
+inline dvec3 point_of(const PosedFacet& facet, const dvec2& p) {
+  return facet.normal * facet.offset + facet.axis_u * (p.x + facet.offset_u) +
+         facet.axis_v * (p.y + facet.offset_v);
+}
+
+}  // namespace greatx::rf

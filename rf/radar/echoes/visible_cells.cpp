@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/echoes/visible_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace greatx::rf {
+namespace {
+
+constexpr double nearest_m = 1e-5;  ///< of the source: what is nearer is not seen
+
+/// A piece cut by two planes: each adds a corner at most.
+struct SpaceCorners {
+  std::array<dvec3, FacetTrees::most_corners + 2> points;
+  uint32_t count = 0;
+  SpaceCorners() {}
+};
+
+/// The part where normal . x + offset >= 0.
+void cut(SpaceCorners& corners, const dvec3& normal, double offset) {
+  double least = 1e300;
+  for (uint32_t i = 0; i < corners.count; ++i)
+    least = std::min(least, glm::dot(normal, corners.points[i]) + offset);
+  if (least >= 0.0) return;
+  SpaceCorners kept;
+  for (uint32_t i = 0; i < corners.count; ++i) {
+    const dvec3 &a = corners.points[i], &b = corners.points[i + 1 < corners.count ? i + 1 : 0];
+    const double at_a = glm::dot(normal, a) + offset, at_b = glm::dot(normal, b) + offset;
+    if (at_a >= 0.0) kept.points[kept.count++] = a;
+    if (((at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0)) && kept.count < kept.points.size())
+      kept.points[kept.count++] = a + (b - a) * (at_a / (at_a - at_b));
+  }
+  corners = kept;
+}
+
+struct Box {
+  dvec2 low{1e300}, high{-1e300};
+  void add(const dvec2& p) { low = glm::min(low, p), high = glm::max(high, p); }
+  bool meets(const Box& o) const {
+    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
+  }
+};
+
+/// The planes around a box of the (u, v) plane, and that of the facet that the beam starts from.
+std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
+  const auto side = [&](const dvec3& normal) { return KeptSide{normal, -glm::dot(normal, beam.source)}; };
+  std::array<KeptSide, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
+                                 side(box.high.x * beam.axis - beam.e1),
+                                 side(beam.e2 - box.low.y * beam.axis),
+                                 side(box.high.y * beam.axis - beam.e2),
+                                 {}};
+  if (start.facet != nullptr)
+    spaces[4] = {start.side * start.facet->normal, -start.side * start.facet->offset};
+  return spaces;
+}
+
+/// A piece of a facet as the beam sees it; empty if it does not.
+Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
+  std::array<dvec2, FacetTrees::most_corners + 2> points;
+  std::array<double, FacetTrees::most_corners> depths;
+  uint32_t beyond = 15;  // sides of the box that all corners are beyond
+  double nearest = 1e300, lowest = 1e300;
+  for (uint32_t i = 0; i < piece.size(); ++i) {
+    const dvec3 arm = piece[i] - beam.source;
+    const double x = glm::dot(arm, beam.e1), y = glm::dot(arm, beam.e2), z = glm::dot(arm, beam.axis);
+    beyond &= (x < within.low.x * z ? 1u : 0u) | (x > within.high.x * z ? 2u : 0u) |
+              (y < within.low.y * z ? 4u : 0u) | (y > within.high.y * z ? 8u : 0u);
+    nearest = std::min(nearest, z);
+    points[i] = {x, y};
+    depths[i] = z;
+    if (start.facet != nullptr) lowest = std::min(lowest, start.side * start.facet->distance(piece[i]));
+  }
+  if (beyond != 0) return {};
+  if (nearest >= nearest_m && lowest >= 0.0) {
+    for (uint32_t i = 0; i < piece.size(); ++i) points[i] /= depths[i];
+    return Polygon(std::span(points.data(), piece.size()));
+  }
+  SpaceCorners corners;
+  corners.count = static_cast<uint32_t>(piece.size());
+  std::copy(piece.begin(), piece.end(), corners.points.begin());
+  cut(corners, beam.axis, -glm::dot(beam.axis, beam.source) - nearest_m);
+  if (start.facet != nullptr)
+    cut(corners, start.side * start.facet->normal, -start.side * start.facet->offset);
+  if (corners.count < 3) return {};
+  Box box;
+  for (uint32_t i = 0; i < corners.count; ++i) box.add(points[i] = beam.uv(corners.points[i]));
+  if (!box.meets(within)) return {};
+  return Polygon(std::span(points.data(), corners.count));
+}
+
+/// The half-planes that make up a polygon.
+struct Cover {
+  std::array<dvec2, Polygon::capacity> normals;
+  std::array<double, Polygon::capacity> offsets;
+  uint32_t count = 0;
+  explicit Cover(const Polygon& polygon) : count(polygon.size()) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const HalfPlane side = polygon.inside(i);
+      normals[i] = side.normal, offsets[i] = side.offset;
+    }
+  }
+  /// The sides that cut `part`, a bit each; nothing if all of it is outside.
+  std::optional<uint32_t> cutting(const Polygon& part) const {
+    uint32_t cuts = 0;
+    for (uint32_t side = 0; side < count; ++side) {
+      double least = 1e300, most = -1e300;
+      for (uint32_t i = 0; i < part.size(); ++i) {
+        const double at = glm::dot(normals[side], part[i]) + offsets[side];
+        least = std::min(least, at), most = std::max(most, at);
+      }
+      if (most <= 0.0) return std::nullopt;
+      if (least < 0.0) cuts |= 1u << side;
+    }
+    return cuts;
+  }
+};
+
+/// Leaves of a polygon what it shares with a cover; `rest`: what else there is of it, as convex pieces.
+void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, std::vector<Polygon>& rest) {
+  rest.clear();
+  for (uint32_t side = 0; side < cover.count && !part.empty(); ++side) {
+    if (((cuts >> side) & 1u) == 0) continue;
+    const HalfPlane inside{cover.normals[side], cover.offsets[side]};
+    const Polygon beyond = part.clipped({-inside.normal, -inside.offset});
+    if (beyond.area() > smallest) rest.push_back(beyond);
+    part = part.clipped(inside);
+  }
+}
+
+}  // namespace
+
+void find_visible(const FacetWorld& world, const FacetTrees& trees, const TubeBeam& beam,
+                  const BeamStart& start, const Polygon& whole, std::span<const uint32_t> facets,
+                  double smallest, VisibleScratch& scratch, std::vector<VisibleCell>& cells) {
+  cells.clear();
+  const auto add_cell = [&](const Polygon& part, uint32_t facet) {
+    VisibleCell& cell = cells.emplace_back();
+    cell.part = part, cell.facet = facet;
+  };
+  add_cell(whole, VisibleCell::nothing);
+  Box within;
+  for (uint32_t i = 0; i < whole.size(); ++i) within.add(whole[i]);
+  const std::array<KeptSide, 5> spaces = around(beam, start, within);
+  const std::span<const KeptSide> used(spaces.data(), start.facet == nullptr ? 4u : 5u);
+  std::array<dvec3, FacetTrees::most_corners> room;
+  for (const uint32_t facet : facets) {
+    if (facet == start.index) continue;
+    const PosedFacet& posed = world.facet(facet);
+    const auto nearer = [&](const dvec2& at, uint32_t than) {
+      const dvec3 direction = beam.along(at);
+      const double reach = beam.reach(posed, direction);
+      if (!(reach > 0.0)) return false;
+      if (start.facet != nullptr && reach <= beam.reach(*start.facet, direction) * (1.0 + 1e-12))
+        return false;
+      return than == VisibleCell::nothing || reach < beam.reach(world.facet(than), direction) * (1.0 - 1e-9);
+    };
+    trees.find(world, facet, used, scratch.pieces);
+    for (const uint32_t piece : scratch.pieces) {
+      const Polygon outline = seen(trees.corners(world, facet, piece, room), beam, start, within);
+      if (outline.empty()) continue;
+      const Cover cover(outline);
+      const size_t before = cells.size();
+      for (size_t i = 0; i < before; ++i) {
+        const uint32_t behind = cells[i].facet;
+        if (behind == facet) continue;
+        const std::optional<uint32_t> cuts = cover.cutting(cells[i].part);
+        if (!cuts) continue;
+        Polygon overlap = cells[i].part;
+        divide(overlap, cover, *cuts, smallest, scratch.rest);
+        if (!(overlap.area() > smallest) || !nearer(overlap.centroid(), behind)) continue;
+        cells[i].part = overlap, cells[i].facet = facet;
+        for (const Polygon& rest : scratch.rest) add_cell(rest, behind);
+      }
+    }
+  }
+}
+
+}  // namespace greatx::rf

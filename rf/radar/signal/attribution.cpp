@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/radar/signal/attribution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/phase.h"
+#include "rf/radar/signal/delay.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr double reach = 2.0;  ///< bins
+
+/// `value` less the nearest multiple of `period`.
+double around(double value, double period) { return value - period * std::nearbyint(value / period); }
+
+}  // namespace
+
+Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
+                         std::span<const EchoList> lists)
+    : maps_(maps), ranges_(config.waveform.samples), velocities_(config.waveform.chirps()) {
+  const RadarWaveform& w = config.waveform;
+  const double frame_s = w.chirps() * w.repetition_s();
+  for (const EchoList& list : lists) {
+    const double share = double(list.slots) / w.slots;  // of the frame's slots
+    const double mid_s =
+        0.5 * (w.slot_middle_s(list.first_slot) + w.slot_middle_s(list.first_slot + list.slots - 1));
+    for (const Echo& echo : list.echoes) {
+      const DelayAt at = delay_at(list, echo.delay, w.interval_s, mid_s);
+      const auto doppler_hz = [&](double rate) {
+        return (w.carrier_hz - w.slope_hz_per_s * at.delay_s) * rate;
+      };
+      Tone tone{echo.instance, 0.0, doppler_hz(at.rate) * frame_s, 0.0, {}};
+      if (echo.delay.table >= 0) {
+        double lowest = at.rate, highest = at.rate;
+        for (uint32_t s = 0; s < list.slots; ++s) {
+          const double rate = list.tables[size_t(echo.delay.table) * list.slots + s][1];
+          lowest = std::min(lowest, rate);
+          highest = std::max(highest, rate);
+        }
+        tone.doppler = doppler_hz(0.5 * (lowest + highest)) * frame_s;
+        tone.doppler_spread = doppler_hz(0.5 * (highest - lowest)) * frame_s;
+      }
+      tone.range = (w.slope_hz_per_s * at.delay_s + doppler_hz(at.rate)) * w.sampled_s();
+      const double turns =
+          turns_of(w.carrier_hz, at.delay_s) - 0.5 * w.slope_hz_per_s * at.delay_s * at.delay_s;
+      tone.amplitude = share * std::sqrt(config.transmit_power_w) * std::conj(echo.amplitude) *
+                       unit_phasor(fraction_of_turn(turns));
+      tones_.push_back(tone);
+    }
+  }
+  std::stable_sort(tones_.begin(), tones_.end(),
+                   [](const Tone& a, const Tone& b) { return a.instance < b.instance; });
+}
+
+uint32_t Attribution::instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const {
+  const double doppler = doppler_turns(velocity_bin, static_cast<uint32_t>(velocities_));
+  uint32_t best = 0;
+  double largest = least_share * power_w;
+  for (size_t i = 0; i < tones_.size();) {
+    const uint32_t instance = tones_[i].instance;
+    std::complex<double> sum = 0.0;
+    double powers = 0.0;
+    for (; i < tones_.size() && tones_[i].instance == instance; ++i) {
+      const Tone& tone = tones_[i];
+      const double range_off = around(tone.range - range_bin, ranges_);
+      if (std::abs(range_off) > reach) continue;
+      const double doppler_off = around(tone.doppler - doppler, velocities_);
+      if (std::abs(doppler_off) > reach + tone.doppler_spread) continue;
+      if (tone.doppler_spread > 0.0) {
+        powers += std::norm(tone.amplitude) * maps_.range_window().power(range_off) /
+                  std::min(velocities_, 1.0 + 2.0 * tone.doppler_spread);
+        continue;
+      }
+      const std::complex<double> part = tone.amplitude * maps_.range_window().response(range_off) *
+                                        maps_.doppler_window().response(doppler_off);
+      sum += part;
+      powers += std::norm(part);
+    }
+    const double power = std::max(std::norm(sum), powers);
+    if (instance == 0 || power <= largest) continue;
+    largest = power;
+    best = instance;
+  }
+  return best;
+}
+
+}  // namespace greatx::rf

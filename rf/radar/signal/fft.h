@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <memory>
+
+#include "rf/radar/signal/lanes.h"
+
+namespace greatx::rf {
+
+/// Discrete Fourier transforms of four signals side by side, in fp32 (KISS FFT): out[k] = sum_n in[n] e^{-j 2
+/// pi k n/size}, or e^{+j ...} backward; no factor. The same input gives the same bits, in any lane.
+/// transform() may run on many threads at once.
+class Fft {
+ public:
+  /// A number of each signal.
+  using Value = std::complex<Four>;
+  static constexpr uint32_t lanes = 4;
+
+  enum class Direction { forward, backward };
+  Fft(uint32_t size, Direction direction);
+  ~Fft();
+  Fft(Fft&&) noexcept;
+  Fft& operator=(Fft&&) noexcept;
+
+  uint32_t size() const { return size_; }
+  /// in and out: [size], not the same.
+  void transform(const Value* in, Value* out) const;
+
+  /// Between four rows of `count` numbers and [count] values.
+  static void gather(const std::complex<float>* const rows[lanes], uint32_t count, Value* values);
+  static void scatter(const Value* values, uint32_t count, std::complex<float>* const rows[lanes]);
+
+ private:
+  struct Plan;
+  uint32_t size_;
+  std::unique_ptr<Plan> plan_;
+};
+
+}  // namespace greatx::rf

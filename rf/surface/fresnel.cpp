@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/surface/fresnel.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+namespace {
+
+constexpr Complex j{0.0, 1.0};
+
+/// e^z - 1 without cancellation near 0.
+Complex expm1(Complex z) {
+  const double half = std::sin(0.5 * z.imag());
+  const double grown = std::exp(z.real());
+  return {std::expm1(z.real()) * std::cos(z.imag()) - 2.0 * half * half, grown * std::sin(z.imag())};
+}
+
+void check(Complex eta, double cos_theta) {
+  GREATX_CHECK(cos_theta >= 0.0 && cos_theta <= 1.0, "cosine of the angle of incidence {}", cos_theta);
+  GREATX_CHECK(eta.imag() <= 0.0 && std::isfinite(eta.real()) && std::isfinite(eta.imag()),
+               "relative permittivity {} + {}j: expected eta' - j eta'' with eta'' >= 0", eta.real(),
+               eta.imag());
+}
+
+/// One polarization through all layers: the ratios of P.2040-4 Attachment 1 in the variable p, which is A for
+/// TE (E along the face) and A/eta for TM (H along the face); vacuum: p = C. (sum, flow) are the tangential
+/// field and its partner, up to a common factor that `decay` keeps.
+struct Ladder {
+  Complex sum{1.0}, flow{0.0}, decay{1.0};
+
+  void add(const DielectricLayer& layer, Complex a, Complex p_over_a, double wave_number) {
+    const Complex phase = wave_number * layer.thickness_m * a;  // q
+    const Complex lost = -expm1(-2.0 * j * phase);              // 1 - e^{-2jq}
+    const Complex kept = 2.0 - lost;                            // 1 + e^{-2jq}
+    const Complex p = p_over_a * a;
+    // (1 - e^{-2jq}) / p; A = 0 at the critical angle of a lossless layer.
+    const Complex lost_over_p =
+        a == Complex(0.0) ? 2.0 * j * wave_number * layer.thickness_m / p_over_a : lost / p;
+    const Complex next_sum = 0.5 * (kept * sum + lost_over_p * flow);
+    flow = 0.5 * (kept * flow + lost * p * sum);
+    sum = next_sum;
+    decay *= std::exp(-j * phase);
+  }
+};
+
+}  // namespace
+
+Complex normal_component(Complex eta, double cos_theta) {
+  const Complex root = std::sqrt((eta - 1.0) + cos_theta * cos_theta);
+  return root.imag() > 0.0 ? -root : root;
+}
+
+FresnelCoefficients half_space(Complex eta, double cos_theta) {
+  check(eta, cos_theta);
+  const Complex contrast = eta - 1.0;
+  if (contrast == Complex(0.0)) return {0.0, 0.0, 1.0, 1.0};
+  if (cos_theta == 0.0) return {-1.0, -1.0, 0.0, 0.0};
+  const double c = cos_theta;
+  const Complex a = normal_component(eta, c);
+  const Complex te = c + a, tm = eta * c + a;
+  Complex root_eta = std::sqrt(eta);
+  if (root_eta.imag() > 0.0) root_eta = -root_eta;
+  return {-(contrast / te) / te, (contrast / tm) * (((eta + 1.0) * (c * c) - 1.0) / tm), 2.0 * c / te,
+          2.0 * c * (root_eta / tm)};
+}
+
+FresnelCoefficients slab(const DielectricLayer& layer, double wavelength_m, double cos_theta) {
+  const FresnelCoefficients face = half_space(layer.eta, cos_theta);
+  const double c = cos_theta;
+  const Complex a = normal_component(layer.eta, c);
+  const Complex phase = 2.0 * pi * layer.thickness_m / wavelength_m * a;  // q
+  const Complex through = std::exp(-j * phase);
+  if (layer.eta == Complex(1.0)) return {0.0, 0.0, through, through};
+  if (c == 0.0) return face;
+  const Complex lost = -expm1(-2.0 * j * phase);  // 1 - e^{-2jq}
+  const Complex twice = through * through;
+  // 1 - r^2 = 4CA/(C + A)^2 and 4 eta C A/(eta C + A)^2; the denominator 1 - r^2 e^{-2jq} as lost + (1 -
+  // r^2)e^{-2jq}: two terms with non-negative real parts, which do not cancel where r -> -1 meets e^{-2jq}
+  // -> 1.
+  const Complex te = c + a, tm = layer.eta * c + a;
+  const Complex pass_te = 4.0 * c * (a / te) / te, pass_tm = 4.0 * c * (layer.eta / tm) * (a / tm);
+  const auto ratio = [](Complex numerator, Complex denominator) {
+    return numerator == Complex(0.0) ? Complex(0.0) : numerator / denominator;
+  };
+  const Complex den_te = lost + pass_te * twice, den_tm = lost + pass_tm * twice;
+  if (a == Complex(0.0)) {  // critical angle: the limit is what the layered form gives
+    return multilayer(std::span(&layer, 1), wavelength_m, cos_theta);
+  }
+  return {ratio(face.r_te * lost, den_te), ratio(face.r_tm * lost, den_tm), ratio(pass_te * through, den_te),
+          ratio(pass_tm * through, den_tm)};
+}
+
+FresnelCoefficients multilayer(std::span<const DielectricLayer> layers, double wavelength_m,
+                               double cos_theta) {
+  GREATX_CHECK(!layers.empty() && wavelength_m > 0.0, "{} layers, wavelength {} m", layers.size(),
+               wavelength_m);
+  for (const DielectricLayer& layer : layers) check(layer.eta, cos_theta);
+  const bool backed = layers.back().thickness_m == 0.0;  // by a half-space
+  if (backed && layers.size() == 1) return half_space(layers[0].eta, cos_theta);
+  bool vacuum = true;
+  for (const DielectricLayer& layer : layers) vacuum = vacuum && layer.eta == Complex(1.0);
+  if (cos_theta == 0.0 && !vacuum) return {-1.0, -1.0, 0.0, 0.0};
+
+  const double wave_number = 2.0 * pi / wavelength_m;
+  const double c = cos_theta;
+  Ladder te, tm;
+  te.flow = tm.flow = c;
+  Complex behind_eta{1.0};
+  if (backed) {
+    behind_eta = layers.back().eta;
+    const Complex a = normal_component(behind_eta, c);
+    te.flow = a;
+    tm.flow = a / behind_eta;
+    layers = layers.first(layers.size() - 1);
+  }
+  for (size_t i = layers.size(); i-- > 0;) {
+    GREATX_CHECK(layers[i].thickness_m > 0.0, "layer {} has thickness {} m", i, layers[i].thickness_m);
+    const Complex a = normal_component(layers[i].eta, c);
+    te.add(layers[i], a, 1.0, wave_number);
+    tm.add(layers[i], a, 1.0 / layers[i].eta, wave_number);
+  }
+  if (vacuum) return {0.0, 0.0, te.decay, tm.decay};
+  // Outside: incident 1, reflected r; sum = 1 + r, flow = C(1 - r), both times a common factor.
+  const Complex den_te = c * te.sum + te.flow, den_tm = c * tm.sum + tm.flow;
+  // TM ran in H; E = H / sqrt(eta) in units of the vacuum's impedance.
+  Complex root_eta = std::sqrt(behind_eta);
+  if (root_eta.imag() > 0.0) root_eta = -root_eta;
+  return {(c * te.sum - te.flow) / den_te, (c * tm.sum - tm.flow) / den_tm, 2.0 * c * te.decay / den_te,
+          2.0 * c * tm.decay / den_tm / root_eta};
+}
+
+Complex sheet_phase(double thickness_m, double wavelength_m, double cos_theta) {
+  return std::polar(1.0, 2.0 * pi * thickness_m * cos_theta / wavelength_m);
+}
+
+}  // namespace greatx::rf

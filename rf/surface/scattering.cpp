@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rf/surface/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/phase.h"
+#include "core/random.h"
+#include "core/units.h"
+
+namespace greatx::rf {
+namespace {
+
+/// Keeps these draws apart from every other use of the run's seed.
+constexpr uint64_t patch_phases = 0x7363617474657231ull;
+
+uint32_t whole_exponent(double value, const char* field, const std::string& material_name) {
+  if (!(value >= 1.0 && value <= 100.0 && value == std::floor(value)))
+    throw_user_error("material '{}', {}: expected a whole number from 1 to 100, found {}", material_name,
+                     field, value);
+  return static_cast<uint32_t>(value);
+}
+
+double share(double value, const char* field, const std::string& material_name) {
+  if (!(value >= 0.0 && value <= 1.0))
+    throw_user_error("material '{}', {}: expected a number from 0 to 1, found {}", material_name, field,
+                     value);
+  return value;
+}
+
+/// ((1 + cos psi)/2)^alpha between two unit vectors, by |a + b|^2/4, which does not cancel at psi = pi.
+double lobe(const dvec3& a, const dvec3& b, uint32_t exponent) {
+  const dvec3 sum = a + b;
+  return std::pow(std::min(1.0, 0.25 * glm::dot(sum, sum)), exponent);
+}
+
+}  // namespace
+
+DiffuseScattering diffuse_scattering(const scene::RadioMaterial& material, const std::string& material_name) {
+  return {
+      .coefficient = share(material.scattering_coefficient, "scattering_coefficient", material_name),
+      .pattern = material.pattern,
+      .exponent = whole_exponent(material.pattern_exponent, "pattern_exponent", material_name),
+      .backscatter_exponent =
+          whole_exponent(material.backscatter_exponent, "backscatter_exponent", material_name),
+      .backscatter_share = share(material.backscatter_share, "backscatter_share", material_name),
+      .cross_polarization = share(material.cross_polarization, "cross_polarization", material_name),
+  };
+}
+
+double lobe_normalisation(uint32_t exponent, double cos_incidence) {
+  GREATX_CHECK(cos_incidence >= 0.0 && cos_incidence <= 1.0 && exponent <= 100, "cosine {}, exponent {}",
+               cos_incidence, exponent);
+  const double quarter_sine2 = 0.25 * (1.0 - cos_incidence) * (1.0 + cos_incidence);
+  double binomial = std::ldexp(1.0, -static_cast<int>(exponent));  // C(alpha, k) / 2^alpha
+  double term = 1.0, series = 0.0;                                 // C(2w, w) (sin/2)^{2w} and its sum
+  double sum = 0.0;
+  for (uint32_t k = 0; k <= exponent; ++k) {
+    double moment = 2.0 * pi / (k + 1.0);
+    if (k % 2 == 1) {  // one more w than the odd k before
+      series += term;
+      const double w = (k - 1) / 2;
+      term *= quarter_sine2 * 2.0 * (2.0 * w + 1.0) / (w + 1.0);
+      moment *= cos_incidence * series;
+    }
+    sum += binomial * moment;
+    binomial *= (exponent - k) / (k + 1.0);
+  }
+  return sum;
+}
+
+double scattering_pattern(const DiffuseScattering& surface, const dvec3& in, const dvec3& out,
+                          const dvec3& normal) {
+  const double cos_in = std::min(1.0, -glm::dot(in, normal)), cos_out = glm::dot(out, normal);
+  GREATX_CHECK(cos_in >= 0.0, "the wave comes from behind: cosine {}", cos_in);
+  if (cos_out <= 0.0) return 0.0;
+  if (surface.pattern == scene::ScatteringPattern::lambertian) return cos_out / pi;
+  const dvec3 specular = in + 2.0 * cos_in * normal;
+  const double forward = lobe(specular, out, surface.exponent);
+  const double forward_norm = lobe_normalisation(surface.exponent, cos_in);
+  if (surface.pattern == scene::ScatteringPattern::directive) return forward / forward_norm;
+  const double back = surface.backscatter_share;
+  return ((1.0 - back) * forward + back * lobe(-in, out, surface.backscatter_exponent)) /
+         ((1.0 - back) * forward_norm + back * lobe_normalisation(surface.backscatter_exponent, cos_in));
+}
+
+ScatteringMatrix scattering_matrix(double cross_polarization, uint64_t seed, uint32_t facet, uint32_t patch) {
+  RandomStream random(seed ^ patch_phases, facet, patch);
+  const double a = random.uniform(), b = random.uniform(), c = random.uniform();
+  const double kept = std::sqrt(1.0 - cross_polarization), crossed = std::sqrt(cross_polarization);
+  return {kept * unit_phasor(a), crossed * unit_phasor(c), crossed * unit_phasor(a + b - c + 0.5),
+          kept * unit_phasor(b)};
+}
+
+}  // namespace greatx::rf

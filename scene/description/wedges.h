@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Defines edges that diffract: straight edges where two facets meet, or where one facet ends.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "scene/description/scene.h"
+
+namespace greatx::scene {
+
+inline constexpr uint32_t no_facet = ~0u;
+
+/// Describes a straight edge with its two faces, in its body's frame (body 0: local coordinates). The
+/// exterior, where waves travel, spans n pi from face 0 to face n, turning about the edge from a to b by the
+/// right hand: n = (2 pi - interior angle)/pi. Facets reflect on both sides, so geometry defines the exterior
+/// and winding does not: it is the side that is wider than pi. Hence n is in (1, 2]: 3/2 for the corner of a
+/// house seen from outside and for the corner of a pillar in a room, and 2 for a half-plane. The narrow side
+/// (the corner of a room) does not diffract: there the waves reflected by both faces join without a gap.
+struct Wedge {
+  dvec3 a{0.0}, b{0.0};  ///< ends of the edge
+  dvec3 tangent_0{0.0};  ///< unit, in face 0, perpendicular to the edge, pointing away from it
+  /// Unit, perpendicular to the edge and to tangent_0, pointing into the exterior:
+  /// tangent_0 x normal_0 = (b - a)/|b - a|.
+  dvec3 normal_0{0.0};
+  double n = 2.0;
+  uint32_t facet_0 = no_facet;  ///< into Scene::facets; the lower index of the two
+  /// With no_facet this is a free edge: n = 2, both faces are sides of facet_0, and face 0 is its front.
+  uint32_t facet_n = no_facet;
+  uint32_t body = 0;
+};
+
+struct WedgeOptions {
+  bool free_edges = false;  ///< edges of a single facet: borders of thin plates
+  /// Facets that meet this close to flat ((n - 1) pi) make a seam, not a wedge.
+  double flat_angle_rad = 0.035;
+  double min_length_m = 1e-3;  ///< shorter edges are left out and counted
+  /// Points this close together are in one place (as for merging, BuildOptions).
+  double weld_distance_m = 1e-4;
+};
+
+/// Finds every wedge of the scene, in a canonical order (body, facets, position). The facets around an edge
+/// in the same body decide about it:
+/// - A facet that ends at the edge goes off in one direction, and one that contains the edge goes off in two.
+///   A box that stands on a ground, with or without common vertices, therefore has no wedge along its foot,
+///   and neither has a storey on a wider one.
+/// - Between neighbouring directions at most one gap is wider than pi. The wedge is there, with the two
+///   facets beside the gap, however many facets meet. If there is no such gap, there is no wedge (roofs of
+///   two houses that touch, corner to corner).
+/// - Of facets in the same place (duplicates, two sides of one sheet) the lowest index counts.
+/// - A single direction makes a free edge.
+/// Edges need no common vertices. Pieces, however each side is split, are compared where they overlap. They
+/// are joined again into one wedge per straight run between the same two facets. Facets in different bodies
+/// make no wedge. `too_short` receives the number of wedges that were left out for their length.
+std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options = {},
+                               uint64_t* too_short = nullptr);
+
+}  // namespace greatx::scene

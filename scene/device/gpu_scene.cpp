@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/device/gpu_scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "core/activity.h"
+#include "scene/device/static_tree.h"
+#include "shaders/shared/tree.h"
+
+namespace greatx::scene {
+
+namespace {
+
+template <typename T>
+gpu::Buffer upload(gpu::Device& device, const std::vector<T>& values, std::string_view name,
+                   VkBufferUsageFlags extra = 0) {
+  return gpu::upload_buffer(device, std::as_bytes(std::span(values)), name, extra);
+}
+
+float luminance(const vec4& color) { return 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b; }
+
+shared::GpuMaterial gpu_material(const Material& material, const MaterialTextures& textures) {
+  const PbrMaterial& pbr = material.pbr;
+  shared::GpuMaterial result{};
+  result.base_color = pbr.base_color;
+  result.emissive = pbr.emissive;
+  result.metallic = pbr.metallic;
+  result.roughness = pbr.roughness;
+  result.normal_scale = pbr.normal_scale;
+  result.alpha_cutoff = pbr.alpha_cutoff;
+  result.flags = (pbr.alpha_mode == AlphaMode::mask ? shared::material_flag_alpha_mask : 0u) |
+                 (pbr.double_sided ? shared::material_flag_double_sided : 0u) |
+                 (material.reflectance_905nm ? shared::material_flag_reflectance_905nm : 0u) |
+                 (material.reflectance_1550nm ? shared::material_flag_reflectance_1550nm : 0u);
+  result.base_color_texture = textures.base_color;
+  result.reflectance_905nm = material.reflectance_905nm.value_or(luminance(pbr.base_color));
+  result.reflectance_1550nm = material.reflectance_1550nm.value_or(luminance(pbr.base_color));
+  return result;
+}
+
+dmat4 matrix_of(const Pose& pose) {
+  dmat4 matrix = glm::mat4_cast(pose.orientation);
+  matrix[3] = dvec4(pose.position, 1.0);
+  return matrix;
+}
+
+shared::GpuBody gpu_body(const Pose& pose) {
+  const glm::dmat4 rows = glm::transpose(matrix_of(pose));
+  return {vec4(rows[0]), vec4(rows[1]), vec4(rows[2])};
+}
+
+bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
+
+}  // namespace
+
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options)
+    : device_(&device), scene_(&scene), options_(options) {
+  // Without textures the table still has a layout, with which pipelines are built.
+  textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
+                          scene.materials);
+  upload_geometry();
+  if (options.acceleration_structure) build_structures();
+}
+
+void GpuScene::upload_geometry() {
+  const Activity activity("uploading the scene");
+  gpu::Device& device = *device_;
+  const VkBufferUsageFlags build_input =
+      options_.acceleration_structure ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR
+                                      : 0;
+  positions_ = upload(device, scene_->positions, "positions", build_input);
+  normals_ = upload(device, scene_->normals, "normals");
+  tangents_ = upload(device, scene_->tangents, "tangents");
+  uvs_ = upload(device, scene_->uvs, "uvs");
+  indices_ = upload(device, scene_->indices, "indices", build_input | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  facet_of_triangle_ = upload(device, scene_->facet_of_triangle, "facet of triangle");
+
+  std::vector<shared::GpuMaterial> materials;
+  for (size_t i = 0; i < scene_->materials.size(); ++i)
+    materials.push_back(gpu_material(scene_->materials[i], textures_.of_material(i)));
+  materials_ = upload(device, materials, "materials");
+
+  std::vector<shared::GpuPrimitive> primitives;
+  for (const Primitive& primitive : scene_->primitives) {
+    const Instance& instance = scene_->instances[primitive.instance];
+    primitives.push_back({primitive.first_index, primitive.first_index / 3, primitive.material,
+                          primitive.instance, static_cast<uint32_t>(instance.semantic_class), instance.body,
+                          scene_->owner_of(instance.body)});
+  }
+  primitives_ = upload(device, primitives, "primitives");
+
+  const std::vector<shared::GpuSceneAddresses> addresses{
+      {positions_.address(), normals_.address(), tangents_.address(), uvs_.address(), indices_.address(),
+       primitives_.address(), materials_.address(), facet_of_triangle_.address()}};
+  addresses_ = upload(device, addresses, "scene addresses");
+}
+
+void GpuScene::build_structures() {
+  for (uint32_t body = 0; body < scene_->bodies.size(); ++body) {
+    const Body& range = scene_->bodies[body];
+    if (range.primitive_count == 0) continue;
+    std::vector<gpu::BlasGeometry> geometries;
+    for (uint32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count; ++i) {
+      const Primitive& primitive = scene_->primitives[i];
+      geometries.push_back({positions_.address(), static_cast<uint32_t>(scene_->positions.size()),
+                            indices_.address() + sizeof(uint32_t) * primitive.first_index,
+                            primitive.index_count / 3,
+                            scene_->materials[primitive.material].pbr.alpha_mode == AlphaMode::opaque});
+    }
+    blas_.emplace_back(*device_, geometries, fmt::format("blas {}", range.name));
+    blas_body_.push_back(body);
+  }
+  tlas_ = gpu::Tlas(*device_, static_cast<uint32_t>(blas_.size()), "tlas");
+  tree_ = upload(*device_, std::vector<uint32_t>{0, 0, 0, shared::tree_none}, "no tree");
+}
+
+bool GpuScene::wants_tree() const {
+  if (!options_.acceleration_structure || options_.tracer == Tracer::driver) return false;
+  return options_.tracer == Tracer::tree || device_->info().type == "cpu";
+}
+
+void GpuScene::specialize_tracer(std::vector<uint32_t>& specialization) {
+  GREATX_CHECK(specialization.size() <= shared::trace_tree_id, "{} specialization constants",
+               specialization.size());
+  if (wants_tree() && !has_tree_) {
+    const StaticTree tree = make_static_tree(*scene_);
+    const size_t bytes = tree.words.size() * sizeof(uint32_t);
+    has_tree_ = bytes <= device_->limits().maxStorageBufferRange;
+    if (has_tree_) tree_ = upload(*device_, tree.words, "static tree");
+    spdlog::debug("static tree: {} triangles, {} inner nodes, {} leaves, {} deep, {} KiB{}", tree.triangles,
+                  tree.inner_nodes, tree.leaves, tree.depth, bytes / 1024,
+                  has_tree_ ? "" : ": too large, the driver traces");
+  }
+  specialization.resize(shared::trace_tree_id);
+  specialization.push_back(has_tree_ ? 1u : 0u);
+}
+
+void GpuScene::record_poses(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
+  GREATX_CHECK(body_poses.size() == scene_->bodies.size(), "{} poses for {} bodies", body_poses.size(),
+               scene_->bodies.size());
+  std::vector<shared::GpuBody> bodies;
+  for (const Pose& pose : body_poses) bodies.push_back(gpu_body(bodies.empty() ? Pose{} : pose));
+  bodies_ = slot.upload.put(std::span<const shared::GpuBody>(bodies));
+}
+
+void GpuScene::record_update(gpu::TickSlot& slot, std::span<const Pose> body_poses) {
+  record_poses(slot, body_poses);
+  if (!options_.acceleration_structure) return;
+  std::vector<Pose> poses(body_poses.begin(), body_poses.end());
+  poses[0] = Pose{};
+
+  const bool moved =
+      !tlas_.built() || !std::equal(poses.begin(), poses.end(), last_poses_.begin(), last_poses_.end(), same);
+  if (!moved) return;
+  std::vector<gpu::TlasInstance> instances;
+  for (size_t i = 0; i < blas_.size(); ++i)
+    instances.push_back({&blas_[i], matrix_of(poses[blas_body_[i]]),
+                         scene_->bodies[blas_body_[i]].first_primitive,
+                         blas_body_[i] == 0 ? shared::static_mask : shared::moving_mask});
+  const auto scope = slot.cmd->scope(tlas_.built() ? "tlas refit" : "tlas build");
+  tlas_.record(*slot.cmd, instances, slot.upload.allocate(tlas_.instance_bytes()));
+  last_poses_ = std::move(poses);
+}
+
+std::vector<gpu::Descriptor> GpuScene::raster_descriptors() const {
+  return {gpu::Descriptor::buffer(shared::scene_binding, addresses_),
+          gpu::Descriptor::buffer(shared::bodies_binding, bodies_)};
+}
+
+std::vector<gpu::Descriptor> GpuScene::descriptors() const {
+  std::vector<gpu::Descriptor> all = raster_descriptors();
+  if (options_.acceleration_structure) {
+    all.push_back(gpu::Descriptor::acceleration(shared::tlas_binding, tlas_));
+    all.push_back(gpu::Descriptor::buffer(shared::tree_binding, tree_));
+  }
+  return all;
+}
+
+std::vector<gpu::Binding> GpuScene::bindings(bool trace) {
+  std::vector<gpu::Binding> all{{shared::scene_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                {shared::bodies_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}};
+  if (trace) {
+    all.push_back({shared::tlas_binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
+    all.push_back({shared::tree_binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+  }
+  return all;
+}
+
+}  // namespace greatx::scene

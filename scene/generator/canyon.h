@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "scene/generator/mesh/scene_writer.h"
+
+namespace greatx::scene::generator {
+
+void write_canyon(SceneWriter& writer, double size_m, uint64_t seed);
+void write_room(SceneWriter& writer);
+
+}  // namespace greatx::scene::generator

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/city/city.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "scene/generator/city/city_buildings.h"
+#include "scene/generator/city/city_ground.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/street_furniture.h"
+#include "scene/generator/objects/trees.h"
+#include "scene/generator/objects/vehicles.h"
+#include "scene/generator/paint/texture_painter.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// Meshes that many nodes share, and running numbers for the nodes' names.
+class CityFurniture {
+ public:
+  explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
+
+  /// `kind` of make_tree.
+  void tree(const dvec2& where, double z, int kind, RandomStream& random) {
+    const int shape = static_cast<int>(random.below(4)) % 2;
+    const int mesh = shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
+    const double scale = random.uniform(0.85, 1.3), yaw = random.uniform(0.0, 2.0 * pi);
+    writer_.add_node({.name = number("tree"),
+                      .mesh = mesh,
+                      .position = dvec3(where, z),
+                      .yaw = yaw,
+                      .scale = scale,
+                      .semantic_class = SemanticClass::vegetation});
+  }
+  void lamp(LampKind kind, const dvec2& where, double z, double yaw) {
+    const Lamp lamp = make_lamp(kind);
+    const auto key = static_cast<size_t>(kind);
+    if (lights_[key] < 0) lights_[key] = writer_.add_light(lamp.light);
+    const std::string name = number("lamp");
+    const int node =
+        writer_.add_node({.name = name,
+                          .mesh = shared(fmt::format("street_lamp_{}", key), [&] { return lamp.mesh; }),
+                          .position = dvec3(where, z),
+                          .yaw = yaw,
+                          .semantic_class = SemanticClass::street_lamp});
+    writer_.add_node({.name = name + "_light",
+                      .position = lamp.light_position,
+                      .parent = node,
+                      .light = lights_[key],
+                      .shine = {0.0, 0.0, -1.0}});
+  }
+  void car(const dvec2& where, double yaw, RandomStream& random) {
+    static constexpr std::array<const char*, 10> paints{"white", "silver", "red",    "blue", "black",
+                                                        "grey",  "green",  "silver", "sand", "grey"};
+    const size_t pick = random.below(13);
+    const std::string variant = pick < 10 ? "hatchback" : "van";
+    const std::string paint = pick < 10 ? paints[pick] : pick == 10 ? "yellow" : "white";
+    place(
+        "car", fmt::format("parked_{}_{}", variant, paint),
+        [&] { return make_car(variant, "car_paint_" + paint, false); }, dvec3(where, 0.0), yaw,
+        SemanticClass::vehicle);
+  }
+  void bench(const dvec2& where, double z, double yaw) {
+    place("bench", "bench", make_bench, dvec3(where, z), yaw, SemanticClass::furniture);
+  }
+  void signal(const dvec2& where, double yaw, bool green) {
+    place(
+        "signal", green ? "signal_green" : "signal_red", [&] { return make_signal(green); },
+        dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  }
+  void sign(const dvec2& where, double yaw) {
+    place("sign", "sign", make_sign, dvec3(where, pavement_height_m), yaw, SemanticClass::pole);
+  }
+  void shelter(const dvec2& where, double yaw) {
+    place("shelter", "shelter", make_shelter, dvec3(where, pavement_height_m), yaw, SemanticClass::furniture);
+  }
+  void bin(const dvec2& where) {
+    place("bin", "bin", make_bin, dvec3(where, pavement_height_m), 0.0, SemanticClass::furniture);
+  }
+
+ private:
+  int shared(const std::string& name, const std::function<MeshBuilder()>& make) {
+    const auto found = meshes_.find(name);
+    if (found != meshes_.end()) return found->second;
+    return meshes_[name] = writer_.add_mesh(name, make());
+  }
+  std::string number(const std::string& name) { return fmt::format("{}_{:03}", name, counts_[name]++); }
+  void place(const std::string& name, const std::string& mesh, const std::function<MeshBuilder()>& make,
+             const dvec3& where, double yaw, SemanticClass semantic_class) {
+    writer_.add_node({.name = number(name),
+                      .mesh = shared(mesh, make),
+                      .position = where,
+                      .yaw = yaw,
+                      .semantic_class = semantic_class});
+  }
+
+  SceneWriter& writer_;
+  std::map<std::string, int> meshes_, counts_;
+  std::array<int, 4> lights_{-1, -1, -1, -1};  ///< by LampKind
+};
+
+double heading(const dvec2& direction) { return std::atan2(direction.y, direction.x); }
+
+/// Lamps every 28 m or so: along both sides of an avenue, staggered; along the south and west edges of other
+/// blocks, so that each street has one row. Trees along avenues, of one species; signals, signs, shelters,
+/// bins.
+void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, RandomStream& random) {
+  for (int edge = 0; edge < 4; ++edge) {
+    if (!block.street[static_cast<size_t>(edge)]) continue;
+    const dvec2 a = block.edge_start(edge), b = block.edge_end(edge);
+    const double length = glm::length(b - a);
+    const dvec2 along = (b - a) / length, inwards(-along.y, along.x);
+    const bool avenue = block.pavement_m[static_cast<size_t>(edge)] >= 4.0;
+    std::vector<double> taken;  // m along the edge
+    const auto free = [&](double at, double room) {
+      return std::all_of(taken.begin(), taken.end(), [&](double t) { return std::abs(t - at) > room; });
+    };
+    const auto spot = [&](double at, double depth) { return a + along * at + inwards * depth; };
+    if (avenue || edge == 0 || edge == 3) {
+      const int lamps = std::max(1, static_cast<int>(std::lround(length / (avenue ? 34.0 : 30.0))));
+      const double phase = avenue && (edge == 1 || edge == 2) ? 0.85 : 0.35;
+      for (int i = 0; i < lamps; ++i) {
+        const double at = std::clamp(length * (i + phase) / lamps, 1.2, length - 1.2);
+        furniture.lamp(avenue ? LampKind::avenue : LampKind::street, spot(at, 0.7), pavement_height_m,
+                       heading(-inwards));
+        taken.push_back(at);
+      }
+    }
+    // Drivers beside this pavement come from b: what speaks to them stands near a and looks along the edge.
+    const bool crossing = block.street[static_cast<size_t>((edge + 3) % 4)];
+    if (avenue && crossing && free(2.2, 0.8)) {
+      furniture.signal(spot(2.2, 0.45), heading(along), edge % 2 == 0);
+      taken.push_back(2.2);
+    } else if (crossing && edge % 2 == 0 && free(4.4, 0.8)) {
+      furniture.sign(spot(4.4, 0.45), heading(along));
+    }
+    const uint32_t dice = hash(block.column * 4 + edge, block.row, static_cast<uint32_t>(seed));
+    if (avenue && length > 40.0 && dice % 3 == 0) {
+      const double at = 0.62 * length;
+      furniture.shelter(spot(at, 2.4), heading(-inwards));
+      for (const double side : {-4.0, -2.0, 0.0, 2.0, 4.0}) taken.push_back(at + side);
+      furniture.bin(spot(at + 3.2, 2.2));
+    }
+    const int slots = std::max(2, static_cast<int>(length / 10.5));
+    const int kind =
+        static_cast<int>(hash(edge % 2, 7, static_cast<uint32_t>(seed)) % 2) * 3;  // linden or plane
+    for (int i = 0; avenue && i < slots; ++i) {
+      const double at = length * (i + 0.5) / slots;
+      if (free(at, 2.6) && at > 5.0) furniture.tree(spot(at, 1.2), pavement_height_m, kind, random);
+    }
+  }
+}
+
+void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& random) {
+  for (const Street& street : plan.streets) {
+    if (street.avenue) continue;
+    const double length = glm::length(street.right[1] - street.right[0]);
+    const dvec2 along = (street.right[1] - street.right[0]) / length, left(-along.y, along.x);
+    const int slots = static_cast<int>((length - 16.0) / 6.2);
+    for (int i = 0; i < slots; ++i) {
+      if (random.uniform() > 0.2) continue;
+      const dvec2 spot = street.right[0] + along * (9.0 + 6.2 * i + random.uniform(-0.3, 0.3)) + left * 1.25;
+      furniture.car(spot, heading(along), random);
+    }
+  }
+}
+
+/// Lawn with paths, trees and benches around a small plaza with a fountain.
+void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture, RandomStream& random) {
+  const std::vector<dvec2> quad = inset(block.sharp, block.pavement_m);
+  const auto at = [&](double u, double v) {
+    return glm::mix(glm::mix(quad[0], quad[1], u), glm::mix(quad[3], quad[2], u), v);
+  };
+  const dvec2 center = snap(at(0.5, 0.5));
+  const double z = pavement_height_m;
+  MeshBuilder paths;
+  const int paving = material("paving");
+  for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
+    const dvec2 along = glm::normalize(end - center), side(-along.y * 1.4, along.x * 1.4);
+    const dvec2 start = center + along * 6.5;
+    const std::vector<dvec2> strip{snap(start - side), snap(end - side), snap(end + side),
+                                   snap(start + side)};
+    paths.prism(paving, paving, strip, z - 0.10, z + 0.03);
+  }
+  paths.prism(paving, paving, regular_polygon(12, 8.0, center, 0.2), z - 0.13, z + 0.06);
+  writer.add_node({.name = "park_paths",
+                   .mesh = writer.add_mesh("park_paths", paths),
+                   .semantic_class = SemanticClass::pavement});
+
+  MeshBuilder fountain;
+  const int stone = material("concrete");
+  RingSolid basin{
+      regular_polygon(8, 2.6),
+      {{0.0, -0.1, stone}, {0.0, 0.6, stone}, {0.35, 0.6, stone}, {0.35, 0.42, material("water")}},
+      stone,
+      {}};
+  add_ring_solid(fountain, basin);
+  fountain.prism(stone, stone, regular_polygon(6, 0.4), 0.1, 1.7);
+  writer.add_node({.name = "fountain",
+                   .mesh = writer.add_mesh("fountain", fountain),
+                   .position = dvec3(center, z + 0.06),
+                   .semantic_class = SemanticClass::furniture});
+
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      if (i == 2 || j == 2) continue;
+      const double u = 0.1 + 0.2 * i + random.uniform(-0.045, 0.045);
+      const double v = 0.1 + 0.2 * j + random.uniform(-0.045, 0.045);
+      const int kind = static_cast<int>(hash(i, j, 77) % tree_species);
+      furniture.tree(at(u, v), z, kind, random);
+    }
+  for (const dvec2& end : {at(0.5, 0.03), at(0.97, 0.5), at(0.5, 0.97), at(0.03, 0.5)}) {
+    const dvec2 along = glm::normalize(end - center), side(-along.y, along.x);
+    const double reach = glm::length(end - center);
+    for (const double distance : {9.5, 0.5 * (9.5 + reach) + 3.0})
+      if (distance < reach - 4.0)
+        furniture.lamp(LampKind::park, snap(center + along * distance + side * 1.9), z, heading(-side));
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double angle = pi / 4 + pi / 2 * i;
+    const dvec2 out(std::cos(angle), std::sin(angle));
+    furniture.bench(center + 6.6 * out, z + 0.06, angle - pi / 2);
+  }
+}
+
+}  // namespace
+
+void write_city(SceneWriter& writer, double size_m, uint64_t seed) {
+  const CityPlan plan = plan_city(size_m, seed);
+  const auto add = [&](const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
+    writer.add_node({.name = name, .mesh = writer.add_mesh(name, mesh), .semantic_class = semantic_class});
+  };
+  MeshBuilder base, road, markings;
+  add_streets(plan, seed, road, markings);
+  add_base(plan, base);
+  add("road", road, SemanticClass::road);
+  add("lane_markings", markings, SemanticClass::lane_marking);
+  add("ground_base", base, SemanticClass::ground);
+
+  CityFurniture furniture(writer);
+  RandomStream random(seed, 3), details(seed, 4);
+  const std::array<const char*, 4> surfaces{"paving", "grass", "asphalt_lot", "paving"};
+  int building = 0;
+  for (size_t i = 0; i < plan.block.size(); ++i) {
+    const Block& block = plan.block[i];
+    const bool park = block.column == plan.blocks / 2 && block.row == plan.blocks / 2;
+    MeshBuilder pavement, courtyard;
+    add_block_ground(block, material(park ? "grass" : surfaces[details.below(4)]), pavement, courtyard);
+    add(fmt::format("pavement_{:03}", i), pavement, SemanticClass::pavement);
+    add(fmt::format("{}_{:03}", park ? "park" : "courtyard", i), courtyard, SemanticClass::ground);
+    furnish_pavement(block, seed, furniture, details);
+    if (park) {
+      add_park(writer, block, furniture, details);
+      continue;
+    }
+    for (const Building& b : make_buildings(plan, block, seed, building, random)) {
+      const std::string name = fmt::format("building_{:03}", building++);
+      writer.add_node({.name = name,
+                       .mesh = writer.add_mesh(name, b.mesh),
+                       .position = b.position,
+                       .yaw = b.yaw,
+                       .semantic_class = SemanticClass::building});
+    }
+  }
+  park_cars(plan, furniture, details);
+}
+
+}  // namespace greatx::scene::generator

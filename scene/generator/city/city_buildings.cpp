@@ -1,0 +1,354 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/city/city_buildings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "scene/generator/city/city_roofs.h"
+#include "scene/generator/mesh/materials.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+constexpr double floor_height = 3.2;
+constexpr double shop_height = 4.2;
+constexpr double parapet_height = 0.8;  // stays within the plain foot of a façade's floor
+constexpr double parapet_width = 0.35;
+constexpr double foundation = -0.45;  // below the pavement's level, so that nothing ends in its plane
+
+/// A lot in the block's (u, v) square.
+struct Lot {
+  double u0, v0, u1, v1;
+};
+
+/// A footprint in a lot's unit square, counter-clockwise, and spots for things on its roof.
+struct Shape {
+  std::vector<dvec2> outline;
+  std::vector<dvec2> spots;
+  bool convex = true;
+};
+
+Shape make_shape(uint32_t kind, bool flip_u, bool flip_v) {
+  Shape shape;
+  switch (kind) {
+    case 0:  // L
+      shape = {{{0, 0}, {1, 0}, {1, 0.46}, {0.48, 0.46}, {0.48, 1}, {0, 1}},
+               {{0.24, 0.23}, {0.72, 0.23}, {0.24, 0.74}},
+               false};
+      break;
+    case 1:  // cut corner
+      shape = {{{0.22, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0.22}}, {{0.62, 0.38}, {0.35, 0.7}}, true};
+      break;
+    case 2:  // U
+      shape = {{{0, 0}, {1, 0}, {1, 1}, {0.66, 1}, {0.66, 0.42}, {0.34, 0.42}, {0.34, 1}, {0, 1}},
+               {{0.17, 0.2}, {0.83, 0.2}, {0.17, 0.76}, {0.83, 0.72}},
+               false};
+      break;
+    default:  // plain
+      shape = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0.3, 0.34}, {0.66, 0.62}, {0.7, 0.26}}, true};
+  }
+  const auto flip = [&](dvec2& p) { p = {flip_u ? 1 - p.x : p.x, flip_v ? 1 - p.y : p.y}; };
+  for (dvec2& p : shape.outline) flip(p);
+  for (dvec2& p : shape.spots) flip(p);
+  if (flip_u != flip_v) std::reverse(shape.outline.begin(), shape.outline.end());
+  return shape;
+}
+
+/// Divides the unit square; `gap` is an alley's width as fractions.
+std::vector<Lot> make_lots(const dvec2& size_m, RandomStream& random) {
+  const double gu = 5.0 / size_m.x, gv = 5.0 / size_m.y;
+  const auto spread = [&](double low, double high) { return random.uniform(low, high); };
+  std::vector<Lot> lots;
+  const auto row = [&](double v0, double v1, int count) {
+    double start = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const double end = i + 1 == count ? 1.0 : (i + 1.0) / count + spread(-0.06, 0.06) - 0.5 * gu;
+      lots.push_back({start, v0, end, v1});
+      start = end + gu;
+    }
+  };
+  const int along = std::clamp(static_cast<int>(std::lround(size_m.x / 26.0)), 1, 4);
+  const double split = spread(0.4, 0.58);
+  switch (random.below(4)) {
+    case 0:
+      row(0.0, split - 0.5 * gv, along);
+      row(split + 0.5 * gv, 1.0, along);
+      break;
+    case 1:
+      row(0.0, split - 0.5 * gv, 1);
+      row(split + 0.5 * gv, 1.0, along + 1);
+      break;
+    case 2:
+      row(0.0, split - 0.5 * gv, along + 1);
+      row(split + 0.5 * gv, 1.0, along);
+      break;
+    default:
+      row(0.0, split - 0.5 * gv, along);
+      row(split + 0.5 * gv, 1.0, 1);
+  }
+  return lots;
+}
+
+struct Style {
+  std::string facade, blind, roof;
+  bool shops = false;
+};
+
+Style make_style(int floors, RandomStream& random) {
+  struct Option {
+    const char *facade, *blind;
+    double low_weight, high_weight;  // for up to 6 floors, for more
+  };
+  static constexpr std::array<Option, 10> options{{{"facade_brick_red", "blind_brick", 3, 1},
+                                                   {"facade_brick_yellow", "", 2, 1},
+                                                   {"facade_brick_brown", "", 2, 1},
+                                                   {"facade_plaster_cream", "blind_plaster", 2.5, 0.5},
+                                                   {"facade_plaster_white", "", 1.5, 0.5},
+                                                   {"facade_plaster_ochre", "blind_plaster", 2, 0.3},
+                                                   {"facade_concrete_grey", "concrete", 2, 2.5},
+                                                   {"facade_concrete_light", "", 1, 3},
+                                                   {"facade_glass_blue", "", 1, 4},
+                                                   {"facade_metal_silver", "", 1.2, 1}}};
+  double total = 0.0;
+  const auto weight = [&](const Option& o) { return floors <= 6 ? o.low_weight : o.high_weight; };
+  for (const Option& o : options) total += weight(o);
+  double pick = random.uniform() * total;
+  const Option* chosen = &options.back();
+  for (const Option& o : options) {
+    pick -= weight(o);
+    if (pick < 0.0) {
+      chosen = &o;
+      break;
+    }
+  }
+  Style style{chosen->facade, chosen->blind, random.uniform() < 0.65 ? "roof_gravel" : "roof_dark", false};
+  const bool other_tone = random.uniform() < 0.45;
+  if (style.facade == "facade_glass_blue" && other_tone) style.facade = "facade_glass_green";
+  if (style.facade == "facade_metal_silver" && other_tone) style.facade = "facade_metal_dark";
+  style.shops = style.facade.find("glass") == std::string::npos && random.uniform() < 0.5;
+  return style;
+}
+
+/// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and
+/// apart. Returns their middles.
+std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof,
+                                 const std::vector<dvec2>& spots, const dvec2& along, double roof_z,
+                                 RandomStream& random) {
+  const int sheet = material("roof_equipment"), concrete = material("concrete");
+  const dvec2 across(-along.y, along.x);
+  const size_t count = 1 + random.below(static_cast<uint32_t>(spots.size()));
+  std::vector<dvec2> taken;
+  for (size_t i = 0; i < count; ++i) {
+    const dvec2 half{random.uniform(1.1, 1.9), random.uniform(0.9, 1.4)};  // braces: in this order
+    const double height = i == 0 ? 2.5 : random.uniform(1.1, 1.9);
+    std::vector<dvec2> corners;
+    for (const dvec2& c : {dvec2(-1, -1), dvec2(1, -1), dvec2(1, 1), dvec2(-1, 1)})
+      corners.push_back(snap(spots[i] + along * (c.x * half.x) + across * (c.y * half.y)));
+    const bool fits =
+        std::all_of(corners.begin(), corners.end(), [&](const dvec2& c) { return inside(roof, c); });
+    const bool apart = std::all_of(taken.begin(), taken.end(),
+                                   [&](const dvec2& other) { return glm::length(other - spots[i]) > 5.0; });
+    if (!fits || !apart) continue;
+    taken.push_back(spots[i]);
+    const int side = i == 0 ? concrete : sheet;
+    mesh.prism(side, side, corners, roof_z - 0.2, roof_z + height);
+  }
+  return taken;
+}
+
+/// More faces than the choice of a style has: others of the same kind of wall.
+void vary(Style& style, RandomStream& looks) {
+  const double pick = looks.uniform();
+  if (style.facade == "facade_concrete_grey" && pick < 0.55)
+    style.facade = pick < 0.3 ? "facade_balcony_white" : "facade_balcony_sand";
+  if (style.facade == "facade_concrete_light" && pick < 0.2) style.facade = "facade_balcony_white";
+  if (style.facade == "facade_plaster_cream" && pick < 0.5)
+    style.facade = pick < 0.25 ? "facade_stone_light" : "facade_plaster_rose";
+  if (style.facade == "facade_plaster_ochre" && pick < 0.4) style.facade = "facade_stone_grey";
+  if (style.facade == "facade_brick_brown" && pick < 0.3) style.facade = "facade_stone_light";
+}
+
+bool old_town(const Style& style) {
+  return style.facade.find("brick") != std::string::npos ||
+         style.facade.find("plaster") != std::string::npos || style.facade.find("stone") != std::string::npos;
+}
+
+struct Site {
+  std::vector<dvec2> footprint;  ///< about the building's origin
+  std::vector<dvec2> spots;
+  std::vector<bool> alley;  ///< whether edge i looks at a neighbour
+  dvec2 along;
+};
+
+/// Rings of a façade from `bottom` to `top`, one for every two floors, so that each starts with a bay of its
+/// own: no two walls show the same windows lit.
+void add_facade(RingSolid& solid, double inset, double bottom, double base, double top, int facade,
+                RandomStream& looks) {
+  for (double z = base; z < top - 0.01; z += 2.0 * floor_height)
+    solid.rings.push_back({inset, z == base ? bottom : z, facade, true, z, 1u + looks.below(0x7fffffffu)});
+}
+
+/// A sign that sticks out of the wall from a to b at height z, lit by night.
+void add_neon(MeshBuilder& mesh, const dvec2& a, const dvec2& b, double z, RandomStream& looks) {
+  static constexpr std::array<const char*, 4> colors{"neon_red", "neon_blue", "neon_green", "neon_amber"};
+  const double length = glm::length(b - a);
+  if (length < 9.0) return;
+  const dvec2 along = (b - a) / length, out(along.y, -along.x);
+  const dvec2 foot = glm::mix(a, b, looks.uniform(0.25, 0.75));
+  const double half = 0.09, reach = looks.uniform(0.7, 1.0), height = looks.uniform(1.4, 3.6);
+  const std::vector<dvec2> corners{
+      snap(foot - half * along - 0.1 * out), snap(foot - half * along + reach * out),
+      snap(foot + half * along + reach * out), snap(foot + half * along - 0.1 * out)};
+  std::vector<dvec2> ccw(corners.rbegin(), corners.rend());
+  const double area = (corners[1].x - corners[0].x) * (corners[2].y - corners[0].y) -
+                      (corners[1].y - corners[0].y) * (corners[2].x - corners[0].x);
+  const int glow = material(colors[looks.below(4)]);
+  mesh.prism(glow, glow, area > 0.0 ? corners : ccw, z, z + height);
+}
+
+MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream& random, RandomStream& looks,
+                          double* yaw) {
+  Style style = make_style(floors, random);
+  const bool blind_alleys = !style.blind.empty() && random.uniform() < 0.7;
+  vary(style, looks);
+  const int facade = material(style.facade), roof = material(style.roof), stone = material("concrete");
+  const int shop = material(looks.uniform() < 0.6 ? "shopfront" : "shopfront_late");
+  const bool shops = style.shops;
+  const int blind = blind_alleys ? material(style.blind) : 0;
+  const double street_level = shops ? shop_height : 0.0,
+               setback = parapet_width + (tower ? random.uniform(2.2, 3.6) : 0.0);
+  const double lower = tower ? 2 : floors;
+  const bool pitched =
+      !tower && floors <= 6 && site.footprint.size() == 4 && old_town(style) && looks.uniform() < 0.8;
+  double top = street_level + floor_height * lower;
+
+  // A pitched roof wants right angles: the largest rectangle along the street, in axes of its own.
+  std::vector<dvec2> footprint = site.footprint;
+  std::vector<bool> alley = site.alley;
+  dvec2 half(0.0);
+  if (pitched) {
+    const dvec2 across(-site.along.y, site.along.x);
+    dvec2 low(-1e9), high(1e9);
+    for (const dvec2& p : footprint) {
+      const dvec2 q(glm::dot(p, site.along), glm::dot(p, across));
+      for (int k = 0; k < 2; ++k)
+        (q[k] < 0.0 ? low[k] = std::max(low[k], q[k]) : high[k] = std::min(high[k], q[k]));
+    }
+    for (int k = 0; k < 2; ++k) half[k] = std::floor(100.0 * std::min(-low[k], high[k])) / 100.0;
+    footprint = {-half, dvec2(half.x, -half.y), half, dvec2(-half.x, half.y)};
+    *yaw = std::atan2(site.along.y, site.along.x);
+    // Its edges look south, east, north and west; whoever looked that way before knows of the neighbour.
+    const std::array<dvec2, 4> outwards{-across, site.along, across, -site.along};
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t k = 0; k < 4; ++k)
+        if (glm::dot(glm::normalize(site.footprint[k] + site.footprint[(k + 1) % 4]), outwards[i]) > 0.8)
+          alley[i] = site.alley[k];
+  }
+
+  RingSolid solid;
+  solid.footprint = footprint;
+  solid.bottom = stone;
+  if (shops) solid.rings.push_back({0.0, foundation, shop, true, 0.0, 1u + looks.below(0x7fffffffu)});
+  add_facade(solid, 0.0, shops ? street_level : foundation, street_level, top, facade, looks);
+  const size_t wall_rings = solid.rings.size();
+  MeshBuilder mesh;
+  solid.override_wall = [&](size_t ring, size_t edge, int usual) {
+    return blind_alleys && !tower && ring < wall_rings && alley[edge] ? blind : usual;
+  };
+  std::vector<dvec2> spots = site.spots;
+  if (pitched) {
+    solid.rings.push_back({0.0, top, stone});
+    add_ring_solid(mesh, solid);
+    const bool mansard = floors >= 3 && looks.uniform() < 0.5;
+    const char* const tiles = looks.uniform() < 0.6   ? "roof_tiles"
+                              : looks.uniform() < 0.5 ? "roof_tiles_old"
+                                                      : "roof_slate";
+    const double ridge =
+        mansard ? add_mansard(mesh, half, top, looks) : add_hip_roof(mesh, half, top, material(tiles));
+    const double x = snap(0.4 * half.x), y = snap(0.15 * half.y);
+    for (const double side : {-1.0, 1.0})
+      mesh.box(material("blind_brick"), {side * x - 0.35, side * y - 0.5, top + 0.1},
+               {side * x + 0.35, side * y + 0.5, ridge + 0.8});
+    MeshBuilder unused;  // what a flat roof would have drawn: the next building does not change
+    add_equipment(unused, inset(site.footprint, parapet_width + 0.3), spots, site.along, top, random);
+  } else {
+    solid.rings.push_back({0.0, top + parapet_height, stone});
+    solid.rings.push_back({parapet_width, top + parapet_height, stone});
+    if (tower) {
+      solid.rings.push_back({parapet_width, top, roof});
+      const double base = top;
+      top += floor_height * (floors - lower);
+      add_facade(solid, setback, base, base, top, facade, looks);
+      solid.rings.push_back({setback, top + parapet_height, stone});
+      solid.rings.push_back({setback + parapet_width, top + parapet_height, stone});
+    }
+    // Parapets are as wide as the wall is thick: fall back to the roof inside them.
+    solid.rings.push_back({solid.rings.back().inset_m, top, roof});
+    add_ring_solid(mesh, solid);
+    if (tower)
+      for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of its smaller roof
+    const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
+    const std::vector<dvec2> taken = add_equipment(mesh, roof_edge, spots, site.along, top, random);
+    add_roof_details(mesh, roof_edge, taken, site.along, top, looks);
+  }
+  if (shops) {
+    const size_t edge = looks.below(static_cast<uint32_t>(footprint.size()));
+    if (!alley[edge])
+      add_neon(mesh, footprint[edge], footprint[(edge + 1) % footprint.size()], street_level + 0.3, looks);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
+                                     RandomStream& random) {
+  // The block inside its pavements and a strip in front of the walls.
+  std::array<double, 4> insets{};
+  for (size_t i = 0; i < 4; ++i) insets[i] = block.pavement_m[i] + 0.9;
+  const std::vector<dvec2> quad = inset(block.sharp, insets);
+  const auto at = [&](double u, double v) {
+    return glm::mix(glm::mix(quad[0], quad[1], u), glm::mix(quad[3], quad[2], u), v);
+  };
+  const dvec2 size(0.5 * (glm::length(quad[1] - quad[0]) + glm::length(quad[2] - quad[3])),
+                   0.5 * (glm::length(quad[3] - quad[0]) + glm::length(quad[2] - quad[1])));
+  std::vector<Building> buildings;
+  for (const Lot& lot : make_lots(size, random)) {
+    const dvec2 extent((lot.u1 - lot.u0) * size.x, (lot.v1 - lot.v0) * size.y);
+    const bool roomy = std::min(extent.x, extent.y) > 20.0;
+    const uint32_t kind = roomy ? random.below(6) : 1 + 2 * random.below(2);
+    const Shape shape = make_shape(kind, lot.u0 > 0.5, lot.v0 > 0.3);
+    const dvec2 center = snap(at(0.5 * (lot.u0 + lot.u1), 0.5 * (lot.v0 + lot.v1)));
+    const auto place = [&](const dvec2& p) {
+      return snap(at(glm::mix(lot.u0, lot.u1, p.x), glm::mix(lot.v0, lot.v1, p.y)) - center);
+    };
+    Site site;
+    for (size_t i = 0; i < shape.outline.size(); ++i) {
+      const dvec2 p = shape.outline[i], q = shape.outline[(i + 1) % shape.outline.size()];
+      site.footprint.push_back(place(p));
+      const auto inner = [](double a, double b, double lot_low, double lot_high) {
+        return a == b && ((a == 0.0 && lot_low > 0.01) || (a == 1.0 && lot_high < 0.99));
+      };
+      site.alley.push_back(inner(p.x, q.x, lot.u0, lot.u1) || inner(p.y, q.y, lot.v0, lot.v1));
+    }
+    for (const dvec2& p : shape.spots) site.spots.push_back(place(p));
+    site.along = glm::normalize(at(1, lot.v0) - at(0, lot.v0));
+
+    const double nearness = 1.0 - std::min(1.0, glm::length(center) / std::max(plan.half_m, 150.0));
+    const bool tower = roomy && shape.convex && random.uniform() < 0.2 + 0.45 * nearness;
+    const int floors = tower ? 8 + static_cast<int>(random.below(5))
+                             : std::clamp(static_cast<int>(random.uniform(2.6, 6.5) + 3.0 * nearness), 2, 9);
+    // Looks have a stream of their own: what a building wears moves no other one.
+    RandomStream looks(seed, 64, static_cast<uint32_t>(first + static_cast<int>(buildings.size())));
+    double yaw = 0.0;
+    MeshBuilder mesh = make_building(site, floors, tower, random, looks, &yaw);
+    buildings.push_back({std::move(mesh), dvec3(center, 0.15), yaw});
+  }
+  return buildings;
+}
+
+}  // namespace greatx::scene::generator

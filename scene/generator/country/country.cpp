@@ -1,0 +1,415 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/country/country.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "core/units.h"
+#include "scene/generator/country/terrain.h"
+#include "scene/generator/mesh/materials.h"
+#include "scene/generator/objects/farm.h"
+#include "scene/generator/objects/objects.h"
+#include "scene/generator/objects/street_furniture.h"
+#include "scene/generator/objects/trees.h"
+#include "scene/generator/objects/vehicles.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// Fields: on each side of the road two bands, each cut across at rows of its own.
+struct Field {
+  int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
+  int material;
+  double angle = 0.0;  ///< of its rows, rad
+  dvec2 offset{0.0};   ///< of its texture
+};
+
+class Country {
+ public:
+  Country(SceneWriter& writer, double size_m, uint64_t seed)
+      : writer_(writer), random_(seed, 5), terrain_(size_m, random_) {}
+
+  void write() {
+    choose_sites();
+    terrain_.build_grid();
+    choose_fields();
+    add_ground();
+    add_hedges();
+    add_farms();
+    add_woods();
+    add_poles();
+    add_lamps();
+  }
+
+ private:
+  dvec2 find_pond();
+  void choose_sites();
+  /// Fields of a band that are not for crops, by row.
+  std::vector<Field> reserved(const std::array<int, 2>& band) const;
+  double wood_radius() const { return std::min(0.2 * terrain_.half(), 26.0); }
+  void choose_fields();
+  void add_ground();
+  void add_hedges();
+  void add_farms();
+  void add_woods();
+  void add_poles();
+  void add_lamps();
+  void add_tree(const dvec2& where, bool conifer);
+  bool near_site(const dvec2& point, double margin) const;
+  int shared(const std::string& name, const std::function<MeshBuilder()>& make);
+  void add(const std::string& name, const MeshBuilder& mesh, SemanticClass semantic_class) {
+    writer_.add_node({.name = name, .mesh = writer_.add_mesh(name, mesh), .semantic_class = semantic_class});
+  }
+
+  SceneWriter& writer_;
+  RandomStream random_;
+  Terrain terrain_;
+  std::vector<Site> farms_;
+  Site pond_;
+  std::vector<dvec2> woods_;
+  std::vector<Field> fields_;
+  std::map<std::string, int> meshes_;
+  int tree_count_ = 0;
+};
+
+// These functions choose the sites and the fields, and lay the ground.
+
+bool Country::near_site(const dvec2& point, double margin) const {
+  for (const Site& farm : farms_)
+    if (glm::length(point - farm.center) < farm.inner_m + margin) return true;
+  return glm::length(point - pond_.center) < pond_.outer_m + margin ||
+         std::abs(point.y - terrain_.road_y(point.x)) < road_half_width_m + verge_m + margin;
+}
+
+dvec2 Country::find_pond() {
+  // Of random places the first that is clear of road and farms, or else the one that is clearest.
+  const double limit = terrain_.half() - pond_.outer_m - 4.0;
+  dvec2 best(0.0);
+  double best_room = -1e9;
+  for (int attempt = 0; attempt < 100 && best_room < 0.0; ++attempt) {
+    const double x = random_.uniform(-limit, limit), y = random_.uniform(-limit, limit);
+    const dvec2 center = snap(dvec2(x, y));
+    double room = 1e9;
+    for (double along = -pond_.outer_m; along <= pond_.outer_m; along += 4.0) {
+      const dvec2 road(x + along, terrain_.road_y(x + along));
+      room = std::min(room, glm::length(center - road) - pond_.outer_m - road_half_width_m - verge_m);
+    }
+    for (const Site& farm : farms_)
+      room = std::min(room, glm::length(center - farm.center) - pond_.outer_m - farm.inner_m - 4.0);
+    if (room > best_room) {
+      best_room = room;
+      best = center;
+    }
+  }
+  return best;
+}
+
+void Country::choose_sites() {
+  // A farm on each side of the road, and a pond away from both.
+  const double half = terrain_.half();
+  const auto beside_road = [&](double x, double distance, double side) {
+    const dvec2 along = terrain_.road_direction(x);
+    return snap(dvec2(x, terrain_.road_y(x)) + side * distance * dvec2(-along.y, along.x));
+  };
+  const double side = random_.uniform() < 0.5 ? 1.0 : -1.0;
+  const double reach = std::min(0.5 * half, 110.0);
+  const double yard = std::min(24.0, 0.3 * half);
+  for (const double sign : {-1.0, 1.0}) {
+    Site farm;
+    farm.center = beside_road(sign * reach * random_.uniform(0.55, 0.75), yard + 10.0, sign * side);
+    farm.inner_m = yard;
+    farm.outer_m = yard + 16.0;
+    farm.level = snap(terrain_.height(farm.center));
+    farms_.push_back(farm);
+  }
+  for (const Site& farm : farms_) terrain_.flatten(farm);
+  pond_.inner_m = std::min(9.0, 0.1 * half);
+  pond_.outer_m = 3.2 * pond_.inner_m;
+  pond_.center = find_pond();
+  double shore = 1e9;
+  for (const dvec2& p : regular_polygon(24, pond_.outer_m, pond_.center))
+    shore = std::min(shore, terrain_.height(p));
+  pond_.level = snap(shore - 3.0);  // of the bed; the water stands 1.7 m above it
+  terrain_.flatten(pond_);
+  for (const double sign : {-1.0, 1.0})
+    woods_.emplace_back(random_.uniform(-0.75, 0.75) * half, sign * 0.72 * half);
+}
+
+std::vector<Field> Country::reserved(const std::array<int, 2>& band) const {
+  std::vector<Field> fields;
+  const double step = terrain_.vertex(1, 0).x - terrain_.vertex(0, 0).x;
+  const auto reserve = [&](const dvec2& center, double reach, const char* name) {
+    const auto row_at = [&](double x) {
+      return std::clamp(static_cast<int>(std::lround((x + terrain_.half()) / step)), 0, terrain_.rows() - 1);
+    };
+    const int middle = row_at(center.x);
+    if (center.y < terrain_.vertex(middle, band[0]).y || center.y >= terrain_.vertex(middle, band[1]).y)
+      return;
+    const Field field{row_at(center.x - reach), row_at(center.x + reach), band[0], band[1], material(name)};
+    if (field.row1 > field.row0) fields.push_back(field);
+  };
+  for (const Site& farm : farms_) reserve(farm.center, farm.inner_m + 5.0, "grass");
+  reserve(pond_.center, pond_.outer_m + 5.0, "meadow");
+  for (const dvec2& wood : woods_) reserve(wood, 1.2 * wood_radius(), "meadow");
+  std::sort(fields.begin(), fields.end(), [](const Field& a, const Field& b) { return a.row0 < b.row0; });
+  return fields;
+}
+
+void Country::choose_fields() {
+  const std::array<const char*, 10> crops{"wheat",      "crop",    "ploughed_soil", "rapeseed", "crop_young",
+                                          "wheat_pale", "stubble", "crop_dark",     "crop",     "wheat"};
+  const int south = terrain_.road_south() - 1, north = terrain_.road_north() + 1,
+            last = terrain_.columns() - 1;
+  const std::array<std::array<int, 2>, 4> bands{
+      {{0, south / 2}, {south / 2, south}, {north, (north + last) / 2}, {(north + last) / 2, last}}};
+  const int rows = terrain_.rows() - 1;
+  for (const auto& band : bands) {
+    int before = -1, row = 0;
+    const auto fill = [&](int until) {  // with crops, no two alike side by side
+      while (row < until) {
+        int end = std::min(row + 6 + static_cast<int>(random_.below(6)), until);
+        if (until - end < 4) end = until;
+        size_t pick = random_.below(static_cast<uint32_t>(crops.size()));
+        while (material(crops[pick]) == before) pick = (pick + 1) % crops.size();
+        before = material(crops[pick]);
+        fields_.push_back({row, end, band[0], band[1], before, random_.uniform(0.0, pi),
+                           dvec2(random_.uniform(), random_.uniform())});
+        row = end;
+      }
+    };
+    // Yards, the pond's banks and woods stand on grass.
+    for (const Field& field : reserved(band)) {
+      fill(field.row0);
+      if (field.row1 <= row) continue;
+      fields_.push_back({row, field.row1, band[0], band[1], field.material});
+      row = field.row1;
+    }
+    fill(rows);
+  }
+}
+
+void Country::add_ground() {
+  const int verge = material("verge"), meadow = material("meadow");
+  const int south = terrain_.road_south(), north = terrain_.road_north();
+  MeshBuilder land, road, water;
+  terrain_.add_surface(land, [&](int row, int column) {
+    if (column == south) return Terrain::Cover{};
+    if (column == south - 1 || column == north) return Terrain::Cover{.material = verge};
+    for (const Field& f : fields_)
+      if (row >= f.row0 && row < f.row1 && column >= f.column0 && column < f.column1)
+        return Terrain::Cover{.material = f.material, .angle = f.angle, .offset = f.offset};
+    return Terrain::Cover{.material = meadow};
+  });
+  terrain_.add_base(land);
+  terrain_.add_surface(road, [&](int, int column) {
+    return column == south ? Terrain::Cover{.material = material("country_road"), .along_road = true}
+                           : Terrain::Cover{};
+  });
+  // A disc that reaches into the banks all round: the shore is where they meet.
+  water.flat_polygon(material("water"), regular_polygon(20, 0.9 * pond_.outer_m, pond_.center),
+                     pond_.level + 1.7, true);
+  add("terrain", land, SemanticClass::ground);
+  add("road", road, SemanticClass::road);
+  add("pond", water, SemanticClass::water);
+}
+
+// These functions add hedges, trees, farms, poles and lamps.
+
+/// A closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
+MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
+  MeshBuilder mesh;
+  const int leaves = material("hedge");
+  const auto section = [&](size_t i) {
+    const dvec3 next = chain[std::min(i + 1, chain.size() - 1)], before = chain[i == 0 ? 0 : i - 1];
+    const dvec2 along = glm::normalize(dvec2(next - before)), right(along.y, -along.x);
+    const dvec3 r(right, 0.0), up(0, 0, 1);
+    return std::array<dvec3, 4>{snap(chain[i] + 0.65 * r - 0.5 * up), snap(chain[i] + 0.45 * r + 1.7 * up),
+                                snap(chain[i] - 0.45 * r + 1.7 * up), snap(chain[i] - 0.65 * r - 0.5 * up)};
+  };
+  for (size_t i = 0; i + 1 < chain.size(); ++i) {
+    const auto a = section(i), b = section(i + 1);
+    for (size_t k = 0; k < 4; ++k) mesh.quad(leaves, a[k], b[k], b[(k + 1) % 4], a[(k + 1) % 4]);
+  }
+  const auto first = section(0), last = section(chain.size() - 1);
+  mesh.quad(leaves, first[0], first[1], first[2], first[3]);
+  mesh.quad(leaves, last[3], last[2], last[1], last[0]);
+  return mesh;
+}
+
+int Country::shared(const std::string& name, const std::function<MeshBuilder()>& make) {
+  const auto found = meshes_.find(name);
+  if (found != meshes_.end()) return found->second;
+  return meshes_[name] = writer_.add_mesh(name, make());
+}
+
+void Country::add_hedges() {
+  int count = 0;
+  for (const Field& field : fields_) {
+    if (field.row0 == 0 || random_.uniform() < 0.15) continue;
+    std::vector<dvec3> chain;
+    const auto flush = [&] {
+      if (chain.size() > 2)
+        add(fmt::format("hedge_{:03}", count++), make_hedge(chain), SemanticClass::vegetation);
+      chain.clear();
+    };
+    const int from = std::max(field.column0, 1), to = std::min(field.column1, terrain_.columns() - 2);
+    for (int column = from; column <= to; ++column) {
+      const dvec3 p = terrain_.vertex(field.row0, column);
+      // Stations of one hedge end a metre and a half short of the next band's.
+      if (near_site(dvec2(p), 5.0)) {
+        flush();
+        continue;
+      }
+      chain.push_back(
+          column == to && to == field.column1 ? glm::mix(p, chain.empty() ? p : chain.back(), 0.25) : p);
+      if (column < to && random_.uniform() < 0.3)
+        add_tree(dvec2(p) + dvec2(2.4, random_.uniform(-3.0, 3.0)), false);
+    }
+    flush();
+  }
+}
+
+void Country::add_tree(const dvec2& where, bool conifer) {
+  const dvec2 at = snap(where);
+  if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
+  // Mostly oaks, maples and lindens; few poplars and copper beeches.
+  static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
+  const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
+  const int mesh =
+      conifer ? shared("conifer", make_conifer)
+              : shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
+  writer_.add_node({.name = fmt::format("tree_{:03}", tree_count_++),
+                    .mesh = mesh,
+                    .position = dvec3(at, terrain_.height(at) - 0.1),
+                    .yaw = random_.uniform(0.0, 2.0 * pi),
+                    .scale = random_.uniform(0.85, 1.5),
+                    .semantic_class = SemanticClass::vegetation});
+}
+
+void Country::add_farms() {
+  int building = 0;
+  for (size_t f = 0; f < farms_.size(); ++f) {
+    const Site& farm = farms_[f];
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    const double yaw = std::atan2(along.y, along.x) + random_.uniform(-0.08, 0.08);
+    const double scale = farm.inner_m / 24.0;
+    const auto place = [&](const MeshBuilder& mesh, const std::string& kind, const dvec2& where,
+                           double turn) {
+      const std::string name = fmt::format("{}_{:03}", kind, building++);
+      const dvec2 at = farm.center + scale * (where.x * along + where.y * across);
+      writer_.add_node({.name = name,
+                        .mesh = writer_.add_mesh(name, mesh),
+                        .position = dvec3(at, farm.level),
+                        .yaw = yaw + turn,
+                        .semantic_class = SemanticClass::building});
+    };
+    place(make_farmhouse(scale), "farmhouse", {-12.0, -9.0}, pi / 2);
+    place(make_barn(scale, random_.uniform() < 0.6), "barn", {10.0, 3.0}, 0.0);
+    if (random_.uniform() < 0.6) place(make_barn(0.72 * scale, false), "barn", {-9.0, 12.0}, pi / 2);
+    if (f == 0) place(make_silo(scale), "silo", {18.5, -8.0}, 0.0);
+    const dvec2 at = farm.center + scale * (-1.5 * along - 7.0 * across);
+    const bool van = f == 1;
+    const int mesh = shared(van ? "parked_van" : "parked_car", [&] {
+      return van ? make_car("van", "car_paint_white", false) : make_car("hatchback", "car_paint_blue", false);
+    });
+    writer_.add_node({.name = fmt::format("car_{:03}", f),
+                      .mesh = mesh,
+                      .position = dvec3(at, farm.level),
+                      .yaw = yaw + random_.uniform(-0.6, 0.6),
+                      .semantic_class = SemanticClass::vehicle});
+    // A few trees around the yard.
+    for (int i = 0; i < 5; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi);
+      add_tree(
+          farm.center + (farm.inner_m + random_.uniform(4.0, 9.0)) * dvec2(std::cos(angle), std::sin(angle)),
+          false);
+    }
+  }
+}
+
+void Country::add_woods() {
+  for (size_t wood = 0; wood < woods_.size(); ++wood) {
+    const dvec2 center = woods_[wood];
+    for (int i = 0; i < 34; ++i) {
+      const double angle = random_.uniform(0.0, 2.0 * pi), r = wood_radius() * std::sqrt(random_.uniform());
+      add_tree(center + r * dvec2(1.5 * std::cos(angle), std::sin(angle)),
+               (static_cast<size_t>(i) + wood) % 2 == 0);
+    }
+  }
+  for (int i = 0; i < 9; ++i) {  // around the pond
+    const double angle = 2.0 * pi * (i + random_.uniform(0.0, 0.7)) / 9;
+    add_tree(pond_.center + (pond_.outer_m + 4.0) * dvec2(std::cos(angle), std::sin(angle)), false);
+  }
+}
+
+void Country::add_poles() {
+  std::vector<dvec3> tops;  // where the wires hang, to the left and right of each pole
+  int count = 0;
+  for (double x = -terrain_.half() + 15.0; x < terrain_.half() - 5.0; x += 38.0) {
+    const dvec2 along = terrain_.road_direction(x), side(-along.y, along.x);
+    const dvec2 at = snap(dvec2(x, terrain_.road_y(x)) + (road_half_width_m + verge_m - 0.4) * side);
+    const double z = terrain_.height(at);
+    writer_.add_node({.name = fmt::format("pole_{:03}", count++),
+                      .mesh = shared("telegraph_pole", make_pole),
+                      .position = dvec3(at, z),
+                      .yaw = std::atan2(along.y, along.x),
+                      .semantic_class = SemanticClass::pole});
+    for (const double arm : {-0.8, 0.8}) tops.emplace_back(at + arm * side, snap(z) + 6.78);
+  }
+  for (size_t i = 2; i < tops.size(); i += 2) {
+    MeshBuilder wires;
+    for (const size_t arm : {size_t{0}, size_t{1}}) add_wire(wires, tops[i - 2 + arm], tops[i + arm], 0.7);
+    add(fmt::format("wires_{:03}", i / 2 - 1), wires, SemanticClass::pole);
+  }
+}
+
+void Country::add_lamps() {
+  int light = -1, count = 0;
+  const auto lamp = [&](LampKind kind, const dvec2& where, double z, double yaw) {
+    const Lamp made = make_lamp(kind);
+    if (light < 0) light = writer_.add_light(made.light);
+    const std::string name = fmt::format("lamp_{:03}", count++);
+    const int node = writer_.add_node(
+        {.name = name,
+         .mesh = shared(fmt::format("lamp_{}", static_cast<int>(kind)), [&] { return made.mesh; }),
+         .position = dvec3(snap(where), z),
+         .yaw = yaw,
+         .semantic_class = SemanticClass::street_lamp});
+    writer_.add_node({.name = name + "_light",
+                      .position = made.light_position,
+                      .parent = node,
+                      .light = light,
+                      .shine = {0.0, 0.0, -1.0}});
+  };
+  for (const Site& farm : farms_) {
+    const double scale = farm.inner_m / 24.0;
+    const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
+    for (const dvec2& at : {dvec2(-2.0, 1.0), dvec2(4.0, -9.0)})
+      lamp(LampKind::yard, farm.center + scale * (at.x * along + at.y * across), farm.level, 0.7);
+    // Along the lane past the yard, on the side without poles.
+    for (const double shift : {-30.0, 0.0, 30.0}) {
+      const double x = farm.center.x + scale * shift;
+      const dvec2 direction = terrain_.road_direction(x), side(-direction.y, direction.x);
+      const dvec2 at = dvec2(x, terrain_.road_y(x)) - (road_half_width_m + 0.9) * side;
+      lamp(LampKind::yard, at, terrain_.height(snap(at)) - 0.05, std::atan2(side.y, side.x));
+    }
+  }
+}
+
+}  // namespace
+
+void write_country(SceneWriter& writer, double size_m, uint64_t seed) {
+  Country(writer, size_m, seed).write();
+}
+
+}  // namespace greatx::scene::generator

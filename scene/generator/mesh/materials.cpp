@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/mesh/materials.h"
+
+#include "core/error.h"
+#include "scene/generator/paint/textures.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+// Radio side. Media are those of ITU-R P.2040-4, Table 3, by name where it has them. Scattering coefficients
+// are plausible figures for the effective-roughness model (smooth glass and metal least, rough ground most),
+// not measurements of these surfaces.
+const char* const concrete_wall =
+    R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
+const char* const concrete_ground =
+    R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1})";
+const char* const brick_wall =
+    R"({"itu":"brick","extrapolate":true,"thickness_m":0.3,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+// Double glazing, outer pane first.
+const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
+                            R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.016},)"
+                            R"({"itu":"glass","thickness_m":0.006}],"scattering_coefficient":0.05})";
+const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
+const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
+const char* const asphalt_ground =
+    R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
+// The table's row for soil ends at 10 GHz; its formula is carried on above that, and the file says so.
+const char* const soil =
+    R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
+const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coefficient":0.2})";
+const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
+// A volume: no face that reflects, loss by the depth.
+const char* const canopy = R"({"foliage":"weissberger"})";
+const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
+const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
+const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,"thickness_m":0.003})";
+// Carbon fibre composite conducts well enough to reflect like metal.
+const char* const carbon_fibre =
+    R"({"relative_permittivity":1.0,"conductivity":10000.0,"thickness_m":0.003})";
+// Fresh water near 20 C at a few GHz; not frequency-dependent as Debye's model would be.
+const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5})";
+const char* const clay_tiles =
+    R"({"itu":"brick","extrapolate":true,"thickness_m":0.03,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+
+std::vector<MaterialSpec> make_library() {
+  const dvec2 facade(3.0 * facade_bays, 6.4);
+  // What a white texel of TextureMaps::lit gives. A warm lit pane has 0.6 of a white one's luminance
+  // (docs/generator.md).
+  const vec3 home_light(0.05f), office_light(0.05f), shop_light(0.12f);
+  return {
+      // name, texture, tile, bays, colour, roughness, metallic, emissive, radio
+      {"asphalt", "asphalt", dvec2(16.0, 32.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"asphalt_lot", "asphalt", dvec2(16.0, 32.0), 0, vec3(0.96f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"country_road", "country_road", dvec2(6.0, 24.0), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), asphalt_ground},
+      {"road_marking", "", dvec2(1.0), 0, vec3(0.72f), 0.7f, 0.0f, vec3(0), asphalt_ground},
+      {"pavement", "pavement", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"kerb", "concrete", dvec2(2.0), 0, vec3(0.85f), 0.85f, 0.0f, vec3(0), concrete_ground},
+      {"paving", "pavement", dvec2(4.8), 0, vec3(0.86f, 0.78f, 0.68f), 0.9f, 0.0f, vec3(0), concrete_ground},
+      {"subsoil", "", dvec2(2.0), 0, vec3(0.12f, 0.09f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
+      {"grass", "grass", dvec2(6.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), soil},
+      {"meadow", "pasture", dvec2(40.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), soil},
+      {"wheat", "crop", dvec2(48.0), 0, vec3(0.62f, 0.46f, 0.18f), 1.0f, 0.0f, vec3(0), soil},
+      {"wheat_pale", "crop", dvec2(48.0), 0, vec3(0.70f, 0.58f, 0.30f), 1.0f, 0.0f, vec3(0), soil},
+      {"crop", "crop", dvec2(48.0), 0, vec3(0.16f, 0.27f, 0.06f), 1.0f, 0.0f, vec3(0), soil},
+      {"crop_dark", "crop", dvec2(48.0), 0, vec3(0.10f, 0.20f, 0.05f), 1.0f, 0.0f, vec3(0), soil},
+      {"crop_young", "crop", dvec2(48.0), 0, vec3(0.26f, 0.33f, 0.10f), 1.0f, 0.0f, vec3(0), soil},
+      {"ploughed_soil", "crop", dvec2(48.0), 0, vec3(0.24f, 0.15f, 0.09f), 1.0f, 0.0f, vec3(0), soil, -1,
+       true},
+      {"stubble", "crop", dvec2(48.0), 0, vec3(0.52f, 0.43f, 0.24f), 1.0f, 0.0f, vec3(0), soil},
+      {"rapeseed", "crop", dvec2(48.0), 0, vec3(0.66f, 0.56f, 0.07f), 1.0f, 0.0f, vec3(0), soil},
+      {"verge", "grass", dvec2(5.0), 0, vec3(0.9f, 0.85f, 0.7f), 1.0f, 0.0f, vec3(0), soil},
+      {"water", "", dvec2(4.0), 0, vec3(0.03f, 0.07f, 0.08f), 0.06f, 0.0f, vec3(0), fresh_water},
+
+      {"facade_brick_red", "facade_brick", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
+       brick_wall, 0},
+      {"facade_brick_yellow", "facade_brick", facade, facade_bays, vec3(1.0f, 0.98f, 0.72f), 1.0f, 1.0f,
+       home_light, brick_wall, 1},
+      {"facade_brick_brown", "facade_brick", facade, facade_bays, vec3(0.6f, 0.66f, 0.7f), 1.0f, 1.0f,
+       home_light, brick_wall, 1},
+      {"facade_plaster_cream", "facade_plaster", facade, facade_bays, vec3(1.0f, 0.93f, 0.78f), 1.0f, 1.0f,
+       home_light, brick_wall, 0},
+      {"facade_plaster_white", "facade_plaster", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
+       brick_wall, 1},
+      {"facade_plaster_ochre", "facade_plaster", facade, facade_bays, vec3(1.0f, 0.72f, 0.42f), 1.0f, 1.0f,
+       home_light, brick_wall, 0},
+      {"facade_plaster_rose", "facade_plaster", facade, facade_bays, vec3(0.92f, 0.66f, 0.56f), 1.0f, 1.0f,
+       home_light, brick_wall, 1},
+      {"facade_stone_light", "facade_stone", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
+       concrete_wall, 0},
+      {"facade_stone_grey", "facade_stone", facade, facade_bays, vec3(0.78f, 0.8f, 0.82f), 1.0f, 1.0f,
+       home_light, concrete_wall, 1},
+      {"facade_balcony_white", "facade_balcony", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
+       concrete_wall, 0},
+      {"facade_balcony_sand", "facade_balcony", facade, facade_bays, vec3(0.9f, 0.78f, 0.6f), 1.0f, 1.0f,
+       home_light, concrete_wall, 1},
+      {"facade_concrete_grey", "facade_concrete", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, home_light,
+       concrete_wall, 1},
+      {"facade_concrete_light", "facade_ribbon", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, office_light,
+       concrete_wall, 0},
+      {"facade_glass_blue", "facade_glass", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, office_light,
+       glazing, 0},
+      {"facade_glass_green", "facade_glass", facade, facade_bays, vec3(0.8f, 1.0f, 0.82f), 1.0f, 1.0f,
+       office_light, glazing, 1},
+      {"facade_metal_silver", "facade_metal", facade, facade_bays, vec3(1.0f), 1.0f, 1.0f, office_light,
+       sheet_metal, 1},
+      {"facade_metal_dark", "facade_metal", facade, facade_bays, vec3(0.42f, 0.46f, 0.52f), 1.0f, 1.0f,
+       office_light, sheet_metal, 0},
+      {"shopfront", "shopfront", dvec2(24.0, 4.2), 4, vec3(1.0f), 1.0f, 1.0f, shop_light, glazing, 0},
+      {"shopfront_late", "shopfront", dvec2(24.0, 4.2), 4, vec3(0.94f, 0.96f, 1.0f), 1.0f, 1.0f, shop_light,
+       glazing, 1},
+      {"dormer", "dormer", dvec2(1.5, 1.6), 1, vec3(1.0f), 1.0f, 1.0f, home_light, timber, 0},
+      {"dormer_dark", "dormer", dvec2(1.5, 1.6), 1, vec3(1.0f), 1.0f, 1.0f, vec3(0), timber},
+      {"blind_brick", "brick", dvec2(2.56), 0, vec3(1.0f), 0.95f, 0.0f, vec3(0), brick_wall},
+      {"blind_plaster", "concrete", dvec2(3.2), 0, vec3(0.9f, 0.84f, 0.72f), 0.95f, 0.0f, vec3(0),
+       brick_wall},
+      {"concrete", "concrete", dvec2(3.2), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), concrete_wall},
+      {"roof_gravel", "roof", dvec2(18.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), concrete_wall},
+      {"roof_dark", "roof", dvec2(18.0), 0, vec3(0.36f), 0.95f, 0.0f, vec3(0), concrete_wall},
+      {"roof_equipment", "corrugated", dvec2(1.6), 0, vec3(0.62f, 0.64f, 0.66f), 0.6f, 0.4f, vec3(0),
+       sheet_metal},
+      {"roof_tiles", "roof_tiles", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), clay_tiles},
+      {"roof_tiles_old", "roof_tiles", dvec2(2.4), 0, vec3(0.62f, 0.6f, 0.58f), 0.95f, 0.0f, vec3(0),
+       clay_tiles},
+      {"farm_tiles", "roof_tiles", dvec2(2.4), 0, vec3(1.0f), 0.9f, 0.0f, vec3(0), clay_tiles, -1, true},
+      {"roof_slate", "slate", dvec2(3.2), 0, vec3(1.0f), 0.7f, 0.0f, vec3(0), clay_tiles},
+      {"roof_zinc", "corrugated", dvec2(4.8), 0, vec3(0.42f, 0.46f, 0.5f), 0.5f, 0.4f, vec3(0), sheet_metal},
+      {"skylight", "", dvec2(1.0), 0, vec3(0.1f, 0.13f, 0.15f), 0.1f, 0.0f, vec3(0), pane},
+      {"solar_panel", "solar", dvec2(1.6, 1.0), 0, vec3(1.0f), 0.2f, 0.0f, vec3(0), pane},
+      {"roof_sheet", "corrugated", dvec2(1.6), 0, vec3(0.5f, 0.52f, 0.55f), 0.55f, 0.5f, vec3(0),
+       sheet_metal},
+      {"barn_boards", "boards", dvec2(2.0), 0, vec3(0.5f, 0.1f, 0.07f), 0.9f, 0.0f, vec3(0), timber},
+      {"barn_boards_brown", "boards", dvec2(2.0), 0, vec3(0.42f, 0.28f, 0.17f), 0.9f, 0.0f, vec3(0), timber},
+      {"door_boards", "boards", dvec2(1.5), 0, vec3(0.75f, 0.72f, 0.66f), 0.8f, 0.0f, vec3(0), timber},
+      {"farm_plaster", "farm_wall", dvec2(16.0, 3.0), 4, vec3(1.0f), 1.0f, 1.0f, home_light, brick_wall, 0},
+      {"wire", "", dvec2(1.0), 0, vec3(0.03f), 0.6f, 0.0f, vec3(0), carbon_fibre},
+      {"wood_pole", "bark", dvec2(1.0), 0, vec3(0.9f), 0.95f, 0.0f, vec3(0), trunk},
+
+      {"bark", "bark", dvec2(1.0), 0, vec3(0.8f), 1.0f, 0.0f, vec3(0), trunk},
+      {"leaves_green", "leaves", dvec2(3.0), 0, vec3(1.0f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_dark", "leaves", dvec2(3.0), 0, vec3(0.62f, 0.74f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_light", "leaves", dvec2(3.0), 0, vec3(0.96f, 1.0f, 0.6f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_olive", "leaves", dvec2(3.0), 0, vec3(0.95f, 0.9f, 0.66f), 1.0f, 0.0f, vec3(0), canopy},
+      {"leaves_copper", "leaves", dvec2(3.0), 0, vec3(1.0f, 0.62f, 0.5f), 1.0f, 0.0f, vec3(0), canopy},
+      {"needles", "leaves", dvec2(3.0), 0, vec3(0.42f, 0.56f, 0.5f), 1.0f, 0.0f, vec3(0), canopy},
+      {"hedge", "leaves", dvec2(2.0), 0, vec3(0.7f, 0.8f, 0.62f), 1.0f, 0.0f, vec3(0), canopy},
+
+      {"painted_metal", "", dvec2(1.0), 0, vec3(0.1f, 0.12f, 0.13f), 0.45f, 0.0f, vec3(0), sheet_metal},
+      {"galvanised_metal", "", dvec2(1.0), 0, vec3(0.55f, 0.57f, 0.58f), 0.5f, 0.7f, vec3(0), sheet_metal},
+      // Emission of lamps: docs/generator.md has the luminances.
+      {"lamp_glass", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_4000k * 14.0f, pane},
+      {"lamp_glass_warm", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_3000k * 14.0f, pane},
+      {"signal_housing", "", dvec2(1.0), 0, vec3(0.03f, 0.035f, 0.03f), 0.6f, 0.0f, vec3(0), plastic},
+      {"signal_red", "", dvec2(1.0), 0, vec3(0.5f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(6.0f, 0.01f, 0.005f),
+       plastic},
+      {"signal_green", "", dvec2(1.0), 0, vec3(0.02f, 0.4f, 0.2f), 0.3f, 0.0f, vec3(0.01f, 1.7f, 0.6f),
+       plastic},
+      {"sign_blue", "", dvec2(1.0), 0, vec3(0.02f, 0.09f, 0.42f), 0.5f, 0.0f, vec3(0), sheet_metal},
+      {"neon_red", "", dvec2(1.0), 0, vec3(0.55f, 0.06f, 0.08f), 0.4f, 0.0f, vec3(0.45f, 0.03f, 0.06f),
+       plastic},
+      {"neon_blue", "", dvec2(1.0), 0, vec3(0.07f, 0.2f, 0.6f), 0.4f, 0.0f, vec3(0.05f, 0.16f, 0.5f),
+       plastic},
+      {"neon_green", "", dvec2(1.0), 0, vec3(0.06f, 0.42f, 0.2f), 0.4f, 0.0f, vec3(0.025f, 0.2f, 0.08f),
+       plastic},
+      {"neon_amber", "", dvec2(1.0), 0, vec3(0.7f, 0.4f, 0.08f), 0.4f, 0.0f, vec3(0.3f, 0.15f, 0.03f),
+       plastic},
+      {"poster", "poster", dvec2(1.2, 1.8), 0, vec3(1.0f), 0.3f, 0.0f, vec3(0.2f), plastic, 0},
+      {"shelter_glass", "", dvec2(1.0), 0, vec3(0.3f, 0.36f, 0.38f), 0.1f, 0.0f, vec3(0), pane},
+      {"bench_wood", "boards", dvec2(1.0), 0, vec3(0.45f, 0.28f, 0.14f), 0.8f, 0.0f, vec3(0), timber},
+      {"radome", "", dvec2(1.0), 0, vec3(0.8f), 0.5f, 0.0f, vec3(0), radome},
+      {"aviation_light", "", dvec2(1.0), 0, vec3(0.6f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(1.0f, 0.02f, 0.02f),
+       plastic},
+
+      {"car_paint_white", "", dvec2(1.0), 0, vec3(0.82f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_silver", "", dvec2(1.0), 0, vec3(0.5f, 0.51f, 0.53f), 0.3f, 0.3f, vec3(0), sheet_metal},
+      {"car_paint_red", "", dvec2(1.0), 0, vec3(0.5f, 0.025f, 0.03f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_blue", "", dvec2(1.0), 0, vec3(0.03f, 0.1f, 0.32f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_grey", "", dvec2(1.0), 0, vec3(0.16f, 0.17f, 0.18f), 0.3f, 0.2f, vec3(0), sheet_metal},
+      {"car_paint_green", "", dvec2(1.0), 0, vec3(0.04f, 0.14f, 0.09f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_sand", "", dvec2(1.0), 0, vec3(0.52f, 0.43f, 0.3f), 0.35f, 0.1f, vec3(0), sheet_metal},
+      {"car_paint_yellow", "", dvec2(1.0), 0, vec3(0.7f, 0.46f, 0.03f), 0.35f, 0.0f, vec3(0), sheet_metal},
+      {"car_paint_black", "", dvec2(1.0), 0, vec3(0.02f), 0.3f, 0.0f, vec3(0), sheet_metal},
+      {"car_glass", "", dvec2(1.0), 0, vec3(0.025f, 0.035f, 0.04f), 0.08f, 0.0f, vec3(0), pane},
+      {"tyre", "", dvec2(1.0), 0, vec3(0.015f), 0.9f, 0.0f, vec3(0), rubber},
+      {"wheel_rim", "", dvec2(1.0), 0, vec3(0.45f), 0.35f, 0.8f, vec3(0), sheet_metal},
+      {"bumper", "", dvec2(1.0), 0, vec3(0.03f), 0.7f, 0.0f, vec3(0), plastic},
+      {"headlight", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, head_lamp_color * 20.0f,
+       plastic},
+      {"headlight_off", "", dvec2(1.0), 0, vec3(0.5f, 0.52f, 0.55f), 0.15f, 0.0f, vec3(0), plastic},
+      {"tail_light", "", dvec2(1.0), 0, vec3(0.45f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(2.3f, 0.004f, 0.003f),
+       plastic},
+      {"tail_light_off", "", dvec2(1.0), 0, vec3(0.4f, 0.01f, 0.01f), 0.2f, 0.0f, vec3(0), plastic},
+      {"number_plate", "", dvec2(1.0), 0, vec3(0.7f), 0.5f, 0.0f, vec3(0), sheet_metal},
+
+      {"navigation_red", "", dvec2(1.0), 0, vec3(0.6f, 0.02f, 0.02f), 0.3f, 0.0f, vec3(8.0f, 0.01f, 0.01f),
+       plastic},
+      {"navigation_green", "", dvec2(1.0), 0, vec3(0.02f, 0.5f, 0.2f), 0.3f, 0.0f, vec3(0.01f, 2.6f, 0.7f),
+       plastic},
+      {"uav_shell", "", dvec2(1.0), 0, vec3(0.75f, 0.76f, 0.77f), 0.4f, 0.0f, vec3(0), plastic},
+      {"uav_dark", "", dvec2(1.0), 0, vec3(0.03f), 0.5f, 0.0f, vec3(0), plastic},
+      {"carbon_fibre", "", dvec2(1.0), 0, vec3(0.02f, 0.02f, 0.022f), 0.35f, 0.0f, vec3(0), carbon_fibre},
+      {"motor_metal", "", dvec2(1.0), 0, vec3(0.35f), 0.4f, 0.9f, vec3(0), sheet_metal},
+      {"camera_glass", "", dvec2(1.0), 0, vec3(0.01f, 0.01f, 0.02f), 0.05f, 0.0f, vec3(0), pane},
+      {"uav_accent", "", dvec2(1.0), 0, vec3(0.75f, 0.16f, 0.02f), 0.45f, 0.0f, vec3(0), plastic},
+  };
+}
+
+}  // namespace
+
+const std::vector<MaterialSpec>& material_library() {
+  static const std::vector<MaterialSpec> library = make_library();
+  return library;
+}
+
+int material(const std::string& name) {
+  const std::vector<MaterialSpec>& library = material_library();
+  for (size_t i = 0; i < library.size(); ++i)
+    if (library[i].name == name) return static_cast<int>(i);
+  GREATX_CHECK(false, "no material called \"{}\"", name);
+}
+
+}  // namespace greatx::scene::generator

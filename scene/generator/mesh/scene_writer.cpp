@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/mesh/scene_writer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "io/formats/png.h"
+#include "scene/generator/mesh/materials.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// A number with no more digits in the file than the value deserves.
+double micro(double value) { return static_cast<double>(std::llround(value * 1e6)) / 1e6; }
+dvec3 micro(const vec3& v) { return {micro(v.x), micro(v.y), micro(v.z)}; }
+
+float largest(const vec3& color) { return std::max({color.x, color.y, color.z}); }
+
+dquat turn_about_z(double yaw) { return {std::cos(yaw / 2), 0.0, 0.0, std::sin(yaw / 2)}; }
+
+}  // namespace
+
+SceneWriter::SceneWriter() : file_({.generator = "greatx scene generator", .compact = true}) {}
+
+int SceneWriter::add_mesh(const std::string& name, const MeshBuilder& mesh) {
+  GREATX_CHECK(!mesh.empty(), "mesh \"{}\" is empty", name);
+  const int index = file_.add_mesh(name);
+  for (const PrimitiveData& data : mesh.primitives()) {
+    const auto [material, is_new] =
+        materials_.try_emplace(data.material, static_cast<int>(materials_.size()));
+    file_.add_primitive(index, {.material = material->second,
+                                .positions = data.positions,
+                                .normals = data.normals,
+                                .uvs = data.uvs,
+                                .indices = data.indices});
+    // A material's textures lie behind the first triangles that show them.
+    if (is_new) add_material(data.material);
+  }
+  return index;
+}
+
+int SceneWriter::add_node(const NodeSpec& node) {
+  io::GlbNode out;
+  out.name = node.name;
+  out.mesh = node.mesh;
+  out.parent = node.parent;
+  out.pose = {snap(node.position), node.yaw != 0.0 ? turn_about_z(node.yaw) : Pose{}.orientation};
+  if (node.scale != 1.0) out.scale = snap(node.scale);
+  out.light = node.light;
+  out.aim = node.shine;
+  if (node.semantic_class != SemanticClass::unlabeled)
+    out.extras_json = fmt::format(R"({{"greatx_class":"{}"}})", name_of(node.semantic_class));
+  return file_.add_node(out);
+}
+
+double LightSpec::flux_lm() const {
+  if (outer_cone == 0.0) return 4.0 * pi * intensity_cd;
+  const double inner = std::cos(inner_cone), outer = std::cos(outer_cone);
+  return 2.0 * pi * intensity_cd * (1.0 - inner + (inner - outer) / 3.0);
+}
+
+int SceneWriter::add_light(const LightSpec& light) {
+  const float peak = largest(light.color);
+  return file_.add_light({.color = micro(light.color / peak),
+                          .intensity_cd = micro(light.intensity_cd * peak),
+                          .range_m = light.range_m,
+                          .inner_cone = micro(light.inner_cone),
+                          .outer_cone = micro(light.outer_cone)});
+}
+
+const TextureMaps& SceneWriter::maps(const std::string& name) {
+  const auto found = maps_.find(name);
+  return found != maps_.end() ? found->second : maps_[name] = make_texture(name);
+}
+
+int SceneWriter::texture(int& index, const std::string& name, const Raster& raster, bool exact) {
+  if (index >= 0 || raster.empty()) return index;
+  const Array image = Array::of<uint8_t>({int64_t{raster.height}, int64_t{raster.width}, 3}, raster.rgb);
+  const io::PngCoding coding = exact ? io::PngCoding::small : io::PngCoding::small_inexact;
+  return index = file_.add_texture(name, io::encode_png(image, coding));
+}
+
+void SceneWriter::add_material(int library_index) {
+  const MaterialSpec& spec = material_library()[static_cast<size_t>(library_index)];
+  io::GlbMaterial out;
+  out.name = spec.name;
+  out.base_color = micro(spec.color);
+  out.metallic = micro(spec.metallic);
+  out.roughness = micro(spec.roughness);
+  if (!spec.texture.empty()) {
+    const TextureMaps& painted = maps(spec.texture);
+    Textures& known = textures_[spec.texture];
+    out.base_color_texture = texture(known.color, spec.texture, painted.color);
+    out.metallic_roughness_texture =
+        texture(known.surface, spec.texture + "_surface", painted.metallic_roughness);
+    if (spec.relief)
+      out.normal_texture = texture(known.normal, spec.texture + "_normal", painted.normal, true);
+    if (spec.lit >= 0) {
+      const size_t evening = static_cast<size_t>(spec.lit);
+      const std::string name = fmt::format("{}_lit_{}", spec.texture, spec.lit);
+      out.emissive_texture = texture(known.lit[evening], name, painted.lit[evening], true);
+    }
+  }
+  out.extensions_json = fmt::format(R"({{"GREATX_radio_material":{}}})", spec.radio);
+  const float strength = std::max(largest(spec.emissive), 1.0f);
+  out.emissive = micro(spec.emissive / strength);
+  out.emissive_strength = micro(strength);
+  const int index = file_.add_material(out);
+  GREATX_CHECK(index == materials_.at(library_index), "material \"{}\" is number {}", spec.name, index);
+}
+
+std::vector<std::byte> SceneWriter::finish(const std::string& scene_name) { return file_.finish(scene_name); }
+
+}  // namespace greatx::scene::generator

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/objects/farm.h"
+
+#include <string>
+
+#include "scene/generator/mesh/materials.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+struct House {
+  double half_width, half_length, eaves, ridge;
+  int wall, gable, roof;
+};
+
+/// Walls and gables under a roof that is a closed slab of its own, 0.25 m thick, overhanging; it reaches 5 cm
+/// into the body, so that no two faces share a plane.
+void add_house(MeshBuilder& mesh, const House& h) {
+  const double w = snap(h.half_width), l = snap(h.half_length), bottom = -1.0;
+  const double eaves = snap(h.eaves), ridge = snap(h.ridge);
+  mesh.quad(h.wall, {w, -l, bottom}, {w, l, bottom}, {w, l, eaves}, {w, -l, eaves});
+  mesh.quad(h.wall, {-w, l, bottom}, {-w, -l, bottom}, {-w, -l, eaves}, {-w, l, eaves});
+  for (const double side : {-1.0, 1.0}) {
+    const double y = side * l, x = side * w;
+    const std::array<dvec3, 5> gable{dvec3(x, y, bottom), dvec3(-x, y, bottom), dvec3(-x, y, eaves),
+                                     dvec3(0, y, ridge), dvec3(x, y, eaves)};
+    mesh.polygon(h.gable, gable);
+    mesh.quad(h.gable, {side * w, -side * l, eaves}, {side * w, side * l, eaves}, {0, side * l, ridge},
+              {0, -side * l, ridge});
+  }
+  mesh.quad(h.gable, {-w, l, bottom}, {w, l, bottom}, {w, -l, bottom}, {-w, -l, bottom});
+
+  const double overhang = 0.5, slope = (ridge - eaves) / w, out = w + overhang, thick = 0.25;
+  const double low = snap(eaves - overhang * slope - 0.05), high = snap(ridge - 0.05);
+  const std::vector<dvec2> chevron{{-out, low},        {0.0, high},         {out, low},
+                                   {out, low + thick}, {0.0, high + thick}, {-out, low + thick}};
+  mesh.prism_along_y(h.roof, chevron, -l - 0.4, l + 0.4);
+}
+
+}  // namespace
+
+MeshBuilder make_farmhouse(double scale) {
+  MeshBuilder mesh;
+  const double w = 4.0 * scale, l = 8.0 * scale;
+  add_house(mesh, {w, l, 3.0 + 3.0 * (scale > 0.6), 5.6 + 3.0 * (scale > 0.6), material("farm_plaster"),
+                   material("blind_plaster"), material("farm_tiles")});
+  const double top = 6.6 + 3.0 * (scale > 0.6);
+  mesh.box(material("blind_brick"), {-0.4, 0.5 * l, 3.0}, {0.4, 0.5 * l + 0.7, top});
+  mesh.box(material("door_boards"), {w - 0.05, -0.5, -0.3}, {w + 0.05, 0.5, 2.1});
+  return mesh;
+}
+
+MeshBuilder make_barn(double scale, bool red) {
+  MeshBuilder mesh;
+  const double w = 5.5 * scale, l = 11.0 * scale, eaves = 4.4 * scale + 0.4;
+  const int boards = material(red ? "barn_boards" : "barn_boards_brown");
+  add_house(mesh,
+            {w, l, eaves, eaves + 0.62 * w, boards, boards, material(red ? "roof_sheet" : "farm_tiles")});
+  const double door = 0.4 * w;
+  mesh.box(material("door_boards"), {-door, -l - 0.06, -0.3}, {door, -l + 0.05, 0.85 * eaves});
+  return mesh;
+}
+
+MeshBuilder make_silo(double scale) {
+  MeshBuilder mesh;
+  const int sheet = material("roof_equipment");
+  const double radius = 2.2 * scale, top = 9.0 * scale;
+  const std::vector<dvec2> ring = regular_polygon(12, radius);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+    mesh.quad(sheet, dvec3(a, -1.0), dvec3(b, -1.0), dvec3(b, top), dvec3(a, top));
+    mesh.triangle(sheet, {dvec3(a, top), dvec3(b, top), dvec3(0, 0, top + 0.6 * radius)},
+                  {dvec2(0.0, 1.0), dvec2(0.7, 1.0), dvec2(0.35, 0.0)});
+  }
+  mesh.flat_polygon(sheet, ring, -1.0, false);
+  return mesh;
+}
+
+void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag) {
+  // A thin prism of three sides along a parabola, in three pieces.
+  const int wire = material("wire");
+  const dvec2 along = glm::normalize(dvec2(to - from)), left(-along.y, along.x);
+  const auto section = [&](int i) {
+    const double t = i / 3.0;
+    const dvec3 middle = glm::mix(from, to, t) - dvec3(0.0, 0.0, 4.0 * sag * t * (1.0 - t));
+    return std::array<dvec3, 3>{snap(middle - dvec3(0.02 * left, 0.012)),
+                                snap(middle + dvec3(0.0, 0.0, 0.024)),
+                                snap(middle + dvec3(0.02 * left, -0.012))};
+  };
+  const auto first = section(0), last = section(3);
+  mesh.polygon(wire, first);
+  mesh.polygon(wire, std::array{last[2], last[1], last[0]});
+  for (int i = 0; i < 3; ++i) {
+    const auto a = section(i), b = section(i + 1);
+    for (size_t k = 0; k < 3; ++k) {
+      // Triangles: millimetres bend what would be a quadrilateral.
+      const size_t j = (k + 1) % 3;
+      mesh.polygon(wire, std::array{a[k], b[k], b[j]});
+      mesh.polygon(wire, std::array{a[k], b[j], a[j]});
+    }
+  }
+}
+
+MeshBuilder make_pole() {
+  MeshBuilder mesh;
+  const int wood = material("wood_pole");
+  mesh.prism(wood, wood, regular_polygon(6, 0.13), -0.6, 7.2);
+  mesh.box(wood, {-0.05, -0.9, 6.6}, {0.05, 0.9, 6.74});
+  return mesh;
+}
+
+}  // namespace greatx::scene::generator

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/objects/vehicles.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/units.h"
+#include "scene/generator/mesh/materials.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+/// A wheel pair as one octagonal prism from side to side; what lies within the body is hidden.
+void add_axle(MeshBuilder& mesh, double x, double radius, double half_track, bool rims) {
+  const auto disc = [&](double r) {
+    std::vector<dvec2> profile = regular_polygon(8, r, dvec2(x, radius), pi / 8);
+    return profile;
+  };
+  mesh.prism_along_y(material("tyre"), disc(radius), -half_track, half_track);
+  if (rims)
+    mesh.prism_along_y(material("wheel_rim"), disc(0.6 * radius), -half_track - 0.015, half_track + 0.015);
+}
+
+/// A frustum with glass all round and a roof; edges of opposite faces are parallel, so every face is planar.
+void add_cabin(MeshBuilder& mesh, int roof, double z0, double z1, const dvec2& x0, const dvec2& x1, double y0,
+               double y1) {
+  const int glass = material("car_glass");
+  const std::array<dvec3, 4> low{dvec3(x0.x, -y0, z0), dvec3(x0.y, -y0, z0), dvec3(x0.y, y0, z0),
+                                 dvec3(x0.x, y0, z0)};
+  const std::array<dvec3, 4> high{dvec3(x1.x, -y1, z1), dvec3(x1.y, -y1, z1), dvec3(x1.y, y1, z1),
+                                  dvec3(x1.x, y1, z1)};
+  for (size_t i = 0; i < 4; ++i) mesh.quad(glass, low[i], low[(i + 1) % 4], high[(i + 1) % 4], high[i]);
+  mesh.quad(roof, high[0], high[1], high[2], high[3]);
+  mesh.quad(roof, low[3], low[2], low[1], low[0]);
+}
+
+/// Head lights at z.x, tail lights at z.y, a little proud of the body; of a parked car dark.
+void add_lights(MeshBuilder& mesh, double front, double rear, double half_width, const dvec2& z, bool on) {
+  const int head = material(on ? "headlight" : "headlight_off"),
+            tail = material(on ? "tail_light" : "tail_light_off");
+  for (const double side : {-1.0, 1.0}) {
+    const double y0 = side > 0 ? half_width - 0.42 : -half_width + 0.04;
+    mesh.box(head, {front - 0.2, y0, z.x}, {front + 0.015, y0 + 0.38, z.x + 0.11});
+    mesh.box(tail, {rear - 0.015, y0, z.y}, {rear + 0.15, y0 + 0.38, z.y + 0.14});
+  }
+}
+
+/// A closed box that leans: its floor [low, high] at height low.z, moved by `shift` at the top.
+void add_leaning_box(MeshBuilder& mesh, int material, const dvec3& low, const dvec2& high,
+                     const dvec3& shift) {
+  const std::array<dvec3, 4> floor{low, dvec3(high.x, low.y, low.z), dvec3(high, low.z),
+                                   dvec3(low.x, high.y, low.z)};
+  for (size_t i = 0; i < 4; ++i) {
+    const dvec3 a = floor[i], b = floor[(i + 1) % 4];
+    mesh.quad(material, a, b, b + shift, a + shift);
+  }
+  mesh.quad(material, floor[3], floor[2], floor[1], floor[0]);
+  mesh.quad(material, floor[0] + shift, floor[1] + shift, floor[2] + shift, floor[3] + shift);
+}
+
+/// Pillars of the hatchback's cabin, on its glass, and mirrors.
+void add_pillars(MeshBuilder& mesh, int paint) {
+  struct Pillar {
+    double x0, x1, lean;
+  };
+  for (const Pillar& p : {Pillar{1.02, 1.11, -0.79}, Pillar{-0.33, -0.25, 0.0}, Pillar{-1.88, -1.7, 0.347}})
+    for (const double side : {-1.0, 1.0}) {
+      const double y0 = side > 0 ? 0.76 : -0.835;
+      add_leaning_box(mesh, paint, {p.x0, y0, 0.91}, {p.x1, y0 + 0.075}, {p.lean, -0.193 * side, 0.53});
+    }
+  for (const double y : {-1.0, 0.84}) mesh.box(paint, {0.72, y, 0.93}, {0.84, y + 0.16, 1.06});
+}
+
+MeshBuilder make_hatchback(int paint, bool detailed) {
+  MeshBuilder mesh;
+  const std::vector<dvec2> profile{{-1.93, 0.24}, {1.9, 0.24},   {1.98, 0.36},  {1.98, 0.62}, {1.86, 0.76},
+                                   {0.98, 0.93},  {-1.82, 0.97}, {-1.98, 0.86}, {-1.98, 0.4}};
+  mesh.prism_along_y(paint, profile, -0.86, 0.86);
+  add_cabin(mesh, paint, 0.90, 1.45, {-1.86, 1.1}, {-1.5, 0.28}, 0.82, 0.62);
+  add_axle(mesh, 1.22, 0.31, 0.875, detailed);
+  add_axle(mesh, -1.26, 0.31, 0.875, detailed);
+  add_lights(mesh, 1.98, -1.98, 0.86, {0.485, 0.67}, detailed);
+  if (!detailed) return mesh;
+  mesh.box(material("bumper"), {1.8, -0.7, 0.30}, {2.01, 0.7, 0.44});
+  mesh.box(material("bumper"), {-2.01, -0.7, 0.30}, {-1.8, 0.7, 0.44});
+  mesh.box(material("number_plate"), {-1.99, -0.26, 0.52}, {-1.9, 0.26, 0.63});
+  add_pillars(mesh, paint);
+  mesh.box(paint, {-1.52, -0.635, 1.41}, {0.31, 0.635, 1.47});
+  return mesh;
+}
+
+MeshBuilder make_van(int paint, bool detailed) {
+  MeshBuilder mesh;
+  const std::vector<dvec2> profile{{-2.55, 0.28}, {2.5, 0.28},  {2.62, 0.42}, {2.62, 0.78}, {2.5, 0.98},
+                                   {1.72, 1.16},  {1.38, 1.16}, {1.1, 2.18},  {-2.6, 2.2},  {-2.62, 0.45}};
+  mesh.prism_along_y(paint, profile, -0.96, 0.96);
+  add_cabin(mesh, paint, 1.12, 2.05, {0.2, 1.74}, {0.2, 1.18}, 0.975, 0.965);
+  add_axle(mesh, 1.68, 0.34, 0.975, detailed);
+  add_axle(mesh, -1.62, 0.34, 0.975, detailed);
+  add_lights(mesh, 2.62, -2.62, 0.96, {0.62, 0.9}, detailed);
+  if (!detailed) return mesh;
+  for (const double side : {-1.0, 1.0}) {  // sills and mirrors
+    const double y0 = side > 0 ? 0.9 : -0.972;
+    mesh.box(material("bumper"), {-1.2, y0, 0.3}, {1.25, y0 + 0.072, 0.4});
+    mesh.box(material("bumper"), {1.3, side > 0 ? 0.9 : -1.14, 1.2}, {1.4, side > 0 ? 1.14 : -0.9, 1.45});
+  }
+  mesh.box(material("bumper"), {2.4, -0.85, 0.32}, {2.66, 0.85, 0.5});
+  mesh.box(material("bumper"), {-2.66, -0.85, 0.32}, {-2.4, 0.85, 0.5});
+  mesh.box(material("number_plate"), {-2.635, -0.26, 0.6}, {-2.5, 0.26, 0.71});
+  mesh.box(material("car_glass"), {-2.63, -0.75, 1.3}, {-2.5, 0.75, 1.9});
+  return mesh;
+}
+
+}  // namespace
+
+MeshBuilder make_car(const std::string& variant, const std::string& paint, bool detailed) {
+  return variant == "van" ? make_van(material(paint), detailed) : make_hatchback(material(paint), detailed);
+}
+
+namespace {
+
+/// Low beam: 12 000 cd on an axis 1.5 degrees below the horizon, nothing above 23.5; falls from the axis on.
+LightSpec low_beam() {
+  return {.color = head_lamp_color,
+          .intensity_cd = 12000.0,
+          .range_m = 60.0,
+          .inner_cone = 3.0 * pi / 180.0,
+          .outer_cone = 25.0 * pi / 180.0};
+}
+
+/// Both tail lights together, behind the car: position lights give some 5 cd each.
+LightSpec tail_glow() {
+  // Signal red, luminance 1.
+  return {.color = vec3(4.6f, 0.025f, 0.055f), .intensity_cd = 5.0, .range_m = 4.0};
+}
+
+}  // namespace
+
+void write_car(SceneWriter& writer, const std::string& variant) {
+  const bool van = variant == "van";
+  const int car = writer.add_node(
+      {.name = "car",
+       .mesh = writer.add_mesh(variant, make_car(variant, van ? "car_paint_white" : "car_paint_red", true)),
+       .semantic_class = SemanticClass::vehicle});
+  const double front = van ? 2.62 : 1.98, half_width = van ? 0.96 : 0.86, head_z = van ? 0.675 : 0.54,
+               tail_z = van ? 0.97 : 0.74;
+  const int beam = writer.add_light(low_beam()), glow = writer.add_light(tail_glow());
+  const double tilt = 1.5 * pi / 180.0;
+  for (const double side : {1.0, -1.0}) {
+    const std::string suffix = side > 0.0 ? "_left" : "_right";
+    const double y = side * (half_width - 0.23);
+    writer.add_node({.name = "head_lamp" + suffix,
+                     .position = {front + 0.03, y, head_z},
+                     .parent = car,
+                     .light = beam,
+                     .shine = {std::cos(tilt), 0.0, -std::sin(tilt)}});
+    writer.add_node(
+        {.name = "tail_lamp" + suffix, .position = {-front - 0.05, y, tail_z}, .parent = car, .light = glow});
+  }
+}
+
+}  // namespace greatx::scene::generator

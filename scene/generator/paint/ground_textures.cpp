@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What lies on the ground: streets, pavements, lawns, fields.
+#include <algorithm>
+#include <cstdlib>
+
+#include "scene/generator/paint/texture_painter.h"
+#include "scene/generator/paint/textures.h"
+
+namespace greatx::scene::generator {
+
+/// 16 m across x 32 m along a street, its middle at x = 256: wheel tracks of the lanes, oil between them,
+/// patches, cracks and a few covers.
+TextureMaps asphalt() {
+  TexturePainter painter(512, 1024, {80, 80, 82});
+  painter.blotches(256, 7, 11);
+  painter.blotches(32, 4, 12);
+  const auto track = [&](double center_m, double half_m, int change) {
+    for (const int side : {-1, 1}) {
+      const int middle = 256 + static_cast<int>(32 * side * center_m), half = static_cast<int>(32 * half_m);
+      for (int x = middle - half; x < middle + half; ++x) {
+        const int fall = change * (half - std::abs(x - middle)) / half;
+        painter.shade(x, 0, x + 1, 1024, fall);
+      }
+    }
+  };
+  for (const double lane : {1.65, 5.1}) {
+    track(lane - 0.75, 0.35, 8);  // polished by tyres
+    track(lane + 0.75, 0.35, 8);
+    track(lane, 0.45, -9);  // oil
+  }
+  track(7.6, 0.7, -12);          // gutters
+  for (int i = 0; i < 9; ++i) {  // trenches, dug and filled
+    const int x = static_cast<int>(hash(i, 0, 14) % 512), y = static_cast<int>(hash(i, 1, 14) % 1024);
+    const int w = 24 + static_cast<int>(hash(i, 2, 14) % 70), h = 30 + static_cast<int>(hash(i, 3, 14) % 130);
+    const int tone = i % 3 == 0 ? 9 : -13;
+    painter.shade(x, y, x + w, y + h, tone);
+    for (const int edge : {0, w - 2}) painter.shade(x + edge, y, x + edge + 2, y + h, -10);
+    for (const int edge : {0, h - 2}) painter.shade(x, y + edge, x + w, y + edge + 2, -10);
+  }
+  painter.shade(255, 0, 257, 1024, -16);  // the seam between two lanes of the paver
+  for (int i = 0; i < 26; ++i)
+    painter.crack(static_cast<int>(hash(i, 4, 14) % 512), static_cast<int>(hash(i, 5, 14) % 1024),
+                  40 + static_cast<int>(hash(i, 6, 14) % 150), -22, 15 + static_cast<uint32_t>(i));
+  painter.speckle(8, 13);
+  for (int i = 0; i < 5; ++i) {  // covers of 0.6 m and gullies
+    const int x = i < 3 ? 256 + (i - 1) * 62 : 256 + (i == 3 ? -1 : 1) * 110, y = 120 + 190 * i;
+    for (int dy = -10; dy <= 10; ++dy)
+      for (int dx = -10; dx <= 10; ++dx) {
+        const int r2 = dx * dx + dy * dy;
+        if (r2 > 100) continue;
+        const int tone = r2 > 72 ? 40 : (dx / 3 + dy / 3) % 2 == 0 ? 62 : 52;
+        painter.rect(x + dx, y + dy, x + dx + 1, y + dy + 1, {tone, tone - 1, tone - 3});
+      }
+  }
+  return painter.maps();
+}
+
+/// 6 m across x 24 m along: worn edges, a broken line in the middle, solid ones along the sides.
+TextureMaps country_road() {
+  TexturePainter painter(128, 512, {88, 86, 84});
+  painter.blotches(64, 8, 16);
+  painter.blotches(16, 4, 17);
+  for (const int middle : {18, 46, 82, 110})
+    for (int x = middle - 7; x <= middle + 7; ++x) painter.shade(x, 0, x + 1, 512, 7 - std::abs(x - middle));
+  for (int i = 0; i < 8; ++i)
+    painter.crack(static_cast<int>(hash(i, 0, 18) % 128), static_cast<int>(hash(i, 1, 18) % 512), 70, -20,
+                  19 + static_cast<uint32_t>(i));
+  painter.speckle(8, 20);
+  const auto worn = [&](int x, int y) { return hash(x / 2, y / 3, 23) % 9 != 0; };
+  for (int y = 0; y < 512; ++y) {
+    for (int x = 62; x < 65; ++x)
+      if (y % 256 < 85 && worn(x, y)) painter.rect(x, y, x + 1, y + 1, {206, 206, 200});
+    for (const int edge : {5, 120})
+      for (int x = edge; x < edge + 3; ++x)
+        if (worn(x, y)) painter.rect(x, y, x + 1, y + 1, {196, 196, 190});
+    const int grass = static_cast<int>(hash(y / 4, 0, 24) % 3);
+    painter.rect(0, y, 1 + grass, y + 1, {92, 96, 66});
+    painter.rect(127 - grass, y, 128, y + 1, {92, 96, 66});
+  }
+  return painter.maps();
+}
+
+TextureMaps pavement() {
+  // 2.4 m: slabs of 0.6 m, each of its own shade.
+  TexturePainter painter(128, 128, {158, 154, 147});
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x)
+      painter.shade(32 * x, 32 * y, 32 * x + 32, 32 * y + 32, static_cast<int>(hash(x, y, 21) % 17) - 8);
+  painter.speckle(5, 22);
+  for (int i = 0; i < 4; ++i) {
+    painter.shade(32 * i, 0, 32 * i + 1, 128, -38);
+    painter.shade(0, 32 * i, 128, 32 * i + 1, -38);
+  }
+  return painter.maps();
+}
+
+namespace {
+
+/// Blades of grass, two pixels long, all over a square picture.
+void blades(TexturePainter& painter, int size, uint32_t seed) {
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const int blade = static_cast<int>(hash(x, y / 2, seed) % 5);
+      painter.add(x, y, {5 * blade - 10, 6 * blade - 12, 3 * blade - 6});
+    }
+}
+
+}  // namespace
+
+TextureMaps grass() {
+  TexturePainter painter(256, 256, {72, 101, 52});
+  painter.blotches(128, 5, 40);
+  painter.blotches(16, 7, 41);
+  blades(painter, 256, 43);
+  for (int i = 0; i < 240; ++i) {  // weeds and dry tufts
+    const int x = static_cast<int>(hash(i, 0, 44) % 256), y = static_cast<int>(hash(i, 1, 44) % 256);
+    const bool dry = hash(i, 2, 44) % 3 == 0;
+    for (int dy = 0; dy < 3; ++dy)
+      for (int dx = 0; dx < 3; ++dx) painter.add(x + dx, y + dy, dry ? Rgb{24, 12, 0} : Rgb{-14, -8, -8});
+  }
+  return painter.maps();
+}
+
+/// 40 m x 40 m of pasture: softer and larger than a lawn.
+TextureMaps pasture() {
+  TexturePainter painter(512, 512, {92, 108, 56});
+  painter.blotches(256, 8, 45);
+  painter.blotches(64, 9, 46);
+  painter.blotches(8, 6, 47);
+  blades(painter, 512, 48);
+  for (int i = 0; i < 420; ++i) {  // thistles, flowers, dung
+    const int x = static_cast<int>(hash(i, 0, 49) % 512), y = static_cast<int>(hash(i, 1, 49) % 512);
+    const uint32_t kind = hash(i, 2, 49) % 6;
+    painter.add(x, y, kind == 0 ? Rgb{70, 66, 30} : kind == 1 ? Rgb{60, 60, 60} : Rgb{-22, -16, -14});
+    painter.add(x + 1, y, kind < 2 ? Rgb{20, 20, 10} : Rgb{-16, -10, -10});
+    painter.add(x, y + 1, Rgb{-14, -9, -9});
+  }
+  return painter.maps();
+}
+
+/// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of
+/// a sprayer every 24 m, patches that grew better or worse. What is low is dark: colour and relief have the
+/// same heights.
+TextureMaps crop() {
+  TexturePainter painter(512, 512, {204, 204, 198});
+  painter.blotches(256, 14, 51);
+  painter.blotches(64, 12, 52);
+  painter.blotches(16, 6, 53);
+  for (int y = 0; y < 512; ++y)
+    for (int x = 0; x < 512; ++x) {
+      const int phase = y % 8, furrow = 5 * std::min(phase, 8 - phase);
+      const int clod = 5 * static_cast<int>(hash(x / 2, y / 2, 54) % 5) - 10, height = clod - furrow;
+      painter.add(x, y, {height, height, height});
+      // Of a pixel of 9.4 cm: furrows 12 cm deep, clods as high. In steps of 5 there are few slopes: a small
+      // file.
+      painter.raise(x, y, x + 1, y + 1, height);
+    }
+  for (int y = 40; y < 512; y += 256)
+    for (const int track : {0, 19})
+      for (int x = 0; x < 512; ++x) {
+        const int deep = -46 + static_cast<int>(hash(x / 3, y, 55) % 5) * 5;
+        painter.add(x, y + track, {deep + 6, deep, deep});
+        painter.add(x, y + track + 1, {deep + 6, deep, deep});
+        painter.add(x, y + track + 2, {deep / 2, deep / 2, deep / 2});
+        painter.raise(x, y + track, x + 1, y + track + 3, -25);
+      }
+  return painter.maps();
+}
+
+}  // namespace greatx::scene::generator

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/generator/paint/textures.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "scene/generator/paint/texture_painter.h"
+
+namespace greatx::scene::generator {
+
+namespace {
+
+TextureMaps concrete() {
+  TexturePainter painter(128, 128, {160, 157, 150});
+  painter.blotches(32, 8, 31);
+  painter.speckle(4, 32);
+  painter.shade(0, 0, 1, 128, -22);
+  painter.shade(0, 0, 128, 1, -22);
+  return painter.maps();
+}
+
+/// 3 m x 3 m of foliage: clumps of leaves in the light before dark gaps.
+TextureMaps leaves() {
+  TexturePainter painter(128, 128, {40, 58, 24});
+  painter.blotches(32, 10, 61);
+  for (int pass = 0; pass < 3; ++pass)
+    for (int i = 0; i < 420; ++i) {
+      const int x = static_cast<int>(hash(i, 3 * pass, 62) % 128),
+                y = static_cast<int>(hash(i, 3 * pass + 1, 62) % 128);
+      // Leaves gather where the coarse noise says so: gaps stay dark.
+      const uint32_t clump = hash(x / 16, y / 16, 63) % 4;
+      if (clump == 0 && pass > 0) continue;
+      const int tone =
+          52 + 17 * pass + static_cast<int>(hash(i, 3 * pass + 2, 62) % 22) + 4 * static_cast<int>(clump);
+      const Rgb leaf{tone * 9 / 10, tone * 13 / 10, tone * 5 / 10};
+      const bool tall = hash(i, pass, 64) % 2 == 0;
+      const int w = tall ? 3 : 5, h = tall ? 5 : 3;
+      painter.rect(x, y, x + w, y + h, leaf);
+      painter.shade(x, y + h, x + w, y + h + 1, -18);
+      painter.shade(x, y, x + w - 1, y + 1, 10);
+    }
+  return painter.maps();
+}
+
+TextureMaps bark() {
+  TexturePainter painter(64, 64, {104, 84, 64});
+  for (int x = 0; x < 64; ++x)
+    painter.shade(x, 0, x + 1, 64, static_cast<int>(hash(x / 3, 0, 71) % 5) * 9 - 18);
+  painter.speckle(8, 72);
+  return painter.maps();
+}
+
+/// 18 m x 18 m of a flat roof: sheets of bitumen or gravel, puddles dried up, moss.
+TextureMaps roof() {
+  TexturePainter painter(256, 256, {140, 136, 130});
+  painter.blotches(128, 10, 81);
+  painter.blotches(32, 9, 82);
+  painter.blotches(8, 5, 83);
+  for (int i = 0; i < 256; i += 32) {
+    painter.shade(i, 0, i + 1, 256, -14);
+    painter.shade(i + 1, 0, i + 2, 256, 6);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int x = static_cast<int>(hash(i, 0, 84) % 256), y = static_cast<int>(hash(i, 1, 84) % 256);
+    const int r = 8 + static_cast<int>(hash(i, 2, 84) % 18);
+    for (int dy = -r; dy <= r; ++dy)
+      for (int dx = -r; dx <= r; ++dx)
+        if (dx * dx + 2 * dy * dy < r * r) painter.add(x + dx, y + dy, {-16, -14, -13});
+  }
+  painter.speckle(12, 85);
+  return painter.maps();
+}
+
+/// 3.2 m: slates in courses of 0.2 m.
+TextureMaps slate() {
+  TexturePainter painter(128, 128, {92, 98, 108});
+  for (int row = 0; row < 16; ++row)
+    for (int i = 0; i < 16; ++i) {
+      const int x = 8 * i + (row % 2) * 4, y = 8 * row;
+      painter.shade(x, y, x + 8, y + 8, static_cast<int>(hash(i, row, 86) % 6) * 5 - 13);
+      painter.shade(x, y, x + 1, y + 8, -18);
+      painter.shade(x, y + 7, x + 8, y + 8, -24);
+    }
+  painter.blotches(64, 6, 87);
+  return painter.maps();
+}
+
+/// 1.6 m x 1.0 m photovoltaic modules.
+TextureMaps solar() {
+  TexturePainter painter(64, 64, {26, 34, 58});
+  for (int i = 0; i < 64; i += 8) {
+    painter.shade(i, 0, i + 1, 64, 20);
+    painter.shade(0, i, 64, i + 1, 14);
+  }
+  painter.rect(0, 0, 64, 2, {150, 154, 158});
+  painter.rect(0, 0, 2, 64, {150, 154, 158});
+  return painter.maps();
+}
+
+TextureMaps corrugated() {
+  TexturePainter painter(64, 64, {210, 212, 214});
+  for (int x = 0; x < 64; ++x) {
+    const int phase = x % 16;
+    painter.shade(x, 0, x + 1, 64, phase < 8 ? 4 * phase - 16 : 4 * (15 - phase) - 16);
+  }
+  painter.blotches(32, 6, 91);
+  painter.shade(0, 0, 64, 1, -30);
+  return painter.maps();
+}
+
+TextureMaps boards() {
+  TexturePainter painter(128, 128, {200, 196, 190});
+  for (int board = 0; board < 8; ++board) {
+    painter.shade(16 * board, 0, 16 * board + 16, 128, static_cast<int>(hash(board, 0, 101) % 5) * 10 - 20);
+    painter.shade(16 * board, 0, 16 * board + 1, 128, -85);
+  }
+  for (int x = 0; x < 128; ++x)
+    painter.shade(x, 0, x + 1, 128, static_cast<int>(hash(x, 1, 102) % 3) * 6 - 6);
+  painter.speckle(7, 103);
+  return painter.maps();
+}
+
+/// 2.4 m: eight courses of clay tiles that overlap, staggered; each bulges across and lies with its lower
+/// edge, a tile's thickness up, on the next.
+TextureMaps roof_tiles() {
+  TexturePainter painter(128, 128, {150, 82, 58});
+  for (int row = 0; row < 8; ++row)
+    for (int tile = 0; tile < 16; ++tile) {
+      const int x = 8 * tile + (row % 2) * 4, y = 16 * row;
+      painter.shade(x, y, x + 8, y + 16, static_cast<int>(hash(tile, row, 111) % 7) * 6 - 18);
+      painter.shade(x, y, x + 1, y + 16, -34);
+      painter.shade(x, y + 13, x + 8, y + 16, -30);
+      painter.shade(x, y, x + 8, y + 3, 10);
+      for (int down = 0; down < 16; ++down)
+        for (int k = 0; k < 8; ++k) {
+          const int bulge = 9 * std::min(k, 7 - k);
+          painter.raise(x + k, y + down, x + k + 1, y + down + 1, bulge + down);
+        }
+    }
+  painter.blotches(64, 9, 113);
+  painter.blotches(16, 7, 114);  // lichen
+  painter.speckle(6, 112);
+  return painter.maps();
+}
+
+/// 2.56 m: stretchers of 0.16 m by 0.08 m.
+TextureMaps brick() {
+  TexturePainter painter(128, 128, {164, 154, 142});
+  for (int row = 0; row < 32; ++row)
+    for (int i = 0; i < 16; ++i) {
+      const int shade = static_cast<int>(hash(i, row, 121) % 6) * 7 - 18, x = 8 * i + (row % 2) * 4;
+      painter.rect(x, 4 * row, x + 7, 4 * row + 3, {146 + shade, 82 + shade, 64 + shade});
+    }
+  painter.blotches(64, 8, 122);
+  return painter.maps();
+}
+
+}  // namespace
+
+TextureMaps make_texture(const std::string& name) {
+  static const std::map<std::string, TextureMaps (*)()> painters = {
+      {"asphalt", asphalt},
+      {"pavement", pavement},
+      {"concrete", concrete},
+      {"grass", grass},
+      {"crop", crop},
+      {"leaves", leaves},
+      {"solar", solar},
+      {"slate", slate},
+      {"country_road", country_road},
+      {"pasture", pasture},
+      {"bark", bark},
+      {"roof", roof},
+      {"corrugated", corrugated},
+      {"boards", boards},
+      {"roof_tiles", roof_tiles},
+      {"brick", brick},
+      {"facade_brick", facade_brick},
+      {"facade_plaster", facade_plaster},
+      {"facade_concrete", facade_concrete},
+      {"facade_ribbon", facade_ribbon},
+      {"facade_glass", facade_glass},
+      {"facade_metal", facade_metal},
+      {"shopfront", shopfront},
+      {"farm_wall", farm_wall},
+      {"facade_stone", facade_stone},
+      {"facade_balcony", facade_balcony},
+      {"dormer", dormer},
+      {"poster", poster},
+  };
+  const auto found = painters.find(name);
+  GREATX_CHECK(found != painters.end(), "no texture called \"{}\"", name);
+  return found->second();
+}
+
+}  // namespace greatx::scene::generator

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+
+#include "scene/files/asset_folder.h"
+
+namespace greatx::scene {
+
+/// A parsed glTF 2.0 file whose buffers are in memory. Indices and ranges inside are not checked yet.
+struct GltfFile {
+  std::string name;       ///< for messages
+  tinygltf::Model model;  ///< images hold their encoded bytes (PNG, JPEG)
+  nlohmann::json json;    ///< the same document: extensions and extras in full
+
+  /// The JSON object of element `index` of the top-level list `list`.
+  const nlohmann::json& element(const char* list, size_t index) const { return json.at(list).at(index); }
+};
+
+/// Parses .gltf or .glb from `bytes`. External files come from `folder` alone; tinygltf itself opens no file.
+/// Throws UserError starting with `name`: not glTF 2.0, truncated, URI out of bounds, unsupported required
+/// extension.
+GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder);
+
+}  // namespace greatx::scene

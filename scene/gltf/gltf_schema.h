@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace greatx::scene {
+
+/// Checks the types of every glTF field that this loader reads: tinygltf takes a default, without a word,
+/// where an optional field has the wrong type, and cuts integers to 32 bits. Throws UserError naming file and
+/// field.
+void check_gltf_types(const std::string& name, const nlohmann::json& document);
+
+}  // namespace greatx::scene

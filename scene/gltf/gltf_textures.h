@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/budget.h"
+#include "scene/gltf/gltf_file.h"
+#include "scene/gltf/model.h"
+
+namespace greatx::scene {
+
+/// Decodes the images that materials use, each once per use as colour (sRGB) or data (linear) and wrapping.
+class TextureReader {
+ public:
+  TextureReader(const GltfFile& file, Model& model) : file_(file), model_(model) {}
+
+  /// Index into Model::textures of the file's texture `texture`; -1 if `texture` is -1. `what` starts
+  /// messages
+  /// ("x.glb: material 'wall', base colour"). Throws UserError: index out of range, image not PNG or JPEG, or
+  /// too large.
+  int32_t read(int texture, bool srgb, const std::string& what);
+
+ private:
+  using Key = std::tuple<int, bool, bool, bool>;  // image, srgb, repeat u, repeat v
+  bool repeats(int wrap, const std::string& what);
+
+  const GltfFile& file_;
+  Model& model_;
+  std::map<Key, int32_t> done_;
+  Spending memory_{budget::model_textures};
+};
+
+}  // namespace greatx::scene

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One glTF 2.0 file, parsed, checked and flattened. z is up here already; transforms are fp64.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/description/scene.h"
+
+namespace greatx::scene {
+
+struct ModelPrimitive {
+  std::vector<vec3> positions;    ///< in the mesh's own frame, glTF axes (y up), as in the file
+  std::vector<vec3> normals;      ///< empty: flat normals are to be made
+  std::vector<vec4> tangents;     ///< may be empty
+  std::vector<vec2> uvs;          ///< may be empty
+  std::vector<uint32_t> indices;  ///< triangles; strips and fans are unrolled, missing indices filled in
+  uint32_t material = 0;
+};
+
+struct ModelMesh {
+  std::string name;
+  std::vector<ModelPrimitive> primitives;
+};
+
+/// A node of the file, with a mesh or without.
+struct ModelNode {
+  std::string name;  ///< the file's, else its mesh's, else "node_" and its number; may not be unique
+  dmat4 model_from_node{1.0};  ///< includes y-up to z-up
+  uint32_t end = 0;            ///< its descendants follow it, up to this one
+};
+
+/// A node with a mesh, placed in the model's frame (x east, y north, z up).
+struct ModelInstance {
+  std::string name;
+  uint32_t mesh = 0;
+  dmat4 model_from_mesh{1.0};  ///< includes y-up to z-up; may have non-uniform or negative scale
+  SemanticClass semantic_class = SemanticClass::unlabeled;
+  uint32_t node = 0;  ///< into Model::nodes
+};
+
+struct Model {
+  std::filesystem::path file;
+  std::vector<ModelMesh> meshes;
+  std::vector<ModelNode> nodes;  ///< that the scene reaches, parents before their children, depth first
+  std::vector<ModelInstance> instances;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<PunctualLight> lights;      ///< in the model's frame
+  std::vector<uint32_t> nodes_of_lights;  ///< [lights], into nodes
+  std::vector<std::string> notes;
+};
+
+/// The names of a model's nodes, each once, as many as a message bears: "hull, wheel and 3 more".
+std::string node_names(const Model& model);
+
+struct LoadOptions {
+  /// YAML that maps material names or globs to radio properties; empty: none.
+  std::filesystem::path radio_materials;
+  /// Accept materials without radio properties (scenes for cameras and LiDAR alone).
+  bool optical_only = false;
+};
+
+/// Loads .gltf or .glb. Throws UserError naming file and mesh or material.
+Model load_model(const std::filesystem::path& file, const LoadOptions& options);
+/// The same from memory (.glb only): the embedded assets. `name` stands for the file in messages.
+Model load_model(const std::string& name, std::span<const std::byte> glb, const LoadOptions& options);
+
+}  // namespace greatx::scene

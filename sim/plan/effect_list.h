@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every effect is declared once. The members of EffectPlan, their names under `effects:`, their order and
+// docs/effects.md follow from these rows (tests/apps/check_docs_effects.py --write makes the page).
+//
+//   X(name, switchable, passed, documentation)
+//
+// switchable: whether a scenario may switch the effect; the others follow from its sensors.
+// passed: the struct of switches that has a member of the same name, which is set from the plan: `camera`
+// (render::CameraEffects), `radio` (rf::RadioEffects), `field` (rf::FieldEffects), or `none`.
+#pragma once
+
+// clang-format off
+#define GREATX_RAY_EFFECTS(X) \
+  X(acceleration_structure, false, none, "acceleration structures over the scene, for what traces rays") \
+  X(scene_motion, false, none, "acceleration structures follow the meshes that move")
+
+#define GREATX_CAMERA_EFFECTS(X) \
+  X(camera, false, none, "cameras and event cameras") \
+  X(rgb, false, none, "developed pictures") \
+  X(depth, false, none, "planar depth") \
+  X(ids, false, none, "numbers of instance, class and material of each pixel") \
+  X(hdr, false, none, "radiance before development") \
+  X(depth_ray, false, none, "distance along the ray of each pixel") \
+  X(normals, false, none, "normals of the surfaces that pixels see") \
+  X(flow, false, none, "motion of each pixel to the next picture") \
+  X(boxes, false, none, "boxes around the instances in a picture") \
+  X(event_camera, false, none, "event cameras") \
+  X(adaptive_steps, false, none, "sub-steps of event cameras as fine as the picture changes") \
+  X(sun, true, camera, "direct light of the sun or the moon") \
+  X(sky, true, camera, "light of the sky") \
+  X(static_shadows, true, camera, "shadows of static meshes in that direct light") \
+  X(moving_shadows, true, camera, "shadows of meshes that move in that direct light") \
+  X(ambient_occlusion, true, camera, "the share of the sky that each place sees") \
+  X(textures, true, camera, "textures of materials") \
+  X(normal_maps, true, camera, "relief of surfaces from textures") \
+  X(alpha_mask, true, camera, "holes in materials") \
+  X(emissive, true, camera, "materials that glow") \
+  X(punctual_lights, true, camera, "lamps") \
+  X(haze, true, camera, "fog and rain before the camera") \
+  X(night_sky, true, camera, "stars and the disc of the moon") \
+  X(smooth_edges, false, none, "antialiasing along the edges of meshes") \
+  X(lens_distortion, false, none, "distortion by the lens") \
+  X(vignetting, false, none, "loss of light towards the corners of a picture") \
+  X(motion_blur, false, none, "motion during the exposure") \
+  X(auto_exposure, false, none, "exposure that follows the light of the scene") \
+  X(sensor_noise, false, none, "noise of photons and of the sensor")
+
+#define GREATX_LIDAR_EFFECTS(X) \
+  X(lidar, false, none, "LiDARs") \
+  X(lidar_alpha_mask, true, none, "shots pass through holes in materials") \
+  X(lidar_textures, true, none, "reflectance from textures") \
+  X(lidar_sweep_motion, true, none, "each shot starts from the pose at its own time") \
+  X(lidar_target_motion, true, none, "each shot meets moving meshes where they are at its own time") \
+  X(lidar_divergence, true, none, "sub-rays over the cross-section of the beam") \
+  X(lidar_glass, true, none, "panes let a part of the light through") \
+  X(lidar_haze, true, none, "attenuation by fog and rain") \
+  X(lidar_backscatter, true, none, "light that drops of fog and rain send back") \
+  X(lidar_detection, true, none, "returns have to exceed a threshold") \
+  X(lidar_range_noise, true, none, "noise of ranges")
+
+#define GREATX_RADAR_EFFECTS(X) \
+  X(radar, false, none, "radars") \
+  X(radar_roughness, true, none, "roughness of materials weakens echoes") \
+  X(radar_clutter, true, none, "echoes that materials with a scattering coefficient scatter back") \
+  X(radar_noise, true, none, "noise of the receiver") \
+  X(radar_phase_noise, true, none, "phase noise of the oscillator") \
+  X(radar_quantisation, true, none, "steps of the converter")
+
+#define GREATX_RADIO_EFFECTS(X) \
+  X(channel, false, none, "channels") \
+  X(line_of_sight, true, radio, "paths without interactions") \
+  X(reflection, true, radio, "paths that surfaces reflect") \
+  X(moving_reflectors, true, none, "meshes that move reflect, too") \
+  X(transmission, true, radio, "paths through walls; off: walls block") \
+  X(diffraction, true, radio, "paths into shadows, by UTD at edges") \
+  X(diffraction_lit_region, true, radio, "diffracted fields beside lit paths, too") \
+  X(free_edges, true, radio, "edges that belong to only one facet diffract, too") \
+  X(scattering, true, radio, "diffuse scattering by materials with a scattering coefficient") \
+  X(roughness, true, field, "roughness of materials weakens reflections") \
+  X(gas, true, field, "attenuation by oxygen and water vapour") \
+  X(rain, true, field, "attenuation by rain") \
+  X(fog, true, field, "attenuation by fog") \
+  X(foliage, true, field, "attenuation by crowns of trees") \
+  X(dispersion, true, none, "materials and air at the frequency of every subcarrier") \
+  X(doppler, true, none, "time samples turn with the Doppler shift of each path") \
+  X(every_element, true, none, "paths between every two elements of arrays that are near each other")
+
+#define GREATX_CHECKS(X) \
+  X(consistency, true, none, "the check that all sensors see one world")
+
+#define GREATX_EFFECTS(X) \
+  GREATX_RAY_EFFECTS(X) \
+  GREATX_CAMERA_EFFECTS(X) \
+  GREATX_LIDAR_EFFECTS(X) \
+  GREATX_RADAR_EFFECTS(X) \
+  GREATX_RADIO_EFFECTS(X) \
+  GREATX_CHECKS(X)
+// clang-format on

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/simulator.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/activity.h"
+#include "sim/plan/plan_options.h"
+#include "sim/sensors/located.h"
+
+namespace greatx::sim {
+
+namespace {
+
+constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u << 20;
+
+}  // namespace
+
+/// A tick that was submitted and not yet collected.
+struct Simulator::InFlight {
+  const gpu::TickSlot* slot = nullptr;
+  int64_t tick = 0;
+  std::vector<Due> due;
+};
+
+/// Adds the wall time of its life to a row of RunStatistics::host, if samples are kept.
+class Simulator::HostScope {
+ public:
+  HostScope(Simulator& simulator, const char* doing, const std::string& sensor = {}) {
+    if (!simulator.keep_samples_) return;
+    total_ = &simulator.statistics_.host[sensor.empty() ? doing : doing + (" " + sensor)];
+    begin_ = std::chrono::steady_clock::now();
+  }
+  ~HostScope() {
+    if (total_ == nullptr) return;
+    const double milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    ++total_->count;
+    total_->milliseconds += milliseconds;
+    total_->samples.push_back(milliseconds);
+  }
+  HostScope(const HostScope&) = delete;
+  HostScope& operator=(const HostScope&) = delete;
+
+ private:
+  PassTotal* total_ = nullptr;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+Simulator::Simulator(gpu::Device& device, const Experiment& experiment)
+    : scenario_(experiment.scenario),
+      world_(*experiment.world),
+      device_(device),
+      gpu_scene_(device, world_.scene, gpu_scene_options(experiment.plan)),
+      ring_(device, slots_in_flight, first_upload_bytes, first_readback_bytes),
+      clock_(scenario_.tick_rate_hz),
+      schedule_(scenario_.tick_rate_hz),
+      passes_(gpu_scene_, experiment),
+      sensors_(make_sensors({gpu_scene_, passes_, experiment})),
+      comparer_(world_, experiment.plan.consistency.on) {
+  for (const RunSensor& run : sensors_) {
+    schedule_.add(run.rate_hz);
+    specs_.push_back(run.sensor->spec());
+    looks_ahead_ |= run.sensor->looks_ahead();
+  }
+}
+
+Simulator::~Simulator() = default;
+
+void Simulator::start(uint32_t sequence, int64_t first_tick) {
+  GREATX_CHECK(pending_ == nullptr, "sequence {} started with a tick in flight", sequence);
+  sequence_ = sequence;
+  courses_ = make_courses(scenario_, world_, sequence);
+  due_ticks_ = 0;
+  for (next_tick_ = schedule_.next(0, scenario_.ticks); next_tick_ < std::min(first_tick, scenario_.ticks);
+       ++due_ticks_)
+    next_tick_ = schedule_.next(next_tick_ + 1, scenario_.ticks);
+  if (next_tick_ >= scenario_.ticks) return;
+  const Moment moment = moment_at(next_tick_), beginning = moment_at(0);
+  for (const RunSensor& run : sensors_)
+    located(run.where,
+            [&] { run.sensor->start(run.sensor->remembers() ? beginning.context : moment.context); });
+  replay(next_tick_);
+}
+
+/// Takes the sensors that remember through the ticks before `end`; nothing is written.
+void Simulator::replay(int64_t end) {
+  int64_t before = 0;
+  for (int64_t tick = schedule_.next(0, end); tick < end; tick = schedule_.next(tick + 1, end)) {
+    std::vector<Due> due = schedule_.due(tick, before++);
+    std::erase_if(due, [&](const Due& d) { return !sensors_[d.sensor].sensor->remembers(); });
+    if (due.empty()) continue;
+    gpu::TickSlot& slot = ring_.begin();
+    record(slot, moment_at(tick), due);
+    ring_.submit(slot, gpu::TickRing::Kind::setup);
+    ring_.wait(slot);
+    for (const Due& d : due) sensors_[d.sensor].sensor->catch_up(slot);
+  }
+}
+
+Moment Simulator::moment_at(int64_t tick) const {
+  Moment moment = sim::moment_at(world_, courses_, clock_, tick, schedule_.previous(tick));
+  moment.context.sequence = sequence_;
+  return moment;
+}
+
+bool Simulator::step(RecordSink& sink) {
+  if (next_tick_ >= scenario_.ticks) {
+    drain(sink);
+    return false;
+  }
+  if (looks_ahead_ && pending_ != nullptr) {
+    const HostScope scope(*this, "wait to look ahead");
+    ring_.wait(*pending_->slot);
+  }
+  const int64_t tick = next_tick_;
+  std::vector<Due> due = schedule_.due(tick, due_ticks_++);
+
+  gpu::TickSlot& slot = ring_.begin();
+  record(slot, moment_at(tick), due);
+  next_tick_ = schedule_.next(tick + 1, scenario_.ticks);
+  if (looks_ahead_ && next_tick_ < scenario_.ticks) record_ahead(slot);
+  ring_.submit(slot);
+  ++statistics_.ticks;
+
+  drain(sink);  // the tick before, while the GPU works on this one
+  pending_ = std::make_unique<InFlight>(InFlight{&slot, tick, std::move(due)});
+  return true;
+}
+
+void Simulator::record(gpu::TickSlot& slot, const Moment& moment, const std::vector<Due>& due) {
+  const Activity activity("recording a tick");
+  gpu_scene_.record_update(slot, moment.bodies);
+  const bool pictures =
+      std::ranges::any_of(due, [&](const Due& d) { return sensors_[d.sensor].sensor->draws_pictures(); });
+  if (pictures) passes_.lighting->record(slot, moment.bodies);
+  for (const Due& d : due) {
+    const RunSensor& run = sensors_[d.sensor];
+    const HostScope scope(*this, "record", specs_[d.sensor].name);
+    located(run.where, [&] { run.sensor->record(slot, moment.context); });
+  }
+}
+
+void Simulator::record_ahead(gpu::TickSlot& slot) {
+  const Moment next = moment_at(next_tick_);
+  bool updated = false;
+  for (const Due& due : schedule_.due(next_tick_, due_ticks_)) {
+    Sensor& sensor = *sensors_[due.sensor].sensor;
+    if (!sensor.looks_ahead()) continue;
+    if (!updated) gpu_scene_.record_update(slot, next.bodies);
+    updated = true;
+    sensor.record_ahead(slot, next.context);
+  }
+}
+
+void Simulator::drain(RecordSink& sink) {
+  if (pending_ == nullptr) return;
+  const std::unique_ptr<InFlight> in_flight = std::move(pending_);
+  collect(*in_flight, sink);
+}
+
+void Simulator::collect(const InFlight& in_flight, RecordSink& sink) {
+  const Activity activity("collecting a tick");
+  {
+    const HostScope scope(*this, "wait");
+    ring_.wait(*in_flight.slot);
+  }
+  Packet packet{in_flight.tick, clock_.nanoseconds(in_flight.tick), {}};
+  for (const Due& due : in_flight.due) {
+    const HostScope scope(*this, "collect", specs_[due.sensor].name);
+    const RunSensor& run = sensors_[due.sensor];
+    const auto collect = [&] { return run.sensor->collect(*in_flight.slot); };
+    packet.records.push_back(
+        {due.sensor, packet.tick, packet.time_ns, due.sample, located(run.where, collect)});
+    ++statistics_.records[specs_[due.sensor].name];
+  }
+  {
+    const HostScope scope(*this, "compare");
+    compare(packet);
+  }
+  for (const gpu::PassTime& pass : in_flight.slot->timestamps.read()) {
+    PassTotal& total = statistics_.passes[pass.name];
+    ++total.count;
+    total.milliseconds += pass.milliseconds;
+    if (keep_samples_) total.samples.push_back(pass.milliseconds);
+  }
+  const HostScope scope(*this, "hand over");
+  sink.write(std::move(packet));
+  ++statistics_.packets;
+}
+
+void Simulator::compare(const Packet& packet) {
+  std::vector<Witness> witnesses;
+  for (const Record& record : packet.records)
+    witnesses.push_back({view_of(specs_[record.sensor], record), sensors_[record.sensor].sensor->evidence()});
+  comparer_.compare(sequence_, packet.tick, witnesses);
+}
+
+RunStatistics Simulator::statistics() const {
+  RunStatistics statistics = statistics_;
+  if (gpu_scene_.has_tree())
+    statistics.notes.emplace_back("tracer",
+                                  "the device is a CPU: LiDAR rays meet the static world in a tree of "
+                                  "greatx's own, all others in the driver's");
+  statistics.consistency = comparer_.totals();
+  statistics.rows = comparer_.rows();
+  for (const RunSensor& run : sensors_) {
+    run.sensor->count(statistics.counters);
+    run.sensor->warn(statistics.warnings);
+    run.sensor->note(statistics.notes);
+  }
+  return statistics;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Defines the parts of the scenario's parser that its files share. No other code needs them.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sim/scenario/parse/scenario_yaml.h"
+#include "sim/scenario/scenario.h"
+
+namespace greatx::sim {
+
+/// Holds the `distance.node` of a Bezier trajectory. It is looked up when every node is known.
+struct NodeReference {
+  size_t node = 0;
+  Field field;
+};
+
+/// The antenna patterns that a scenario names. Each is read once.
+using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
+
+/// The index of `key`'s text in `choices`, before the map's other keys are known.
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices);
+inline size_t kind_of(const Field& field, std::string_view key,
+                      std::initializer_list<std::string_view> choices) {
+  return kind_of(field, key, std::span(choices.begin(), choices.size()));
+}
+/// A positive rational rate not above the tick rate.
+Rational rate_of(const Field& field, const Rational& tick_rate_hz);
+/// Parses `file` or `generate` of `map`, exactly one of them.
+ModelSource parse_model_source(const FieldMap& map);
+/// Parses one factor or three, none of them 0.
+dvec3 parse_scale(const Field& field);
+/// Parses the name of a semantic class (scene::semantic_class_names).
+std::string parse_semantic_class(const Field& field);
+
+SceneConfig parse_scene(const Field& field);
+Environment parse_environment(const Field& field);
+Trajectory parse_trajectory(const Field& field, size_t node, std::vector<NodeReference>& references);
+SensorConfig parse_sensor(const Field& field, const Rational& tick_rate_hz, PatternFiles& patterns);
+/// Parses width, height, intrinsics, near_m, msaa, distortion.
+void parse_pinhole(const FieldMap& map, PinholeConfig& camera);
+CameraConfig parse_camera(const FieldMap& map);
+EventCameraConfig parse_event_camera(const FieldMap& map, const Rational& rate_hz);
+LidarConfig parse_lidar(const FieldMap& map, const Rational& rate_hz);
+/// The keys of an antenna, without those that every sensor has.
+extern const Keys antenna_keys;
+AntennaConfig parse_antenna(const FieldMap& map, PatternFiles& loaded);
+RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns);
+/// Gives bistatic radars the antennas that transmit for them.
+void resolve_illuminators(std::vector<NodeConfig>& nodes);
+/// Gives event cameras that share a camera's pixels its optics and mount.
+void resolve_event_cameras(std::vector<NodeConfig>& nodes);
+std::vector<NodeConfig> parse_nodes(const Field& field, const Rational& tick_rate_hz);
+std::vector<ChannelConfig> parse_channels(const Field& field, const Rational& tick_rate_hz,
+                                          const std::vector<NodeConfig>& nodes);
+
+}  // namespace greatx::sim

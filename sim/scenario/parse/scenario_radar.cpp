@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Parses nodes[].sensors[] of type radar.
+#include <cmath>
+#include <set>
+
+#include "core/units.h"
+#include "sim/scenario/parse/scenario_parse.h"
+
+namespace greatx::sim {
+namespace {
+
+constexpr uint32_t most_chirps = 65536, most_tubes = 4'000'000, most_updates = 4096;
+
+void parse_waveform(const Field& field, rf::RadarWaveform& waveform, uint32_t& chirps) {
+  const FieldMap map(field, {"carrier_hz", "bandwidth_hz", "slope_hz_per_s", "chirp_s", "interval_s",
+                             "adc_start_s", "sample_rate_hz", "samples", "chirps"});
+  map.exclude("bandwidth_hz", "slope_hz_per_s");
+  if (const auto f = map.find("carrier_hz")) waveform.carrier_hz = f->positive();
+  if (const auto f = map.find("slope_hz_per_s")) waveform.slope_hz_per_s = f->positive();
+  if (const auto f = map.find("chirp_s")) waveform.chirp_s = f->positive();
+  if (const auto f = map.find("interval_s")) waveform.interval_s = f->positive();
+  if (const auto f = map.find("adc_start_s")) waveform.adc_start_s = f->non_negative();
+  if (const auto f = map.find("sample_rate_hz")) waveform.sample_rate_hz = f->positive();
+  if (const auto f = map.find("samples")) waveform.samples = f->integer32(4, 65536);
+  if (const auto f = map.find("chirps")) chirps = f->integer32(1, most_chirps);
+  if (const auto f = map.find("bandwidth_hz")) waveform.slope_hz_per_s = f->positive() / waveform.sampled_s();
+}
+
+/// Parses an array. Each element is one port, since positions tell a radar's channels apart.
+AntennaConfig parse_radar_array(const Field& field, PatternFiles& patterns) {
+  const AntennaConfig antenna = parse_antenna(FieldMap(field, antenna_keys), patterns);
+  if (array_of(antenna, 1e9).polarization_count() != 1)
+    field.fail("one polarization (v, h or slant_deg): a port for each element", "two");
+  return antenna;
+}
+
+void parse_field_of_view(const Field& field, rf::FieldOfView& view) {
+  const FieldMap map(field, {"azimuth_deg", "elevation_deg"});
+  const auto parse = [&](const char* key, double most_deg, double& low, double& high) {
+    const auto f = map.find(key);
+    if (!f) return;
+    const std::vector<Field> ends = f->list("ends", 2);
+    if (ends.size() != 2) f->fail("two angles, the lower first", fmt::format("{}", ends.size()));
+    low = radians(ends[0].between(-most_deg, most_deg));
+    high = radians(ends[1].between(-most_deg, most_deg));
+    if (!(low < high)) f->fail("the lower angle first");
+  };
+  parse("azimuth_deg", 180.0, view.azimuth_min, view.azimuth_max);
+  parse("elevation_deg", 90.0, view.elevation_min, view.elevation_max);
+}
+
+const Keys echo_keys{"tubes",     "max_bounces", "target_tube_m",   "target_budget",    "mirror_budget",
+                     "targets",   "updates",     "diffuse_patch_m", "antenna_radius_m", "merge_share",
+                     "max_echoes"};
+
+void parse_echoes(const Field& field, RadarConfig& radar) {
+  const FieldMap map(field, echo_keys);
+  rf::EchoOptions& echoes = radar.echoes;
+  if (const auto f = map.find("tubes")) echoes.tubes = f->integer32(1, most_tubes);
+  if (const auto f = map.find("max_bounces")) echoes.max_bounces = f->integer32(1, rf::most_bounces);
+  if (const auto f = map.find("target_tube_m")) echoes.target_tube_m = f->positive();
+  if (const auto f = map.find("target_budget")) echoes.target_budget = f->integer32(0, most_tubes);
+  if (const auto f = map.find("mirror_budget")) echoes.mirror_budget = f->integer32(0, most_tubes);
+  if (const auto f = map.find("diffuse_patch_m")) echoes.diffuse_patch_m = f->positive();
+  if (const auto f = map.find("antenna_radius_m")) echoes.antenna_radius_m = f->non_negative();
+  if (const auto f = map.find("merge_share")) echoes.merge_share = f->between(0.0, 1.0);
+  if (const auto f = map.find("max_echoes")) echoes.max_echoes = f->integer32(1, 1u << 24);
+  if (const auto f = map.find("updates")) radar.updates = f->integer32(1, most_updates);
+  if (const auto f = map.find("targets"))
+    for (const Field& item : f->list("names of instances", 1)) radar.targets.push_back(item.text());
+}
+
+void parse_receiver(const Field& field, rf::RadarReceiver& receiver) {
+  const FieldMap map(field, {"noise_figure_db", "phase_noise", "adc"});
+  if (const auto f = map.find("noise_figure_db")) receiver.noise_figure_db = f->non_negative();
+  if (const auto f = map.find("phase_noise")) {
+    const FieldMap noise(*f, {"level_dbc_hz", "pole_hz"});
+    receiver.phase_noise.emplace();
+    if (const auto g = noise.find("level_dbc_hz")) receiver.phase_noise->level_dbc_hz = g->number();
+    if (const auto g = noise.find("pole_hz")) receiver.phase_noise->pole_hz = g->positive();
+  }
+  if (const auto f = map.find("adc")) {
+    const FieldMap adc(*f, {"bits", "full_scale_dbm"});
+    receiver.adc.emplace();
+    if (const auto g = adc.find("bits")) receiver.adc->bits = g->integer32(2, 24);
+    if (const auto g = adc.find("full_scale_dbm")) receiver.adc->full_scale_dbm = g->number();
+  }
+}
+
+void parse_processing(const Field& field, rf::RadarProcessing& processing) {
+  const FieldMap map(field, {"range_window", "doppler_window", "azimuths", "azimuth_limit_deg", "cfar"});
+  constexpr rf::RadarWindow windows[] = {rf::RadarWindow::rectangular, rf::RadarWindow::hann,
+                                         rf::RadarWindow::hamming, rf::RadarWindow::blackman,
+                                         rf::RadarWindow::taylor};
+  const auto window = [&](const char* key, rf::RadarWindow& value) {
+    if (const auto f = map.find(key))
+      value = windows[f->choice({"rectangular", "hann", "hamming", "blackman", "taylor"})];
+  };
+  window("range_window", processing.range_window);
+  window("doppler_window", processing.doppler_window);
+  if (const auto f = map.find("azimuths")) processing.azimuths = f->integer32(2, 4096);
+  if (const auto f = map.find("azimuth_limit_deg"))
+    processing.azimuth_limit = radians(f->between(0.1, 180.0));
+  if (const auto f = map.find("cfar")) {
+    const FieldMap cfar(*f, {"kind", "false_alarm", "guard", "train", "rank"});
+    rf::RadarCfar& c = processing.cfar;
+    if (const auto g = cfar.find("kind"))
+      c.kind = g->choice({"cell_averaging", "ordered_statistic"}) == 0
+                   ? rf::RadarCfar::Kind::cell_averaging
+                   : rf::RadarCfar::Kind::ordered_statistic;
+    if (const auto g = cfar.find("false_alarm")) c.false_alarm = g->positive();
+    const auto cells = [&](const char* key, uint32_t& range, uint32_t& doppler) {
+      const auto g = cfar.find(key);
+      if (!g) return;
+      const std::vector<Field> sides = g->list("cells in range and in Doppler", 2);
+      if (sides.size() != 2) g->fail("two numbers: cells on each side in range and in Doppler");
+      range = sides[0].integer32(0, 1024);
+      doppler = sides[1].integer32(0, 1024);
+    };
+    cells("guard", c.guard_range, c.guard_doppler);
+    cells("train", c.train_range, c.train_doppler);
+    if (const auto g = cfar.find("rank")) c.rank = g->between(0.0, 1.0);
+  }
+}
+
+void parse_outputs(const Field& field, RadarConfig& radar) {
+  radar.outputs = {.cube = false, .range_doppler = false, .range_azimuth = false, .detections = false};
+  bool* const wanted[] = {&radar.outputs.cube, &radar.outputs.range_doppler, &radar.outputs.range_azimuth,
+                          &radar.outputs.detections};
+  for (const Field& item : field.list("outputs", 1))
+    *wanted[item.choice({"cube", "range_doppler", "range_azimuth", "detections"})] = true;
+  radar.signal.processing.range_doppler = radar.outputs.range_doppler;
+  radar.signal.processing.range_azimuth = radar.outputs.range_azimuth;
+  radar.signal.processing.detections = radar.outputs.detections;
+}
+
+/// Reports a fault at the place where the user wrote its field: "waveform.chirp_s" in the block "waveform" of
+/// `map`.
+[[noreturn]] void fail_at(const FieldMap& map, const rf::RadarFault& fault) {
+  const size_t dot = std::min(fault.field.find('.'), fault.field.size());
+  std::string block = fault.field.substr(0, dot), rest = fault.field.substr(dot);
+  if (block == "arrays") block = rest == ".receive_m" ? "receive" : "transmit", rest.clear();
+  if (block == "transmit_power_w") block = "power_dbm";
+  const auto f = map.find(block);
+  throw_user_error_at(f ? f->where() : map.field().where(), "{}.{}{}: {}", map.field().path(), block, rest,
+                      fault.message);
+}
+
+/// Places the elements of the arrays at the carrier, and the slots for all transmitters.
+void place_arrays(RadarConfig& radar, uint32_t chirps) {
+  rf::RadarSignalConfig& signal = radar.signal;
+  const auto positions = [&](const AntennaConfig& config) {
+    const rf::AntennaArray array = array_of(config, signal.waveform.carrier_hz);
+    std::vector<dvec3> result;
+    for (uint32_t port = 0; port < array.port_count(); ++port) result.push_back(array.element_position(port));
+    return result;
+  };
+  signal.arrays = {positions(radar.transmit), positions(radar.receive)};
+  signal.waveform.transmitters = static_cast<uint32_t>(signal.arrays.transmit_m.size());
+  signal.waveform.slots = chirps * signal.waveform.transmitters;
+}
+
+/// Returns the antenna that a bistatic radar names.
+const AntennaConfig& illuminator_of(const std::vector<NodeConfig>& nodes, const RadarConfig& radar,
+                                    const std::string& field) {
+  const auto fail = [&](const std::string& found) {
+    throw_user_error_at(radar.illuminator_where,
+                        "{}: expected an antenna of one polarization as node/sensor, found {}", field, found);
+  };
+  const std::optional<SensorPlace> place = find_sensor(nodes, radar.illuminator);
+  if (!place) fail(fmt::format("unknown '{}'", radar.illuminator));
+  const auto* antenna = std::get_if<AntennaConfig>(&nodes[place->node].sensors[place->sensor].config);
+  if (antenna == nullptr) fail(fmt::format("'{}', which is none", radar.illuminator));
+  if (array_of(*antenna, radar.signal.waveform.carrier_hz).polarization_count() != 1)
+    fail(fmt::format("'{}' with two", radar.illuminator));
+  return *antenna;
+}
+
+}  // namespace
+
+void resolve_illuminators(std::vector<NodeConfig>& nodes) {
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    for (size_t s = 0; s < nodes[n].sensors.size(); ++s) {
+      auto* radar = std::get_if<RadarConfig>(&nodes[n].sensors[s].config);
+      if (radar == nullptr || radar->illuminator.empty()) continue;
+      const std::string path = fmt::format("nodes[{}].sensors[{}]", n, s);
+      radar->transmit = illuminator_of(nodes, *radar, path + ".illuminator");
+      radar->signal.bistatic = true;
+      place_arrays(*radar, radar->signal.waveform.chirps());
+      if (const std::optional<rf::RadarFault> fault = rf::check(radar->signal))
+        throw_user_error_at(radar->illuminator_where, "{}.{}: {}", path, fault->field, fault->message);
+    }
+  }
+}
+
+RadarConfig parse_radar(const FieldMap& map, PatternFiles& patterns) {
+  RadarConfig radar;
+  rf::RadarSignalConfig& signal = radar.signal;
+  uint32_t chirps = 128;
+  radar.receive.columns = 4;
+  radar.transmit.columns = 4;
+  // With four receivers half a wavelength apart this makes a full row of sixteen.
+  radar.transmit.column_spacing_wl = 2.0;
+  map.exclude("illuminator", "transmit");
+  if (const auto f = map.find("waveform")) parse_waveform(*f, signal.waveform, chirps);
+  if (const auto f = map.find("transmit")) radar.transmit = parse_radar_array(*f, patterns);
+  if (const auto f = map.find("receive")) radar.receive = parse_radar_array(*f, patterns);
+  if (const auto f = map.find("illuminator")) {
+    radar.illuminator = f->text();
+    radar.illuminator_where = f->where();
+    radar.transmit = {};  // until all antennas are known: resolve_illuminators()
+  }
+  if (const auto f = map.find("power_dbm"))
+    signal.transmit_power_w = 1e-3 * std::pow(10.0, 0.1 * f->between(-200.0, 200.0));
+  if (const auto f = map.find("field_of_view")) parse_field_of_view(*f, radar.echoes.field_of_view);
+  if (const auto f = map.find("echoes")) parse_echoes(*f, radar);
+  if (const auto f = map.find("receiver")) parse_receiver(*f, signal.receiver);
+  if (const auto f = map.find("processing")) parse_processing(*f, signal.processing);
+  if (const auto f = map.find("outputs")) parse_outputs(*f, radar);
+  if (const auto f = map.find("see_own_body")) radar.see_own_body = f->boolean();
+  place_arrays(radar, chirps);
+  if (const std::optional<rf::RadarFault> fault = rf::check(signal)) fail_at(map, *fault);
+  if (radar.updates > chirps)
+    FieldMap(map.require("echoes", "echoes"), echo_keys)
+        .require("updates", "updates")
+        .fail(fmt::format("at most one for each of the {} chirps", chirps));
+  return radar;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Parses scene: the main file or generator, objects, radio materials.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "sim/scenario/parse/scenario_parse.h"
+
+namespace greatx::sim {
+namespace {
+
+/// The names of scene::semantic_class_names, which this library does not link. A test compares the two.
+constexpr std::array semantic_classes = {"unlabeled",   "ground", "road",    "pavement",   "lane_marking",
+                                         "building",    "roof",   "window",  "vegetation", "pole",
+                                         "street_lamp", "mast",   "vehicle", "uav",        "water",
+                                         "furniture",   "person"};
+
+Generated parse_generated(const Field& field) {
+  constexpr std::array kinds = {"city", "country", "canyon", "room", "mast", "car", "quadrotor"};
+  enum { city, country, canyon, room, mast, car, quadrotor };
+  const size_t kind =
+      kind_of(field, "kind", {"city", "country", "canyon", "room", "mast", "car", "quadrotor"});
+  Generated generated;
+  generated.kind = kinds[kind];
+  if (kind == city || kind == country || kind == canyon) {  // the others look the same for every seed
+    const FieldMap map(field, {"kind", "seed", "size_m"});
+    if (const auto f = map.find("seed")) generated.seed = f->integer(0);
+    if (const auto f = map.find("size_m"))
+      generated.size_m = f->between(kind == canyon    ? 60.0
+                                    : kind == country ? 160.0
+                                                      : 100.0,
+                                    kind == country ? 2000.0 : 1000.0);
+    return generated;
+  }
+  if (kind == mast || kind == room) {
+    const FieldMap map(field, {"kind"});
+    return generated;
+  }
+  const FieldMap map(field, {"kind", "variant"});
+  generated.variant = kind == car ? "hatchback" : "medium";
+  if (const auto f = map.find("variant")) {
+    kind == car ? f->choice({"hatchback", "van"}) : f->choice({"small", "medium", "large"});
+    generated.variant = f->text();
+  }
+  return generated;
+}
+
+StaticObject parse_object(const Field& field) {
+  const FieldMap map(field, {"name", "file", "generate", "position_m", "rotation_deg", "scale", "class"});
+  StaticObject object;
+  object.name = map.require("name", "a name").name();
+  object.model = parse_model_source(map);
+  if (const auto f = map.find("position_m")) object.position_m = f->position();
+  if (const auto f = map.find("rotation_deg")) object.rotation = f->angles_deg();
+  if (const auto f = map.find("scale")) object.scale = parse_scale(*f);
+  if (const auto f = map.find("class")) object.semantic_class = parse_semantic_class(*f);
+  return object;
+}
+
+}  // namespace
+
+size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices) {
+  std::string expected = "one of";
+  for (const std::string_view choice : choices)
+    expected += fmt::format("{} {}", choice == choices.front() ? "" : ",", choice);
+  for (const auto& [name, value] : entries_of(field))
+    if (name == key) return value.choice(choices);
+  throw_user_error_at(field.where(), "{}.{}: expected {}, found nothing", field.path(), key, expected);
+}
+
+std::string parse_semantic_class(const Field& field) {
+  const std::string name = field.text();
+  if (std::find(semantic_classes.begin(), semantic_classes.end(), name) == semantic_classes.end())
+    field.fail(
+        fmt::format("a semantic class ({})", fmt::join(semantic_classes, ", ")),
+        fmt::format("'{}'{}", name, suggestion(name, {semantic_classes.begin(), semantic_classes.end()})));
+  return name;
+}
+
+dvec3 parse_scale(const Field& field) {
+  constexpr double least = 1e-6, most = 1e6;
+  const dvec3 scale = field.is_scalar() ? dvec3(field.number(most)) : field.vector3(most);
+  if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0)
+    field.fail("scale factors other than 0", fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
+  if (glm::any(glm::lessThan(glm::abs(scale), dvec3(least))))
+    field.fail(fmt::format("scale factors of a magnitude of {:g} or more", least),
+               fmt::format("[{}, {}, {}]", scale.x, scale.y, scale.z));
+  return scale;
+}
+
+ModelSource parse_model_source(const FieldMap& map) {
+  map.exclude("file", "generate");
+  ModelSource model;
+  if (const auto f = map.find("generate")) {
+    model.source = parse_generated(*f);
+    model.where = f->where();
+    return model;
+  }
+  const Field file = map.require("file", "a glTF file (or 'generate')");
+  model.source = file.file();
+  model.where = file.where();
+  return model;
+}
+
+SceneConfig parse_scene(const Field& field) {
+  const FieldMap map(field, {"file", "generate", "objects", "radio_materials", "optical_only", "origin_m"});
+  SceneConfig scene;
+  if (map.has("file") || map.has("generate")) {
+    StaticObject whole;  // its instances keep the file's own names: no prefix
+    whole.model = parse_model_source(map);
+    scene.objects.push_back(std::move(whole));
+  }
+  if (const auto objects = map.find("objects")) {
+    std::set<std::string> names;
+    for (const Field& item : objects->list("objects")) {
+      scene.objects.push_back(parse_object(item));
+      const std::string& name = scene.objects.back().name;
+      if (!names.insert(name).second)
+        item.fail("every object's name once", fmt::format("a second '{}'", name));
+    }
+  }
+  if (const auto f = map.find("radio_materials")) scene.radio_materials = f->file();
+  if (const auto f = map.find("optical_only")) scene.optical_only = f->boolean();
+  if (const auto f = map.find("origin_m")) scene.origin_m = f->position();
+  return scene;
+}
+
+}  // namespace greatx::sim

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boxes as the arrays that a camera writes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/record.h"
+#include "sim/sensors/camera/boxes.h"
+
+namespace greatx::sim {
+
+/// Adds the arrays of boxes, [object, ...], and the files that hold them, boxes/NAME.
+void describe_boxes(SensorSpec& spec);
+/// The arrays that describe_boxes() declares, in its order. `node_of_body`: by body; -1: none.
+std::vector<Array> box_arrays(const Boxes& boxes, std::span<const ObjectBox> found,
+                              std::span<const int32_t> node_of_body);
+
+}  // namespace greatx::sim

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "renderer/camera/camera.h"
+#include "renderer/event/event_pass.h"
+#include "sim/scenario/clock.h"
+#include "sim/sensors/sensor.h"
+#include "sim/world/posed_scene.h"
+
+namespace greatx::sim {
+
+class CameraSensor;
+
+/// An event camera on a node: at each of its samples, the events since the sample before (docs/events.md).
+/// Pictures at the instants in between are rendered in the same tick's command buffer, with everything that
+/// moves where it then was. With EventCameraConfig::camera the pictures at the samples are that camera's,
+/// which recorded them just before.
+class EventSensor : public Sensor {
+ public:
+  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the
+  /// camera outlive this.
+  EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
+              uint32_t sensor);
+
+  const SensorSpec& spec() const override { return spec_; }
+  bool remembers() const override { return true; }
+  bool draws_pictures() const override { return true; }
+  void start(const TickContext& context) override;
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  void catch_up(const gpu::TickSlot& slot) override;
+  void count(std::map<std::string, uint64_t>& counters) const override;
+  void warn(std::vector<std::string>& warnings) const override;
+
+  /// The interval collected last.
+  const render::EventFrame& frame() const { return frame_; }
+
+ private:
+  void describe();
+  /// The pass that has the picture of an instant.
+  const render::CameraPass& picture_at(bool sample) const;
+  void take_picture(gpu::TickSlot& slot, const TickContext& context, Instants& at, uint32_t index,
+                    double time_s);
+  std::vector<shared::EventMotion> motions(const TickContext& context, double time_s) const;
+
+  PosedScene& posed_;
+  const World& world_;
+  EventCameraConfig config_;
+  uint32_t node_;
+  Pose mount_;
+  Clock clock_;
+  const CameraSensor* shared_;
+  std::optional<render::CameraPass> camera_;  ///< of the pictures that `shared_` does not take
+  render::EventPass events_;
+  SensorSpec spec_;
+  std::optional<int64_t> last_ns_;  ///< of the sample recorded last
+  int64_t sample_ = 0;              ///< of the one to be recorded next
+  std::array<int64_t, slots_in_flight> begin_ns_{};
+  render::EventFrame frame_;
+  uint64_t event_count_ = 0, dropped_ = 0, pictures_ = 0, coarse_ = 0;
+};
+
+}  // namespace greatx::sim

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sensors/pose/pose_sensor.h"
+
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+namespace greatx::sim {
+
+PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
+  const auto nodes = static_cast<int64_t>(scenario.nodes.size());
+  spec_.name = "poses";
+  spec_.kind = "pose";
+  spec_.rate = "";  // whenever something else fires
+  const auto add = [&](const char* name, int64_t width, const char* unit, const char* description) {
+    spec_.arrays.push_back({name, DType::f64, {nodes, width}, unit, description});
+    spec_.outputs.push_back({name, FileFormat::npy_stack, {name}});
+  };
+  add("position", 3, "m", "[node, xyz] world: x east, y north, z up");
+  add("orientation", 4, "1", "[node, wxyz] world_from_body; body: x forward, y left, z up");
+  add("velocity", 3, "m/s", "[node, xyz] derivative of the trajectory");
+  add("acceleration", 3, "m/s^2", "[node, xyz] second derivative of the trajectory");
+  add("angular_velocity", 3, "rad/s", "[node, xyz] world axes");
+  add("mean_velocity", 3, "m/s",
+      "[node, xyz] (p_k - p_(k-1)) / (t_k - t_(k-1)); NaN in the first record of a sequence");
+  nlohmann::json metadata;
+  for (const NodeConfig& node : scenario.nodes) metadata["nodes"].push_back(node.name);
+  metadata["non_finite"] = {"mean_velocity"};
+  metadata["local_origin_m"] = {origin.x, origin.y, origin.z};
+  spec_.metadata_json = metadata.dump();
+}
+
+void PoseSensor::record(gpu::TickSlot& slot, const TickContext& context) {
+  const std::span<const Motion> motions = context.nodes;
+  std::vector<Array>& arrays = arrays_[slot.index];
+  arrays.clear();
+  const auto add = [&](int width, auto&& row_of) {
+    Array array(DType::f64, {static_cast<int64_t>(motions.size()), width});
+    double* value = array.as<double>().data();
+    for (uint32_t node = 0; node < motions.size(); ++node) {
+      const auto row = row_of(node);
+      for (int i = 0; i < width; ++i) *value++ = row[i];
+    }
+    arrays.push_back(std::move(array));
+  };
+  add(3, [&](uint32_t node) { return motions[node].pose.position; });
+  add(4, [&](uint32_t node) {
+    const dquat& q = motions[node].pose.orientation;
+    return dvec4(q.w, q.x, q.y, q.z);
+  });
+  add(3, [&](uint32_t node) { return motions[node].velocity; });
+  add(3, [&](uint32_t node) { return motions[node].acceleration; });
+  add(3, [&](uint32_t node) { return motions[node].angular_velocity; });
+  add(3, [&](uint32_t node) {
+    if (std::isnan(context.previous_time_s)) return dvec3(std::numeric_limits<double>::quiet_NaN());
+    const dvec3 before = context.motion_at(node, context.previous_time_s).pose.position;
+    return (motions[node].pose.position - before) / (context.time_s - context.previous_time_s);
+  });
+}
+
+std::vector<Array> PoseSensor::collect(const gpu::TickSlot& slot) { return std::move(arrays_[slot.index]); }
+
+Evidence PoseSensor::evidence() const {
+  Evidence evidence;
+  evidence.poses = true;
+  return evidence;
+}
+
+}  // namespace greatx::sim

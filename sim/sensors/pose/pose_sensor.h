@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "sim/sensors/sensor.h"
+
+namespace greatx::sim {
+
+/// Ground truth of everything that moves, whenever something fires.
+class PoseSensor : public Sensor {
+ public:
+  PoseSensor(const Scenario& scenario, const dvec3& origin);
+  const SensorSpec& spec() const override { return spec_; }
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  Evidence evidence() const override;
+
+ private:
+  SensorSpec spec_;
+  std::array<std::vector<Array>, slots_in_flight> arrays_;
+};
+
+}  // namespace greatx::sim

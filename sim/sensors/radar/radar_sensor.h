@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rf/radar/echoes/echo_finder.h"
+#include "rf/radar/signal/radar_processor.h"
+#include "sim/plan/effect_plan.h"
+#include "sim/sensors/sensor.h"
+#include "sim/world/world.h"
+
+namespace greatx::sim {
+
+/// A radar on a node, with a transmitter of its own or another node's antenna. A frame begins at the tick.
+/// Its rays are traced in the tick's command buffer, as often as RadarConfig::updates says, each time with
+/// everything where it then is.
+class RadarSensor : public Sensor {
+ public:
+  /// Throws UserError for a target that is no instance of the scene, and for materials unknown at the
+  /// carrier.
+  RadarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
+              const World& world, uint32_t node, uint32_t sensor);
+
+  const SensorSpec& spec() const override { return spec_; }
+  void record(gpu::TickSlot& slot, const TickContext& context) override;
+  std::vector<Array> collect(const gpu::TickSlot& slot) override;
+  Evidence evidence() const override;
+  void count(std::map<std::string, uint64_t>& counters) const override;
+
+  /// What the scene sends back in a frame, and when; what collect() makes a record of.
+  struct Echoes {
+    std::vector<rf::EchoList> lists;
+    std::vector<rf::RadarAttitude> attitudes;
+    rf::RadarSeeds seeds;
+    dvec3 baseline_m{0.0};
+  };
+  /// The two halves of collect(), for who wants to know what each costs.
+  Echoes find_echoes(const gpu::TickSlot& slot);
+  std::vector<Array> process(const Echoes& echoes);
+
+  /// The frame collected last.
+  const rf::RadarFrame& frame() const { return frame_; }
+
+ private:
+  /// Where an end is carried.
+  struct Carrier {
+    uint32_t node = 0, body = 0;
+    Pose mount;
+  };
+  /// One tracing of the scene, and what moves until the next.
+  struct Update {
+    rf::EchoFinder::Pending rays;
+    rf::EchoMotion motion;
+    rf::RadarAttitude attitude;
+  };
+  struct Frame {
+    std::vector<Update> updates;
+    rf::RadarSeeds seeds;
+    dvec3 baseline_m{0.0};
+  };
+  Carrier transmitter_of(const Scenario& scenario) const;
+  /// With the slant of its one polarization.
+  rf::EchoEnd end_of(const AntennaConfig& antenna, uint32_t own_body) const;
+  rf::EchoEnd transmit_end() const { return end_of(config_.transmit, transmitter_.body); }
+  rf::EchoEnd receive_end() const { return end_of(config_.receive, receiver_.body); }
+  rf::EchoOptions echo_options(const EffectPlan& plan, const Scenario& scenario) const;
+  rf::EchoMotion motion(const TickContext& context, uint32_t update) const;
+  void describe(const SensorConfig& sensor);
+
+  scene::GpuScene& gpu_scene_;
+  const World& world_;
+  RadarConfig config_;
+  std::string name_;
+  uint32_t node_;
+  uint64_t seed_;
+  Pose mount_;
+  Carrier transmitter_, receiver_;
+  rf::EchoFinder finder_;
+  rf::RadarProcessor processor_;
+  SensorSpec spec_;
+  std::array<Frame, slots_in_flight> frames_;
+  rf::RadarFrame frame_;
+  uint64_t frames_done_ = 0, tubes_ = 0, echoes_ = 0, echoes_left_out_ = 0, detections_ = 0, saturated_ = 0,
+           late_echoes_ = 0;
+};
+
+}  // namespace greatx::sim

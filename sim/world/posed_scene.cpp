@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/world/posed_scene.h"
+
+namespace greatx::sim {
+
+void Instants::move_to(double time_s) {
+  const bool of_tick = time_s == context_.time_s;
+  if (of_tick && !moved_) return;  // a tick begins with its own poses
+  const std::vector<Pose> bodies = context_.body_poses_at(time_s);
+  scene_.record_poses(slot_, bodies);
+  lighting_.record(slot_, bodies);
+  moved_ = true;
+  away_ = !of_tick;
+}
+
+void PosedScene::at_instants(gpu::TickSlot& slot, const TickContext& context,
+                             const std::function<void(Instants&)>& record) {
+  Instants instants(scene_, lighting_, slot, context);
+  record(instants);
+  if (instants.away_) instants.move_to(context.time_s);
+}
+
+}  // namespace greatx::sim

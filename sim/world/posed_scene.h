@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors SPDX-License-Identifier: Apache-2.0
+//
+// The scene that cameras look at, posed for any instant of a tick: sub-steps of event cameras, instants
+// within an exposure.
+#pragma once
+
+#include <functional>
+
+#include "renderer/light/lighting.h"
+#include "scene/device/gpu_scene.h"
+#include "sim/world/tick_context.h"
+#include "sim/world/world.h"
+
+namespace greatx::sim {
+
+/// The instants that one sensor asks for within its record(): only PosedScene makes them, and it undoes them.
+class Instants {
+ public:
+  /// Poses every body, and the shadows that go with it, as at `time_s`, for the raster passes recorded next.
+  /// The last call of a sensor must not stand in a gpu::Condition if it is for the tick itself.
+  void move_to(double time_s);
+
+ private:
+  friend class PosedScene;
+  Instants(scene::GpuScene& scene, render::SceneLighting& lighting, gpu::TickSlot& slot,
+           const TickContext& context)
+      : scene_(scene), lighting_(lighting), slot_(slot), context_(context) {}
+
+  scene::GpuScene& scene_;
+  render::SceneLighting& lighting_;
+  gpu::TickSlot& slot_;
+  const TickContext& context_;
+  bool moved_ = false;  ///< at least once
+  bool away_ = false;   ///< the poses recorded last are not those of the tick
+};
+
+class PosedScene {
+ public:
+  /// All outlive this.
+  PosedScene(scene::GpuScene& scene, render::SceneLighting& lighting, const World& world)
+      : scene_(scene), lighting_(lighting), world_(world) {}
+
+  /// Lets `record` move everything to as many instants as it likes. Afterwards everything stands as `context`
+  /// has it again, as it did before, whatever `record` did.
+  void at_instants(gpu::TickSlot& slot, const TickContext& context,
+                   const std::function<void(Instants&)>& record);
+  const render::SceneLighting& lighting() const { return lighting_; }
+  const World& world() const { return world_; }
+
+ private:
+  scene::GpuScene& scene_;
+  render::SceneLighting& lighting_;
+  const World& world_;
+};
+
+}  // namespace greatx::sim

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/world/world.h"
+
+#include <deque>
+#include <set>
+
+#include "rf/surface/surfaces.h"
+#include "scene/build/build.h"
+#include "scene/generator/generate.h"
+#include "sim/world/parts.h"
+
+namespace greatx::sim {
+
+namespace {
+
+scene::Model load(const ModelSource& source, const SceneConfig& config) {
+  const scene::LoadOptions options{config.radio_materials, config.optical_only};
+  if (const auto* file = std::get_if<std::filesystem::path>(&source.source))
+    return scene::load_model(*file, options);
+  const Generated& made = std::get<Generated>(source.source);
+  try {
+    const std::vector<std::byte> glb = scene::generate_glb({made.kind, made.seed, made.size_m, made.variant});
+    return scene::load_model(made.kind + ".glb", glb, options);
+  } catch (const UserError& error) {
+    throw_user_error_at(source.where, "{}", error.what());
+  }
+}
+
+std::optional<scene::SemanticClass> semantic_class(const std::optional<std::string>& name,
+                                                   const SourceLocation& where) {
+  if (!name) return std::nullopt;
+  const std::vector<std::string>& names = scene::semantic_class_names();
+  for (size_t i = 0; i < names.size(); ++i)
+    if (names[i] == *name) return static_cast<scene::SemanticClass>(i);
+  throw_user_error_at(where, "class: expected one of {}, found '{}'", fmt::join(names, ", "), *name);
+}
+
+dquat orientation_of(const dvec3& yaw_pitch_roll) {
+  return orientation_from_yaw_pitch_roll(yaw_pitch_roll.x, yaw_pitch_roll.y, yaw_pitch_roll.z);
+}
+
+bool never_moves(const NodeConfig& node) {
+  return std::holds_alternative<StaticTrajectory>(node.trajectory) && node.parts.empty();
+}
+
+/// Checks materials before anything runs: one without a row at a carrier is an error of the scenario.
+void check_radio(const Scenario& scenario, const scene::Scene& scene) {
+  const auto check = [&](double carrier_hz, const SourceLocation& where, const std::string& field,
+                         const std::string& what) {
+    try {
+      const rf::RadioSurfaces surfaces(scene, carrier_hz);
+    } catch (const UserError& error) {
+      throw_user_error_at(where, "{}: {}: {}", field, what, error.what());
+    }
+  };
+  for (size_t i = 0; i < scenario.channels.size(); ++i) {
+    const ChannelConfig& channel = scenario.channels[i];
+    check(channel.carrier_hz, channel.where, fmt::format("channels[{}].carrier_hz", i),
+          fmt::format("channel '{}'", channel.name));
+  }
+  for (size_t n = 0; n < scenario.nodes.size(); ++n)
+    for (size_t s = 0; s < scenario.nodes[n].sensors.size(); ++s) {
+      const SensorConfig& sensor = scenario.nodes[n].sensors[s];
+      if (const auto* radar = std::get_if<RadarConfig>(&sensor.config))
+        check(radar->signal.waveform.carrier_hz, sensor.where,
+              fmt::format("nodes[{}].sensors[{}].waveform.carrier_hz", n, s),
+              fmt::format("radar '{}'", sensor.name));
+    }
+}
+
+/// Finds the carrier and the part of each body. `parts` have their names, and nodes their bodies.
+void find_bodies(World& world) {
+  const scene::Scene& scene = world.scene;
+  world.node_of_body.resize(scene.bodies.size());
+  world.part_of_body.resize(scene.bodies.size(), World::no_part);
+  for (uint32_t node = 0; node < world.body_of_node.size(); ++node)
+    if (const uint32_t body = world.body_of_node[node]; body != 0) world.node_of_body[body] = node;
+  for (uint32_t i = 0; i < world.parts.size(); ++i) {
+    Part& part = world.parts[i];
+    part.body = scene.body_index(part.name);
+    world.part_of_body[part.body] = i;
+    world.node_of_body[part.body] = world.node_of_body[scene.owner_of(part.body)];
+  }
+}
+
+}  // namespace
+
+World load_world(const Scenario& scenario) {
+  if (scenario.scene.optical_only && !scenario.channels.empty())
+    throw_user_error_at(scenario.channels[0].where,
+                        "channel '{}': scene.optical_only says that materials may lack radio properties; "
+                        "expected false in a scenario with channels",
+                        scenario.channels[0].name);
+  if (scenario.scene.optical_only)
+    for (const NodeConfig& node : scenario.nodes)
+      for (const SensorConfig& sensor : node.sensors)
+        if (std::holds_alternative<RadarConfig>(sensor.config))
+          throw_user_error_at(sensor.where,
+                              "radar '{}': scene.optical_only says that materials may lack radio properties; "
+                              "expected false in a scenario with radars",
+                              sensor.name);
+  World world;
+  std::deque<scene::Model> models;  // placements point at them
+  std::vector<scene::ModelPlacement> placements;
+  for (const StaticObject& object : scenario.scene.objects) {
+    models.push_back(load(object.model, scenario.scene));
+    placements.push_back({object.name,
+                          &models.back(),
+                          {object.position_m, orientation_of(object.rotation)},
+                          object.scale,
+                          false,
+                          semantic_class(object.semantic_class, object.model.where),
+                          {}});
+  }
+  for (const NodeConfig& node : scenario.nodes) {
+    if (!node.model) continue;
+    models.push_back(load(*node.model, scenario.scene));
+    Pose pose{node.model_mount.position_m, orientation_of(node.model_mount.rotation)};
+    if (never_moves(node)) {
+      const auto& fixed = std::get<StaticTrajectory>(node.trajectory);
+      pose = Pose{fixed.position_m, orientation_of(fixed.rotation)} * pose;
+    }
+    placements.push_back({node.name,
+                          &models.back(),
+                          pose,
+                          node.model_scale,
+                          !never_moves(node),
+                          semantic_class(node.semantic_class, node.where),
+                          {}});
+    for (FoundPart& part : find_parts(node, models.back())) {
+      world.parts.push_back(
+          {node.name + "/" + part.placement.name, 0, part.config->rate, part.config->phase});
+      placements.back().parts.push_back(std::move(part.placement));
+    }
+  }
+  world.scene = scene::build_scene(placements, {scenario.name, scenario.scene.origin_m});
+  for (const NodeConfig& node : scenario.nodes)
+    world.body_of_node.push_back(node.model && !never_moves(node) ? world.scene.body_index(node.name) : 0);
+  find_bodies(world);
+  check_radio(scenario, world.scene);
+  return world;
+}
+
+}  // namespace greatx::sim

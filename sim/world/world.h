@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Defines the scenario's models, loaded and put together: the scene that every sequence shares.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/description/scene.h"
+#include "sim/scenario/scenario.h"
+
+namespace greatx::sim {
+
+/// Describes a body that turns on its node's body: a rotor, a wheel.
+struct Part {
+  std::string name;  ///< the name of its body, NODE/PART, by which its start is drawn
+  uint32_t body = 0;
+  TurnRate rate;
+  std::optional<double> phase;  ///< rad at tick 0; none: drawn
+};
+
+struct World {
+  scene::Scene scene;
+  /// The body that follows each node. 0: the node has no mesh of its own, or never moves (its mesh is then
+  /// part of the static world). A node with parts has a body of its own even if it stands still.
+  std::vector<uint32_t> body_of_node;
+  /// The node that carries each body. [0] means nothing, since body 0 stands still.
+  std::vector<uint32_t> node_of_body;
+  std::vector<Part> parts;
+  static constexpr uint32_t no_part = ~0u;
+  std::vector<uint32_t> part_of_body;  ///< [bodies] into parts, or no_part
+};
+
+/// Loads and generates every model of the scenario. Throws UserError naming file, mesh or material. Parts
+/// that a model does not have, and radio materials that are unknown at a channel's carrier, are found here
+/// and not at the first tick.
+World load_world(const Scenario& scenario);
+
+}  // namespace greatx::sim
