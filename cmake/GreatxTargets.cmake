@@ -17,7 +17,7 @@ target_compile_options(greatx_options INTERFACE -ffp-contract=off)
 # buffers and of containers checked where the compiler and the library know them, all addresses resolved at
 # start and then read-only, no fixed address. tests/apps/check_binaries.py looks for each. Sanitizers have
 # checks of their own, and want none beside. Libraries that only compute, from values that others have
-# checked, go without the checks of containers (greatx_library's COMPUTES): these cost time in their inner
+# checked, go without the checks of containers (greatx_room's COMPUTES): these cost time in their inner
 # loops, and no file of a stranger reaches them.
 if(NOT GREATX_SANITIZE)
   target_compile_options(greatx_options INTERFACE -fstack-protector-strong

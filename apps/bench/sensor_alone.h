@@ -20,7 +20,7 @@ class SensorAlone {
   SensorAlone(gpu::Device& device, sim::Experiment experiment, const sim::SensorPlace& place)
       : experiment_(std::move(experiment)),
         gpu_(device, experiment_.scene(), sim::gpu_scene_options(experiment_.plan)),
-        sensor_(gpu_, experiment_.plan, experiment_.scenario, *experiment_.world, place.node, place.sensor),
+        sensor_(gpu_, experiment_, place.node, place.sensor),
         ring_(device, 2, 4u << 20, 16u << 20) {}
 
   /// Records the moment's tick, and waits until the device is done with it.

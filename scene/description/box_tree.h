@@ -1,4 +1,5 @@
-// SPDX-FileCopyrightText: 2026 The greatx authors SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
 //
 // The tree of boxes of everything on the host that asks a question of its own: triangles near a segment,
 // facets within a beam, pieces of a facet within a tube. Trees with a layout of their own are elsewhere:

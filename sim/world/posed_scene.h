@@ -1,4 +1,5 @@
-// SPDX-FileCopyrightText: 2026 The greatx authors SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 The greatx authors
+// SPDX-License-Identifier: Apache-2.0
 //
 // The scene that cameras look at, posed for any instant of a tick: sub-steps of event cameras, instants
 // within an exposure.

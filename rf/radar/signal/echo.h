@@ -5,8 +5,8 @@
 //
 //   rays over the field of view ─► EchoPass (GPU; EchoTracer where that is a CPU): hits, bounce by bounce, of every ray tube
 //     ─► physical optics of each tube (fp64, host): what it sends back to the receiver
-//     ─► Echo list: tubes merged into scatterers                              ── library radar_echoes ends here
-//     ─► beat signal, cube [rx, tx, chirp, sample] ─► noise                   ── library radar: needs no device
+//     ─► Echo list: tubes merged into scatterers                              ── rf/radar/echoes ends here
+//     ─► beat signal, cube [rx, tx, chirp, sample] ─► noise                   ── rf/radar/signal: needs no device
 //     ─► windows, transforms ─► range-Doppler, range-azimuth maps ─► CFAR ─► detections
 //
 // This header is where the two meet.

@@ -44,18 +44,18 @@ std::string name_of(const NodeConfig& node, uint32_t sensor) {
 
 }  // namespace
 
-LidarSensor::LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
-                         const World& world, uint32_t node, uint32_t sensor)
-    : world_(world),
-      config_(std::get<LidarConfig>(scenario.nodes[node].sensors[sensor].config)),
+LidarSensor::LidarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node,
+                         uint32_t sensor)
+    : world_(*experiment.world),
+      config_(std::get<LidarConfig>(experiment.scenario.nodes[node].sensors[sensor].config)),
       node_(node),
-      seed_(scenario.seed),
-      mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
-      per_shot_(plan.lidar_sweep_motion.on && render::duration_s(config_.scan) > 0.0),
-      unseen_body_(config_.see_own_body ? 0 : world.body_of_node[node]),
-      pass_(gpu_scene, lidar_desc(config_, plan, scenario.environment, unseen_body_),
-            name_of(scenario.nodes[node], sensor)) {
-  describe(scenario.nodes[node].sensors[sensor]);
+      seed_(experiment.scenario.seed),
+      mount_(mount_pose(experiment.scenario.nodes[node].sensors[sensor].mount)),
+      per_shot_(experiment.plan.lidar_sweep_motion.on && render::duration_s(config_.scan) > 0.0),
+      unseen_body_(config_.see_own_body ? 0 : world_.body_of_node[node]),
+      pass_(gpu_scene, lidar_desc(config_, experiment.plan, experiment.scenario.environment, unseen_body_),
+            name_of(experiment.scenario.nodes[node], sensor)) {
+  describe(experiment.scenario.nodes[node].sensors[sensor]);
 }
 
 void LidarSensor::describe(const SensorConfig& sensor) {

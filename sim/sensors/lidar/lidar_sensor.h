@@ -6,17 +6,15 @@
 #include <memory>
 
 #include "renderer/lidar/lidar_pass.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
 /// A LiDAR on a node: each shot from the pose at its own time, at bodies where they are then.
 class LidarSensor : public Sensor {
  public:
-  LidarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
-              const World& world, uint32_t node, uint32_t sensor);
+  LidarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;

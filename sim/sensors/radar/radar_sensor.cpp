@@ -71,24 +71,26 @@ uint32_t instance_called(const scene::Scene& scene, const std::string& radar, co
 
 }  // namespace
 
-RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
-                         const World& world, uint32_t node, uint32_t sensor)
+RadarSensor::RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node,
+                         uint32_t sensor)
     : gpu_scene_(gpu_scene),
-      world_(world),
-      config_(planned(std::get<RadarConfig>(scenario.nodes[node].sensors[sensor].config), plan)),
-      name_(scenario.nodes[node].name + "/" + scenario.nodes[node].sensors[sensor].name),
+      world_(*experiment.world),
+      config_(planned(std::get<RadarConfig>(experiment.scenario.nodes[node].sensors[sensor].config),
+                      experiment.plan)),
+      name_(experiment.scenario.nodes[node].name + "/" +
+            experiment.scenario.nodes[node].sensors[sensor].name),
       node_(node),
-      seed_(scenario.seed),
-      mount_(mount_pose(scenario.nodes[node].sensors[sensor].mount)),
-      transmitter_(transmitter_of(scenario)),
-      receiver_{node, config_.see_own_body ? 0 : world.body_of_node[node], mount_},
-      finder_(gpu_scene, rf::RadioSurfaces(world.scene, config_.signal.waveform.carrier_hz), transmit_end(),
+      seed_(experiment.scenario.seed),
+      mount_(mount_pose(experiment.scenario.nodes[node].sensors[sensor].mount)),
+      transmitter_(transmitter_of(experiment.scenario)),
+      receiver_{node, config_.see_own_body ? 0 : world_.body_of_node[node], mount_},
+      finder_(gpu_scene, rf::RadioSurfaces(world_.scene, config_.signal.waveform.carrier_hz), transmit_end(),
               config_.signal.bistatic || !same_element(transmit_end(), receive_end())
                   ? std::optional(receive_end())
                   : std::nullopt,
-              echo_options(plan, scenario)),
+              echo_options(experiment)),
       processor_(name_, config_.signal, gain_of(transmit_end()), gain_of(receive_end())) {
-  describe(scenario.nodes[node].sensors[sensor]);
+  describe(experiment.scenario.nodes[node].sensors[sensor]);
 }
 
 RadarSensor::Carrier RadarSensor::transmitter_of(const Scenario& scenario) const {
@@ -103,11 +105,11 @@ rf::EchoEnd RadarSensor::end_of(const AntennaConfig& antenna, uint32_t own_body)
   return {antenna.pattern, slant, own_body, name_};
 }
 
-rf::EchoOptions RadarSensor::echo_options(const EffectPlan& plan, const Scenario& scenario) const {
+rf::EchoOptions RadarSensor::echo_options(const Experiment& experiment) const {
   rf::EchoOptions options = config_.echoes;
-  options.roughness = plan.radar_roughness.on;
-  options.diffuse = plan.radar_clutter.on;
-  options.seed = scenario.seed;
+  options.roughness = experiment.plan.radar_roughness.on;
+  options.diffuse = experiment.plan.radar_clutter.on;
+  options.seed = experiment.scenario.seed;
   options.bandwidth_hz = config_.signal.waveform.bandwidth_hz();
   options.beam_rad = beam_of(config_.signal);
   if (config_.signal.receiver.noise_figure_db)

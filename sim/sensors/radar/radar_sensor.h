@@ -7,9 +7,8 @@
 
 #include "rf/radar/echoes/echo_finder.h"
 #include "rf/radar/signal/radar_processor.h"
-#include "sim/plan/effect_plan.h"
+#include "sim/experiment/experiment.h"
 #include "sim/sensors/sensor.h"
-#include "sim/world/world.h"
 
 namespace greatx::sim {
 
@@ -20,8 +19,7 @@ class RadarSensor : public Sensor {
  public:
   /// Throws UserError for a target that is no instance of the scene, and for materials unknown at the
   /// carrier.
-  RadarSensor(scene::GpuScene& gpu_scene, const EffectPlan& plan, const Scenario& scenario,
-              const World& world, uint32_t node, uint32_t sensor);
+  RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor);
 
   const SensorSpec& spec() const override { return spec_; }
   void record(gpu::TickSlot& slot, const TickContext& context) override;
@@ -65,7 +63,7 @@ class RadarSensor : public Sensor {
   rf::EchoEnd end_of(const AntennaConfig& antenna, uint32_t own_body) const;
   rf::EchoEnd transmit_end() const { return end_of(config_.transmit, transmitter_.body); }
   rf::EchoEnd receive_end() const { return end_of(config_.receive, receiver_.body); }
-  rf::EchoOptions echo_options(const EffectPlan& plan, const Scenario& scenario) const;
+  rf::EchoOptions echo_options(const Experiment& experiment) const;
   rf::EchoMotion motion(const TickContext& context, uint32_t update) const;
   void describe(const SensorConfig& sensor);
 

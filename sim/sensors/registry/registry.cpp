@@ -51,14 +51,12 @@ std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
 
 std::unique_ptr<Sensor> make_lidar(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  return std::make_unique<LidarSensor>(p.gpu_scene, p.experiment.plan, p.experiment.scenario,
-                                       *p.experiment.world, at.node, at.sensor);
+  return std::make_unique<LidarSensor>(p.gpu_scene, p.experiment, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_radar(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
-  return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment.plan, p.experiment.scenario,
-                                       *p.experiment.world, at.node, at.sensor);
+  return std::make_unique<RadarSensor>(p.gpu_scene, p.experiment, at.node, at.sensor);
 }
 
 std::unique_ptr<Sensor> make_channel(const SensorParts& p, uint32_t channel) {
