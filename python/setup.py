@@ -52,24 +52,38 @@ class CMakeBuild(build_ext):
             if folder == RELEASE and (others or not configured):
                 continue
             if not configured:
-                self.run_cmake("cmake", "--preset", "release", "-B", folder, "-DGREATX_TESTS=OFF",
-                               f"-DGREATX_PYTHON={sys.executable}")
+                self.run_cmake(
+                    "cmake",
+                    "--preset",
+                    "release",
+                    "-B",
+                    folder,
+                    "-DGREATX_TESTS=OFF",
+                    f"-DGREATX_PYTHON={sys.executable}",
+                )
             self.run_cmake("cmake", "--build", folder, "--target", "greatx_python")
             if module.is_file():
                 return module
-        sys.exit(f"{OWN}: built no _native{SUFFIX}: expected pybind11 and the headers of this Python (scripts/setup.sh), or "
-                 "GREATX_NATIVE=0 to install what reads data sets alone")
+        sys.exit(
+            f"{OWN}: built no _native{SUFFIX}: expected pybind11 and the headers of this Python (scripts/setup.sh), or "
+            "GREATX_NATIVE=0 to install what reads data sets alone"
+        )
 
     def run_cmake(self, *command):
         try:
             subprocess.run([str(part) for part in command], cwd=PROJECT, check=True)
         except (OSError, subprocess.CalledProcessError) as error:
-            sys.exit(f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, GREATX_NATIVE=0 "
-                     "installs what reads data sets alone")
+            sys.exit(
+                f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, GREATX_NATIVE=0 "
+                "installs what reads data sets alone"
+            )
 
 
 # setuptools' own litter goes where all that is built goes.
 scratch = PROJECT / "build" / "pip" if (PROJECT / "CMakePresets.json").is_file() else HERE / "build"
 scratch.mkdir(parents=True, exist_ok=True)
-setup(ext_modules=[Extension("greatx._native", sources=[])] if wanted() else [], cmdclass={"build_ext": CMakeBuild},
-      options={"build": {"build_base": str(scratch)}, "egg_info": {"egg_base": str(scratch)}})
+setup(
+    ext_modules=[Extension("greatx._native", sources=[])] if wanted() else [],
+    cmdclass={"build_ext": CMakeBuild},
+    options={"build": {"build_base": str(scratch)}, "egg_info": {"egg_base": str(scratch)}},
+)

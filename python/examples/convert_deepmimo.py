@@ -28,7 +28,10 @@ out = pathlib.Path("deepmimo_scenarios", name)
 print(out, write_deepmimo(ds, out, channel=csi.name, sequence=sequence.number, layout="users"))
 
 # %% The matrices of each transmitter: [user, path], NaN where there is no path, the strongest first
-matrices = [{key: np.load(out / f"{key}_t000_tx{tx:03}_r001.npz")[key] for key in KEYS} for tx in range(len(transmitters(csi)))]
+matrices = [
+    {key: np.load(out / f"{key}_t000_tx{tx:03}_r001.npz")[key] for key in KEYS}
+    for tx in range(len(transmitters(csi)))
+]
 for key, value in matrices[0].items():
     print(f"  {key:6} {value.shape} {value.dtype}: user 0: {value[0, :4]}")
 
@@ -48,16 +51,26 @@ print(f"H {h.shape}, mean gain {10 * np.log10(max(np.mean(np.abs(h) ** 2), 1e-30
 try:
     import deepmimo
 except ImportError:
-    print(f"no DeepMIMO here: pip install DeepMIMO, then deepmimo.load({name!r}, max_paths={matrices[0]['power'].shape[1]})")
+    print(
+        f"no DeepMIMO here: pip install DeepMIMO, then deepmimo.load({name!r}, max_paths={matrices[0]['power'].shape[1]})"
+    )
 else:
     paths = matrices[0]["power"].shape[1]
     loaded = deepmimo.load(name, max_paths=paths)
     pairs = loaded.datasets if isinstance(loaded, deepmimo.MacroDataset) else [loaded]  # one a transmitter
     one = {"shape": np.array([1, 1])}
     parameters = deepmimo.ChannelParameters(
-        num_paths=paths, bs_antenna=one, ue_antenna=one,
-        ofdm={"subcarriers": csi.subcarriers, "bandwidth": csi.subcarriers * csi.subcarrier_spacing_hz,
-              "selected_subcarriers": np.arange(len(f))})
-    theirs = np.stack([pair.compute_channels(parameters)[:, 0, 0] for pair in pairs]) * np.sqrt(csi.subcarriers)
+        num_paths=paths,
+        bs_antenna=one,
+        ue_antenna=one,
+        ofdm={
+            "subcarriers": csi.subcarriers,
+            "bandwidth": csi.subcarriers * csi.subcarrier_spacing_hz,
+            "selected_subcarriers": np.arange(len(f)),
+        },
+    )
+    theirs = np.stack([pair.compute_channels(parameters)[:, 0, 0] for pair in pairs]) * np.sqrt(
+        csi.subcarriers
+    )
     difference = np.abs(theirs - h).max() / max(np.abs(h).max(), 1e-30)
     print(f"DeepMIMO's channel differs by at most {difference:.1e} of the largest")

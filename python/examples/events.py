@@ -19,14 +19,18 @@ ds = greatx.load(sys.argv[1])
 camera = ds.sequences[0].first("event_camera", ["t", "x", "y", "p"])
 events = camera.events()
 duration_s = max(camera.times_s[-1] - camera.times_s[0], 1e-9)
-print(f"{camera.name}: {len(events)} events, {len(events) / duration_s / 1e6:.2f} million a second, "
-      f"{100 * np.mean(events.p):.0f} % brighter, {int(camera.dropped.sum())} left out")
+print(
+    f"{camera.name}: {len(events)} events, {len(events) / duration_s / 1e6:.2f} million a second, "
+    f"{100 * np.mean(events.p):.0f} % brighter, {int(camera.dropped.sum())} left out"
+)
 
 # %% From one record to the next: as many intervals as a camera of that rate has pictures
 counts = np.diff(camera["t"].offsets)
 busiest = int(np.argmax(counts))
 record = camera.record(busiest)
-print(f"record {busiest} at {record.time_s:g} s is the busiest: {counts[busiest]} events in {record.pictures} sub-steps")
+print(
+    f"record {busiest} at {record.time_s:g} s is the busiest: {counts[busiest]} events in {record.pictures} sub-steps"
+)
 
 # %% A picture of 10 ms for people: red brighter, blue darker
 moment = events.between(record.time_ns - 10_000_000, record.time_ns)

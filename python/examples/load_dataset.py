@@ -22,7 +22,9 @@ csi = sequence.first("csi", ["cfr", "delay"])
 
 # %% The channel over time: complex64 [record, rx, rx_ant, tx, tx_ant, time, subcarrier], memory-mapped
 h = csi.cfr
-print(f"{csi.name}: H {h.shape} {h.dtype} at {csi.carrier_hz / 1e9:g} GHz, spacing {csi.subcarrier_spacing_hz / 1e3:g} kHz")
+print(
+    f"{csi.name}: H {h.shape} {h.dtype} at {csi.carrier_hz / 1e9:g} GHz, spacing {csi.subcarrier_spacing_hz / 1e3:g} kHz"
+)
 
 # %% Line of sight or not, and the gain of each: receiver 0, transmitter 0
 los = np.reshape(csi.line_of_sight, (len(csi), -1))[:, 0] == 1
@@ -36,7 +38,9 @@ record = csi.record(len(csi) // 2)
 paths = record.paths(rx=0, tx=0)
 for i in np.argsort(-np.abs(paths["transfer"][:, 0, 0]))[:5]:
     kinds = "".join("-RTDS"[k] for k in paths["interaction"][i] if k) or "line of sight"
-    print(f"  {paths['delay'][i] * 1e9:8.2f} ns  {paths['doppler'][i]:8.2f} Hz  {kinds:15} id {paths['id'][i]:016x}")
+    print(
+        f"  {paths['delay'][i] * 1e9:8.2f} ns  {paths['doppler'][i]:8.2f} Hz  {kinds:15} id {paths['id'][i]:016x}"
+    )
 
 # %% What the other sensors saw at the same tick
 tick = sequence.at(record.tick)
@@ -50,14 +54,20 @@ profile_db = 20 * np.log10(np.abs(np.fft.ifft(h[:, 0, 0, 0, 0, 0] * window, axis
 print(f"delay profile {profile_db.shape}, strongest bin at record 0: {profile_db[0].argmax()}")
 try:
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 except ImportError:
     print("no matplotlib: no picture")
 else:
     step_ns = 1e9 / (csi.subcarrier_spacing_hz * h.shape[-1])
-    plt.imshow(profile_db.T, origin="lower", aspect="auto", vmin=profile_db.max() - 50,
-               extent=(csi.times_s[0], csi.times_s[-1] + 1e-9, 0, step_ns * h.shape[-1]))
+    plt.imshow(
+        profile_db.T,
+        origin="lower",
+        aspect="auto",
+        vmin=profile_db.max() - 50,
+        extent=(csi.times_s[0], csi.times_s[-1] + 1e-9, 0, step_ns * h.shape[-1]),
+    )
     plt.xlabel("time, s")
     plt.ylabel("delay, ns")
     plt.colorbar(label="dB")

@@ -14,7 +14,9 @@ import greatx
 if len(sys.argv) > 2:
     sim = greatx.Simulation.from_scene(sys.argv[1], radio_materials=sys.argv[2])
 else:
-    sim = greatx.Simulation({"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}})
+    sim = greatx.Simulation(
+        {"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}}
+    )
 print(sim.scene["triangles"], "triangles within", sim.scene["bounds_m"])
 
 # %% A base station with 4 x 8 cross-polarized elements at 28 GHz, two phones
@@ -30,20 +32,28 @@ link = paths.link(rx=0)
 for i in np.argsort(-np.abs(link["transfer"]).max(axis=(1, 2)))[:5]:
     kinds = "".join("-RTDS"[k] for k in link["interaction"][i] if k) or "line of sight"
     zenith, azimuth = np.degrees(link["departure"][i])
-    print(f"  {link['delay'][i] * 1e9:8.2f} ns  leaves at zenith {zenith:5.1f}, azimuth {azimuth:6.1f} deg  {kinds}")
+    print(
+        f"  {link['delay'][i] * 1e9:8.2f} ns  leaves at zenith {zenith:5.1f}, azimuth {azimuth:6.1f} deg  {kinds}"
+    )
 
 # %% What is made of them: every array is [rx, ..., tx, ...]
 h = paths.cfr()  # complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]
 wide = paths.cfr(bandwidth_hz=800e6, subcarriers=64)
 los, rest = (np.linalg.norm(paths.cfr(select=part)) for part in ("line_of_sight", "others"))
-print(f"H {h.shape} {h.dtype}, at twice the bandwidth {wide.shape}; |line of sight| / |others| = {los / max(rest, 1e-30):.2f}")
+print(
+    f"H {h.shape} {h.dtype}, at twice the bandwidth {wide.shape}; |line of sight| / |others| = {los / max(rest, 1e-30):.2f}"
+)
 a, tau = paths.cir()
 taps = paths.taps(100e6)
-print(f"impulse response {a.shape}, taps {taps.taps.shape}, of the power {taps.power_outside.max():.1e} outside")
+print(
+    f"impulse response {a.shape}, taps {taps.taps.shape}, of the power {taps.power_outside.max():.1e} outside"
+)
 stats = paths.statistics()
 for rx, name in enumerate(paths.receivers):
-    print(f"  {name}: {stats.path_count[rx, 0]} paths, path loss {-10 * np.log10(stats.path_gain[rx, 0]):.1f} dB, "
-          f"delay spread {stats.delay_spread[rx, 0] * 1e9:.1f} ns, K {10 * np.log10(stats.k_factor[rx, 0]):.1f} dB")
+    print(
+        f"  {name}: {stats.path_count[rx, 0]} paths, path loss {-10 * np.log10(stats.path_gain[rx, 0]):.1f} dB, "
+        f"delay spread {stats.delay_spread[rx, 0] * 1e9:.1f} ns, K {10 * np.log10(stats.k_factor[rx, 0]):.1f} dB"
+    )
 print(f"received of 1 W: {10 * np.log10(paths.received(1.0).mean_power_w[:, 0] * 1e3)} dBm")
 
 # %% Along a line, receivers without names: the search from the base station is kept

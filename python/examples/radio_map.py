@@ -11,9 +11,13 @@ import numpy as np
 import greatx
 
 # %% Two base stations in a generated street
-sim = greatx.Simulation({"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}})
+sim = greatx.Simulation(
+    {"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}}
+)
 for name, position, target in (("south", [6.3, -40, 8], [0, 0, 1.5]), ("north", [-6.3, 40, 8], [0, 0, 1.5])):
-    sim.place_transmitter(name, position, look_at=target, array=greatx.Array(pattern="tr38901", polarization="v"))
+    sim.place_transmitter(
+        name, position, look_at=target, array=greatx.Array(pattern="tr38901", polarization="v")
+    )
 sim.add_channel("coverage", carrier_hz=3.5e9, bandwidth_hz=20e6, subcarriers=64, max_depth=2)
 
 # %% The map: each cell has the paths of a receiver put there, 1.5 m above the ground
@@ -23,7 +27,9 @@ print(coverage.facts["height"], coverage.rss.shape, coverage.unit("rss"))
 free = coverage.placement == 0
 for tx, name in enumerate(coverage.transmitters):
     share = np.mean(coverage.best_server[free] == tx)
-    print(f"  {name}: serves {100 * share:.0f} % of the free cells, median {np.median(coverage.rss[tx][free]):.1f} dBm")
+    print(
+        f"  {name}: serves {100 * share:.0f} % of the free cells, median {np.median(coverage.rss[tx][free]):.1f} dBm"
+    )
 
 # %% A cell is a receiver put there, to the bit
 row, column = np.argwhere(free)[len(np.argwhere(free)) // 2]
@@ -37,6 +43,7 @@ row, column = np.unravel_index(np.argmin(best), best.shape)
 print(f"weakest: {best[row, column]:.1f} dBm at x {coverage.x[column]:.0f}, y {coverage.y[row]:.0f} m")
 try:
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 except ImportError:

@@ -34,9 +34,13 @@ for tick in run:
         loss_db.append(10 * np.log10(values[-1] / max(kept, 1e-12 * values[-1])))
     beam = best
     seen = {name: r["depth"].shape for name, r in tick.items() if "depth" in r}
-    print(f"  {tick.time_s:5.2f} s: {record.path_count[0, 0]} paths, gain {10 * np.log10(values[-1] + 1e-30):6.1f} dB, {seen}")
+    print(
+        f"  {tick.time_s:5.2f} s: {record.path_count[0, 0]} paths, gain {10 * np.log10(values[-1] + 1e-30):6.1f} dB, {seen}"
+    )
 
 # %% What an old beam costs
 if loss_db:
-    print(f"a beam that is a tick old loses {np.mean(loss_db):.2f} dB on average, {np.max(loss_db):.2f} dB at worst")
+    print(
+        f"a beam that is a tick old loses {np.mean(loss_db):.2f} dB on average, {np.max(loss_db):.2f} dB at worst"
+    )
 print({name: count for name, count in run.summary()["counters"].items() if count})

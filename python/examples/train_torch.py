@@ -74,4 +74,6 @@ for epoch in range(40):
         optimizer.step()
     if epoch % 10 == 9:
         with torch.no_grad():
-            print(f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB on ticks it never saw")
+            print(
+                f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB on ticks it never saw"
+            )

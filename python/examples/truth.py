@@ -19,13 +19,19 @@ import greatx
 
 def write_png(path, rgb):
     """u8 [h, w, 3]"""
+
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
     h, w, _ = rgb.shape
     rows = np.concatenate([np.zeros((h, 1), np.uint8), rgb.reshape(h, 3 * w)], axis=1).tobytes()
     with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0)) +
-                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        file.write(
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows))
+            + chunk(b"IEND", b"")
+        )
 
 
 # %% The middle record of the first camera with flow and boxes
@@ -57,8 +63,10 @@ for i in np.flatnonzero(record.box_visible_pixels):
     for box, ink in ((record.box_amodal[i], (255, 220, 0)), (record.box_modal[i], (0, 255, 0))):
         u0, v0, u1, v1 = (int(x) for x in box)
         u1, v1 = min(u1, picture.shape[1] - 1), min(v1, picture.shape[0] - 1)
-        picture[v0:v1 + 1, [u0, u1]] = picture[[v0, v1], u0:u1 + 1] = ink
+        picture[v0 : v1 + 1, [u0, u1]] = picture[[v0, v1], u0 : u1 + 1] = ink
 write_png("boxes.png", picture)
 for i in np.argsort(record.box_visible_pixels)[:-6:-1]:
-    print(f"  {ds.semantic_classes[record.box_semantic[i]]:12} {np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
-          f"{record.box_visible_pixels[i]:6} pixels, visibility {record.box_visibility[i]:.2f}")
+    print(
+        f"  {ds.semantic_classes[record.box_semantic[i]]:12} {np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
+        f"{record.box_visible_pixels[i]:6} pixels, visibility {record.box_visibility[i]:.2f}"
+    )

@@ -22,8 +22,25 @@ from .stream import Run
 from .tables import Arrays
 
 __version__ = "0.1.0"
-__all__ = ["Array", "Arrays", "Dataset", "DatasetError", "Error", "Events", "Frames", "Paths", "RadioMap", "Ragged", "Record", "Run",
-           "Samples", "Sensor", "Sequence", "Tick", "load"]
+__all__ = [
+    "Array",
+    "Arrays",
+    "Dataset",
+    "DatasetError",
+    "Error",
+    "Events",
+    "Frames",
+    "Paths",
+    "RadioMap",
+    "Ragged",
+    "Record",
+    "Run",
+    "Samples",
+    "Sensor",
+    "Sequence",
+    "Tick",
+    "load",
+]
 
 #: What needs greatx._native.
 NATIVE = ("Simulation",)
@@ -35,9 +52,11 @@ def __getattr__(name: str) -> Any:
     try:
         from . import simulation
     except ImportError as error:
-        raise ImportError(f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
-                          "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the project's "
-                          "folder (docs/python.md)") from error
+        raise ImportError(
+            f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
+            "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the project's "
+            "folder (docs/python.md)"
+        ) from error
     return getattr(simulation, name)
 
 

@@ -28,6 +28,7 @@ class Array:
     row_spacing_wl, column_spacing_wl   wavelengths, default 0.5
     elements_wl         [[x, y, z], ...] wavelengths: elements wherever they are, in place of the five above
     """
+
     rows: Optional[int] = None
     columns: Optional[int] = None
     pattern: Optional[str] = None

@@ -18,8 +18,10 @@ def _open(path: pathlib.Path, dtype: np.dtype, wanted: Tuple[int, ...]) -> np.nd
     array = load_npy(path, mmap_mode="r")
     fits = array.ndim == len(wanted) and all(w in (-1, n) for w, n in zip(wanted, array.shape))
     if not fits or array.dtype != dtype:
-        raise DatasetError(f"{path}: expected {dtype.name} {list(wanted)} (dataset.json and index.npy), "
-                           f"found {array.dtype.name} {list(array.shape)}")
+        raise DatasetError(
+            f"{path}: expected {dtype.name} {list(wanted)} (dataset.json and index.npy), "
+            f"found {array.dtype.name} {list(array.shape)}"
+        )
     return array
 
 
@@ -44,9 +46,16 @@ class Ragged:
         offsets = load_npy(path)
         if offsets.dtype != np.int64:
             raise DatasetError(f"{path}: expected int64, found {offsets.dtype.name}")
-        if offsets.shape != (records + 1,) or offsets[0] != 0 or offsets[-1] != len(values) or np.any(np.diff(offsets) < 0):
-            raise DatasetError(f"{path}: expected {records + 1} offsets from 0 up to {len(values)}, found "
-                               f"{list(offsets.shape)}{f' from {offsets[0]} to {offsets[-1]}' if offsets.size else ''}")
+        if (
+            offsets.shape != (records + 1,)
+            or offsets[0] != 0
+            or offsets[-1] != len(values)
+            or np.any(np.diff(offsets) < 0)
+        ):
+            raise DatasetError(
+                f"{path}: expected {records + 1} offsets from 0 up to {len(values)}, found "
+                f"{list(offsets.shape)}{f' from {offsets[0]} to {offsets[-1]}' if offsets.size else ''}"
+            )
         return cls(values, offsets)
 
     @property
@@ -61,7 +70,7 @@ class Ragged:
         if not -len(self) <= i < len(self):
             raise IndexError(f"record {i} of {len(self)}")
         i = int(i) % len(self)
-        return self.values[self.offsets[i]:self.offsets[i + 1]]
+        return self.values[self.offsets[i] : self.offsets[i + 1]]
 
     def __iter__(self) -> Iterator[np.ndarray]:
         return (self[i] for i in range(len(self)))
@@ -74,7 +83,9 @@ class Frames:
     """One file a record. frames[i] reads and decodes the file of record i: an array, or a dict of arrays by
     name for the files that hold several. A slice gives a list."""
 
-    def __init__(self, folder: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo], samples: np.ndarray):
+    def __init__(
+        self, folder: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo], samples: np.ndarray
+    ):
         self.folder = folder
         self._output = output
         self._array = array

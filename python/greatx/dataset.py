@@ -6,7 +6,18 @@ from __future__ import annotations
 import os
 import pathlib
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence as SequenceOf, Union
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Dict,
+    Iterable,
+    Iterator,
+    List,
+    Mapping,
+    Optional,
+    Sequence as SequenceOf,
+    Union,
+)
 
 import numpy as np
 
@@ -48,16 +59,28 @@ class Dataset:
         self.sensors: Dict[str, SensorInfo] = parse_sensors(fields)
         self.complete = inside(self.path, "manifest.json").is_file()
         self.tick_rate_hz = fields["tick_rate_hz"].rate()
-        self._ticks = fields["ticks_per_sequence"].integer(0, MOST_TICKS) if "ticks_per_sequence" in fields else MOST_TICKS
+        self._ticks = (
+            fields["ticks_per_sequence"].integer(0, MOST_TICKS)
+            if "ticks_per_sequence" in fields
+            else MOST_TICKS
+        )
         count = fields["sequences"].integer(1, MOST_SEQUENCES)
         there = {entry.name for entry in os.scandir(self.path) if entry.name.startswith("sequence_")}
-        whole = [i for i in range(count) if f"sequence_{i:04d}" in there
-                 and inside(self.path, f"sequence_{i:04d}/index.npy").is_file()]
+        whole = [
+            i
+            for i in range(count)
+            if f"sequence_{i:04d}" in there and inside(self.path, f"sequence_{i:04d}/index.npy").is_file()
+        ]
         if not self.complete:
-            state = f"{self.path}: is incomplete (no manifest.json): {len(whole)} of {count} sequences are whole"
+            state = (
+                f"{self.path}: is incomplete (no manifest.json): {len(whole)} of {count} sequences are whole"
+            )
             if not incomplete or not whole:
-                raise DatasetError(state + "; finish it with `greatx generate --resume`"
-                                   + (", or load what is whole with incomplete=True" if whole else ""))
+                raise DatasetError(
+                    state
+                    + "; finish it with `greatx generate --resume`"
+                    + (", or load what is whole with incomplete=True" if whole else "")
+                )
             warnings.warn(state, stacklevel=3)
         elif len(whole) < count:
             missing = next(n for n, i in enumerate([*whole, -1]) if n != i)
@@ -103,7 +126,9 @@ class Dataset:
     def single(self) -> "Sequence":
         """The sequence of a data set that has one; DatasetError if it has several."""
         if len(self.sequences) != 1:
-            raise DatasetError(f"{self.path}: has {len(self.sequences)} sequences: say which one, as in ds.sequences[0]")
+            raise DatasetError(
+                f"{self.path}: has {len(self.sequences)} sequences: say which one, as in ds.sequences[0]"
+            )
         return self.sequences[0]
 
     def __getitem__(self, sensor: str) -> "Sensor":
@@ -114,26 +139,37 @@ class Dataset:
         """Every sensor's record of a tick, of the only sequence."""
         return self.single().at(tick)
 
-    def samples(self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None,
-                pad: bool = False) -> "Samples":
+    def samples(
+        self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None, pad: bool = False
+    ) -> "Samples":
         """One dict of NumPy arrays a tick: see greatx.samples.Samples. Needs no torch."""
         from .samples import Samples
+
         return Samples(self, arrays, sequences, pad)
 
-    def torch(self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None, pad: bool = False,
-              transform: Any = None) -> Any:
+    def torch(
+        self,
+        arrays: Union[str, Iterable[str]],
+        sequences: Optional[Iterable[int]] = None,
+        pad: bool = False,
+        transform: Any = None,
+    ) -> Any:
         """A torch.utils.data.Dataset, map-style: one dict of tensors a tick. The arguments are those of
         greatx.samples.Samples; `transform` maps each dict. ImportError without torch."""
         try:
             from .torch_dataset import TorchDataset
         except ImportError as error:
-            raise ImportError(f"Dataset.torch needs PyTorch (`pip install torch`): {error}. "
-                              "Dataset.samples gives the same as NumPy arrays") from error
+            raise ImportError(
+                f"Dataset.torch needs PyTorch (`pip install torch`): {error}. "
+                "Dataset.samples gives the same as NumPy arrays"
+            ) from error
         return TorchDataset(self.samples(arrays, sequences, pad), transform)
 
     def __repr__(self) -> str:
-        return (f"<greatx.Dataset {str(self.path)!r}: {len(self.sequences)} sequences, tick rate {self.tick_rate_hz} Hz, "
-                f"sensors {', '.join(self.sensors)}>")
+        return (
+            f"<greatx.Dataset {str(self.path)!r}: {len(self.sequences)} sequences, tick rate {self.tick_rate_hz} Hz, "
+            f"sensors {', '.join(self.sensors)}>"
+        )
 
 
 class Sequence:
@@ -148,19 +184,24 @@ class Sequence:
         self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
         #: int64 [ticks]: at which something was recorded, ascending
         self.ticks: np.ndarray = np.unique(self.index[:, 0])
-        self.sensors: Dict[str, Sensor] = {name: Sensor(self, i, info)
-                                           for i, (name, info) in enumerate(dataset.sensors.items())}
+        self.sensors: Dict[str, Sensor] = {
+            name: Sensor(self, i, info) for i, (name, info) in enumerate(dataset.sensors.items())
+        }
 
     def _read_index(self, path: pathlib.Path) -> np.ndarray:
         index = load_npy(path)
         if index.ndim != 2 or index.shape[1] != len(INDEX_COLUMNS) or index.dtype != np.int64:
-            raise DatasetError(f"{path}: expected int64 [records, {len(INDEX_COLUMNS)}], found {index.dtype.name} "
-                               f"{list(index.shape)}")
+            raise DatasetError(
+                f"{path}: expected int64 [records, {len(INDEX_COLUMNS)}], found {index.dtype.name} "
+                f"{list(index.shape)}"
+            )
         most = (self.dataset._ticks - 1, 2**62, len(self.dataset.sensors) - 1, MOST_TICKS, MOST_TICKS)
         for column, (name, limit) in enumerate(zip(INDEX_COLUMNS, most)):
             bad = np.flatnonzero((index[:, column] < 0) | (index[:, column] > limit))
             if len(bad):
-                raise DatasetError(f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, found {index[bad[0], column]}")
+                raise DatasetError(
+                    f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, found {index[bad[0], column]}"
+                )
         ticks, sensors = index[:, 0], index[:, 2]
         back = np.flatnonzero((np.diff(ticks) < 0) | ((np.diff(ticks) == 0) & (np.diff(sensors) <= 0)))
         if len(back):
@@ -171,7 +212,9 @@ class Sequence:
         try:
             return self.sensors[sensor]
         except KeyError:
-            raise KeyError(f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}") from None
+            raise KeyError(
+                f"{self.dataset.path}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}"
+            ) from None
 
     def first(self, kind: str, arrays: Iterable[str] = ()) -> "Sensor":
         """The first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of these
@@ -181,8 +224,11 @@ class Sequence:
             if sensor.kind == kind and len(sensor) and all(name in sensor for name in wanted):
                 return sensor
         has = ", ".join(f"{s.name} ({s.kind}, {len(s)} records)" for s in self.sensors.values()) or "none"
-        raise DatasetError(f"{self.path}: expected a sensor of kind {kind!r} with records"
-                           + (f" of {', '.join(wanted)}" if wanted else "") + f", found {has}")
+        raise DatasetError(
+            f"{self.path}: expected a sensor of kind {kind!r} with records"
+            + (f" of {', '.join(wanted)}" if wanted else "")
+            + f", found {has}"
+        )
 
     @property
     def poses(self) -> "Sensor":
@@ -197,11 +243,22 @@ class Sequence:
         """Every sensor's record of a tick."""
         first, last = np.searchsorted(self.index[:, 0], [tick, tick + 1])
         if first == last:
-            raise KeyError(f"{self.path}: nothing was recorded at tick {tick}; ticks are {self.ticks[0]} to "
-                           f"{self.ticks[-1]}, {len(self.ticks)} of them" if len(self.ticks) else f"{self.path}: is empty")
+            raise KeyError(
+                f"{self.path}: nothing was recorded at tick {tick}; ticks are {self.ticks[0]} to "
+                f"{self.ticks[-1]}, {len(self.ticks)} of them"
+                if len(self.ticks)
+                else f"{self.path}: is empty"
+            )
         names = list(self.sensors)
-        return Tick(int(tick), int(self.index[first, 1]), self,
-                    {names[s]: Record(self.sensors[names[s]], int(row)) for s, row in self.index[first:last][:, [2, 4]]})
+        return Tick(
+            int(tick),
+            int(self.index[first, 1]),
+            self,
+            {
+                names[s]: Record(self.sensors[names[s]], int(row))
+                for s, row in self.index[first:last][:, [2, 4]]
+            },
+        )
 
     def __iter__(self) -> Iterator["Tick"]:
         return (self.at(int(tick)) for tick in self.ticks)
@@ -284,6 +341,7 @@ class Sensor:
         """Of an event camera: the events of records first to last - 1, of all of them by default; views of
         the files."""
         from .events import Events
+
         return Events.of(self, first, len(self) if last is None else last)
 
     def __iter__(self) -> Iterator["Record"]:
@@ -317,7 +375,9 @@ class Sensor:
                 return self[name]
             if name in self.metadata:
                 return self.metadata[name]
-        raise AttributeError(f"{self.__dict__.get('name', 'a sensor')} has neither an array nor metadata {name!r}")
+        raise AttributeError(
+            f"{self.__dict__.get('name', 'a sensor')} has neither an array nor metadata {name!r}"
+        )
 
     def __dir__(self) -> SequenceOf[str]:
         return sorted({*super().__dir__(), *self.arrays, *self.metadata})
@@ -363,17 +423,21 @@ class Record:
         sensor = self.__dict__.get("sensor")  # none while a copy is being made
         if sensor is not None and not name.startswith("_") and name in sensor:
             return self[name]
-        raise AttributeError(f"a record of {sensor.name if sensor is not None else 'a sensor'} has no array {name!r}")
+        raise AttributeError(
+            f"a record of {sensor.name if sensor is not None else 'a sensor'} has no array {name!r}"
+        )
 
     def paths(self, rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
         """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see
         greatx.links)."""
         from .links import paths_of
+
         return paths_of(self, rx, tx)
 
     def events(self) -> "Events":
         """Of an event camera: the events since its record before (see greatx.Events)."""
         from .events import Events
+
         return Events.of(self.sensor, self.row, self.row + 1)
 
     def __repr__(self) -> str:

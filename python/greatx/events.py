@@ -37,19 +37,35 @@ class Events:
             raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")
         begin, end = (int(sensor["t"].offsets[i]) for i in (first, last))
         for name, kind in (("x", np.uint16), ("y", np.uint16), ("p", np.uint8), ("t", np.int64)):
-            if name not in sensor.arrays or sensor.arrays[name].dtype != kind or sensor.arrays[name].shape != (-1,):
-                raise DatasetError(f"{sensor.metadata.where}: expected an event camera's array {name!r}, {np.dtype(kind).name} [n]")
+            if (
+                name not in sensor.arrays
+                or sensor.arrays[name].dtype != kind
+                or sensor.arrays[name].shape != (-1,)
+            ):
+                raise DatasetError(
+                    f"{sensor.metadata.where}: expected an event camera's array {name!r}, {np.dtype(kind).name} [n]"
+                )
             if not np.array_equal(sensor[name].offsets, sensor["t"].offsets):
-                raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected as many of {name!r} as of 't' in each record")
-        columns = {name: sensor[name].values[begin:end] for name in ("t", "x", "y", "p", "instance") if name in sensor.arrays}
+                raise DatasetError(
+                    f"{sensor.sequence.path / sensor.name}: expected as many of {name!r} as of 't' in each record"
+                )
+        columns = {
+            name: sensor[name].values[begin:end]
+            for name in ("t", "x", "y", "p", "instance")
+            if name in sensor.arrays
+        }
         size = Field(sensor.metadata.where, sensor.metadata)
         width, height = (size[side].integer(1, 65536) for side in ("width", "height"))
         for name, side in (("x", width), ("y", height)):
             if end > begin and columns[name].max() >= side:
-                raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected {name} below {side}, found "
-                                   f"{columns[name].max()}")
+                raise DatasetError(
+                    f"{sensor.sequence.path / sensor.name}: expected {name} below {side}, found "
+                    f"{columns[name].max()}"
+                )
         if end > begin and columns["p"].max() > 1:
-            raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected p of 0 and 1, found {columns['p'].max()}")
+            raise DatasetError(
+                f"{sensor.sequence.path / sensor.name}: expected p of 0 and 1, found {columns['p'].max()}"
+            )
         return cls(width=width, height=height, **columns)
 
     def __len__(self) -> int:
@@ -58,13 +74,23 @@ class Events:
     def between(self, begin_ns: int, end_ns: int) -> "Events":
         """Those with begin_ns < t <= end_ns, as records hold them from one tick to the next."""
         part = slice(*np.searchsorted(self.t, [begin_ns, end_ns], side="right"))
-        return dataclasses.replace(self, t=self.t[part], x=self.x[part], y=self.y[part], p=self.p[part],
-                                   instance=None if self.instance is None else self.instance[part])
+        return dataclasses.replace(
+            self,
+            t=self.t[part],
+            x=self.x[part],
+            y=self.y[part],
+            p=self.p[part],
+            instance=None if self.instance is None else self.instance[part],
+        )
 
     def counts(self) -> np.ndarray:
         """int32 [2, height, width]: how many darker and brighter events each pixel had."""
         bins = (self.p.astype(np.int64) * self.height + self.y) * self.width + self.x
-        return np.bincount(bins, minlength=2 * self.height * self.width).reshape(2, self.height, self.width).astype(np.int32)
+        return (
+            np.bincount(bins, minlength=2 * self.height * self.width)
+            .reshape(2, self.height, self.width)
+            .astype(np.int32)
+        )
 
     def frame(self) -> np.ndarray:
         """int32 [height, width]: brighter less darker. Times the threshold it is the change of
@@ -86,8 +112,11 @@ class Events:
             polarity = 2.0 * self.p - 1.0
             for bin_, weight in ((low, low + 1 - time), (low + 1, time - low)):
                 inside = (bin_ >= 0) & (bin_ < bins)
-                grid += np.bincount(bin_[inside] * self.height * self.width + pixel[inside],
-                                    (polarity * weight)[inside], minlength=grid.size)
+                grid += np.bincount(
+                    bin_[inside] * self.height * self.width + pixel[inside],
+                    (polarity * weight)[inside],
+                    minlength=grid.size,
+                )
         return grid.reshape(bins, self.height, self.width).astype(np.float32)
 
     def picture(self) -> np.ndarray:

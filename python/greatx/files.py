@@ -28,8 +28,20 @@ LARGEST_JSON = 64 << 20
 MOST_SEQUENCES, MOST_TICKS, MOST_SENSORS, MOST_ARRAYS, MOST_AXES = 10**6, 10**12, 10**4, 256, 16
 
 #: What the parsers of Python and NumPy raise when they are given nonsense.
-NONSENSE = (ArithmeticError, AttributeError, EOFError, LookupError, MemoryError, RecursionError, SyntaxError, TypeError, ValueError,
-            struct.error, tokenize.TokenError, zlib.error)
+NONSENSE = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    RecursionError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    struct.error,
+    tokenize.TokenError,
+    zlib.error,
+)
 
 
 @contextlib.contextmanager
@@ -78,8 +90,10 @@ def check_plain(path: Path, most: int = LARGEST) -> None:
     with reading(path):
         status = os.lstat(path)
     if not stat.S_ISREG(status.st_mode):
-        raise DatasetError(f"{path}: expected a file, found "
-                           + ("a symbolic link" if stat.S_ISLNK(status.st_mode) else "something else"))
+        raise DatasetError(
+            f"{path}: expected a file, found "
+            + ("a symbolic link" if stat.S_ISLNK(status.st_mode) else "something else")
+        )
     if status.st_size > most:
         raise DatasetError(f"{path}: expected at most {most} bytes, found {status.st_size}")
 
@@ -121,7 +135,9 @@ class Field:
 
     def fail(self, expected: str) -> DatasetError:
         name = ascii(self.name)[1:-1]
-        return DatasetError(f"{self.file}: {name}{': ' if name else ''}expected {expected}, found {_show(self.value)}")
+        return DatasetError(
+            f"{self.file}: {name}{': ' if name else ''}expected {expected}, found {_show(self.value)}"
+        )
 
     def __contains__(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value
@@ -130,7 +146,9 @@ class Field:
         if not isinstance(self.value, dict):
             raise self.fail("an object")
         if key not in self.value:
-            raise DatasetError(f"{self.file}: {self.name}{'.' if self.name else ''}{key}: expected a value, found none")
+            raise DatasetError(
+                f"{self.file}: {self.name}{'.' if self.name else ''}{key}: expected a value, found none"
+            )
         return Field(self.file, self.value[key], f"{self.name}{'.' if self.name else ''}{key}")
 
     def items(self, most: int) -> List["Field"]:
@@ -162,7 +180,9 @@ class Field:
     def rate(self) -> Fraction:
         """A positive rational number of Hz, numerator and denominator up to 10^12."""
         text = self.text()
-        if re.fullmatch(r"[0-9]{1,19}(/[0-9]{1,19}|\.[0-9]{1,19})?", text, re.ASCII) and not re.search(r"/0+$", text):
+        if re.fullmatch(r"[0-9]{1,19}(/[0-9]{1,19}|\.[0-9]{1,19})?", text, re.ASCII) and not re.search(
+            r"/0+$", text
+        ):
             rate = Fraction(text)
             if 0 < rate.numerator <= 10**12 and rate.denominator <= 10**12:
                 return rate

@@ -24,15 +24,28 @@ _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _EXR_MAGIC = 20000630
 _EXR_LINES = {0: 1, 2: 1, 3: 16}  # lines in a block: none, ZIPS, ZIP
 _EXR_TYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
-_PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
-              "float": "<f4", "double": "<f8"}
-_PCD_TYPES = {code + size: "<" + code.lower() + size for code, sizes in (("U", "1248"), ("I", "1248"), ("F", "48"))
-              for size in sizes}
+_PLY_TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "<i2",
+    "ushort": "<u2",
+    "int": "<i4",
+    "uint": "<u4",
+    "float": "<f4",
+    "double": "<f8",
+}
+_PCD_TYPES = {
+    code + size: "<" + code.lower() + size
+    for code, sizes in (("U", "1248"), ("I", "1248"), ("F", "48"))
+    for size in sizes
+}
 
 
 def _check_shape(path: Path, found: Tuple[int, ...], itemsize: int, expected: Shape) -> None:
     """Before room is made for a picture, whose file may say anything."""
-    fits = expected is None or (len(found) == len(expected) and all(e in (-1, f) for e, f in zip(expected, found)))
+    fits = expected is None or (
+        len(found) == len(expected) and all(e in (-1, f) for e, f in zip(expected, found))
+    )
     if not fits:
         raise DatasetError(f"{path}: expected {list(expected)} (dataset.json), found {list(found)}")
     if min(found) < 1 or bytes_of_shape(found, itemsize) > LARGEST:
@@ -48,14 +61,16 @@ def read_png(path: Path, expected: Shape = None) -> np.ndarray:
         chunks, at = [], 8
         while at < len(data):
             length, kind = struct.unpack_from(">I4s", data, at)
-            chunks.append((kind, data[at + 8:at + 8 + length]))
+            chunks.append((kind, data[at + 8 : at + 8 + length]))
             at += length + 12
             if at > len(data):
                 raise ValueError("the file is cut off")
         width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", dict(chunks)[b"IHDR"])
         if (bits, colour) not in ((8, 2), (8, 0), (16, 0)) or interlaced:
-            raise DatasetError(f"{path}: expected 8-bit RGB or grey or 16-bit grey, not interlaced; found {bits} bits, "
-                               f"colour type {colour}, interlacing {interlaced}")
+            raise DatasetError(
+                f"{path}: expected 8-bit RGB or grey or 16-bit grey, not interlaced; found {bits} bits, "
+                f"colour type {colour}, interlacing {interlaced}"
+            )
         channels = 3 if colour == 2 else 1
         step = channels * bits // 8
         _check_shape(path, (height, width, 3) if channels == 3 else (height, width), bits // 8, expected)
@@ -86,7 +101,11 @@ def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
 def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
     """float32 [h, w] metres from uint8 [h, w, 3]: 1000 m (R + 256 G + 65536 B)/(2^24 - 1), CARLA's coding.
     1000 m stands for everything beyond, the sky too."""
-    code = rgb[..., 0].astype(np.uint32) + (rgb[..., 1].astype(np.uint32) << 8) + (rgb[..., 2].astype(np.uint32) << 16)
+    code = (
+        rgb[..., 0].astype(np.uint32)
+        + (rgb[..., 1].astype(np.uint32) << 8)
+        + (rgb[..., 2].astype(np.uint32) << 16)
+    )
     return (1000.0 * code / (2**24 - 1)).astype(np.float32)
 
 
@@ -98,11 +117,17 @@ def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
         header, at = _exr_header(data)
         channels, compression, box = header["channels"], header["compression"], header["dataWindow"]
         if compression not in _EXR_LINES or data[5] & 0x1A:
-            raise DatasetError(f"{path}: expected scan lines, ZIP or uncompressed; found compression {compression}, "
-                               f"flags {data[5]:#x}")
+            raise DatasetError(
+                f"{path}: expected scan lines, ZIP or uncompressed; found compression {compression}, "
+                f"flags {data[5]:#x}"
+            )
         height, width = box[3] - box[1] + 1, box[2] - box[0] + 1
-        _check_shape(path, (height, width) if expected is None or len(expected) < 3 else (height, width, len(channels)),
-                     sum(np.dtype(kind).itemsize for _, kind in channels), expected)
+        _check_shape(
+            path,
+            (height, width) if expected is None or len(expected) < 3 else (height, width, len(channels)),
+            sum(np.dtype(kind).itemsize for _, kind in channels),
+            expected,
+        )
         line = np.dtype([(name, kind, (width,)) for name, kind in channels])
         pixels = np.zeros(height, line)
         per_block = _EXR_LINES[compression]
@@ -113,10 +138,10 @@ def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
             if not 0 <= first < height or first % per_block or size < 0:
                 raise ValueError(f"a block of {size} bytes at line {y}")
             lines = min(per_block, height - first)
-            block = data[offset + 8:offset + 8 + size]
+            block = data[offset + 8 : offset + 8 + size]
             if compression and size < lines * line.itemsize:
                 block = _exr_unzip(block, lines * line.itemsize)
-            pixels[first:first + lines] = np.frombuffer(block, line, lines)
+            pixels[first : first + lines] = np.frombuffer(block, line, lines)
     names = [name for name, _ in channels]
     for plane in ("Y", "Z"):
         if plane in names:
@@ -138,7 +163,7 @@ def _exr_header(data: bytes) -> Tuple[dict, int]:
         if not 0 <= size <= len(data) - after - 5:
             raise ValueError(f"an attribute of {size} bytes")
         at = after + 5 + size
-        body = data[after + 5:at]
+        body = data[after + 5 : at]
         if name == "channels":
             header[name] = _exr_channels(body)
         elif name == "compression":
@@ -186,7 +211,7 @@ def read_ply(path: Path) -> np.ndarray:
     endian."""
     data = read_bytes(path)
     end = data.find(b"end_header\n")
-    lines = data[:max(end, 0)].decode("ascii", "replace").splitlines()
+    lines = data[: max(end, 0)].decode("ascii", "replace").splitlines()
     if end < 0 or lines[:2] != ["ply", "format binary_little_endian 1.0"]:
         raise DatasetError(f"{path}: is no PLY in binary, little endian")
     words = [line.split() for line in lines[2:] if not line.startswith("comment")]

@@ -11,22 +11,50 @@ from typing import Any, Dict, Mapping, Optional, Tuple
 import numpy as np
 
 from .errors import DatasetError
-from .files import LARGEST, MOST_ARRAYS, MOST_AXES, MOST_SENSORS, Field, bytes_of_shape, inside, is_inside, read_json
+from .files import (
+    LARGEST,
+    MOST_ARRAYS,
+    MOST_AXES,
+    MOST_SENSORS,
+    Field,
+    bytes_of_shape,
+    inside,
+    is_inside,
+    read_json,
+)
 
 FORMAT = "greatx-dataset"
 FORMAT_VERSION = 1
 #: The file formats of an output, from the one to read first to the one to read last where several hold one
 #: array.
-FORMATS = ("npy_stack", "npy_ragged", "npy_frame", "exr", "png", "ply", "pcd", "kitti", "png_depth24", "hdf5_events",
-           "text_events")
+FORMATS = (
+    "npy_stack",
+    "npy_ragged",
+    "npy_frame",
+    "exr",
+    "png",
+    "ply",
+    "pcd",
+    "kitti",
+    "png_depth24",
+    "hdf5_events",
+    "text_events",
+)
 #: The types of arrays, by NumPy's names.
 DTYPES = ("|u1", "<u2", "<u4", "<u8", "|i1", "<i4", "<i8", "<f4", "<f8", "<c8")
 #: Files that hold several arrays.
 CLOUDS = ("ply", "pcd")
 #: Of files of a whole sequence for other tools, made from its arrays.
 EXPORT_SUFFIX = {"hdf5_events": ".h5", "text_events": ".txt"}
-SUFFIX = {"npy_frame": ".npy", "exr": ".exr", "png": ".png", "ply": ".ply", "pcd": ".pcd", "kitti": ".bin",
-          "png_depth24": ".png"}
+SUFFIX = {
+    "npy_frame": ".npy",
+    "exr": ".exr",
+    "png": ".png",
+    "ply": ".ply",
+    "pcd": ".pcd",
+    "kitti": ".bin",
+    "png_depth24": ".png",
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -104,8 +132,10 @@ def read_info(folder: pathlib.Path) -> Field:
         raise DatasetError(f"{path}: expected format '{FORMAT}', found {found!r}")
     version = info.value.get("format_version")
     if version != FORMAT_VERSION:
-        raise DatasetError(f"{path}: format_version is {version!r}; this greatx reads {FORMAT_VERSION}. "
-                           "Generate the data set anew, or use the greatx that it was made with")
+        raise DatasetError(
+            f"{path}: format_version is {version!r}; this greatx reads {FORMAT_VERSION}. "
+            "Generate the data set anew, or use the greatx that it was made with"
+        )
     return info
 
 
@@ -144,7 +174,10 @@ def _sensor(entry: Field) -> SensorInfo:
     for o in entry["outputs"].items(MOST_ARRAYS):
         kind = o["format"].text()
         if kind not in FORMATS:
-            raise DatasetError(f"{o.file}: {name}/{o['name'].text()} has format {kind!r}; this greatx knows " + ", ".join(FORMATS))
+            raise DatasetError(
+                f"{o.file}: {name}/{o['name'].text()} has format {kind!r}; this greatx knows "
+                + ", ".join(FORMATS)
+            )
         holds = o["arrays"].items(MOST_ARRAYS)
         for array in holds:
             if array.text() not in arrays:
@@ -161,5 +194,11 @@ def _sensor(entry: Field) -> SensorInfo:
         if array not in kept:
             raise entry["outputs"].fail(f"one that keeps the array {array!r}")
     rate = entry["rate_hz"].rate() if entry["rate_hz"].value != "" else None
-    return SensorInfo(name, entry["kind"].text(), rate, arrays, outputs,
-                      Metadata(entry["metadata"].object(), f"{entry.file}: {name}: metadata"))
+    return SensorInfo(
+        name,
+        entry["kind"].text(),
+        rate,
+        arrays,
+        outputs,
+        Metadata(entry["metadata"].object(), f"{entry.file}: {name}: metadata"),
+    )

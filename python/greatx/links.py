@@ -21,7 +21,9 @@ NONE, REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = range(5)
 
 def check_channel(sensor: "Sensor") -> "Sensor":
     if sensor.kind != "csi":
-        raise DatasetError(f"{sensor.sequence.dataset.path}: {sensor.name} is a {sensor.kind}, not a channel (csi)")
+        raise DatasetError(
+            f"{sensor.sequence.dataset.path}: {sensor.name} is a {sensor.kind}, not a channel (csi)"
+        )
     return sensor
 
 
@@ -55,9 +57,11 @@ def receivers(sensor: "Sensor") -> List[Dict[str, Any]]:
 def rotation(orientation_wxyz: Any) -> np.ndarray:
     """[..., 3, 3] of unit quaternions [..., 4] (w, x, y, z): takes the body's axes to the world's."""
     w, x, y, z = np.moveaxis(np.asarray(orientation_wxyz, float), -1, 0)
-    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
     return np.stack([np.stack(row, -1) for row in rows], -2)
 
 
@@ -66,15 +70,27 @@ def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray,
     `receivers`) at a record."""
     poses = record.sensor.sequence.at(record.tick)[record.sensor.sequence.poses.name]
     nodes = poses.sensor.metadata["nodes"]
-    if not isinstance(nodes, list) or not all(isinstance(n, str) for n in nodes) or len(nodes) != len(poses["position"]):
-        raise DatasetError(f"{poses.sensor.metadata.where}.nodes: expected the names of {len(poses['position'])} nodes")
-    name = next((n for n in sorted(nodes, key=len, reverse=True) if antenna["name"].startswith(n + "/")), None)
+    if (
+        not isinstance(nodes, list)
+        or not all(isinstance(n, str) for n in nodes)
+        or len(nodes) != len(poses["position"])
+    ):
+        raise DatasetError(
+            f"{poses.sensor.metadata.where}.nodes: expected the names of {len(poses['position'])} nodes"
+        )
+    name = next(
+        (n for n in sorted(nodes, key=len, reverse=True) if antenna["name"].startswith(n + "/")), None
+    )
     if name is None:
-        raise DatasetError(f"{record.sensor.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes "
-                           f"are {', '.join(nodes)}")
+        raise DatasetError(
+            f"{record.sensor.sequence.dataset.path}: the antenna {antenna['name']!r} is at no node; nodes "
+            f"are {', '.join(nodes)}"
+        )
     node, mount = nodes.index(name), antenna["body_from_antenna"]
     turn = rotation(poses["orientation"][node])
-    return poses["position"][node] + turn @ np.array(mount["position_m"]), turn @ rotation(mount["orientation_wxyz"])
+    return poses["position"][node] + turn @ np.array(mount["position_m"]), turn @ rotation(
+        mount["orientation_wxyz"]
+    )
 
 
 def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
@@ -82,19 +98,30 @@ def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = Non
     the receiver rx and transmitter tx alone. Views, not copies, where a link's paths lie together, as they
     do."""
     sensor = check_channel(record.sensor)
-    for what, number, ends in (("receiver", rx, receivers(sensor)), ("transmitter", tx, transmitters(sensor))):
+    for what, number, ends in (
+        ("receiver", rx, receivers(sensor)),
+        ("transmitter", tx, transmitters(sensor)),
+    ):
         if number is not None and not 0 <= number < len(ends):
             raise IndexError(f"{sensor.name} has {len(ends)} {what}s, not one of number {number}")
-    arrays = {o.name[len("paths/"):]: record[o.name] for o in sensor.info.outputs.values() if o.name.startswith("paths/")}
+    arrays = {
+        o.name[len("paths/") :]: record[o.name]
+        for o in sensor.info.outputs.values()
+        if o.name.startswith("paths/")
+    }
     if not arrays:
         raise DatasetError(f"{sensor.sequence.path / sensor.name}: the data set keeps no paths")
     if "delay" not in arrays or len({len(a) for a in arrays.values()}) != 1:
-        raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, found "
-                           + ", ".join(f"{name} {len(a)}" for name, a in arrays.items()))
+        raise DatasetError(
+            f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, found "
+            + ", ".join(f"{name} {len(a)}" for name, a in arrays.items())
+        )
     for name, ends in (("rx", receivers(sensor)), ("tx", transmitters(sensor))):
         if len(arrays.get(name, ())) and not 0 <= arrays[name].min() <= arrays[name].max() < len(ends):
-            raise DatasetError(f"{sensor.sequence.path / sensor.name}: expected {name} from 0 to {len(ends) - 1}, found "
-                               f"{arrays[name].min()} to {arrays[name].max()}")
+            raise DatasetError(
+                f"{sensor.sequence.path / sensor.name}: expected {name} from 0 to {len(ends) - 1}, found "
+                f"{arrays[name].min()} to {arrays[name].max()}"
+            )
     mine = np.ones(len(arrays["delay"]), bool)
     for name, number in (("rx", rx), ("tx", tx)):
         if number is not None and name in arrays:
@@ -105,5 +132,5 @@ def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = Non
     if len(which) == 0:
         return {name: a[:0] for name, a in arrays.items()}
     if which[-1] - which[0] + 1 == len(which):
-        return {name: a[which[0]:which[-1] + 1] for name, a in arrays.items()}
+        return {name: a[which[0] : which[-1] + 1] for name, a in arrays.items()}
     return {name: a[which] for name, a in arrays.items()}

@@ -68,7 +68,7 @@ class Paths:
         for what, number, count in (("receiver", rx, self.shape[0]), ("transmitter", tx, self.shape[1])):
             if not 0 <= number < count:
                 raise IndexError(f"{self.channel} has {count} {what}s, not one of number {number}")
-        first, last = self.arrays["offsets"][rx * self.shape[1] + tx:][:2]
+        first, last = self.arrays["offsets"][rx * self.shape[1] + tx :][:2]
         return {name: array[first:last] for name, array in self.arrays.items() if self._of_paths(name)}
 
     def _of_paths(self, name: str) -> bool:
@@ -91,15 +91,25 @@ class Paths:
         counts = np.diff(self.arrays["offsets"])
         number = np.arange(len(self)) - np.repeat(self.arrays["offsets"][:-1], counts)
         longest = int(counts.max(initial=0))
-        a = np.zeros((self.shape[0], amplitude.shape[1], self.shape[1], amplitude.shape[2], longest), np.complex64)
+        a = np.zeros(
+            (self.shape[0], amplitude.shape[1], self.shape[1], amplitude.shape[2], longest), np.complex64
+        )
         tau = np.zeros((*self.shape, longest))
         a[rx, :, tx, :, number] = amplitude
         tau[rx, tx, number] = self.arrays["delay"] - (self.first_delay()[rx, tx] if normalize_delays else 0.0)
         return a, tau
 
-    def cfr(self, bandwidth_hz: Optional[float] = None, subcarriers: Optional[int] = None, *,
-            subcarrier_spacing_hz: Optional[float] = None, time_samples: Optional[int] = None,
-            time_spacing_s: Optional[float] = None, select: str = "all", normalize_delays: bool = False) -> np.ndarray:
+    def cfr(
+        self,
+        bandwidth_hz: Optional[float] = None,
+        subcarriers: Optional[int] = None,
+        *,
+        subcarrier_spacing_hz: Optional[float] = None,
+        time_samples: Optional[int] = None,
+        time_spacing_s: Optional[float] = None,
+        select: str = "all",
+        normalize_delays: bool = False,
+    ) -> np.ndarray:
         """The frequency response, complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]: H(f) at carrier + (k
         - floor(N/2)) * spacing, absolute delays, nothing normalised unless `normalize_delays` asks for delays
         without each link's first_delay(): H(f) e^{j 2 pi (f - carrier) first_delay}.
@@ -113,24 +123,42 @@ class Paths:
         """
         if bandwidth_hz is not None:
             if subcarrier_spacing_hz is not None:
-                raise Error("subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, found both")
-            subcarrier_spacing_hz = bandwidth_hz / (self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1))
+                raise Error(
+                    "subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, found both"
+                )
+            subcarrier_spacing_hz = bandwidth_hz / (
+                self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1)
+            )
         if self.facts["near_links"]:
-            why = ("have arrays and every_element is on" if self.facts["every_element"] == "on"
-                   else "are nearer than the far field of their arrays, 2 D^2/lambda")
-            warnings.warn(f"{self.facts['near_links']} links of {self.channel} {why}: "
-                          "cfr() takes a plane wave over each array, Simulation.run() solves every element",
-                          stacklevel=2)
+            why = (
+                "have arrays and every_element is on"
+                if self.facts["every_element"] == "on"
+                else "are nearer than the far field of their arrays, 2 D^2/lambda"
+            )
+            warnings.warn(
+                f"{self.facts['near_links']} links of {self.channel} {why}: "
+                "cfr() takes a plane wave over each array, Simulation.run() solves every element",
+                stacklevel=2,
+            )
         response = self._native.cfr(subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s, select)
         if not normalize_delays:
             return response
-        spacing = self.facts["subcarrier_spacing_hz"] if subcarrier_spacing_hz is None else subcarrier_spacing_hz
+        spacing = (
+            self.facts["subcarrier_spacing_hz"] if subcarrier_spacing_hz is None else subcarrier_spacing_hz
+        )
         offset = (np.arange(response.shape[-1]) - response.shape[-1] // 2) * spacing
         turn = np.exp(2j * np.pi * self.first_delay()[:, :, None] * offset).astype(np.complex64)
         return response * turn[:, None, :, None, None, :]
 
-    def taps(self, bandwidth_hz: Optional[float] = None, taps: Optional[int] = None, *, first: int = 0, time_samples: int = 1,
-             time_spacing_s: float = 1e-3) -> Arrays:
+    def taps(
+        self,
+        bandwidth_hz: Optional[float] = None,
+        taps: Optional[int] = None,
+        *,
+        first: int = 0,
+        time_samples: int = 1,
+        time_spacing_s: float = 1e-3,
+    ) -> Arrays:
         """The channel as a filter at a bandwidth: `taps` complex64 [rx, rx_ant, tx, tx_ant, time, tap], tap l
         the absolute delay (first + l) / bandwidth_hz, ideal low-pass; `power_outside` [rx, tx], the share of
         the power that the window leaves out, and `paths_outside` [rx, tx], the number of paths.
@@ -155,15 +183,25 @@ class Paths:
         inf: never."""
         return Arrays(self._native.coherence(level))
 
-    def received(self, power_w: float = 1.0, *, resistance_ohm: float = 50.0, transmit_port: int = 0,
-                 receive_port: int = 0) -> Arrays:
+    def received(
+        self,
+        power_w: float = 1.0,
+        *,
+        resistance_ohm: float = 50.0,
+        transmit_port: int = 0,
+        receive_port: int = 0,
+    ) -> Arrays:
         """What arrives at the carrier for power_w watts into one port, [rx, tx]: power_w (fields added),
         mean_power_w (powers added), amplitude, open_circuit_v (V rms, complex), field_v_per_m [rx, tx, xyz]
         (V/m rms, complex, world axes)."""
         named = self._native.received(power_w, resistance_ohm, transmit_port, receive_port)
-        return Arrays((name, unit, text, array.view(np.complex128)[..., 0] if "complex" in text else array)
-                      for name, unit, text, array in named)
+        return Arrays(
+            (name, unit, text, array.view(np.complex128)[..., 0] if "complex" in text else array)
+            for name, unit, text, array in named
+        )
 
     def __repr__(self) -> str:
-        return (f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, {self.shape[0]} receivers, "
-                f"{self.shape[1]} transmitters>")
+        return (
+            f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, {self.shape[0]} receivers, "
+            f"{self.shape[1]} transmitters>"
+        )

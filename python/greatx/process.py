@@ -23,7 +23,9 @@ class Owned:
         if name.startswith("_") or "_native" not in fields:
             raise AttributeError(name)
         if os.getpid() != fields["_process"]:
-            raise Error(f"this simulation was made by process {fields['_process']}, of which process {os.getpid()} is a fork: its "
-                        "device cannot be used here. Make a greatx.Simulation in each process, or start processes by 'spawn' "
-                        "(multiprocessing.set_start_method)")
+            raise Error(
+                f"this simulation was made by process {fields['_process']}, of which process {os.getpid()} is a fork: its "
+                "device cannot be used here. Make a greatx.Simulation in each process, or start processes by 'spawn' "
+                "(multiprocessing.set_start_method)"
+            )
         return getattr(fields["_native"], name)

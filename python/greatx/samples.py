@@ -31,8 +31,13 @@ class Samples:
     views of the files where these are memory-mapped. Picklable.
     """
 
-    def __init__(self, dataset: "Dataset", arrays: Union[str, Iterable[str]],
-                 sequences: Optional[Iterable[int]] = None, pad: bool = False):
+    def __init__(
+        self,
+        dataset: "Dataset",
+        arrays: Union[str, Iterable[str]],
+        sequences: Optional[Iterable[int]] = None,
+        pad: bool = False,
+    ):
         self.dataset = dataset
         self.pad = pad
         names = [arrays] if isinstance(arrays, str) else list(arrays)
@@ -43,21 +48,27 @@ class Samples:
         self.sequences = list(range(len(dataset.sequences)) if sequences is None else sequences)
         self._items = np.concatenate([self._rows(i) for i in self.sequences] or [np.empty((0, 2), np.int64)])
         if len(self._items) == 0:
-            raise DatasetError(f"{dataset.path}: there is no tick at which "
-                               f"{', '.join(sorted({s for _, s, _ in self.fields}))} all have a record")
+            raise DatasetError(
+                f"{dataset.path}: there is no tick at which "
+                f"{', '.join(sorted({s for _, s, _ in self.fields}))} all have a record"
+            )
         self._longest = {key: self._longest_of(key, s, a) for key, s, a in self.fields} if pad else {}
 
     def _resolve(self, name: str) -> List[Tuple[str, str, str]]:
         sensors = self.dataset.sensors
         if name in sensors:
-            return [(f"{name}/{a.name}", name, a.name) for a in sensors[name].arrays.values() if -1 not in a.shape]
+            return [
+                (f"{name}/{a.name}", name, a.name) for a in sensors[name].arrays.values() if -1 not in a.shape
+            ]
         for sensor in sorted((s for s in sensors if name.startswith(s + "/")), key=len, reverse=True):
-            array = name[len(sensor) + 1:]
+            array = name[len(sensor) + 1 :]
             located = sensors[sensor].locate(array)
             if located is not None and located[1] is not None:
                 return [(name, sensor, array)]
         known = [f"{s.name}/{a}" for s in sensors.values() for a in s.arrays]
-        raise KeyError(f"{self.dataset.path}: has neither a sensor nor an array {name!r}; it has {', '.join(known)}")
+        raise KeyError(
+            f"{self.dataset.path}: has neither a sensor nor an array {name!r}; it has {', '.join(known)}"
+        )
 
     def _rows(self, number: int) -> np.ndarray:
         """int64 [items, 2]: sequence, tick."""
@@ -75,8 +86,10 @@ class Samples:
             if isinstance(opened, Ragged):
                 longest = max(longest or 0, int(opened.counts.max(initial=0)))
             elif isinstance(opened, Frames) and -1 in self.dataset.sensors[sensor].locate(array)[1].shape:
-                raise ValueError(f"{key} is kept as one file a record: its longest record is not known without reading "
-                                 "all of them, so it cannot be padded; pad it in a transform")
+                raise ValueError(
+                    f"{key} is kept as one file a record: its longest record is not known without reading "
+                    "all of them, so it cannot be padded; pad it in a transform"
+                )
         return longest
 
     def __len__(self) -> int:
@@ -87,14 +100,18 @@ class Samples:
             raise IndexError(f"item {i} of {len(self)}")
         number, tick = (int(v) for v in self._items[i])
         at = self.dataset.sequences[number].at(tick)
-        item: Dict[str, Any] = {"sequence": self.dataset.sequences[number].number, "tick": tick, "time_s": at.time_s}
+        item: Dict[str, Any] = {
+            "sequence": self.dataset.sequences[number].number,
+            "tick": tick,
+            "time_s": at.time_s,
+        }
         for key, sensor, array in self.fields:
             value = at[sensor][array]
             longest = self._longest.get(key)
             if longest is not None:
                 item[key + "_count"] = len(value)
                 padded = np.zeros((longest, *value.shape[1:]), value.dtype)
-                padded[:len(value)] = value
+                padded[: len(value)] = value
                 value = padded
             item[key] = value
         return item

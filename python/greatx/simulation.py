@@ -27,13 +27,26 @@ PathLike = Union[str, "os.PathLike[str]"]
 Position = Union[Sequence[float], np.ndarray]
 
 #: From places in the texts that are handed to the scenario's parser to the arguments that they were made of.
-_PLACES = [(r"^(\w+):1: ", r"\1: "), (r"nodes\[0\]\.sensors\[0\]\.mount\.rotation_deg", "orientation_deg"),
-           (r"nodes\[0\]\.sensors\[0\]\.", "array."), (r"nodes\[0\]\.(trajectory\.)?", ""), (r"channels\[0\]\.tx", "transmitters"),
-           (r"channels\[0\]\.rx", "receivers"), (r"channels\[0\]\.", ""),
-           # The options of `greatx map`.
-           (r"--cell", "cell_m"), (r"--min", "min_m"), (r"--max", "max_m"), (r"--plane Z", "z_m"), (r"--plane", "z_m"),
-           (r"--height", "height_m"), (r"--power", "power_dbm"), (r"--bandwidth", "bandwidth_hz"),
-           (r"--noise-figure", "noise_figure_db"), (r"--beyond-scene", "beyond_scene=True")]
+_PLACES = [
+    (r"^(\w+):1: ", r"\1: "),
+    (r"nodes\[0\]\.sensors\[0\]\.mount\.rotation_deg", "orientation_deg"),
+    (r"nodes\[0\]\.sensors\[0\]\.", "array."),
+    (r"nodes\[0\]\.(trajectory\.)?", ""),
+    (r"channels\[0\]\.tx", "transmitters"),
+    (r"channels\[0\]\.rx", "receivers"),
+    (r"channels\[0\]\.", ""),
+    # The options of `greatx map`.
+    (r"--cell", "cell_m"),
+    (r"--min", "min_m"),
+    (r"--max", "max_m"),
+    (r"--plane Z", "z_m"),
+    (r"--plane", "z_m"),
+    (r"--height", "height_m"),
+    (r"--power", "power_dbm"),
+    (r"--bandwidth", "bandwidth_hz"),
+    (r"--noise-figure", "noise_figure_db"),
+    (r"--beyond-scene", "beyond_scene=True"),
+]
 
 
 def _call(function: Callable[..., Any], *arguments: Any) -> Any:
@@ -53,11 +66,14 @@ def _call(function: Callable[..., Any], *arguments: Any) -> Any:
 
 def _text(value: Any) -> str:
     """JSON, which is YAML; of NumPy's numbers, too."""
-    return json.dumps(value, default=lambda other: other.tolist() if hasattr(other, "tolist") else os.fspath(other))
+    return json.dumps(
+        value, default=lambda other: other.tolist() if hasattr(other, "tolist") else os.fspath(other)
+    )
 
 
 class Effect(NamedTuple):
     """What was decided of one effect, and why."""
+
     on: bool
     reason: str
     bound: str  #: what leaving it off can change at most, or what keeping it on costs; may be empty
@@ -93,10 +109,20 @@ class Simulation:
     positive yaw left, positive pitch down.
     """
 
-    def __init__(self, scenario: Union[PathLike, Mapping[str, Any]] = "city", *, assets: Optional[PathLike] = None,
-                 seed: Optional[int] = None, ticks: Optional[int] = None, sequences: Optional[int] = None,
-                 tolerance_db: Optional[float] = None, effects: Optional[Mapping[str, str]] = None,
-                 environment: Optional[Mapping[str, Any]] = None, device: str = "", validation: bool = False):
+    def __init__(
+        self,
+        scenario: Union[PathLike, Mapping[str, Any]] = "city",
+        *,
+        assets: Optional[PathLike] = None,
+        seed: Optional[int] = None,
+        ticks: Optional[int] = None,
+        sequences: Optional[int] = None,
+        tolerance_db: Optional[float] = None,
+        effects: Optional[Mapping[str, str]] = None,
+        environment: Optional[Mapping[str, Any]] = None,
+        device: str = "",
+        validation: bool = False,
+    ):
         options = ("" if assets is None else os.fspath(assets), device, validation)
         embedded = _native.embedded_scenarios()
         if isinstance(scenario, Mapping):
@@ -106,14 +132,24 @@ class Simulation:
         elif os.path.isfile(scenario):
             session = _call(_native.Session.load, os.fspath(scenario), *options)
         else:
-            raise Error(f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}")
+            raise Error(
+                f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}"
+            )
         self._native = Owned(session)
         self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
-        self._change(seed=seed, ticks=ticks, sequences=sequences, tolerance_db=tolerance_db, effects=effects,
-                     environment=environment)
+        self._change(
+            seed=seed,
+            ticks=ticks,
+            sequences=sequences,
+            tolerance_db=tolerance_db,
+            effects=effects,
+            environment=environment,
+        )
 
     @classmethod
-    def from_scene(cls, file: PathLike, *, radio_materials: Optional[PathLike] = None, **options: Any) -> "Simulation":
+    def from_scene(
+        cls, file: PathLike, *, radio_materials: Optional[PathLike] = None, **options: Any
+    ) -> "Simulation":
         """A glTF scene and nothing else in it, to be placed into. `radio_materials`: YAML with the radio
         properties of its materials. `options` are those of Simulation."""
         scene = {"file": os.path.abspath(file)}
@@ -135,10 +171,14 @@ class Simulation:
     tick_rate_hz = property(lambda self: Fraction(self._facts["tick_rate_hz"]))
     nodes = property(lambda self: self._facts["nodes"], doc="{node: {sensor: kind}}")
     antennas = property(lambda self: self._facts["antennas"], doc="[node/sensor]")
-    place = property(lambda self: self._facts["place"],
-                     doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts them.")
-    channels = property(lambda self: self._facts["channels"],
-                        doc="{channel: its transmitters, receivers, carrier_hz, subcarriers, max_depth, ...}")
+    place = property(
+        lambda self: self._facts["place"],
+        doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts them.",
+    )
+    channels = property(
+        lambda self: self._facts["channels"],
+        doc="{channel: its transmitters, receivers, carrier_hz, subcarriers, max_depth, ...}",
+    )
 
     @property
     def scene(self) -> Dict[str, Any]:
@@ -160,10 +200,15 @@ class Simulation:
     def explain(self) -> str:
         """Which effects act and why, and how each channel's paths will be found: as `greatx explain`."""
         facts = json.loads(_call(self._native.explain))
-        lines = [f"{'on' if e['on'] else 'off':<4} {e['name']:<24} {e['reason']}{' — ' if e['bound'] else ''}{e['bound']}"
-                 for e in facts["effects"]]
+        lines = [
+            f"{'on' if e['on'] else 'off':<4} {e['name']:<24} {e['reason']}{' — ' if e['bound'] else ''}{e['bound']}"
+            for e in facts["effects"]
+        ]
         for channel, notes in facts["channels"].items():
-            lines += [f"channel {channel!r}, candidates:", *(f"  {name:<18} {text}" for name, text in notes.items())]
+            lines += [
+                f"channel {channel!r}, candidates:",
+                *(f"  {name:<18} {text}" for name, text in notes.items()),
+            ]
         return "\n".join(lines)
 
     # ----------------------------------------------------------------------------------------------- what is
@@ -184,12 +229,18 @@ class Simulation:
             return environment
         if angles and not {"place", "time"} & set(environment):
             if len(angles) == 1:
-                raise Error(f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place of the "
-                            "scenario's place and time, which say where the sun is (environment.time moves it), found one")
+                raise Error(
+                    f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place of the "
+                    "scenario's place and time, which say where the sun is (environment.time moves it), found one"
+                )
             return environment
         time = place.pop("time")
         given = environment.get("place", {})
-        return {"time": time, **environment, "place": {**place, **given} if isinstance(given, Mapping) else given}
+        return {
+            "time": time,
+            **environment,
+            "place": {**place, **given} if isinstance(given, Mapping) else given,
+        }
 
     def _change(self, **fields: Any) -> None:
         given = {name: value for name, value in fields.items() if value is not None}
@@ -210,39 +261,84 @@ class Simulation:
         antennas."""
         self._parsed(self._native.add_nodes, "add_node", {"nodes": [node]})
 
-    def _place(self, role: str, placed: Sequence[Tuple[str, Position, Any]], array: Optional[Array]) -> List[str]:
+    def _place(
+        self, role: str, placed: Sequence[Tuple[str, Position, Any]], array: Optional[Array]
+    ) -> List[str]:
         """(name, position_m, orientation_deg) of each; all of them, or none if one is not as it should be."""
-        nodes = [{"name": name, "trajectory": {"type": "static", "position_m": np.asarray(position).tolist()},
-                  "sensors": [(array or Array()).as_sensor("array", orientation)]} for name, position, orientation in placed]
+        nodes = [
+            {
+                "name": name,
+                "trajectory": {"type": "static", "position_m": np.asarray(position).tolist()},
+                "sensors": [(array or Array()).as_sensor("array", orientation)],
+            }
+            for name, position, orientation in placed
+        ]
         self._parsed(self._native.add_nodes, "place_" + role, {"nodes": nodes})
         antennas = [f"{name}/array" for name, _, _ in placed]
         self._placed[role + "s"] += antennas
         return antennas
 
-    def place_transmitter(self, name: str, position_m: Position, *, array: Optional[Array] = None,
-                          orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
+    def place_transmitter(
+        self,
+        name: str,
+        position_m: Position,
+        *,
+        array: Optional[Array] = None,
+        orientation_deg: Optional[Sequence[float]] = None,
+        look_at: Optional[Position] = None,
+    ) -> str:
         """Puts an antenna at rest (by default one isotropic, vertical element) and gives its name,
         "NAME/array".
 
         position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a
         position.
         """
-        return self._place("transmitter", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array)[0]
+        return self._place(
+            "transmitter", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array
+        )[0]
 
-    def place_receiver(self, name: str, position_m: Position, *, array: Optional[Array] = None,
-                       orientation_deg: Optional[Sequence[float]] = None, look_at: Optional[Position] = None) -> str:
+    def place_receiver(
+        self,
+        name: str,
+        position_m: Position,
+        *,
+        array: Optional[Array] = None,
+        orientation_deg: Optional[Sequence[float]] = None,
+        look_at: Optional[Position] = None,
+    ) -> str:
         """As place_transmitter."""
-        return self._place("receiver", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array)[0]
+        return self._place(
+            "receiver", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array
+        )[0]
 
-    def place_receivers(self, positions_m: np.ndarray, *, array: Optional[Array] = None, names: str = "rx{}",
-                        orientation_deg: Optional[Sequence[float]] = None) -> List[str]:
+    def place_receivers(
+        self,
+        positions_m: np.ndarray,
+        *,
+        array: Optional[Array] = None,
+        names: str = "rx{}",
+        orientation_deg: Optional[Sequence[float]] = None,
+    ) -> List[str]:
         """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is
         quicker."""
-        return self._place("receiver", [(names.format(i), position, orientation_deg)
-                                        for i, position in enumerate(np.asarray(positions_m))], array)
+        return self._place(
+            "receiver",
+            [
+                (names.format(i), position, orientation_deg)
+                for i, position in enumerate(np.asarray(positions_m))
+            ],
+            array,
+        )
 
-    def add_channel(self, name: str, *, transmitters: Optional[Sequence[str]] = None, receivers: Optional[Sequence[str]] = None,
-                    carrier_hz: float = 3.5e9, **fields: Any) -> str:
+    def add_channel(
+        self,
+        name: str,
+        *,
+        transmitters: Optional[Sequence[str]] = None,
+        receivers: Optional[Sequence[str]] = None,
+        carrier_hz: float = 3.5e9,
+        **fields: Any,
+    ) -> str:
         """A channel between antennas ("node/sensor"), by default all that were placed as transmitters and as
         receivers; with no receivers at all it is for paths(receivers=points). `fields` are those of a
         scenario's channel: bandwidth_hz or subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s,
@@ -254,16 +350,33 @@ class Simulation:
         known = self.antennas
         for antenna in tx + rx:
             if antenna not in known:
-                raise Error(f"channel {name!r}: expected antennas of the scenario ({', '.join(known)}), found {antenna!r}")
+                raise Error(
+                    f"channel {name!r}: expected antennas of the scenario ({', '.join(known)}), found {antenna!r}"
+                )
         # The parser wants to see the antennas that a channel names; whatever they are.
         sensors: Dict[str, List[str]] = {}
         for antenna in dict.fromkeys(tx + rx):
             node, sensor = antenna.rsplit("/", 1)
             sensors.setdefault(node, []).append(sensor)
-        nodes = [{"name": node, "trajectory": {"type": "static", "position_m": [0, 0, 0]},
-                  "sensors": [{"name": sensor, "type": "antenna"} for sensor in names]} for node, names in sensors.items()]
-        channel = {"name": name, "tx": tx, "rx": rx or tx, "rate_hz": str(self.tick_rate_hz), "carrier_hz": carrier_hz, **fields}
-        self._parsed(self._native.add_channels, "add_channel", {"nodes": nodes, "channels": [channel]}, not rx)
+        nodes = [
+            {
+                "name": node,
+                "trajectory": {"type": "static", "position_m": [0, 0, 0]},
+                "sensors": [{"name": sensor, "type": "antenna"} for sensor in names],
+            }
+            for node, names in sensors.items()
+        ]
+        channel = {
+            "name": name,
+            "tx": tx,
+            "rx": rx or tx,
+            "rate_hz": str(self.tick_rate_hz),
+            "carrier_hz": carrier_hz,
+            **fields,
+        }
+        self._parsed(
+            self._native.add_channels, "add_channel", {"nodes": nodes, "channels": [channel]}, not rx
+        )
         return name
 
     # -------------------------------------------------------------------------------------------- what is
@@ -275,19 +388,46 @@ class Simulation:
             return name
         if name is None and len(channels) == 1:
             return next(iter(channels))
-        what = f"no channel {name!r}" if name is not None else "several channels: say which" if channels else "no channel"
-        raise Error(f"{self.name}: has {what}; channels: {', '.join(channels) or 'none: add_channel() makes one'}")
+        what = (
+            f"no channel {name!r}"
+            if name is not None
+            else "several channels: say which"
+            if channels
+            else "no channel"
+        )
+        raise Error(
+            f"{self.name}: has {what}; channels: {', '.join(channels) or 'none: add_channel() makes one'}"
+        )
 
     @staticmethod
     def _antenna(array: Optional[Array], orientation_deg: Any) -> str:
         """What stands at bare points, as a scenario."""
-        return _text({"greatx": 1, "name": "points", "ticks": 1, "nodes": [
-            {"name": "points", "trajectory": {"type": "static", "position_m": [0, 0, 0]},
-             "sensors": [(array or Array()).as_sensor("array", orientation_deg)]}]})
+        return _text(
+            {
+                "greatx": 1,
+                "name": "points",
+                "ticks": 1,
+                "nodes": [
+                    {
+                        "name": "points",
+                        "trajectory": {"type": "static", "position_m": [0, 0, 0]},
+                        "sensors": [(array or Array()).as_sensor("array", orientation_deg)],
+                    }
+                ],
+            }
+        )
 
-    def paths(self, channel: Optional[str] = None, *, tick: int = 0, sequence: int = 0,
-              receivers: Optional[np.ndarray] = None, array: Optional[Array] = None,
-              orientation_deg: Optional[Sequence[float]] = None, progress: Optional[Callable[[int], None]] = None) -> Paths:
+    def paths(
+        self,
+        channel: Optional[str] = None,
+        *,
+        tick: int = 0,
+        sequence: int = 0,
+        receivers: Optional[np.ndarray] = None,
+        array: Optional[Array] = None,
+        orientation_deg: Optional[Sequence[float]] = None,
+        progress: Optional[Callable[[int], None]] = None,
+    ) -> Paths:
         """Every path of a channel (None: the only one) at a tick, from all transmitters to all receivers.
 
         receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers,
@@ -307,16 +447,33 @@ class Simulation:
                 raise Error(f"receivers: expected [N, 3] positions in metres, found {list(points.shape)}")
             antenna = self._antenna(array, orientation_deg)
         elif array is not None or orientation_deg is not None:
-            raise Error("array, orientation_deg: expected receivers=points with them; the channel's receivers have their own")
+            raise Error(
+                "array, orientation_deg: expected receivers=points with them; the channel's receivers have their own"
+            )
         native = _call(self._native.solve, name, sequence, tick, points, antenna, progress)
         return Paths(native, None if points is not None else self.channels[name]["receivers"])
 
-    def radio_map(self, cell_m: float, channel: Optional[str] = None, *, min_m: Optional[Position] = None,
-                  max_m: Optional[Position] = None, z_m: Optional[float] = None, height_m: float = 1.5, over: str = "ground",
-                  power_dbm: Optional[Union[float, Sequence[float]]] = None, bandwidth_hz: Optional[float] = None,
-                  noise_figure_db: float = 0.0, array: Optional[Array] = None, orientation_deg: Optional[Sequence[float]] = None,
-                  inside_solids: bool = False, beyond_scene: bool = False, tick: int = 0, sequence: int = 0,
-                  progress: Optional[Callable[[int], None]] = None) -> RadioMap:
+    def radio_map(
+        self,
+        cell_m: float,
+        channel: Optional[str] = None,
+        *,
+        min_m: Optional[Position] = None,
+        max_m: Optional[Position] = None,
+        z_m: Optional[float] = None,
+        height_m: float = 1.5,
+        over: str = "ground",
+        power_dbm: Optional[Union[float, Sequence[float]]] = None,
+        bandwidth_hz: Optional[float] = None,
+        noise_figure_db: float = 0.0,
+        array: Optional[Array] = None,
+        orientation_deg: Optional[Sequence[float]] = None,
+        inside_solids: bool = False,
+        beyond_scene: bool = False,
+        tick: int = 0,
+        sequence: int = 0,
+        progress: Optional[Callable[[int], None]] = None,
+    ) -> RadioMap:
         """A map of a channel's transmitters, as `greatx map`: each cell has the paths of a receiver put in
         its middle.
 
@@ -336,9 +493,26 @@ class Simulation:
         for name, xy in zip(("min_m", "max_m"), corner):
             if xy is not None and len(xy) != 2:
                 raise Error(f"{name}: expected [x, y] in metres, found {xy}")
-        return RadioMap(*_call(self._native.radio_map, self._channel(channel), sequence, tick, *corner, cell_m, z_m, height_m,
-                               over == "roofs", [] if power_dbm is None else [float(p) for p in np.atleast_1d(power_dbm)], bandwidth_hz, noise_figure_db,
-                               inside_solids, beyond_scene, self._antenna(array, orientation_deg), progress))
+        return RadioMap(
+            *_call(
+                self._native.radio_map,
+                self._channel(channel),
+                sequence,
+                tick,
+                *corner,
+                cell_m,
+                z_m,
+                height_m,
+                over == "roofs",
+                [] if power_dbm is None else [float(p) for p in np.atleast_1d(power_dbm)],
+                bandwidth_hz,
+                noise_figure_db,
+                inside_solids,
+                beyond_scene,
+                self._antenna(array, orientation_deg),
+                progress,
+            )
+        )
 
     def run(self, sequence: int = 0, first_tick: int = 0) -> Run:
         """Steps the whole scenario in memory: an iterator over ticks, each a mapping of the sensors that
@@ -352,5 +526,7 @@ class Simulation:
 
     def __repr__(self) -> str:
         facts = self._facts
-        return (f"<greatx.Simulation {facts['name']}: {len(facts['nodes'])} nodes, channels "
-                f"{', '.join(facts['channels']) or 'none'}>")
+        return (
+            f"<greatx.Simulation {facts['name']}: {len(facts['nodes'])} nodes, channels "
+            f"{', '.join(facts['channels']) or 'none'}>"
+        )

@@ -33,8 +33,15 @@ class Run:
         if packet is None:
             raise StopIteration
         tick, time_ns, records = packet
-        return RunTick(self, tick, time_ns, {self._names[sensor]: RunRecord(self.sensors[self._names[sensor]], tick, sample, arrays)
-                                             for sensor, sample, arrays in records})
+        return RunTick(
+            self,
+            tick,
+            time_ns,
+            {
+                self._names[sensor]: RunRecord(self.sensors[self._names[sensor]], tick, sample, arrays)
+                for sensor, sample, arrays in records
+            },
+        )
 
     def summary(self) -> Dict[str, Any]:
         """ticks, counters and notes of the run so far, and warnings: what it lost, a sentence each."""
@@ -54,7 +61,9 @@ class RunRecord(Arrays):
     have."""
 
     def __init__(self, sensor: Dict[str, Any], tick: int, sample: int, arrays: List[np.ndarray]):
-        super().__init__((a["name"], a["unit"], a["description"], array) for a, array in zip(sensor["arrays"], arrays))
+        super().__init__(
+            (a["name"], a["unit"], a["description"], array) for a, array in zip(sensor["arrays"], arrays)
+        )
         self.sensor = sensor
         self.tick = tick
         self.sample = sample  #: the sensor's own count

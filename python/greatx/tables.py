@@ -45,6 +45,8 @@ class Arrays(Mapping[str, np.ndarray]):
         return sorted({*super().__dir__(), *self._arrays})
 
     def __repr__(self) -> str:
-        rows = [f"  {name}: {a.dtype} {list(a.shape)} {self.unit(name)}  {self.description(name)}"
-                for name, a in self._arrays.items()]
+        rows = [
+            f"  {name}: {a.dtype} {list(a.shape)} {self.unit(name)}  {self.description(name)}"
+            for name, a in self._arrays.items()
+        ]
         return "\n".join([f"<greatx.{type(self).__name__}", *rows]) + ">"

@@ -23,7 +23,9 @@ class TickRecords(Mapping[str, R]):
 
     def __getitem__(self, sensor: str) -> R:
         if sensor not in self._records:
-            raise KeyError(f"{self._where}sensor {sensor!r} has no record at tick {self.tick}; {', '.join(self._records)} have")
+            raise KeyError(
+                f"{self._where}sensor {sensor!r} has no record at tick {self.tick}; {', '.join(self._records)} have"
+            )
         return self._records[sensor]
 
     def __iter__(self) -> Iterator[str]:

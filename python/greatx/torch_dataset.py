@@ -37,6 +37,8 @@ class TorchDataset(torch.utils.data.Dataset):
         return len(self.samples)
 
     def __getitem__(self, i: int) -> Any:
-        item = {key: to_tensor(value) if isinstance(value, np.ndarray) else value
-                for key, value in self.samples[i].items()}
+        item = {
+            key: to_tensor(value) if isinstance(value, np.ndarray) else value
+            for key, value in self.samples[i].items()
+        }
         return item if self.transform is None else self.transform(item)

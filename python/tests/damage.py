@@ -10,19 +10,52 @@ import struct
 import zlib
 
 #: Values that a field may get instead of its own.
-EXTREMES = (0, -1, 1, 2**31, 2**32 - 1, 2**53, 2**63 - 1, 2**64, 1e300, -1e300, 0.5, True, None, "", "x", "/etc/passwd", "../../x",
-            "9223372036854775807", "1/9223372036854775807", "1e999999999", "\x1b[31m", "a" * 5000, [], {}, [[]], [-1], [2**40, 2**40])
+EXTREMES = (
+    0,
+    -1,
+    1,
+    2**31,
+    2**32 - 1,
+    2**53,
+    2**63 - 1,
+    2**64,
+    1e300,
+    -1e300,
+    0.5,
+    True,
+    None,
+    "",
+    "x",
+    "/etc/passwd",
+    "../../x",
+    "9223372036854775807",
+    "1/9223372036854775807",
+    "1e999999999",
+    "\x1b[31m",
+    "a" * 5000,
+    [],
+    {},
+    [[]],
+    [-1],
+    [2**40, 2**40],
+)
 
 
 def files_of(folder: pathlib.Path) -> list:
     """Plain files that can be read at once."""
-    return sorted(p for p in folder.rglob("*") if not p.is_symlink() and p.is_file() and p.stat().st_size < 1 << 26)
+    return sorted(
+        p for p in folder.rglob("*") if not p.is_symlink() and p.is_file() and p.stat().st_size < 1 << 26
+    )
 
 
 def pick(folder: pathlib.Path, rng: random.Random) -> pathlib.Path:
     """A file; those that describe the others as often as all others."""
     files = files_of(folder)
-    small = [p for p in files if p.name in ("dataset.json", "manifest.json", "journal.txt", "index.npy", "index.csv")]
+    small = [
+        p
+        for p in files
+        if p.name in ("dataset.json", "manifest.json", "journal.txt", "index.npy", "index.csv")
+    ]
     return rng.choice(small if small and rng.random() < 0.5 else files)
 
 
@@ -30,7 +63,14 @@ def flip_bytes(folder: pathlib.Path, rng: random.Random) -> str:
     path = pick(folder, rng)
     data = bytearray(path.read_bytes())
     # Headers are where sizes stand.
-    places = [rng.randrange(min(len(data), rng.choice((64, 400, 1 << 30)))) for _ in range(rng.choice((1, 1, 3, 20)))] if data else []
+    places = (
+        [
+            rng.randrange(min(len(data), rng.choice((64, 400, 1 << 30))))
+            for _ in range(rng.choice((1, 1, 3, 20)))
+        ]
+        if data
+        else []
+    )
     for at in places:
         data[at] = rng.choice((data[at] ^ (1 << rng.randrange(8)), 0, 255, 127, 10, 45, 57))
     path.write_bytes(data)
@@ -41,13 +81,26 @@ def write_numbers(folder: pathlib.Path, rng: random.Random) -> str:
     """Extreme numbers where a binary file may keep numbers."""
     path = pick(folder, rng)
     data = bytearray(path.read_bytes())
-    form, value = rng.choice((("<q", 2**63 - 1), ("<q", -1), ("<q", 2**40), ("<i", -1), ("<i", 2**31 - 1), ("<I", 2**32 - 1),
-                              ("<d", float("inf")), ("<d", 1e300), ("<f", float("nan")), ("<f", 3e38), (">I", 2**31 - 1)))
+    form, value = rng.choice(
+        (
+            ("<q", 2**63 - 1),
+            ("<q", -1),
+            ("<q", 2**40),
+            ("<i", -1),
+            ("<i", 2**31 - 1),
+            ("<I", 2**32 - 1),
+            ("<d", float("inf")),
+            ("<d", 1e300),
+            ("<f", float("nan")),
+            ("<f", 3e38),
+            (">I", 2**31 - 1),
+        )
+    )
     size = struct.calcsize(form)
     if len(data) < size:
         return "nothing"
     at = rng.randrange(0, len(data) - size + 1, 4)
-    data[at:at + size] = struct.pack(form, value)
+    data[at : at + size] = struct.pack(form, value)
     path.write_bytes(data)
     return f"{form} {value} at byte {at} of {path.name}"
 
@@ -68,7 +121,9 @@ def delete(folder: pathlib.Path, rng: random.Random) -> str:
 def swap(folder: pathlib.Path, rng: random.Random) -> str:
     """Something else in the place of a file, or another file of the data set."""
     path = pick(folder, rng)
-    kind = rng.choice(("folder", "fifo", "link", "link to a device", "link to itself", "sparse", "empty", "other"))
+    kind = rng.choice(
+        ("folder", "fifo", "link", "link to a device", "link to itself", "sparse", "empty", "other")
+    )
     other = rng.choice(files_of(folder)).read_bytes()
     path.unlink()
     if kind == "folder":
@@ -76,7 +131,9 @@ def swap(folder: pathlib.Path, rng: random.Random) -> str:
     elif kind == "fifo":
         os.mkfifo(path)
     elif kind.startswith("link"):
-        path.symlink_to({"link": "/etc/hostname", "link to a device": "/dev/zero", "link to itself": path.name}[kind])
+        path.symlink_to(
+            {"link": "/etc/hostname", "link to a device": "/dev/zero", "link to itself": path.name}[kind]
+        )
     else:
         path.write_bytes(other if kind == "other" else b"")
         if kind == "sparse":
@@ -94,7 +151,11 @@ def _places(tree, place=()):
 def change_json(folder: pathlib.Path, rng: random.Random) -> str:
     """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to
     fit."""
-    names = [n for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt") if folder / n in files_of(folder)]
+    names = [
+        n
+        for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt")
+        if folder / n in files_of(folder)
+    ]
     if not names:
         return "nothing"
     path = folder / rng.choice(names)
@@ -126,12 +187,23 @@ def change_json(folder: pathlib.Path, rng: random.Random) -> str:
     return f"{path.name}: {[*way[1:], last]} = {str(value)[:40]!r}"
 
 
-MUTATORS = (flip_bytes, flip_bytes, write_numbers, truncate, delete, swap, change_json, change_json, change_json)
+MUTATORS = (
+    flip_bytes,
+    flip_bytes,
+    write_numbers,
+    truncate,
+    delete,
+    swap,
+    change_json,
+    change_json,
+    change_json,
+)
 
 
 def sign(folder: pathlib.Path) -> None:
     """Makes sizes and hashes of the manifest fit, so that what lies behind them is reached."""
     import hashlib
+
     path = folder / "manifest.json"
     if not path.is_file() or path.stat().st_size > 1 << 26:  # a FIFO, a link to a device, a sparse file
         return
@@ -139,7 +211,12 @@ def sign(folder: pathlib.Path) -> None:
         manifest = json.loads(path.read_text())
         for file in manifest["files"]:
             target = folder / file["path"]
-            if folder in target.parents and target.is_file() and not target.is_symlink() and target.stat().st_size < 1 << 24:
+            if (
+                folder in target.parents
+                and target.is_file()
+                and not target.is_symlink()
+                and target.stat().st_size < 1 << 24
+            ):
                 data = target.read_bytes()
                 file["size"], file["sha256"] = len(data), hashlib.sha256(data).hexdigest()
         path.write_text(json.dumps(manifest))

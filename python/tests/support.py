@@ -118,7 +118,9 @@ def scenario_file(name: str, text: str) -> pathlib.Path:
 @functools.lru_cache(maxsize=None)
 def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
     scenario, out = scenario_file(name, text), _folder() / name
-    subprocess.run([os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", out, "-q", *arguments], check=True)
+    subprocess.run(
+        [os.environ["GREATX_PROGRAM"], "generate", scenario, "-o", out, "-q", *arguments], check=True
+    )
     return out
 
 
@@ -162,19 +164,39 @@ def two_transmitters() -> pathlib.Path:
     links = np.array([[0, 0], [0, 1], [0, 1], [2, 0], [2, 0], [2, 1]], np.int32)  # rx, tx of each path
     n = len(links)
     angle = np.full((n, 2), np.pi / 2)
-    paths = {"rx": links[:, 0].copy(), "tx": links[:, 1].copy(), "delay": 1e-7 * np.arange(1, n + 1), "doppler": np.zeros(n),
-             "amplitude": np.full((n, 1, 1), 1e-3, np.complex64), "departure": angle, "arrival": angle,
-             "transfer": (np.arange(1, n + 1)[:, None, None] * np.eye(2)).astype(np.complex64),
-             "interaction": np.tile(np.array([1, 2], np.uint8), (n, 1)), "vertex": np.zeros((n, 2, 3)),
-             "object": np.tile(np.array([1, 2], np.uint32), (n, 1))}
+    paths = {
+        "rx": links[:, 0].copy(),
+        "tx": links[:, 1].copy(),
+        "delay": 1e-7 * np.arange(1, n + 1),
+        "doppler": np.zeros(n),
+        "amplitude": np.full((n, 1, 1), 1e-3, np.complex64),
+        "departure": angle,
+        "arrival": angle,
+        "transfer": (np.arange(1, n + 1)[:, None, None] * np.eye(2)).astype(np.complex64),
+        "interaction": np.tile(np.array([1, 2], np.uint8), (n, 1)),
+        "vertex": np.zeros((n, 2, 3)),
+        "object": np.tile(np.array([1, 2], np.uint32), (n, 1)),
+    }
     paths["transfer"][1, 0, 0] = 0  # nothing vertical comes through
     end = {"body_from_antenna": {"position_m": [0, 0, 1], "orientation_wxyz": [1, 0, 0, 0]}, "ports": 1}
     names = ["a", "b", "c", "d", "e"]
-    meta = {"carrier_hz": 1e9, "subcarriers": 4, "first_subcarrier": -2, "subcarrier_spacing_hz": 1e6, "time_samples": 1,
-            "time_spacing_s": 1e-3, "doppler_in_time_samples": False, "max_depth": 2, "walls": [],
-            "transmitters": [{**end, "name": f"{name}/antenna"} for name in names[:2]],
-            "receivers": [{**end, "name": f"{name}/antenna"} for name in names[2:]]}
-    stacks = {"cfr": np.zeros((2, 3, 1, 2, 1, 1, 4), np.complex64), "path_count": np.zeros((2, 3, 2), np.int32)}
+    meta = {
+        "carrier_hz": 1e9,
+        "subcarriers": 4,
+        "first_subcarrier": -2,
+        "subcarrier_spacing_hz": 1e6,
+        "time_samples": 1,
+        "time_spacing_s": 1e-3,
+        "doppler_in_time_samples": False,
+        "max_depth": 2,
+        "walls": [],
+        "transmitters": [{**end, "name": f"{name}/antenna"} for name in names[:2]],
+        "receivers": [{**end, "name": f"{name}/antenna"} for name in names[2:]],
+    }
+    stacks = {
+        "cfr": np.zeros((2, 3, 1, 2, 1, 1, 4), np.complex64),
+        "path_count": np.zeros((2, 3, 2), np.int32),
+    }
     position = np.zeros((2, 5, 3))
     position[:, :, 0] = np.arange(5)
     poses = {"position": position, "orientation": np.tile([1.0, 0, 0, 0], (2, 5, 1))}
@@ -185,8 +207,10 @@ def two_transmitters() -> pathlib.Path:
         np.save(path, value)
 
     def arrays(values, rows):
-        return [{"name": k, "dtype": v.dtype.str, "shape": [*rows, *v.shape[1:]], "unit": "1", "description": ""}
-                for k, v in values.items()]
+        return [
+            {"name": k, "dtype": v.dtype.str, "shape": [*rows, *v.shape[1:]], "unit": "1", "description": ""}
+            for k, v in values.items()
+        ]
 
     def outputs(values, kind, prefix=""):
         return [{"name": prefix + k, "format": kind, "arrays": [k]} for k in values]
@@ -199,12 +223,32 @@ def two_transmitters() -> pathlib.Path:
         save(f"csi/paths/{k}", v)
         save(f"csi/paths/{k}_offsets", np.array([0, n, n]))
     save("index", np.array([[0, 0, 0, 0, 0], [0, 0, 1, 0, 0], [5, 5000, 0, 1, 1], [5, 5000, 1, 1, 1]]))
-    sensors = [{"name": "poses", "kind": "pose", "rate_hz": "", "arrays": arrays(poses, []),
-                "outputs": outputs(poses, "npy_stack"), "metadata": {"nodes": names}},
-               {"name": "csi", "kind": "csi", "rate_hz": "200", "arrays": arrays(stacks, []) + arrays(paths, [-1]),
-                "outputs": outputs(stacks, "npy_stack") + outputs(paths, "npy_ragged", "paths/"), "metadata": meta}]
-    info = {"format": "greatx-dataset", "format_version": 1, "sequences": 1, "tick_rate_hz": "1000", "sensors": sensors,
-            "run": {"greatx": "0", "scenario": "hand", "materials": [], "instances": [], "semantic_classes": []}}
+    sensors = [
+        {
+            "name": "poses",
+            "kind": "pose",
+            "rate_hz": "",
+            "arrays": arrays(poses, []),
+            "outputs": outputs(poses, "npy_stack"),
+            "metadata": {"nodes": names},
+        },
+        {
+            "name": "csi",
+            "kind": "csi",
+            "rate_hz": "200",
+            "arrays": arrays(stacks, []) + arrays(paths, [-1]),
+            "outputs": outputs(stacks, "npy_stack") + outputs(paths, "npy_ragged", "paths/"),
+            "metadata": meta,
+        },
+    ]
+    info = {
+        "format": "greatx-dataset",
+        "format_version": 1,
+        "sequences": 1,
+        "tick_rate_hz": "1000",
+        "sensors": sensors,
+        "run": {"greatx": "0", "scenario": "hand", "materials": [], "instances": [], "semantic_classes": []},
+    }
     (out / "dataset.json").write_text(json.dumps(info))
     (out / "manifest.json").write_text("{}")
     return out

@@ -33,16 +33,23 @@ class DeepMimo(Converted):
         ds = greatx.load(support.space())
         summary = write_deepmimo(ds, self.out, sequence=1)
         self.assertEqual((summary["snapshots"], summary["paths"]), (3, 3))
-        self.assertEqual(sorted(p.name for p in self.out.iterdir()),
-                         ["params.json"] + [f"snapshot_00000{i}" for i in range(3)])
+        self.assertEqual(
+            sorted(p.name for p in self.out.iterdir()),
+            ["params.json"] + [f"snapshot_00000{i}" for i in range(3)],
+        )
         for i in range(3):
             folder, d = f"snapshot_00000{i}", 50.0 + 5 * i
             turns = -3.5e9 * d / C
             for key, wanted, error in (
-                    ("power", 20 * np.log10(C / 3.5e9 / (4 * np.pi * d)), 1e-4),
-                    ("phase", (360 * turns + 180) % 360 - 180, 1e-3), ("delay", d / C, 1e-14), ("aod_el", 90, 1e-4),
-                    ("aod_az", np.degrees(np.arctan2(4, 3)), 1e-4), ("aoa_az", np.degrees(np.arctan2(-4, -3)), 1e-4),
-                    ("inter", 0, 0), ("doppler", -50 / C * 3.5e9, 1e-3)):
+                ("power", 20 * np.log10(C / 3.5e9 / (4 * np.pi * d)), 1e-4),
+                ("phase", (360 * turns + 180) % 360 - 180, 1e-3),
+                ("delay", d / C, 1e-14),
+                ("aod_el", 90, 1e-4),
+                ("aod_az", np.degrees(np.arctan2(4, 3)), 1e-4),
+                ("aoa_az", np.degrees(np.arctan2(-4, -3)), 1e-4),
+                ("inter", 0, 0),
+                ("doppler", -50 / C * 3.5e9, 1e-3),
+            ):
                 value = self.matrix(key, folder)
                 self.assertEqual((value.shape, value.dtype), ((1, 1), np.float32), key)
                 self.assertAlmostEqual(value[0, 0], wanted, delta=error, msg=key)
@@ -54,7 +61,9 @@ class DeepMimo(Converted):
         self.assertEqual(params["scene"]["num_scenes"], 3)
         self.assertEqual(params["rt_params"]["frequency"], 3.5e9)
         self.assertEqual(params["greatx"]["times_s"], [0, 0.1, 0.2])
-        self.assertTrue(params["txrx_sets"]["txrx_set_0"]["is_tx"] and not params["txrx_sets"]["txrx_set_1"]["is_tx"])
+        self.assertTrue(
+            params["txrx_sets"]["txrx_set_0"]["is_tx"] and not params["txrx_sets"]["txrx_set_1"]["is_tx"]
+        )
 
     def test_ticks_as_users(self):
         ds = greatx.load(support.street())
@@ -64,7 +73,9 @@ class DeepMimo(Converted):
         self.assertEqual(power.shape[0], 8)
         self.assertEqual(position.shape, (*power.shape, 2, 3))
         self.assertTrue(np.all(np.diff(power, axis=1)[~np.isnan(power[:, 1:])] <= 0))  # strongest first
-        self.assertEqual(json.loads((self.out / "params.json").read_text())["txrx_sets"]["txrx_set_1"]["num_points"], 8)
+        self.assertEqual(
+            json.loads((self.out / "params.json").read_text())["txrx_sets"]["txrx_set_1"]["num_points"], 8
+        )
         for user in range(8):
             paths = csi.record(user // 2).paths(user % 2, 0)
             n = len(paths["delay"])
@@ -81,8 +92,16 @@ class DeepMimo(Converted):
 
     def test_several_transmitters_and_links_without_paths(self):
         summary = write_deepmimo(greatx.load(support.two_transmitters()), self.out)
-        self.assertEqual(summary, {"snapshots": 2, "transmitters": 2, "receivers": 3, "paths": 5,
-                                   "paths of no vertical amplitude left out": 1})
+        self.assertEqual(
+            summary,
+            {
+                "snapshots": 2,
+                "transmitters": 2,
+                "receivers": 3,
+                "paths": 5,
+                "paths of no vertical amplitude left out": 1,
+            },
+        )
         delay = self.matrix("delay", "snapshot_000000", tx=1)
         np.testing.assert_allclose(delay, [[3e-7, np.nan], [np.nan, np.nan], [6e-7, np.nan]], rtol=1e-6)
         # Strongest first: transfers are 1, 2, ...
@@ -128,8 +147,12 @@ class Sionna(Converted):
             # A passband coefficient: the carrier's phase over the delay is not in it.
             self.assertAlmostEqual(complex(p.a.item()), C / 3.5e9 / (4 * np.pi * d), delta=1e-9)
             self.assertAlmostEqual(p.tau.item(), d / C, delta=1e-18)
-            np.testing.assert_allclose([p.theta_t.item(), p.phi_t.item()], [np.pi / 2, np.arctan2(4, 3)], rtol=1e-6)
-            np.testing.assert_allclose([p.theta_r.item(), p.phi_r.item()], [np.pi / 2, np.arctan2(-4, -3)], rtol=1e-6)
+            np.testing.assert_allclose(
+                [p.theta_t.item(), p.phi_t.item()], [np.pi / 2, np.arctan2(4, 3)], rtol=1e-6
+            )
+            np.testing.assert_allclose(
+                [p.theta_r.item(), p.phi_r.item()], [np.pi / 2, np.arctan2(-4, -3)], rtol=1e-6
+            )
             np.testing.assert_allclose(p.targets, [[0.6 * d, 0.8 * d, 10]])
             self.assertTrue(p.valid.all() and not p.interactions.any())
 
@@ -143,7 +166,9 @@ class Sionna(Converted):
             baseband = p.a.astype(complex) * np.exp(-2j * np.pi * p.frequency * p.tau)[:, None, :, None]
             np.testing.assert_allclose(p.cir[..., 0], baseband, atol=1e-6 * np.abs(baseband).max())
             over_f = np.exp(-2j * np.pi * p.frequencies * p.tau[:, None, :, None, :, None])
-            h = np.einsum("rustpn,rustpk->rustnk", p.cir, np.broadcast_to(over_f, (*p.a.shape, len(p.frequencies))))
+            h = np.einsum(
+                "rustpn,rustpk->rustnk", p.cir, np.broadcast_to(over_f, (*p.a.shape, len(p.frequencies)))
+            )
             np.testing.assert_allclose(p.cfr, h, atol=1e-5 * np.abs(h).max())
             self.assertTrue(np.all(p.a[np.broadcast_to(~p.valid[:, None, :, None], p.a.shape)] == 0))
 
@@ -178,7 +203,9 @@ class CommandLine(Converted):
         code, out, _ = self.run_main("deepmimo", support.street(), self.out, "--layout", "users")
         self.assertEqual(code, 0)
         self.assertIn("8 receivers", out)
-        code, out, _ = self.run_main("sionna", support.street(), self.out.with_name("arrays"), "--channel", "csi")
+        code, out, _ = self.run_main(
+            "sionna", support.street(), self.out.with_name("arrays"), "--channel", "csi"
+        )
         self.assertEqual(code, 0)
         self.assertIn("4 files", out)
 

@@ -64,8 +64,12 @@ class Loading(unittest.TestCase):
         for record in csi:
             for rx, tx in np.ndindex(2, 2):
                 p = record.paths(rx, tx)
-                h = np.einsum("prs,pt,pk->rstk", p["amplitude"], np.exp(2j * np.pi * np.outer(p["doppler"], t)),
-                              np.exp(-2j * np.pi * np.outer(p["delay"], f)))
+                h = np.einsum(
+                    "prs,pt,pk->rstk",
+                    p["amplitude"],
+                    np.exp(2j * np.pi * np.outer(p["doppler"], t)),
+                    np.exp(-2j * np.pi * np.outer(p["delay"], f)),
+                )
                 np.testing.assert_allclose(record.cfr[rx, :, tx], h, atol=1e-5 * np.abs(h).max())
 
     def test_ticks_hold_the_sensors_that_fired(self):
@@ -130,7 +134,9 @@ class TwoTransmitters(unittest.TestCase):
         csi = self.ds["csi"]
         counts = [[len(csi.record(0).paths(rx, tx)["delay"]) for tx in range(2)] for rx in range(3)]
         self.assertEqual(counts, [[1, 2], [0, 0], [2, 1]])
-        np.testing.assert_allclose(csi.record(0).paths(tx=1)["delay"], [2e-7, 3e-7, 6e-7])  # not together: a copy
+        np.testing.assert_allclose(
+            csi.record(0).paths(tx=1)["delay"], [2e-7, 3e-7, 6e-7]
+        )  # not together: a copy
         self.assertEqual([e["name"] for e in transmitters(csi)], ["a/antenna", "b/antenna"])
 
     def test_a_tick_without_paths(self):
@@ -150,9 +156,11 @@ class Damage(unittest.TestCase):
         self.fails("/nonexistent", "/nonexistent", "no dataset.json")
 
     def test_other_formats_and_versions(self):
-        for change, words in ((lambda j: j.update(format_version=2), ("format_version is 2", "reads 1")),
-                              (lambda j: j.update(format="zarr"), ("greatx-dataset", "zarr")),
-                              (lambda j: j["sensors"][0]["outputs"][0].update(format="hdf5"), ("hdf5", "npy_stack"))):
+        for change, words in (
+            (lambda j: j.update(format_version=2), ("format_version is 2", "reads 1")),
+            (lambda j: j.update(format="zarr"), ("greatx-dataset", "zarr")),
+            (lambda j: j["sensors"][0]["outputs"][0].update(format="hdf5"), ("hdf5", "npy_stack")),
+        ):
             folder = support.copy_of(support.space())
             support.edit_json(folder / "dataset.json", change)
             self.fails(folder, "dataset.json", *words)
@@ -173,18 +181,32 @@ class Damage(unittest.TestCase):
 
     def test_missing_short_and_misshapen_files(self):
         cfr = "sequence_0000/csi/cfr.npy"
+
         def use(ds):
             return ds.sequences[0]["csi"].cfr
+
         folder = support.copy_of(support.space())
         data = (folder / cfr).read_bytes()
         (folder / cfr).write_bytes(data[:-8])
         self.fails(folder, cfr, use=use)
         np.save(folder / cfr, np.zeros((3, 1, 1, 1, 1, 1, 9), np.complex64))
-        self.fails(folder, cfr, "expected complex64 [3, 1, 1, 1, 1, 1, 8]", "found complex64 [3, 1, 1, 1, 1, 1, 9]", use=use)
+        self.fails(
+            folder,
+            cfr,
+            "expected complex64 [3, 1, 1, 1, 1, 1, 8]",
+            "found complex64 [3, 1, 1, 1, 1, 1, 9]",
+            use=use,
+        )
         (folder / cfr).unlink()
         self.fails(folder, cfr, "cannot be read", use=use)
         np.save(folder / "sequence_0000/csi/paths/delay_offsets.npy", np.array([0, 1, 2, 4]))
-        self.fails(folder, "delay_offsets.npy", "from 0 up to 3", "from 0 to 4", use=lambda ds: ds.sequences[0]["csi"].delay)
+        self.fails(
+            folder,
+            "delay_offsets.npy",
+            "from 0 up to 3",
+            "from 0 to 4",
+            use=lambda ds: ds.sequences[0]["csi"].delay,
+        )
         (folder / "sequence_0001/index.npy").unlink()
         self.fails(folder, "sequence_0001/index.npy")
 

@@ -27,7 +27,7 @@ class EventFiles(unittest.TestCase):
         offsets = self.camera["t"].offsets
         self.assertEqual(offsets[1], 0)  # the first record has nothing to compare with
         for i in range(1, len(index)):
-            t = e.t[offsets[i]:offsets[i + 1]]
+            t = e.t[offsets[i] : offsets[i + 1]]
             if len(t):
                 self.assertGreater(t[0], index[i - 1, 1])
                 self.assertLessEqual(t[-1], index[i, 1])
@@ -38,8 +38,10 @@ class EventFiles(unittest.TestCase):
         except ImportError:
             self.skipTest("no h5py (Debian: python3-h5py)")
         with h5py.File(self.camera["events"], "r") as file:
-            self.assertEqual({k: v.dtype for k, v in file["events"].items()},
-                             {"t": np.uint32, "x": np.uint16, "y": np.uint16, "p": np.uint8})
+            self.assertEqual(
+                {k: v.dtype for k, v in file["events"].items()},
+                {"t": np.uint32, "x": np.uint16, "y": np.uint16, "p": np.uint8},
+            )
             t = file["events/t"][:]
             np.testing.assert_array_equal(t, self.events.t // 1000)
             for name in "xyp":
@@ -64,14 +66,21 @@ class EventFiles(unittest.TestCase):
         self.assertEqual(set(np.unique(difference)) - {-1, 0, 1}, set())
         self.assertFalse(difference[0].any())
         self.assertTrue(difference[2].any())
-        np.testing.assert_array_equal(picture[2], np.choose(difference[2] + 1, [0, 128, 255]).astype(np.uint8))
+        np.testing.assert_array_equal(
+            picture[2], np.choose(difference[2] + 1, [0, 128, 255]).astype(np.uint8)
+        )
 
 
 class EventTensors(unittest.TestCase):
     def setUp(self):
-        self.events = greatx.Events(t=np.array([0, 10, 10, 25, 40]), x=np.array([0, 1, 1, 2, 0], np.uint16),
-                                    y=np.array([0, 0, 1, 1, 0], np.uint16), p=np.array([1, 0, 1, 1, 1], np.uint8),
-                                    width=3, height=2)
+        self.events = greatx.Events(
+            t=np.array([0, 10, 10, 25, 40]),
+            x=np.array([0, 1, 1, 2, 0], np.uint16),
+            y=np.array([0, 0, 1, 1, 0], np.uint16),
+            p=np.array([1, 0, 1, 1, 1], np.uint8),
+            width=3,
+            height=2,
+        )
 
     def test_counts_and_frame(self):
         np.testing.assert_array_equal(self.events.counts(), [[[0, 1, 0], [0, 0, 0]], [[2, 0, 0], [0, 1, 1]]])

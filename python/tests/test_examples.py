@@ -53,8 +53,14 @@ class Examples(unittest.TestCase):
     def run_example(self, name, *arguments, code=0, beside=""):
         path = os.pathsep.join([str(EXAMPLES.parent), beside] if beside else [str(EXAMPLES.parent)])
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, EXAMPLES / name, *arguments], cwd=folder, text=True, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, env={**os.environ, "PYTHONPATH": path})
+            done = subprocess.run(
+                [sys.executable, EXAMPLES / name, *arguments],
+                cwd=folder,
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, "PYTHONPATH": path},
+            )
         self.assertEqual(done.returncode, code, done.stdout)
         return done.stdout
 
@@ -86,10 +92,12 @@ class Examples(unittest.TestCase):
         self.assertIn("visibility", out)
 
     def test_data_sets_without_what_an_example_shows(self):
-        for name, data, word in (("truth.py", support.street(), "expected a sensor of kind 'camera' with records of rgb, flow"),
-                                 ("events.py", support.street(), "expected a sensor of kind 'event_camera'"),
-                                 ("load_dataset.py", support.truth(), "expected a sensor of kind 'csi'"),
-                                 ("convert_deepmimo.py", support.truth(), "expected a sensor of kind 'csi'")):
+        for name, data, word in (
+            ("truth.py", support.street(), "expected a sensor of kind 'camera' with records of rgb, flow"),
+            ("events.py", support.street(), "expected a sensor of kind 'event_camera'"),
+            ("load_dataset.py", support.truth(), "expected a sensor of kind 'csi'"),
+            ("convert_deepmimo.py", support.truth(), "expected a sensor of kind 'csi'"),
+        ):
             self.assertIn(word, self.run_example(name, data, code=1))
 
     def test_events(self):

@@ -39,8 +39,13 @@ print("parent goes on")
 
 class Fork(unittest.TestCase):
     def test_a_child_is_told_and_ends(self):
-        with subprocess.Popen([sys.executable, "-c", SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              start_new_session=True) as process:
+        with subprocess.Popen(
+            [sys.executable, "-c", SCRIPT],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        ) as process:
             try:
                 out, _ = process.communicate(timeout=120)
             except subprocess.TimeoutExpired:

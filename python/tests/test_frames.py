@@ -16,28 +16,45 @@ from greatx.frames import read_exr, read_kitti, read_pcd, read_ply, read_png
 
 def png(lines, width, height, bits, colour):
     """Of filtered lines, each with its filter's number in front."""
+
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
     header = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)
     packed = zlib.compress(bytes(lines))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed[:5]) + chunk(b"IDAT", packed[5:])
-            + chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", header)
+        + chunk(b"IDAT", packed[:5])
+        + chunk(b"IDAT", packed[5:])
+        + chunk(b"IEND", b"")
+    )
 
 
 def exr(channels, height, width, compression):
     """OpenEXR of {name: float32 [h, w]}, by the format's description alone."""
+
     def attribute(name, kind, body):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(body)) + body
+
     names = sorted(channels)
     listed = b"".join(n.encode() + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for n in names) + b"\0"
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    out = struct.pack("<II", 20000630, 2) + attribute(b"channels", b"chlist", listed) + attribute(
-        b"compression", b"compression", bytes([compression])) + attribute(b"dataWindow", b"box2i", box) + b"\0"
+    out = (
+        struct.pack("<II", 20000630, 2)
+        + attribute(b"channels", b"chlist", listed)
+        + attribute(b"compression", b"compression", bytes([compression]))
+        + attribute(b"dataWindow", b"box2i", box)
+        + b"\0"
+    )
     per_block = 16 if compression == 3 else 1
     blocks = []
     for y in range(0, height, per_block):
-        raw = b"".join(channels[n][line].astype("<f4").tobytes() for line in range(y, min(y + per_block, height))
-                       for n in names)
+        raw = b"".join(
+            channels[n][line].astype("<f4").tobytes()
+            for line in range(y, min(y + per_block, height))
+            for n in names
+        )
         body = raw
         if compression == 3:
             halves = np.frombuffer(raw[0::2] + raw[1::2], np.uint8).astype(int)
@@ -63,7 +80,9 @@ class Files(unittest.TestCase):
         left = np.diff(pixels, axis=1, prepend=np.zeros((4, 1, 3), np.uint8)).astype(np.uint8)
         above = np.diff(pixels, axis=0, prepend=np.zeros((1, 5, 3), np.uint8)).astype(np.uint8)
         for filters in ([2, 2, 2, 2], [0, 1, 2, 1], [1, 0, 0, 2]):
-            lines = b"".join(bytes([f]) + (pixels, left, above)[f][y].tobytes() for y, f in enumerate(filters))
+            lines = b"".join(
+                bytes([f]) + (pixels, left, above)[f][y].tobytes() for y, f in enumerate(filters)
+            )
             self.path.write_bytes(png(lines, 5, 4, 8, 2))
             np.testing.assert_array_equal(read_png(self.path), pixels, str(filters))
 
@@ -76,8 +95,12 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(read_png(self.path), raw)
 
     def test_png_that_greatx_does_not_write(self):
-        for data, words in ((b"GIF89a" * 9, "is no PNG"), (png(b"\4" + bytes(3), 1, 1, 8, 2), "filter 4"),
-                            (png(b"\0" + bytes(4), 1, 1, 8, 6), "colour type 6"), (png(b"\0", 1, 1, 8, 2), "damaged")):
+        for data, words in (
+            (b"GIF89a" * 9, "is no PNG"),
+            (png(b"\4" + bytes(3), 1, 1, 8, 2), "filter 4"),
+            (png(b"\0" + bytes(4), 1, 1, 8, 6), "colour type 6"),
+            (png(b"\0", 1, 1, 8, 2), "damaged"),
+        ):
             self.path.write_bytes(data)
             with self.assertRaisesRegex(greatx.DatasetError, f"frame: .*{words}"):
                 read_png(self.path)
@@ -101,8 +124,10 @@ class Files(unittest.TestCase):
                 read_exr(self.path)
 
     def test_ply(self):
-        self.path.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
-                              b"property ushort ring\nend_header\n" + struct.pack("<fHfH", 1.5, 7, -2, 9))
+        self.path.write_bytes(
+            b"ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n"
+            b"property ushort ring\nend_header\n" + struct.pack("<fHfH", 1.5, 7, -2, 9)
+        )
         points = read_ply(self.path)
         self.assertEqual((list(points["x"]), list(points["ring"])), ([1.5, -2.0], [7, 9]))
         for data in (b"", b"ply\nformat ascii 1.0\nend_header\n", self.path.read_bytes()[:-1]):
@@ -111,13 +136,20 @@ class Files(unittest.TestCase):
                 read_ply(self.path)
 
     def test_pcd_and_kitti(self):
-        head = (b"# .PCD v0.7\nVERSION 0.7\nFIELDS x ring\nSIZE 4 2\nTYPE F U\nCOUNT 1 1\nWIDTH 2\nHEIGHT 1\n"
-                b"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA binary\n")
+        head = (
+            b"# .PCD v0.7\nVERSION 0.7\nFIELDS x ring\nSIZE 4 2\nTYPE F U\nCOUNT 1 1\nWIDTH 2\nHEIGHT 1\n"
+            b"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA binary\n"
+        )
         self.path.write_bytes(head + struct.pack("<fHfH", 1.5, 7, -2, 9))
         points = read_pcd(self.path)
         self.assertEqual((list(points["x"]), list(points["ring"])), ([1.5, -2.0], [7, 9]))
-        for data in (b"", head.replace(b"binary", b"ascii"), head, head.replace(b"COUNT 1", b"COUNT 2"),
-                     self.path.read_bytes()[:-1]):
+        for data in (
+            b"",
+            head.replace(b"binary", b"ascii"),
+            head,
+            head.replace(b"COUNT 1", b"COUNT 2"),
+            self.path.read_bytes()[:-1],
+        ):
             self.path.write_bytes(data)
             with self.assertRaisesRegex(greatx.DatasetError, "frame: "):
                 read_pcd(self.path)

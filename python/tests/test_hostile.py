@@ -74,33 +74,67 @@ class Hostile(unittest.TestCase):
                 for key in place[:-1]:
                     info = info[key]
                 info[place[-1]] = value
+
             return change
 
-        for rate in ("1e999999999", "9223372036854775807", "1/0", "-1", "", 30, None, "1/9223372036854775807"):
-            self.fails(self.changed(put("tick_rate_hz", value=rate)), "dataset.json: tick_rate_hz: expected a")
+        for rate in (
+            "1e999999999",
+            "9223372036854775807",
+            "1/0",
+            "-1",
+            "",
+            30,
+            None,
+            "1/9223372036854775807",
+        ):
+            self.fails(
+                self.changed(put("tick_rate_hz", value=rate)), "dataset.json: tick_rate_hz: expected a"
+            )
             if rate != "":  # which says that it has none
-                self.fails(self.changed(put("sensors", 1, "rate_hz", value=rate)), "dataset.json: sensors[1].rate_hz: expected a")
+                self.fails(
+                    self.changed(put("sensors", 1, "rate_hz", value=rate)),
+                    "dataset.json: sensors[1].rate_hz: expected a",
+                )
         for count in (2**63 - 1, 10**30, 0, -1, 1.5, "2", True, None):
-            self.fails(self.changed(put("sequences", value=count)), "dataset.json: sequences: expected an integer")
+            self.fails(
+                self.changed(put("sequences", value=count)), "dataset.json: sequences: expected an integer"
+            )
         self.fails(self.changed(put("sequences", value=10**6)), "sequence_0002/index.npy: is missing")
-        self.fails(self.changed(put("ticks_per_sequence", value=2)), "index.npy: row ", "expected a tick from 0 to 1")
-        self.fails(self.changed(put("sensors", 1, "arrays", 0, "shape", value=[2**40, 2**40])), "dataset.json: sensors[1].arrays[0].shape")
+        self.fails(
+            self.changed(put("ticks_per_sequence", value=2)), "index.npy: row ", "expected a tick from 0 to 1"
+        )
+        self.fails(
+            self.changed(put("sensors", 1, "arrays", 0, "shape", value=[2**40, 2**40])),
+            "dataset.json: sensors[1].arrays[0].shape",
+        )
         for dtype in ("O", "|V999999999", "<f2", 7, None):
-            self.fails(self.changed(put("sensors", 1, "arrays", 0, "dtype", value=dtype)), "sensors[1].arrays[0].dtype: expected")
+            self.fails(
+                self.changed(put("sensors", 1, "arrays", 0, "dtype", value=dtype)),
+                "sensors[1].arrays[0].dtype: expected",
+            )
         for metadata in ({}, {"carrier_hz": "x"}, []):
-            self.fails(self.changed(put("sensors", 1, "metadata", value=metadata)), "dataset.json" if metadata != {"carrier_hz": "x"} else "csi")
+            self.fails(
+                self.changed(put("sensors", 1, "metadata", value=metadata)),
+                "dataset.json" if metadata != {"carrier_hz": "x"} else "csi",
+            )
 
     def test_names_stay_inside(self):
         outside = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, outside)
         np.save(outside / "cfr.npy", np.zeros((3, 1, 1, 1, 1, 1, 8), np.complex64))
         for name in (str(outside), "../x", "a/../../x", "", "a//b", "a\nb", "/abs"):
+
             def change(info, name=name):
                 info["sensors"][1]["name"] = name
-            self.fails(self.changed(change), "dataset.json: sensors[1].name: expected a name that can be a folder below")
+
+            self.fails(
+                self.changed(change),
+                "dataset.json: sensors[1].name: expected a name that can be a folder below",
+            )
 
             def output(info, name=name):
                 info["sensors"][1]["outputs"][0]["name"] = name
+
             self.fails(self.changed(output), "dataset.json: sensors[1].outputs[0].name: expected a name")
 
     def test_what_is_no_plain_file(self):
@@ -125,9 +159,13 @@ class Hostile(unittest.TestCase):
             self.fails(folder, "dataset.json")
 
     def test_indices_that_lie(self):
-        for row, words in (([2**62, 0, 0, 0, 0], "expected a tick"), ([0, 0, 99, 0, 0], "expected a sensor from 0 to 1, found 99"),
-                           ([0, 0, -1, 0, 0], "expected a sensor"), ([0, 0, 0, 0, -1], "expected a row"),
-                           ([0, 0, 0, 0, 0], "is not in order")):
+        for row, words in (
+            ([2**62, 0, 0, 0, 0], "expected a tick"),
+            ([0, 0, 99, 0, 0], "expected a sensor from 0 to 1, found 99"),
+            ([0, 0, -1, 0, 0], "expected a sensor"),
+            ([0, 0, 0, 0, -1], "expected a row"),
+            ([0, 0, 0, 0, 0], "is not in order"),
+        ):
             folder = support.copy_of(support.space())
             path = folder / "sequence_0000" / "index.npy"
             index = np.load(path)
@@ -137,7 +175,10 @@ class Hostile(unittest.TestCase):
 
     def test_exr_png_and_clouds_that_end_early_or_lie(self):
         folder = support.copy_of(support.street()) / "sequence_0000" / "car"
-        exr, png, ply, pcd = (next((folder / part).glob("*")) for part in ("front/depth", "front/rgb", "lidar/cloud", "lidar/pcd"))
+        exr, png, ply, pcd = (
+            next((folder / part).glob("*"))
+            for part in ("front/depth", "front/rgb", "lidar/cloud", "lidar/pcd")
+        )
         for path, read in ((exr, read_exr), (png, read_png), (ply, read_ply), (pcd, read_pcd)):
             data = path.read_bytes()
             for size in [*range(0, 400, 7), len(data) // 2, len(data) - 1]:
@@ -148,11 +189,11 @@ class Hostile(unittest.TestCase):
             path.write_bytes(data)
         data = exr.read_bytes()
         at = data.index(b"compression\0compression\0") + 24  # the attribute's size: backwards, for ever
-        exr.write_bytes(data[:at] + struct.pack("<i", -29) + data[at + 4:])
+        exr.write_bytes(data[:at] + struct.pack("<i", -29) + data[at + 4 :])
         with self.assertRaisesRegex(greatx.Error, "an attribute of -29 bytes"):
             read_exr(exr)
         at = data.index(b"dataWindow\0box2i\0") + 21
-        exr.write_bytes(data[:at] + struct.pack("<4i", 0, 0, 2**31 - 2, 2**31 - 2) + data[at + 16:])
+        exr.write_bytes(data[:at] + struct.pack("<4i", 0, 0, 2**31 - 2, 2**31 - 2) + data[at + 16 :])
         with self.assertRaisesRegex(greatx.Error, "expected a picture of at most"):
             read_exr(exr)
         text = pcd.read_bytes()
@@ -182,7 +223,9 @@ class Copies(unittest.TestCase):
         for record in (ds["csi"].record(1), ds["car/front"].record(0)):
             name = next(iter(record.sensor.arrays))
             for other in (copy.copy(record), copy.deepcopy(record), pickle.loads(pickle.dumps(record))):
-                self.assertEqual((other.tick, other.row, other.sensor.name), (record.tick, record.row, record.sensor.name))
+                self.assertEqual(
+                    (other.tick, other.row, other.sensor.name), (record.tick, record.row, record.sensor.name)
+                )
                 np.testing.assert_array_equal(other[name], record[name])
         for other in (copy.copy(ds["csi"]), copy.deepcopy(ds["csi"]), pickle.loads(pickle.dumps(ds["csi"]))):
             np.testing.assert_array_equal(other.cfr, ds["csi"].cfr)
@@ -194,13 +237,17 @@ class Copies(unittest.TestCase):
         for kind in (KeyError, greatx.Error):
             with self.assertRaises(kind) as caught:
                 csi.metadata["nothing"]
-            self.assertIn("dataset.json: csi: metadata.nothing: expected a value, found none", str(caught.exception))
+            self.assertIn(
+                "dataset.json: csi: metadata.nothing: expected a value, found none", str(caught.exception)
+            )
         self.assertNotIn("nothing", csi.metadata)
 
     def test_the_first_sensor_of_a_kind(self):
         sequence = greatx.load(support.street()).sequences[0]
         self.assertEqual(sequence.first("camera", ["depth"]).name, "car/front")
-        with self.assertRaisesRegex(greatx.Error, r"kind 'camera' with records of flow, found .*car/front \(camera, 2 records\)"):
+        with self.assertRaisesRegex(
+            greatx.Error, r"kind 'camera' with records of flow, found .*car/front \(camera, 2 records\)"
+        ):
             sequence.first("camera", ["flow"])
 
 

@@ -21,7 +21,12 @@ class Light(unittest.TestCase):
 
     def test_place_stays(self):
         self.assertIsNone(self.sim().place)
-        for change in (None, {"rain_mm_h": 2}, {"sun": {"illuminance_lux": 5e4}}, {"moon": {"illuminance_lux": 0.1}}):
+        for change in (
+            None,
+            {"rain_mm_h": 2},
+            {"sun": {"illuminance_lux": 5e4}},
+            {"moon": {"illuminance_lux": 0.1}},
+        ):
             place = self.placed(change).place
             self.assertEqual(place["time"], NOON)
             self.assertAlmostEqual(place["latitude_deg"], 48.87, places=12)
@@ -34,18 +39,27 @@ class Light(unittest.TestCase):
         place = self.placed({"place": {"latitude_deg": -33.9}}).place
         self.assertEqual((place["time"], place["latitude_deg"]), (NOON, -33.9))
         self.assertAlmostEqual(place["longitude_deg"], 2.29, places=12)
-        self.assertEqual(self.sim({"place": PARIS, "time": NIGHT}, sun={"elevation_deg": 10}).place["time"], NIGHT)
+        self.assertEqual(
+            self.sim({"place": PARIS, "time": NIGHT}, sun={"elevation_deg": 10}).place["time"], NIGHT
+        )
 
     def test_sun_by_hand(self):
         self.assertIsNone(self.placed({"sun": {"azimuth_deg": 10, "elevation_deg": 20}}).place)
         for angle in ("azimuth_deg", "elevation_deg"):
-            with self.assertRaisesRegex(greatx.Error, rf"environment\.sun\.{angle}: expected azimuth_deg and elevation_deg both"):
+            with self.assertRaisesRegex(
+                greatx.Error, rf"environment\.sun\.{angle}: expected azimuth_deg and elevation_deg both"
+            ):
                 self.placed({"sun": {angle: 10}})
             self.assertIsNone(self.sim({"sun": {angle: 10}}).place)
 
     def test_what_contradicts_a_place(self):
-        for change in ({"time": NIGHT, "sun": {"azimuth_deg": 1, "elevation_deg": 2}}, {"moon": {"azimuth_deg": 1, "elevation_deg": 2}}):
-            with self.assertRaisesRegex(greatx.Error, "expected nothing: place and time say where the (sun|moon) is"):
+        for change in (
+            {"time": NIGHT, "sun": {"azimuth_deg": 1, "elevation_deg": 2}},
+            {"moon": {"azimuth_deg": 1, "elevation_deg": 2}},
+        ):
+            with self.assertRaisesRegex(
+                greatx.Error, "expected nothing: place and time say where the (sun|moon) is"
+            ):
                 self.placed(change)
         with self.assertRaisesRegex(greatx.Error, "time: expected a place beside it"):
             self.sim({"time": NIGHT})
@@ -55,12 +69,31 @@ class Light(unittest.TestCase):
     def test_pictures_follow(self):
         def luminance(environment):
             sim = self.placed(environment)
-            sim.add_node({"name": "eye", "trajectory": {"type": "static", "position_m": [0, 0, 0]}, "sensors": [
-                {"name": "up", "type": "camera", "rate_hz": 30, "width": 8, "height": 8, "fov_deg": 60, "outputs": ["hdr"],
-                 "mount": {"rotation_deg": [0, -80, 0]}}]})
+            sim.add_node(
+                {
+                    "name": "eye",
+                    "trajectory": {"type": "static", "position_m": [0, 0, 0]},
+                    "sensors": [
+                        {
+                            "name": "up",
+                            "type": "camera",
+                            "rate_hz": 30,
+                            "width": 8,
+                            "height": 8,
+                            "fov_deg": 60,
+                            "outputs": ["hdr"],
+                            "mount": {"rotation_deg": [0, -80, 0]},
+                        }
+                    ],
+                }
+            )
             return next(iter(sim.run()))["eye/up"].hdr.mean()
 
-        noon, night, low = luminance(None), luminance({"time": NIGHT}), luminance({"sun": {"azimuth_deg": 10, "elevation_deg": 1}})
+        noon, night, low = (
+            luminance(None),
+            luminance({"time": NIGHT}),
+            luminance({"sun": {"azimuth_deg": 10, "elevation_deg": 1}}),
+        )
         self.assertLess(night, 1e-4 * noon)
         self.assertNotEqual(low, noon)
 

@@ -44,8 +44,8 @@ class Items(unittest.TestCase):
             self.assertEqual(item["csi/paths/delay"].shape, (counts.max(),))
             self.assertEqual(item["csi/paths/delay_count"], counts[i])
             self.assertEqual(item["csi/vertex"].shape[:1], (counts.max(),))
-            np.testing.assert_array_equal(item["csi/paths/delay"][:counts[i]], self.ds["csi"].delay[i])
-            self.assertFalse(item["csi/paths/delay"][counts[i]:].any())
+            np.testing.assert_array_equal(item["csi/paths/delay"][: counts[i]], self.ds["csi"].delay[i])
+            self.assertFalse(item["csi/paths/delay"][counts[i] :].any())
             self.assertNotIn("csi/cfr_count", item)
         self.assertEqual(self.ds.samples("csi/delay")[0]["csi/delay"].shape, (counts[0],))
         with self.assertRaisesRegex(ValueError, "car/lidar/points"):
@@ -54,7 +54,9 @@ class Items(unittest.TestCase):
     def test_sequences_follow_each_other(self):
         ds = greatx.load(support.space())
         samples = ds.samples("csi/cfr")
-        self.assertEqual([(i["sequence"], i["tick"]) for i in samples], [(s, t) for s in (0, 1) for t in range(3)])
+        self.assertEqual(
+            [(i["sequence"], i["tick"]) for i in samples], [(s, t) for s in (0, 1) for t in range(3)]
+        )
         self.assertEqual([i["sequence"] for i in ds.samples("csi/cfr", sequences=[1])], [1, 1, 1])
 
     def test_what_is_not_there(self):
@@ -105,7 +107,9 @@ class Tensors(unittest.TestCase):
         self.assertEqual(item["csi/cfr"].dtype, np.complex64)
         self.assertEqual(item["car/front/rgb"].dtype, np.uint8)
         self.assertEqual(item["car/front/instance"].dtype, np.int32)  # uint16 on disk
-        np.testing.assert_array_equal(item["csi/id"].view(np.uint64)[:item["csi/id_count"]], self.ds["csi"].id[2])
+        np.testing.assert_array_equal(
+            item["csi/id"].view(np.uint64)[: item["csi/id_count"]], self.ds["csi"].id[2]
+        )
         item["csi/cfr"][...] = 0  # memory of its own: the file is mapped read-only
         self.assertTrue(self.ds["csi"].cfr[2].any())
 
@@ -126,6 +130,7 @@ class NoTorch(unittest.TestCase):
 class RealTorch(Tensors):
     def test_loader(self):
         import torch
+
         data = self.ds.torch(self.names, pad=True)
         self.assertIsInstance(data, torch.utils.data.Dataset)
         for workers in (0, 2):

@@ -60,7 +60,9 @@ class ClosedForms(unittest.TestCase):
         gain = (LAMBDA / (4 * np.pi * 50)) ** 2
         stats = paths.statistics()
         self.assertAlmostEqual(stats.path_gain[0, 0] / gain, 1, places=12)
-        self.assertEqual((stats.k_factor[0, 0], stats.delay_spread[0, 0], stats.line_of_sight[0, 0]), (np.inf, 0, 1))
+        self.assertEqual(
+            (stats.k_factor[0, 0], stats.delay_spread[0, 0], stats.line_of_sight[0, 0]), (np.inf, 0, 1)
+        )
         self.assertEqual(stats.unit("delay_spread"), "s")
         received = paths.received(2.0, resistance_ohm=50)
         self.assertAlmostEqual(received.power_w[0, 0] / (2 * gain), 1, places=12)
@@ -148,28 +150,49 @@ class Maps(unittest.TestCase):
         points = np.stack([made.x[columns], made.y[rows], made.z[rows, columns]], axis=1)
         stats = sim.paths(receivers=points).statistics()
         solved = made.placement[rows, columns] != 1
-        for mine, other in (("path_gain", "path_gain"), ("delay_spread", "delay_spread"), ("paths", "path_count"),
-                            ("arrival_azimuth_spread", "arrival_azimuth_spread")):
+        for mine, other in (
+            ("path_gain", "path_gain"),
+            ("delay_spread", "delay_spread"),
+            ("paths", "path_count"),
+            ("arrival_azimuth_spread", "arrival_azimuth_spread"),
+        ):
             np.testing.assert_array_equal(made[mine][:, rows, columns].T[solved], stats[other][solved], mine)
-        np.testing.assert_allclose(made.rss[:, rows, columns].T[solved],
-                                   10 * np.log10(stats.path_gain[solved]) + np.array([30, 27]), rtol=1e-12)
+        np.testing.assert_allclose(
+            made.rss[:, rows, columns].T[solved],
+            10 * np.log10(stats.path_gain[solved]) + np.array([30, 27]),
+            rtol=1e-12,
+        )
         served = made.best_server[rows, columns][solved]
         self.assertEqual(served.tolist(), np.argmax(made.rss[:, rows, columns].T[solved], axis=1).tolist())
 
     def test_friis_over_a_plane(self):
         sim = in_space()
-        made = sim.radio_map(1.0, min_m=[20, 0], max_m=[24, 2], z_m=10.0, beyond_scene=True, array=greatx.Array(polarization="vh"))
+        made = sim.radio_map(
+            1.0,
+            min_m=[20, 0],
+            max_m=[24, 2],
+            z_m=10.0,
+            beyond_scene=True,
+            array=greatx.Array(polarization="vh"),
+        )
         distance = np.hypot(*np.meshgrid(made.x, made.y))
         np.testing.assert_allclose(made.path_gain[0], (LAMBDA / (4 * np.pi * distance)) ** 2 / 2, rtol=1e-12)
         self.assertTrue((made.line_of_sight == 1).all())
 
     def test_bad_input(self):
         sim = street()
-        for words, fields in ((("cell_m", "above 0"), {"cell_m": 0}), (("min_m, max_m", "meets the scene"), {"max_m": [-900, -900], "min_m": [-950, -950]}),
-                              (("z_m", "within the scene"), {"z_m": 5000.0}), (("power_dbm", "1 number, or 2"), {"power_dbm": [1, 2, 3]}),
-                              (("bandwidth_hz",), {"bandwidth_hz": 0.0}), (("noise_figure_db",), {"noise_figure_db": -1.0}),
-                              (("over", "roofs"), {"over": "clouds"}), (("min_m", "[x, y]"), {"min_m": [1, 2, 3]}),
-                              (("array.rows",), {"array": greatx.Array(rows=0)}), (("height_m",), {"height_m": 0.0})):
+        for words, fields in (
+            (("cell_m", "above 0"), {"cell_m": 0}),
+            (("min_m, max_m", "meets the scene"), {"max_m": [-900, -900], "min_m": [-950, -950]}),
+            (("z_m", "within the scene"), {"z_m": 5000.0}),
+            (("power_dbm", "1 number, or 2"), {"power_dbm": [1, 2, 3]}),
+            (("bandwidth_hz",), {"bandwidth_hz": 0.0}),
+            (("noise_figure_db",), {"noise_figure_db": -1.0}),
+            (("over", "roofs"), {"over": "clouds"}),
+            (("min_m", "[x, y]"), {"min_m": [1, 2, 3]}),
+            (("array.rows",), {"array": greatx.Array(rows=0)}),
+            (("height_m",), {"height_m": 0.0}),
+        ):
             with self.assertRaises(greatx.Error) as caught:
                 sim.radio_map(**{**self.AREA, **fields})
             for word in words:
@@ -202,11 +225,19 @@ class SameBytes(unittest.TestCase):
 
     def test_another_tick_is_as_made_for_it(self):
         everywhere = "max_depth: 2}"
-        for change, effects in (({}, {}), ({everywhere: "max_depth: 2, search: every_tick}"}, {}),
-                                ({everywhere: "max_depth: 2, rays: 4096}"}, {}), ({}, {"moving_reflectors": "on"}),
-                                ({"tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna]":
-                                  "tx: [walker/antenna, car/antenna], rx: [bs/panel]"}, {}),
-                                ({}, {"dispersion": "on", "moving_reflectors": "on"})):
+        for change, effects in (
+            ({}, {}),
+            ({everywhere: "max_depth: 2, search: every_tick}"}, {}),
+            ({everywhere: "max_depth: 2, rays: 4096}"}, {}),
+            ({}, {"moving_reflectors": "on"}),
+            (
+                {
+                    "tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna]": "tx: [walker/antenna, car/antenna], rx: [bs/panel]"
+                },
+                {},
+            ),
+            ({}, {"dispersion": "on", "moving_reflectors": "on"}),
+        ):
             text = support.STREET
             for old, new in change.items():
                 self.assertIn(old, text)
@@ -217,7 +248,9 @@ class SameBytes(unittest.TestCase):
             for fresh_too in (kept.paths(tick=2), kept.paths(tick=2)):
                 fresh = greatx.Simulation(path, effects=effects, validation=True).paths(tick=2)
                 for name in fresh.arrays:
-                    self.assertEqual(fresh[name].tobytes(), fresh_too[name].tobytes(), (change, effects, name))
+                    self.assertEqual(
+                        fresh[name].tobytes(), fresh_too[name].tobytes(), (change, effects, name)
+                    )
                 self.assertEqual(fresh.cfr().tobytes(), fresh_too.cfr().tobytes(), (change, effects))
 
     def test_run_as_the_data_set(self):
@@ -228,9 +261,15 @@ class SameBytes(unittest.TestCase):
             kept = ds.at(tick.tick)
             self.assertEqual(list(tick), list(kept))
             self.assertEqual((tick.time_ns, tick.time_s), (kept.time_ns, kept.time_s))
-            for sensor, arrays in (("csi", ("cfr", "delay", "vertex")), ("poses", ("position",)), ("car/front", ("rgb", "depth"))):
+            for sensor, arrays in (
+                ("csi", ("cfr", "delay", "vertex")),
+                ("poses", ("position",)),
+                ("car/front", ("rgb", "depth")),
+            ):
                 for array in arrays if sensor in kept else ():
-                    self.assertEqual(tick[sensor][array].tobytes(), np.ascontiguousarray(kept[sensor][array]).tobytes())
+                    self.assertEqual(
+                        tick[sensor][array].tobytes(), np.ascontiguousarray(kept[sensor][array]).tobytes()
+                    )
 
     def test_twice_and_two_at_once(self):
         a, b = street(), street()
@@ -325,11 +364,26 @@ class Errors(unittest.TestCase):
         paths = sim.paths()
         self.check(["no such scenario", "city"], greatx.Simulation, "nowhere.yaml")
         self.check(["ticks", "expected"], greatx.Simulation, {"greatx": 1, "name": "x"})
-        self.check(["Simulation: effects", "one of auto, on, off", "'maybe'"], greatx.Simulation, EMPTY, effects={"gas": "maybe"})
-        self.check(["place_transmitter: array.rows", "from 1", "'0'"], sim.place_transmitter, "x", [0, 0, 0],
-                   array=greatx.Array(rows=0))
-        self.check(["array.row_spacing_wl", "greater than 0"], sim.place_receiver, "x", [0, 0, 0],
-                   array=greatx.Array(rows=2, row_spacing_wl=-1))
+        self.check(
+            ["Simulation: effects", "one of auto, on, off", "'maybe'"],
+            greatx.Simulation,
+            EMPTY,
+            effects={"gas": "maybe"},
+        )
+        self.check(
+            ["place_transmitter: array.rows", "from 1", "'0'"],
+            sim.place_transmitter,
+            "x",
+            [0, 0, 0],
+            array=greatx.Array(rows=0),
+        )
+        self.check(
+            ["array.row_spacing_wl", "greater than 0"],
+            sim.place_receiver,
+            "x",
+            [0, 0, 0],
+            array=greatx.Array(rows=2, row_spacing_wl=-1),
+        )
         self.check(["place_receiver: position_m", "finite"], sim.place_receiver, "x", [0, 0, float("nan")])
         self.check(["name", "free", "'bs'"], sim.place_receiver, "bs", [0, 0, 0])
         self.check(["bandwidth_hz", "greater than 0"], sim.add_channel, "y", bandwidth_hz=0)
@@ -395,7 +449,9 @@ class Errors(unittest.TestCase):
             self.assertEqual(alone.tobytes(), again.tobytes())
             gain = float(node.statistics()["path_gain"].ravel()[0])
             self.assertAlmostEqual(float(level["path_gain"].ravel()[0]) / gain, 1, places=6)
-            dry = greatx.Simulation(EMPTY, environment=environment, effects={"gas": "off", "rain": "off"}, validation=True)
+            dry = greatx.Simulation(
+                EMPTY, environment=environment, effects={"gas": "off", "rain": "off"}, validation=True
+            )
             dry.place_transmitter("bs", [0, 0, 20])
             dry.add_channel("csi", carrier_hz=carrier_hz, subcarriers=4, max_depth=0)
             ratio = abs(points.transfer[0, 0, 0] / dry.paths(receivers=far).transfer[0, 0, 0])
@@ -403,20 +459,28 @@ class Errors(unittest.TestCase):
 
     def test_interrupt_within_a_search(self):
         """One that would take minutes."""
-        sim = greatx.Simulation({**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
-                                validation=True)
+        sim = greatx.Simulation(
+            {**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
+            validation=True,
+        )
         sim.place_transmitter("bs", [6.3, -21.7, 30])
         sim.place_receiver("ue", [2.4, 20, 1.5])
         sim.add_channel("csi", max_depth=8, max_transmissions=2)
         sim.add_channel("quick", max_depth=0)
-        for work in (sim.paths, lambda name: sim.paths(name, receivers=[[2.4, 20, 1.5]]),
-                     lambda name: sim.radio_map(50.0, name), lambda name: list(sim.run())):
+        for work in (
+            sim.paths,
+            lambda name: sim.paths(name, receivers=[[2.4, 20, 1.5]]),
+            lambda name: sim.radio_map(50.0, name),
+            lambda name: list(sim.run()),
+        ):
             threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
             with self.assertRaises(KeyboardInterrupt):
                 work("csi")
         self.assertEqual(sim.paths("quick").shape, (1, 1))
-        sim = greatx.Simulation({**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
-                                validation=True)
+        sim = greatx.Simulation(
+            {**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
+            validation=True,
+        )
         sim.place_transmitter("bs", [6.3, -21.7, 30])
         sim.place_receiver("ue", [2.4, 20, 1.5])
         sim.add_channel("csi", max_depth=8, max_transmissions=2, search="every_tick")
@@ -446,7 +510,12 @@ class Errors(unittest.TestCase):
 
 class Facts(unittest.TestCase):
     def test_overrides(self):
-        sim = street(seed=5, ticks=2, effects={"reflection": "off"}, environment={"rain_mm_h": 200, "sun": {"elevation_deg": 5}})
+        sim = street(
+            seed=5,
+            ticks=2,
+            effects={"reflection": "off"},
+            environment={"rain_mm_h": 200, "sun": {"elevation_deg": 5}},
+        )
         self.assertEqual((sim.seed, sim.ticks, sim.name), (5, 2, "street"))
         self.assertFalse(sim.effects["reflection"].on)
         self.assertTrue((sim.paths().interaction[:, 0] != 1).all())
@@ -485,9 +554,16 @@ class Facts(unittest.TestCase):
 
     def test_nodes_of_any_kind(self):
         sim = greatx.Simulation({**EMPTY, "ticks": 3, "tick_rate_hz": 10}, validation=True)
-        sim.add_node({"name": "uav", "trajectory": {"type": "waypoints", "points": [
-            {"t_s": 0, "position_m": [30, 0, 10]}, {"t_s": 1, "position_m": [40, 0, 10]}]},
-            "sensors": [{"name": "antenna", "type": "antenna"}]})
+        sim.add_node(
+            {
+                "name": "uav",
+                "trajectory": {
+                    "type": "waypoints",
+                    "points": [{"t_s": 0, "position_m": [30, 0, 10]}, {"t_s": 1, "position_m": [40, 0, 10]}],
+                },
+                "sensors": [{"name": "antenna", "type": "antenna"}],
+            }
+        )
         sim.place_transmitter("bs", [0, 0, 10])
         sim.add_channel("csi", receivers=["uav/antenna"], subcarriers=4)
         ticks = list(sim.run())

@@ -14,14 +14,26 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[1] / "examples"
 class SimulationExamples(unittest.TestCase):
     def run_example(self, name, *words):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, EXAMPLES / name], cwd=folder, text=True, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, env=os.environ)
+            done = subprocess.run(
+                [sys.executable, EXAMPLES / name],
+                cwd=folder,
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                env=os.environ,
+            )
         self.assertEqual(done.returncode, 0, done.stdout)
         for word in words:
             self.assertRegex(done.stdout, word)
 
     def test_paths(self):
-        self.run_example("paths.py", "line of sight", r"H \(2, 2, 1, 64, 1, 256\) complex64", "40 receivers", "no torch|tensor")
+        self.run_example(
+            "paths.py",
+            "line of sight",
+            r"H \(2, 2, 1, 64, 1, 256\) complex64",
+            "40 receivers",
+            "no torch|tensor",
+        )
 
     def test_radio_map(self):
         self.run_example("radio_map.py", "south/array: serves", "weakest: -", "radio_map.png|no matplotlib")

@@ -37,8 +37,14 @@ class Room:
 
 
 def rooms_of(root):
-    rooms = {"assets": Room("assets", "Scenarios embedded in the program; examples that need files from elsewhere.",
-                            set(), None)}
+    rooms = {
+        "assets": Room(
+            "assets",
+            "Scenarios embedded in the program; examples that need files from elsewhere.",
+            set(),
+            None,
+        )
+    }
     for top in TOPS:
         text = (root / top / "CMakeLists.txt").read_text()
         for comment, name, body in ROOM.findall(text):
@@ -94,7 +100,7 @@ def arrow_faults(rooms):
 
     def circles(name):
         if name in way:
-            yield "a circle: " + " -> ".join(way[way.index(name):] + [name])
+            yield "a circle: " + " -> ".join(way[way.index(name) :] + [name])
         elif name not in done and name in rooms:
             way.append(name)
             for other in sorted(rooms[name].arrows):
@@ -108,6 +114,7 @@ def arrow_faults(rooms):
 
 def drawing(rooms):
     """The rooms from the bottom up; of the arrows those that do not follow from another arrow."""
+
     def below(name):
         found, todo = set(), [name]
         while todo:
@@ -125,12 +132,19 @@ def drawing(rooms):
 
     lines = ["```\n"]
     for top in TOPS:
-        names = sorted((name for name in rooms if name.split("/")[0] == top), key=lambda name: (height_of(name), name))
+        names = sorted(
+            (name for name in rooms if name.split("/")[0] == top), key=lambda name: (height_of(name), name)
+        )
         for name in names:
             arrows = rooms[name].arrows
-            direct = sorted(other for other in arrows if not any(other in below(third) for third in arrows - {other}))
+            direct = sorted(
+                other for other in arrows if not any(other in below(third) for third in arrows - {other})
+            )
             to = f"{name:<25}─► " + ("  ".join(direct) if direct else "nothing")
-            lines += [line + "\n" for line in textwrap.wrap(to, 110, subsequent_indent=" " * 28, break_on_hyphens=False)]
+            lines += [
+                line + "\n"
+                for line in textwrap.wrap(to, 110, subsequent_indent=" " * 28, break_on_hyphens=False)
+            ]
         lines.append("\n")
     lines[-1] = "```\n\n"
     lines.append("| room | holds |\n|---|---|\n")
@@ -154,8 +168,13 @@ def main(root, write):
             if write:
                 overview.write_text(drawn)
             elif drawn != text:
-                faults.append("OVERVIEW.md: its rooms are not those of the CMakeLists.txt: run tests/apps/check_arrows.py . --write")
-    print("\n".join(faults) or f"{len(rooms)} rooms, {sum(len(room.arrows) for room in rooms.values())} arrows, no circle")
+                faults.append(
+                    "OVERVIEW.md: its rooms are not those of the CMakeLists.txt: run tests/apps/check_arrows.py . --write"
+                )
+    print(
+        "\n".join(faults)
+        or f"{len(rooms)} rooms, {sum(len(room.arrows) for room in rooms.values())} arrows, no circle"
+    )
     return 1 if faults else 0
 
 

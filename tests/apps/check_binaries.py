@@ -15,8 +15,11 @@ import subprocess
 import sys
 
 #: Of the program and the Python module: what a build with these flags calls.
-CALLED = {"stack protector": r"__stack_chk_fail\b", "_FORTIFY_SOURCE": r"__(?:mem|str|vsnprintf|snprintf|read|pread)\w*_chk\b",
-          "_GLIBCXX_ASSERTIONS": r"__glibcxx_assert_fail"}
+CALLED = {
+    "stack protector": r"__stack_chk_fail\b",
+    "_FORTIFY_SOURCE": r"__(?:mem|str|vsnprintf|snprintf|read|pread)\w*_chk\b",
+    "_GLIBCXX_ASSERTIONS": r"__glibcxx_assert_fail",
+}
 
 
 def is_elf(path):
@@ -36,12 +39,19 @@ def binaries(folders):
 
 
 def readelf(path, *options):
-    return subprocess.run(["readelf", "--wide", *options, path], check=True, capture_output=True, text=True,
-                          env={**os.environ, "LC_ALL": "C"}).stdout
+    return subprocess.run(
+        ["readelf", "--wide", *options, path],
+        check=True,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "LC_ALL": "C"},
+    ).stdout
 
 
 def loader_faults(path):
-    for kind, entries in re.findall(r"\((RPATH|RUNPATH)\)\s+Library r(?:un)?path: \[(.*)\]", readelf(path, "--dynamic")):
+    for kind, entries in re.findall(
+        r"\((RPATH|RUNPATH)\)\s+Library r(?:un)?path: \[(.*)\]", readelf(path, "--dynamic")
+    ):
         for entry in entries.split(":"):
             if not entry.startswith(("/", "$ORIGIN")):
                 yield f"{path}: {kind} [{entries}] has the entry '{entry}': expected absolute folders"
@@ -72,7 +82,9 @@ def main():
     checks = (loader_faults, hardening_faults) if hardened else (loader_faults,)
     faults = [fault for path in found for check in checks for fault in check(path)]
     if len(found) < int(least):
-        faults.append(f"{', '.join(folders)}: expected {least} programs and libraries or more, found {len(found)}")
+        faults.append(
+            f"{', '.join(folders)}: expected {least} programs and libraries or more, found {len(found)}"
+        )
     print("\n".join(faults) or f"{len(found)} programs and libraries are sound")
     return 1 if faults else 0
 

@@ -29,11 +29,18 @@ import subprocess
 import sys
 import tempfile
 
-FENCE = re.compile(r"^(?P<comments>(?:<!-- [^\n]* -->\n)*)```(?P<language>\w*)\n(?P<body>.*?)^```$",
-                   re.DOTALL | re.MULTILINE)
+FENCE = re.compile(
+    r"^(?P<comments>(?:<!-- [^\n]* -->\n)*)```(?P<language>\w*)\n(?P<body>.*?)^```$", re.DOTALL | re.MULTILINE
+)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w])")
 OTHERS = {  # options of other programs, and of our own that are none of the program's
-    "--install", "--build", "--target", "--no-build-isolation", "--no-deps", "--layout", "--table"
+    "--install",
+    "--build",
+    "--target",
+    "--no-build-isolation",
+    "--no-deps",
+    "--layout",
+    "--table",
 }
 
 
@@ -42,21 +49,23 @@ class Failure(Exception):
 
 
 class Program:
-
     def __init__(self, program: str):
         self.program = program
 
     @functools.cache
     def help(self, *chain: str) -> str:
-        return subprocess.run([self.program, *chain, "--help"], capture_output=True, text=True,
-                              check=True).stdout
+        return subprocess.run(
+            [self.program, *chain, "--help"], capture_output=True, text=True, check=True
+        ).stdout
 
     @functools.cache
     def options(self, *chain: str) -> set[str]:
         return set(
             re.findall(
                 r"(?<![\w-])--?[A-Za-z][\w-]*",
-                "\n".join(line for line in self.help(*chain).splitlines() if line.lstrip().startswith("-"))))
+                "\n".join(line for line in self.help(*chain).splitlines() if line.lstrip().startswith("-")),
+            )
+        )
 
     @functools.cache
     def subcommands(self, *chain: str) -> list[str]:
@@ -65,8 +74,9 @@ class Program:
 
     @functools.cache
     def scenarios(self) -> list[str]:
-        return re.findall(r"\w+",
-                          self.help("explain").partition("or an embedded one:")[2].partition("\n\n")[0])
+        return re.findall(
+            r"\w+", self.help("explain").partition("or an embedded one:")[2].partition("\n\n")[0]
+        )
 
     def every_option(self) -> set[str]:
         found = self.options()
@@ -83,7 +93,7 @@ class Program:
         except ValueError:
             words = line.split()
         chain: list[str] = []
-        words = [word.strip("[],.;…") for word in words[words.index("greatx") + 1:]]
+        words = [word.strip("[],.;…") for word in words[words.index("greatx") + 1 :]]
         for word in words:
             if word in (">", "|", "&&"):
                 return
@@ -95,8 +105,11 @@ class Program:
                 if word not in self.subcommands(*chain):
                     raise Failure(f"greatx {' '.join(chain)} has no subcommand {word}")
                 chain.append(word)
-            elif word == words[len(chain)] and re.fullmatch(r"[a-z]\w*",
-                                                            word) and "SCENARIO" in self.help(*chain):
+            elif (
+                word == words[len(chain)]
+                and re.fullmatch(r"[a-z]\w*", word)
+                and "SCENARIO" in self.help(*chain)
+            ):
                 if word not in self.scenarios():
                     raise Failure(f"there is no embedded scenario {word}")
 
@@ -106,7 +119,7 @@ def same(shown: str, printed: str) -> bool:
     shown, printed = " ".join(shown.split()), " ".join(printed.split())
     wanted, pattern, last = [], "", 0
     for match in re.finditer(rf"…|\.\.\.|{NUMBER.pattern}", shown):
-        pattern += re.escape(shown[last:match.start()])
+        pattern += re.escape(shown[last : match.start()])
         last = match.end()
         if match[0] in ("…", "..."):
             pattern += ".*?"
@@ -120,7 +133,7 @@ def same(shown: str, printed: str) -> bool:
         return False
     for text, number in zip(wanted, found.groups(), strict=True):
         mantissa, _, exponent = text.lower().partition("e")
-        unit = 10.0**(int(exponent or 0) - len(mantissa.partition(".")[2]))
+        unit = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
         if abs(float(text) - float(number)) > 1.5 * unit:
             return False
     return True
@@ -137,20 +150,21 @@ def compare(shown: list[str], printed: list[str]) -> None:
         rest = [i for i in range(at, len(printed)) if printed[i].strip()]
         match = next((i for i in (rest if skipping else rest[:1]) if same(line, printed[i])), None)
         if match is None:
-            raise Failure(f"shown:   {line}\nprinted: " +
-                          ("\n         ".join(printed[at:at + 12]) or "nothing more"))
+            raise Failure(
+                f"shown:   {line}\nprinted: " + ("\n         ".join(printed[at : at + 12]) or "nothing more")
+            )
         at, skipping = match + 1, False
 
 
 class Page:
-
     def __init__(self, file: pathlib.Path, program: Program, source: pathlib.Path, folder: pathlib.Path):
         self.file, self.program, self.source = file, program, source
         self.text = file.read_text(encoding="utf-8")
         self.folder = folder / file.stem
         self.runs = self.checked = 0
-        self.env = dict(os.environ, GREATX_CACHE=str(folder / "cache"),
-                        PATH=f"{folder}/bin:{os.environ['PATH']}")
+        self.env = dict(
+            os.environ, GREATX_CACHE=str(folder / "cache"), PATH=f"{folder}/bin:{os.environ['PATH']}"
+        )
 
     def line_of(self, at: int) -> int:
         return self.text.count("\n", 0, at) + 1
@@ -165,8 +179,14 @@ class Page:
 
     def run(self, command: str) -> list[str]:
         command = re.sub(r"\bpython3\b", shlex.quote(sys.executable), command)
-        done = subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.env, capture_output=True,
-                              text=True, check=False)
+        done = subprocess.run(
+            ["bash", "-c", command],
+            cwd=self.folder,
+            env=self.env,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         self.runs += 1
         if done.returncode != 0:
             raise Failure(f"ends with {done.returncode}: {done.stderr.strip()}")
@@ -184,15 +204,16 @@ class Page:
                     self.program.check(command)
                     self.checked += 1
                 if runs:
-                    compare(lines[start + 1:end], self.run(command))
+                    compare(lines[start + 1 : end], self.run(command))
                 elif end > start + 1:
                     raise Failure("what it prints is shown, so it has to be run")
             except Failure as failure:
                 raise Failure(f"{command}\n{failure}") from None
 
     def check(self) -> None:
-        about = re.search(r"^# `greatx ([\w ]+)`$", self.text,
-                          re.MULTILINE)  # a page about one command has its options alone
+        about = re.search(
+            r"^# `greatx ([\w ]+)`$", self.text, re.MULTILINE
+        )  # a page about one command has its options alone
         every = self.program.options(*about[1].split()) if about else self.program.every_option()
         inline = FENCE.sub(lambda match: "\n" * match[0].count("\n"), self.text)
         for span in re.finditer(r"`([^`]+)`", inline):
@@ -203,8 +224,11 @@ class Page:
                     self.checked += 1
                 for option in re.findall(r"^--[a-z][\w-]*", code):
                     if option not in every | OTHERS:
-                        raise Failure(f"greatx {about[1]} has no option {option}"
-                                      if about else f"no command has the option {option}")
+                        raise Failure(
+                            f"greatx {about[1]} has no option {option}"
+                            if about
+                            else f"no command has the option {option}"
+                        )
             except Failure as failure:
                 raise Failure(f"{self.file}:{self.line_of(span.start())}: {code}\n{failure}") from None
         blocks = [match for match in FENCE.finditer(self.text) if re.match(r"(\$ )?greatx ", match["body"])]
@@ -232,7 +256,8 @@ def check_readme(readme: Page) -> None:
     readme.run("greatx generate --ticks 1 -o layout -q")
     files = [str(file.relative_to(readme.folder)) for file in (readme.folder / "layout").rglob("*")]
     block = next(
-        match["body"] for match in FENCE.finditer(readme.text) if match["body"].startswith("sequence_0000/"))
+        match["body"] for match in FENCE.finditer(readme.text) if match["body"].startswith("sequence_0000/")
+    )
     for name in re.sub(r"\b\d{6}\b", "000000", block).split():
         if name != "…" and not any(file.endswith("/" + name) for file in files):
             raise Failure(f"{readme.file}: a data set has no file {name}")

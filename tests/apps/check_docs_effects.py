@@ -13,8 +13,14 @@ import re
 import subprocess
 import sys
 
-GROUPS = {"RAY": "Tracing rays", "CAMERA": "Cameras", "LIDAR": "LiDARs", "RADAR": "Radars", 
-          "RADIO": "Channels", "CHECKS": "Checks"}
+GROUPS = {
+    "RAY": "Tracing rays",
+    "CAMERA": "Cameras",
+    "LIDAR": "LiDARs",
+    "RADAR": "Radars",
+    "RADIO": "Channels",
+    "CHECKS": "Checks",
+}
 HEAD = """<!-- SPDX-FileCopyrightText: 2026 The greatx authors -->
 <!-- SPDX-License-Identifier: Apache-2.0 -->
 <!-- tests/apps/check_docs_effects.py --write makes this page from sim/plan/effect_list.h -->
@@ -50,7 +56,7 @@ def documented(page):
     lines = section.splitlines()
     rows = [index for index, line in enumerate(lines) if line.startswith("|")]
     names = [name for index in rows for name in re.findall(r"`([a-z_]+)`", lines[index].split("|")[1])]
-    return names + re.findall(r"`([a-z_]+)`", "\n".join(lines[rows[-1] + 1:]))
+    return names + re.findall(r"`([a-z_]+)`", "\n".join(lines[rows[-1] + 1 :]))
 
 
 def main():
@@ -60,8 +66,11 @@ def main():
     effects_page = source / "docs/effects.md"
     if "--write" in sys.argv:
         effects_page.write_text(page_of(groups))
-    explained = json.loads(subprocess.run([program, "explain", "city", "--json"], check=True,
-                                          capture_output=True, text=True).stdout)["effects"]
+    explained = json.loads(
+        subprocess.run(
+            [program, "explain", "city", "--json"], check=True, capture_output=True, text=True
+        ).stdout
+    )["effects"]
     if len(explained) < 60:
         sys.exit(f"explain names {len(explained)} effects alone")
     faults = []
@@ -77,8 +86,11 @@ def main():
     for name, found in ((scenario, documented(scenario.read_text())), (schema, in_schema)):
         faults += [f"{name}: lacks {effect}" for effect in sorted(expected - set(found))]
         faults += [f"{name}: names {effect}, which is none" for effect in sorted(set(found) - expected)]
-        faults += [f"{name}: names {effect} more than once"
-                   for effect in sorted(set(found)) if list(found).count(effect) > 1]
+        faults += [
+            f"{name}: names {effect} more than once"
+            for effect in sorted(set(found))
+            if list(found).count(effect) > 1
+        ]
     if faults:
         sys.exit("\n".join(faults))
 

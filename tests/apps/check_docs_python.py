@@ -80,8 +80,11 @@ def check_readme(page: str, program: str, package: str) -> None:
 def check_tutorial(page: str) -> None:
     """The listings of docs/tutorial.md stand in python/examples/tutorial.py, which the page tells to run."""
     text = (pathlib.Path(page).parent / "../python/examples/tutorial.py").resolve().read_text()
-    listings = [code for code in re.findall(r"```python\n(.*?)```", pathlib.Path(page).read_text(), re.DOTALL)
-                if not code.startswith(">>>")]
+    listings = [
+        code
+        for code in re.findall(r"```python\n(.*?)```", pathlib.Path(page).read_text(), re.DOTALL)
+        if not code.startswith(">>>")
+    ]
     assert len(listings) >= 5, f"{page}: expected five listings or more, found {len(listings)}"
     for code in listings:
         assert code in text, f"{page}: not in tutorial.py:\n{code}"
@@ -90,13 +93,18 @@ def check_tutorial(page: str) -> None:
 def main(program: str, dataset_page: str, readme: str, package: str) -> int:
     stand_in_for_torch()
     check_tutorial(str(pathlib.Path(dataset_page).with_name("tutorial.md")))
-    for check in (lambda: check_dataset_page(dataset_page, program),
-                  lambda: check_readme(readme, program, package) if package else None):
+    for check in (
+        lambda: check_dataset_page(dataset_page, program),
+        lambda: check_readme(readme, program, package) if package else None,
+    ):
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             check()
             os.chdir("/")
-    print("the pages' Python works" + ("" if package else "; README.md was left out, there is no compiled module"))
+    print(
+        "the pages' Python works"
+        + ("" if package else "; README.md was left out, there is no compiled module")
+    )
     return 0
 
 

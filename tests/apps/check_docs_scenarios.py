@@ -19,7 +19,9 @@ def main(program: str, files: list[str]) -> int:
                 line = text[: block.start()].count("\n") + 2
                 scenario = pathlib.Path(folder, f"{file.stem}_{line}.yaml")
                 scenario.write_text(block[1], encoding="utf-8")
-                run = subprocess.run([program, "explain", scenario], capture_output=True, text=True, check=False)
+                run = subprocess.run(
+                    [program, "explain", scenario], capture_output=True, text=True, check=False
+                )
                 if run.returncode != 0:
                     print(f"{file}:{line}: greatx explain ends with {run.returncode}\n{run.stderr}")
                     return 1

@@ -11,14 +11,17 @@ root = pathlib.Path(sys.argv[1])
 folders = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "assets", "apps", "python/src"]
 banned = re.compile(
     r"\b(?:std::)?(strtod|strtof|strtold|atof|stod|stof|stold|sscanf|fscanf|as_double|as_float|setlocale)\s*\("
-    r"|std::(locale)\b|\{[^{}\"]*:[^{}\"]*(L)\}")
+    r"|std::(locale)\b|\{[^{}\"]*:[^{}\"]*(L)\}"
+)
 faults = []
 files = [f for folder in folders for f in sorted((root / folder).rglob("*")) if f.suffix in (".cpp", ".h")]
 for file in files:
     for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
         found = banned.search(line.split("//")[0])
         if found:
-            faults.append(f"{file.relative_to(root)}:{number}: {found.group(0)}: use parse_number() or std::from_chars")
+            faults.append(
+                f"{file.relative_to(root)}:{number}: {found.group(0)}: use parse_number() or std::from_chars"
+            )
 if len(files) < 300:
     faults.append(f"only {len(files)} sources found below {root}")
 print("\n".join(faults) or f"{len(files)} sources read no number by locale")

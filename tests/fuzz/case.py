@@ -30,7 +30,8 @@ class Raw:
 def to_bytes(text: str) -> bytes:
     """Lone surrogates \\udc80 to \\udcff become the bytes 0x80 to 0xff: so does text that is no UTF-8 come about."""
     return text.encode(
-        "utf-8", "surrogateescape" if all(not 0xD800 <= ord(c) < 0xDC80 for c in text) else "surrogatepass")
+        "utf-8", "surrogateescape" if all(not 0xD800 <= ord(c) < 0xDC80 for c in text) else "surrogatepass"
+    )
 
 
 def json_text(tree, indent=None) -> str:
@@ -59,16 +60,22 @@ def yaml_text(tree, depth=0) -> str:
     if isinstance(tree, dict) and tree:
         lines = []
         for key, value in tree.items():
-            nested = (isinstance(value, dict) and value) or (isinstance(value, list) and
-                                                             any(isinstance(v, dict) for v in value))
-            lines.append(f"{indent}{yaml_key(key)}:" +
-                         ("\n" + yaml_text(value, depth + 1) if nested else f" {json_text(value)}\n"))
+            nested = (isinstance(value, dict) and value) or (
+                isinstance(value, list) and any(isinstance(v, dict) for v in value)
+            )
+            lines.append(
+                f"{indent}{yaml_key(key)}:"
+                + ("\n" + yaml_text(value, depth + 1) if nested else f" {json_text(value)}\n")
+            )
         return "".join(lines)
     if isinstance(tree, list) and any(isinstance(value, dict) for value in tree):
         lines = []
         for value in tree:
-            block = yaml_text(value, depth +
-                              1) if isinstance(value, dict) and value else f"{indent}  {json_text(value)}\n"
+            block = (
+                yaml_text(value, depth + 1)
+                if isinstance(value, dict) and value
+                else f"{indent}  {json_text(value)}\n"
+            )
             lines.append(f"{indent}- {block[len(indent) + 2:]}")
         return "".join(lines)
     return f"{indent}{json_text(tree)}\n"
@@ -93,7 +100,8 @@ def journal_bytes(lines: list) -> bytes:
     text = b""
     for line in lines:
         body = to_bytes(
-            line.text if isinstance(line, Raw) else json_text(line).replace(", ", ",").replace(": ", ":"))
+            line.text if isinstance(line, Raw) else json_text(line).replace(", ", ",").replace(": ", ":")
+        )
         text += body + b"\t%08x\n" % zlib.crc32(body)
     return text
 
@@ -169,7 +177,8 @@ class Case:
                 record["zlib_base64"] = base64.b64encode(zlib.compress(content, 9)).decode()
             files[name.encode("utf-8", "surrogatepass").decode("latin-1")] = record
         fields = {
-            field.name: getattr(self, field.name) for field in dataclasses.fields(self)
+            field.name: getattr(self, field.name)
+            for field in dataclasses.fields(self)
             if field.name != "files"
         }
         return json.dumps({**fields, "files": files}, indent=1) + "\n"
@@ -183,15 +192,17 @@ class Case:
                 data = "".join(record["text"]).encode("utf-8")
             else:
                 data = zlib.decompress(base64.b64decode(record["zlib_base64"]))
-            files[name.encode("latin-1").decode("utf-8",
-                                                "surrogatepass")] = Entry(record.get("type", "file"), data)
+            files[name.encode("latin-1").decode("utf-8", "surrogatepass")] = Entry(
+                record.get("type", "file"), data
+            )
         return Case(files=files, **fields)
 
     def copy(self) -> "Case":
         """Trees are shared until a mutator replaces them: it copies first."""
         files = {name: dataclasses.replace(entry) for name, entry in self.files.items()}
-        return dataclasses.replace(self, files=files, done=list(self.done), command=list(self.command),
-                                   env=dict(self.env))
+        return dataclasses.replace(
+            self, files=files, done=list(self.done), command=list(self.command), env=dict(self.env)
+        )
 
 
 def sign_manifest(case: Case, root: str) -> bool:

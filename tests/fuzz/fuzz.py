@@ -26,34 +26,50 @@ from case import Case
 
 
 def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True,
-                        help="the greatx to run; one with AddressSanitizer runs without a limit of memory")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--program",
+        required=True,
+        help="the greatx to run; one with AddressSanitizer runs without a limit of memory",
+    )
     parser.add_argument("--kind", default="all", choices=["all", *seeds.KINDS], help="of input")
-    parser.add_argument("--python", default="", metavar="DIR",
-                        help="folder of the Python package, which kind `python` needs")
-    parser.add_argument("--seed", type=int, default=1,
-                        help="every case follows from kind, seed and its number")
+    parser.add_argument(
+        "--python", default="", metavar="DIR", help="folder of the Python package, which kind `python` needs"
+    )
+    parser.add_argument(
+        "--seed", type=int, default=1, help="every case follows from kind, seed and its number"
+    )
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--count", type=int, default=100, help="cases of each kind")
-    parser.add_argument("--time-limit", type=float, default=0, metavar="SECONDS",
-                        help="begin no case after this; 0: none")
+    parser.add_argument(
+        "--time-limit", type=float, default=0, metavar="SECONDS", help="begin no case after this; 0: none"
+    )
     parser.add_argument("--jobs", type=int, default=2, help="programs at a time")
-    parser.add_argument("--memory", type=int, default=4096, metavar="MIB",
-                        help="address space of a run; 0: unlimited")
-    parser.add_argument("--cpu-limit", type=int, default=0, metavar="SECONDS",
-                        help="of a run; 0: 20, of a sanitized program 120")
-    parser.add_argument("--wall-limit", type=int, default=0, metavar="SECONDS",
-                        help="of a run; 0: three times the former")
+    parser.add_argument(
+        "--memory", type=int, default=4096, metavar="MIB", help="address space of a run; 0: unlimited"
+    )
+    parser.add_argument(
+        "--cpu-limit",
+        type=int,
+        default=0,
+        metavar="SECONDS",
+        help="of a run; 0: 20, of a sanitized program 120",
+    )
+    parser.add_argument(
+        "--wall-limit", type=int, default=0, metavar="SECONDS", help="of a run; 0: three times the former"
+    )
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the cases that fail")
-    parser.add_argument("--attacks", action="store_true",
-                        help="also the named attacks of attacks.py, on the kinds chosen")
+    parser.add_argument(
+        "--attacks", action="store_true", help="also the named attacks of attacks.py, on the kinds chosen"
+    )
     parser.add_argument("--every", type=int, default=1, metavar="N", help="of the attacks each N-th alone")
     parser.add_argument("--corpus", type=pathlib.Path, help="also every case kept in this folder")
     parser.add_argument("--replay", type=pathlib.Path, nargs="+", help="kept cases, and nothing else")
-    parser.add_argument("--into", type=pathlib.Path,
-                        help="with --replay of one case: leave its files in this new folder")
+    parser.add_argument(
+        "--into", type=pathlib.Path, help="with --replay of one case: leave its files in this new folder"
+    )
     options = parser.parse_args()
     if options.kind == "python" and not options.python:
         parser.error("--kind python: expected --python DIR with it")
@@ -62,8 +78,12 @@ def arguments() -> argparse.Namespace:
 
 def limits_of(options: argparse.Namespace, sanitized: bool) -> judge.Limits:
     cpu = options.cpu_limit or (120 if sanitized else 20)
-    return judge.Limits(0 if sanitized else options.memory, cpu, options.wall_limit or 3 * cpu,
-                        python=options.python and str(pathlib.Path(options.python).resolve()))
+    return judge.Limits(
+        0 if sanitized else options.memory,
+        cpu,
+        options.wall_limit or 3 * cpu,
+        python=options.python and str(pathlib.Path(options.python).resolve()),
+    )
 
 
 def check_seeds(program: str, kind: str, cases: list[Case], limits: judge.Limits, sanitized: bool) -> None:
@@ -102,8 +122,11 @@ def work(job: tuple) -> tuple[Case, judge.Verdict, bool]:
     else:
         case = number
     verdict = judge.run(STATE["program"], case, STATE["limits"], STATE["sanitized"])
-    again = verdict.fault.startswith("hang") or bool(verdict.fault) and bool(
-        judge.run(STATE["program"], case, STATE["limits"], STATE["sanitized"]).fault)
+    again = (
+        verdict.fault.startswith("hang")
+        or bool(verdict.fault)
+        and bool(judge.run(STATE["program"], case, STATE["limits"], STATE["sanitized"]).fault)
+    )
     return case, verdict, again
 
 
@@ -114,7 +137,6 @@ def cause_of(fault: str) -> str:
 
 
 class Report:
-
     def __init__(self, keep: pathlib.Path | None):
         self.keep, self.runs = keep, collections.Counter()
         self.exits: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
@@ -134,8 +156,10 @@ class Report:
         first = not self.causes[cause]
         self.causes[cause].append(case.name)
         if first or len(self.causes[cause]) <= 3:
-            print(f"FAULT {describe(case)}\n  {verdict.fault}{'' if again else ' (once of two runs)'}",
-                  flush=True)
+            print(
+                f"FAULT {describe(case)}\n  {verdict.fault}{'' if again else ' (once of two runs)'}",
+                flush=True,
+            )
         if self.keep and len(self.causes[cause]) <= 3:
             name = re.sub(r"\W+", "-", f"{case.name}-{verdict.fault.split(':')[0]}")
             (self.keep / f"{name}.json").write_text(case.to_json())
@@ -177,7 +201,9 @@ def jobs_of(options: argparse.Namespace, kinds: list[str], bases: dict[str, list
                 yield case.kind, case
     if options.attacks:
         for kind in kinds:
-            for case in itertools.islice(attacks.attacks_of(kind, bases[kind]), 0, None, max(options.every, 1)):
+            for case in itertools.islice(
+                attacks.attacks_of(kind, bases[kind]), 0, None, max(options.every, 1)
+            ):
                 yield kind, case
     for number in range(options.first, options.first + options.count):
         for kind in kinds:
@@ -192,15 +218,22 @@ def main() -> int:
     if options.replay:
         return replay(options, program, limits, sanitized)
     begin = time.monotonic()
-    kinds = [kind for kind in seeds.KINDS if kind != "python" or options.python
-            ] if options.kind == "all" else [options.kind]
+    kinds = (
+        [kind for kind in seeds.KINDS if kind != "python" or options.python]
+        if options.kind == "all"
+        else [options.kind]
+    )
     bases = {}
     for kind in kinds:
         with tempfile.TemporaryDirectory(prefix="greatx_fuzz_") as folder:
             bases[kind] = seeds.seeds_of(kind, program, pathlib.Path(folder, "seeds"), judge.environment())
         check_seeds(program, kind, bases[kind], limits, sanitized)
     state = {
-        "seed": options.seed, "seeds": bases, "program": program, "limits": limits, "sanitized": sanitized
+        "seed": options.seed,
+        "seeds": bases,
+        "program": program,
+        "limits": limits,
+        "sanitized": sanitized,
     }
     report = Report(options.keep)
     jobs = jobs_of(options, kinds, bases)

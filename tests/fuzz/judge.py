@@ -50,19 +50,22 @@ def environment(folder: pathlib.Path | None = None) -> dict[str, str]:
     """The caller's, but for what greatx keeps between runs. The driver's cache of shaders stays: without it
     every start compiles them anew."""
     env = dict(
-        os.environ, GREATX_CACHE="off",
-        MESA_SHADER_CACHE_DIR=os.environ.get("MESA_SHADER_CACHE_DIR",
-                                             os.path.join(os.path.expanduser("~"), ".cache")))
+        os.environ,
+        GREATX_CACHE="off",
+        MESA_SHADER_CACHE_DIR=os.environ.get(
+            "MESA_SHADER_CACHE_DIR", os.path.join(os.path.expanduser("~"), ".cache")
+        ),
+    )
     env.setdefault("ASAN_OPTIONS", "detect_leaks=0")
     env["UBSAN_OPTIONS"] = env.get("UBSAN_OPTIONS", "") + ":print_stacktrace=1"
     if folder is not None:
-        env.update(HOME=str(folder / "home"), TMPDIR=str(folder / "home"),
-                   XDG_CACHE_HOME=str(folder / "home"))
+        env.update(
+            HOME=str(folder / "home"), TMPDIR=str(folder / "home"), XDG_CACHE_HOME=str(folder / "home")
+        )
     return env
 
 
 def limiter(limits: Limits):
-
     def limit() -> None:
         if limits.memory_mib > 0:
             resource.setrlimit(resource.RLIMIT_AS, (limits.memory_mib << 20,) * 2)
@@ -80,10 +83,13 @@ def snapshot(folder: pathlib.Path) -> dict[str, tuple]:
         for name in folders + files:
             status = os.lstat(os.path.join(root, name))
             kind = status.st_mode
-            found[os.path.relpath(os.path.join(root, name), os.fsencode(folder)).decode(
-                "utf-8",
-                "replace")] = (kind, status.st_size if not os.path.isdir(os.path.join(root, name)) else 0,
-                               status.st_mtime_ns if not os.path.isdir(os.path.join(root, name)) else 0)
+            found[
+                os.path.relpath(os.path.join(root, name), os.fsencode(folder)).decode("utf-8", "replace")
+            ] = (
+                kind,
+                status.st_size if not os.path.isdir(os.path.join(root, name)) else 0,
+                status.st_mtime_ns if not os.path.isdir(os.path.join(root, name)) else 0,
+            )
     return found
 
 
@@ -107,8 +113,11 @@ def unprintable(data: bytes) -> str:
     except UnicodeDecodeError as error:
         return f"no UTF-8 at byte {error.start} of what is printed: {data[max(error.start - 20, 0):error.start + 10]!r}"
     for at, c in enumerate(text):
-        if (ord(c) < 32 and
-                c not in "\n\t") or 127 <= ord(c) < 160 or ord(c) in (0x202A, 0x202B, 0x202C, 0x202D, 0x202E):
+        if (
+            (ord(c) < 32 and c not in "\n\t")
+            or 127 <= ord(c) < 160
+            or ord(c) in (0x202A, 0x202B, 0x202C, 0x202D, 0x202E)
+        ):
             return f"control character {ord(c):#x} in what is printed: {text[max(at - 20, 0):at + 10]!r}"
     return ""
 
@@ -121,13 +130,15 @@ def names_a_file(case: Case, printed: str) -> bool:
     return any(name in printed for name in [*names, "data/", "data:"])
 
 
-def judge(case: Case, code: int, stdout: bytes, stderr: bytes, timed_out: bool, changes: str,
-          sanitized: bool) -> str:
+def judge(
+    case: Case, code: int, stdout: bytes, stderr: bytes, timed_out: bool, changes: str, sanitized: bool
+) -> str:
     """The first fault, as `cause: detail`; empty if there is none."""
     printed = (stdout + stderr).decode("utf-8", "replace")
     if sanitized and (b"AddressSanitizer" in stderr or b"runtime error:" in stderr):
         lines = [
-            text for text in stderr.decode("utf-8", "replace").splitlines()
+            text
+            for text in stderr.decode("utf-8", "replace").splitlines()
             if "ERROR: Add" in text or "runtime error:" in text
         ]
         return f"sanitizer: {lines[0] if lines else ''}"
@@ -135,8 +146,11 @@ def judge(case: Case, code: int, stdout: bytes, stderr: bytes, timed_out: bool, 
         return "hang: killed at a limit of time"
     if code < 0:
         name = signal.Signals(-code).name
-        return f"hang: {name}, the limit of processor time" if name in ("SIGXCPU",
-                                                                        "SIGKILL") else f"signal: {name}"
+        return (
+            f"hang: {name}, the limit of processor time"
+            if name in ("SIGXCPU", "SIGKILL")
+            else f"signal: {name}"
+        )
     if code not in case.exit:
         last = [text for text in stderr.decode("utf-8", "replace").splitlines() if text]
         return f"exit: {code}, expected {' or '.join(map(str, case.exit))}: {(last or [''])[-1][:160]}"
@@ -173,8 +187,9 @@ def wait(process: subprocess.Popen, limits: Limits) -> tuple[int, resource.struc
         time.sleep(min(0.02, 0.002 + 0.1 * (now - begin)))
 
 
-def run(program: str, case: Case, limits: Limits, sanitized: bool,
-        into: pathlib.Path | None = None) -> Verdict:
+def run(
+    program: str, case: Case, limits: Limits, sanitized: bool, into: pathlib.Path | None = None
+) -> Verdict:
     folder = into or pathlib.Path(tempfile.mkdtemp(prefix="greatx_fuzz_"))
     work, outside = folder / "work", folder / "outside"
     for name in ("work", "home", "work/out"):
@@ -187,27 +202,39 @@ def run(program: str, case: Case, limits: Limits, sanitized: bool,
     begins = [program]
     if case.kind == "python":
         begins, env["PYTHONPATH"] = [
-            sys.executable, str(pathlib.Path(__file__).with_name("read_dataset.py"))
+            sys.executable,
+            str(pathlib.Path(__file__).with_name("read_dataset.py")),
         ], limits.python
     command = begins + [argument.replace(OUTSIDE, str(outside)) for argument in case.command]
     begin = time.monotonic()
     with open(folder / "stdout", "wb") as out, open(folder / "stderr", "wb") as err:
-        process = subprocess.Popen(command, cwd=work, env=env, stdin=subprocess.DEVNULL, stdout=out,
-                                   stderr=err, start_new_session=True, preexec_fn=limiter(limits))
+        process = subprocess.Popen(
+            command,
+            cwd=work,
+            env=env,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            start_new_session=True,
+            preexec_fn=limiter(limits),
+        )
         code, usage, timed_out = wait(process, limits)
     process.returncode = code
     seconds = time.monotonic() - begin
     changes = difference(
         around,
-        {**snapshot(outside), **{name: 0 for name in os.listdir(folder) if name not in ("stdout", "stderr")}})
+        {**snapshot(outside), **{name: 0 for name in os.listdir(folder) if name not in ("stdout", "stderr")}},
+    )
     if case.keeps_files and not changes:
         now = snapshot(work)
-        changes = difference(inputs,
-                             {name: value for name, value in now.items() if not name.startswith("out/")})
+        changes = difference(
+            inputs, {name: value for name, value in now.items() if not name.startswith("out/")}
+        )
     with open(folder / "stdout", "rb") as out, open(folder / "stderr", "rb") as err:
         stdout, stderr = out.read(PRINTED_MOST), err.read(PRINTED_MOST)
     fault = judge(case, code, stdout, stderr, timed_out, changes, sanitized)
     if into is None:
         shutil.rmtree(folder, ignore_errors=True)
-    return Verdict(fault, code, (stdout + stderr).decode("utf-8", "backslashreplace"), seconds,
-                   usage.ru_maxrss / 1024)
+    return Verdict(
+        fault, code, (stdout + stderr).decode("utf-8", "backslashreplace"), seconds, usage.ru_maxrss / 1024
+    )

@@ -14,20 +14,105 @@ from collections.abc import Callable
 from case import OUTSIDE, Case, Entry, Raw, sign_manifest
 
 NUMBERS = [
-    "0", "-0.0", "-1", "1", "2", "127", "255", "65535", "65536", "2147483647", "2147483648", "-2147483648",
-    "4294967295", "4294967296", "9223372036854775807", "9223372036854775808", "-9223372036854775808",
-    "18446744073709551615", "18446744073709551616", "99999999999999999999999999999999999999999", "1e300",
-    "-1e300", "1e308", "1e-300", "5e-324", "1e400", "-1e400", "1e38", "1e39", "1e10", "1e-10", "0.5", "1.5",
-    "3.0000001", "nan", "inf", "-inf", ".nan", ".inf", "-.inf", "NaN", "Infinity", "1/0", "0/1",
-    "1/9223372036854775807", "9223372036854775807/1", "0x7fffffff", "0o17", "1_000", "1,5", "1e", "+1", "--1",
-    "1e99999999999", "", "٣"
+    "0",
+    "-0.0",
+    "-1",
+    "1",
+    "2",
+    "127",
+    "255",
+    "65535",
+    "65536",
+    "2147483647",
+    "2147483648",
+    "-2147483648",
+    "4294967295",
+    "4294967296",
+    "9223372036854775807",
+    "9223372036854775808",
+    "-9223372036854775808",
+    "18446744073709551615",
+    "18446744073709551616",
+    "99999999999999999999999999999999999999999",
+    "1e300",
+    "-1e300",
+    "1e308",
+    "1e-300",
+    "5e-324",
+    "1e400",
+    "-1e400",
+    "1e38",
+    "1e39",
+    "1e10",
+    "1e-10",
+    "0.5",
+    "1.5",
+    "3.0000001",
+    "nan",
+    "inf",
+    "-inf",
+    ".nan",
+    ".inf",
+    "-.inf",
+    "NaN",
+    "Infinity",
+    "1/0",
+    "0/1",
+    "1/9223372036854775807",
+    "9223372036854775807/1",
+    "0x7fffffff",
+    "0o17",
+    "1_000",
+    "1,5",
+    "1e",
+    "+1",
+    "--1",
+    "1e99999999999",
+    "",
+    "٣",
 ]
 TEXTS = [
-    "", " ", ".", "..", "-", "\x1b[31mred\x1b[0m", "\x07", "a\x00b", "a\nb", "a\rb", "\u009b31m",
-    "\udcff\udcfe", "\udcc3", "\u202etxt.exe", "\ufeff", "%s%n%x", "{}", "{:1000000000}", "x" * 300,
-    "y" * 100000, "../" * 8 + "etc/passwd", "../outside/secret.txt", f"{OUTSIDE}/secret.txt", "/dev/zero",
-    "/dev/stdin", "/proc/self/mem", "file:///etc/passwd", "CON", "~root", "$HOME", "$(id)", "a/b", "a\\b",
-    "index.npy", "manifest.json", "static", "poses", "null", "true", "ÿ", "𝄞"
+    "",
+    " ",
+    ".",
+    "..",
+    "-",
+    "\x1b[31mred\x1b[0m",
+    "\x07",
+    "a\x00b",
+    "a\nb",
+    "a\rb",
+    "\u009b31m",
+    "\udcff\udcfe",
+    "\udcc3",
+    "\u202etxt.exe",
+    "\ufeff",
+    "%s%n%x",
+    "{}",
+    "{:1000000000}",
+    "x" * 300,
+    "y" * 100000,
+    "../" * 8 + "etc/passwd",
+    "../outside/secret.txt",
+    f"{OUTSIDE}/secret.txt",
+    "/dev/zero",
+    "/dev/stdin",
+    "/proc/self/mem",
+    "file:///etc/passwd",
+    "CON",
+    "~root",
+    "$HOME",
+    "$(id)",
+    "a/b",
+    "a\\b",
+    "index.npy",
+    "manifest.json",
+    "static",
+    "poses",
+    "null",
+    "true",
+    "ÿ",
+    "𝄞",
 ]
 NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])")
 
@@ -40,7 +125,20 @@ def scalar(rng: random.Random, old: object) -> object:
         return Raw(rng.choice([n for n in NUMBERS if n]))
     if roll < 0.8:
         return rng.choice(
-            [Raw(rng.choice(NUMBERS) or "null"), None, True, False, [], {}, 0, -1, 1.5, 2**32 - 1, 2**63 - 1])
+            [
+                Raw(rng.choice(NUMBERS) or "null"),
+                None,
+                True,
+                False,
+                [],
+                {},
+                0,
+                -1,
+                1.5,
+                2**32 - 1,
+                2**63 - 1,
+            ]
+        )
     if roll < 0.95:
         return rng.choice(TEXTS)
     return nest(rng)
@@ -55,8 +153,9 @@ def nest(rng: random.Random) -> Raw:
 def places(tree: object) -> list[tuple]:
     """Every (container, key) below the tree."""
     found = []
-    for key, value in tree.items() if isinstance(tree,
-                                                 dict) else enumerate(tree) if isinstance(tree, list) else ():
+    for key, value in (
+        tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+    ):
         found.append((tree, key))
         found += places(value)
     return found
@@ -103,7 +202,7 @@ def number(rng: random.Random, entry: Entry) -> str:
     new = rng.choice(NUMBERS).encode()
     if b"\0" in entry.data and len(new) < len(match[0]) and rng.random() < 0.5:
         new = new.rjust(len(match[0]))  # what follows stays where it is
-    entry.data = entry.data[:match.start()] + new + entry.data[match.end():]
+    entry.data = entry.data[: match.start()] + new + entry.data[match.end() :]
     return f"{match[0].decode()} -> {new.decode()} at byte {match.start()}"
 
 
@@ -129,17 +228,21 @@ def line(rng: random.Random, entry: Entry) -> str:
     elif roll == 6:
         lines[i] = re.sub(rb": (.*)", rb": &b [*b, \1]", lines[i], count=1)
     elif roll == 7:
-        lines[i] = re.sub(rb": ",
-                          rng.choice([b": !!binary ", b": !x ", b": | ", b": > ", b": ? ", b": - ", b":"]),
-                          lines[i], count=1)
+        lines[i] = re.sub(
+            rb": ",
+            rng.choice([b": !!binary ", b": !x ", b": | ", b": > ", b": ? ", b": - ", b":"]),
+            lines[i],
+            count=1,
+        )
     elif roll == 8:
-        lines[i:i + 1] = [lines[i][:k] for k in (rng.randrange(len(lines[i]) + 1),)]
+        lines[i : i + 1] = [lines[i][:k] for k in (rng.randrange(len(lines[i]) + 1),)]
     elif roll == 9:
         lines[i] = lines[i] * rng.choice([2, 100, 10000])
     else:
         lines.insert(
             i,
-            rng.choice([b"---", b"...", b"<<: *a", b"%YAML 9.9", b"? x", b"end_header", b"]]>", b"</scene>"]))
+            rng.choice([b"---", b"...", b"<<: *a", b"%YAML 9.9", b"? x", b"end_header", b"]]>", b"</scene>"]),
+        )
     entry.data = b"\n".join(lines)
     return f"lines, {roll}, at {i} and {j}"
 
@@ -152,7 +255,7 @@ def quoted(rng: random.Random, entry: Entry) -> str:
         return number(rng, entry)
     match = rng.choice(found)
     new = rng.choice(TEXTS + NUMBERS).encode("utf-8", "surrogateescape")
-    entry.data = entry.data[:match.start(1)] + new + entry.data[match.end(1):]
+    entry.data = entry.data[: match.start(1)] + new + entry.data[match.end(1) :]
     return f"{match[1][:40]!r} -> {new[:40]!r}"
 
 
@@ -164,18 +267,25 @@ def element(rng: random.Random, entry: Entry) -> str:
         return line(rng, entry)
     match, other = rng.choice(found), rng.choice(found)
     depth = rng.choice([1, 10, 1000, 20000])
-    name, wrap = rng.choice([("deleted", b""), ("repeated", match[0] * rng.choice([2, 50])),
-                             ("replaced", other[0]),
-                             ("in merge", b'<shape type="merge">' * depth + match[0] + b"</shape>" * depth),
-                             ("in bsdf", b'<bsdf type="twosided">' * depth + match[0] + b"</bsdf>" * depth),
-                             ("in transform",
-                              b'<transform name="to_world">' * depth + match[0] + b"</transform>" * depth),
-                             ("unclosed", b"<shape>" * depth + match[0]),
-                             ("include", b'<include filename="scene.xml"/>'),
-                             ("entity", b"&lol;" * 3 + match[0])])
-    entry.data = entry.data[:match.start()] + wrap + entry.data[match.end():]
+    name, wrap = rng.choice(
+        [
+            ("deleted", b""),
+            ("repeated", match[0] * rng.choice([2, 50])),
+            ("replaced", other[0]),
+            ("in merge", b'<shape type="merge">' * depth + match[0] + b"</shape>" * depth),
+            ("in bsdf", b'<bsdf type="twosided">' * depth + match[0] + b"</bsdf>" * depth),
+            ("in transform", b'<transform name="to_world">' * depth + match[0] + b"</transform>" * depth),
+            ("unclosed", b"<shape>" * depth + match[0]),
+            ("include", b'<include filename="scene.xml"/>'),
+            ("entity", b"&lol;" * 3 + match[0]),
+        ]
+    )
+    entry.data = entry.data[: match.start()] + wrap + entry.data[match.end() :]
     if rng.random() < 0.1:
-        entry.data = b'<!DOCTYPE x [<!ENTITY a "aaaaaaaa"><!ENTITY lol "&a;&a;&a;&a;"><!ENTITY s SYSTEM "../outside/secret.txt">]>' + entry.data
+        entry.data = (
+            b'<!DOCTYPE x [<!ENTITY a "aaaaaaaa"><!ENTITY lol "&a;&a;&a;&a;"><!ENTITY s SYSTEM "../outside/secret.txt">]>'
+            + entry.data
+        )
     return f"{match[0][:40]!r} {name} {depth}"
 
 
@@ -194,8 +304,8 @@ def flip(rng: random.Random, entry: Entry) -> str:
     for _ in range(rng.choice([1, 1, 1, 2, 4, 16])):
         at.append(position(rng, len(data)))
         data[at[-1]] = rng.choice(
-            [data[at[-1]] ^ 1 << rng.randrange(8),
-             rng.randrange(256), 0, 255, 127, 128])
+            [data[at[-1]] ^ 1 << rng.randrange(8), rng.randrange(256), 0, 255, 127, 128]
+        )
     entry.data = bytes(data)
     return f"bytes {at} changed"
 
@@ -207,14 +317,22 @@ def word(rng: random.Random, entry: Entry) -> str:
     if len(entry.data) < width:
         return flip(rng, entry)
     at = min(position(rng, len(entry.data)), len(entry.data) - width)
-    value = rng.choice([
-        0, 1, 2**(8 * width) - 1, 2**(8 * width - 1), 2**(8 * width - 1) - 1, 2**(4 * width), 0x7F800000,
-        0x7FC00000
-    ])
-    new = (value % 2**(8 * width)).to_bytes(width, rng.choice(["little", "big"]))
+    value = rng.choice(
+        [
+            0,
+            1,
+            2 ** (8 * width) - 1,
+            2 ** (8 * width - 1),
+            2 ** (8 * width - 1) - 1,
+            2 ** (4 * width),
+            0x7F800000,
+            0x7FC00000,
+        ]
+    )
+    new = (value % 2 ** (8 * width)).to_bytes(width, rng.choice(["little", "big"]))
     if rng.random() < 0.2:
         new = struct.pack("<f", rng.choice([1e38, -1e38, 1e-45, float("nan"), float("inf")]))
-    entry.data = entry.data[:at] + new + entry.data[at + len(new):]
+    entry.data = entry.data[:at] + new + entry.data[at + len(new) :]
     return f"{new.hex()} at byte {at}"
 
 
@@ -232,7 +350,7 @@ def cut(rng: random.Random, entry: Entry) -> str:
     elif roll == 3:
         entry.data += rng.choice([b"\0", b"\n", b"x", rng.randbytes(100), entry.data])
     else:
-        entry.data = entry.data[:rng.choice([0, 1, 4, size // 2, max(size - 1, 0)])]
+        entry.data = entry.data[: rng.choice([0, 1, 4, size // 2, max(size - 1, 0)])]
     return f"cut {roll} at {begin} and {end} of {size} bytes"
 
 
@@ -255,13 +373,11 @@ def place(rng: random.Random, case: Case, name: str) -> str:
         Entry("fifo"),
         Entry("link", b"../outside/secret.txt"),
         Entry("link", f"{OUTSIDE}/secret.txt".encode()),
-        Entry("link",
-              name.split("/")[-1].encode()),
+        Entry("link", name.split("/")[-1].encode()),
         Entry("link", b"/dev/zero"),
-        Entry("sparse",
-              str(10**rng.choice([6, 9, 11])).encode()),
+        Entry("sparse", str(10 ** rng.choice([6, 9, 11])).encode()),
         Entry(data=b""),
-        Entry("link", b"nowhere")
+        Entry("link", b"nowhere"),
     ][roll - 1]
     case.files[name] = new
     return f"is a {new.type} {new.data.decode()}"
@@ -272,14 +388,24 @@ def weight(kind: str, name: str) -> float:
     base = name.rsplit("/", 1)[-1]
     suffix = base.rsplit(".", 1)[-1]
     by_kind = {
-        "picture": {"png": 1.0, "jpg": 1.0}, "ply": {"ply": 1.0}, "mitsuba": {"xml": 1.0, "ply": 0.05},
-        "csv": {"csv": 1.0, "yaml": 0.02}, "scenario": {"yaml": 1.0},
+        "picture": {"png": 1.0, "jpg": 1.0},
+        "ply": {"ply": 1.0},
+        "mitsuba": {"xml": 1.0, "ply": 0.05},
+        "csv": {"csv": 1.0, "yaml": 0.02},
+        "scenario": {"yaml": 1.0},
         "gltf": {"gltf": 1.0, "glb": 1.0, "bin": 0.2, "yaml": 0.3, "png": 0.05, "jpg": 0.05},
     }
     if kind in by_kind:
         return by_kind[kind].get(suffix, 0.0)
-    if base in ("dataset.json", "manifest.json", "journal.txt", "index.npy", "index.csv", "consistency.csv",
-                "scenario.yaml"):
+    if base in (
+        "dataset.json",
+        "manifest.json",
+        "journal.txt",
+        "index.npy",
+        "index.csv",
+        "consistency.csv",
+        "scenario.yaml",
+    ):
         return {"dataset.json": 12.0, "journal.txt": 20.0}.get(base, 5.0)
     return 0.6 if name.startswith("data/") else 0.0
 

@@ -23,26 +23,43 @@ def png(width: int, height: int, channels: int = 3, bits: int = 8, interlaced: b
         for y in lines:
             data += bytes([y % 5])
             data += bytes(
-                (x * 37 + y * 59 + c * 11) & 255 for x in columns for c in range(channels * bits // 8))
+                (x * 37 + y * 59 + c * 11) & 255 for x in columns for c in range(channels * bits // 8)
+            )
         return data
 
     if interlaced:
-        passes = [(0, 8, 0, 8), (4, 8, 0, 8), (0, 4, 4, 8), (2, 4, 0, 4), (0, 2, 2, 4), (1, 2, 0, 2),
-                  (0, 1, 1, 2)]
+        passes = [
+            (0, 8, 0, 8),
+            (4, 8, 0, 8),
+            (0, 4, 4, 8),
+            (2, 4, 0, 4),
+            (0, 2, 2, 4),
+            (1, 2, 0, 2),
+            (0, 1, 1, 2),
+        ]
         data = b"".join(
-            rows(range(x, width, dx), range(y, height, dy)) for x, dx, y, dy in passes if x < width)
+            rows(range(x, width, dx), range(y, height, dy)) for x, dx, y, dy in passes if x < width
+        )
     else:
         data = rows(range(width), range(height))
-    return (b"\x89PNG\r\n\x1a\n" +
-            png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, color, 0, 0, int(interlaced))) +
-            png_chunk(b"IDAT", zlib.compress(data, 9)) + png_chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, color, 0, 0, int(interlaced)))
+        + png_chunk(b"IDAT", zlib.compress(data, 9))
+        + png_chunk(b"IEND", b"")
+    )
 
 
 def png_palette(width: int, height: int) -> bytes:
     data = b"".join(b"\0" + bytes((x + y) % 4 for x in range(width)) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) +
-            png_chunk(b"PLTE", bytes(range(12))) + png_chunk(b"tRNS", b"\x80\xff") +
-            png_chunk(b"IDAT", zlib.compress(data, 9)) + png_chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))
+        + png_chunk(b"PLTE", bytes(range(12)))
+        + png_chunk(b"tRNS", b"\x80\xff")
+        + png_chunk(b"IDAT", zlib.compress(data, 9))
+        + png_chunk(b"IEND", b"")
+    )
 
 
 def png_bomb(side: int, channels: int = 4) -> bytes:
@@ -50,9 +67,12 @@ def png_bomb(side: int, channels: int = 4) -> bytes:
     color = {1: 0, 3: 2, 4: 6}[channels]
     line = zlib.compressobj(9)
     data = b"".join([line.compress(b"\0" * (1 + side * channels)) for _ in range(side)] + [line.flush()])
-    return (b"\x89PNG\r\n\x1a\n" +
-            png_chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, color, 0, 0, 0)) +
-            png_chunk(b"IDAT", data) + png_chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + png_chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, color, 0, 0, 0))
+        + png_chunk(b"IDAT", data)
+        + png_chunk(b"IEND", b"")
+    )
 
 
 DC_COUNTS = [0, 1, 5, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0]
@@ -79,7 +99,6 @@ ZIGZAG = sorted(range(64), key=lambda k: (k // 8 + k % 8, (k // 8 if (k // 8 + k
 
 
 class Bits:
-
     def __init__(self):
         self.value, self.count = 0, 0
 
@@ -99,11 +118,14 @@ class Bits:
 
 def block(bx: int, by: int, component: int) -> list[int]:
     """The coefficients of 8 x 8 samples, in zigzag order."""
-    samples = [[(x * 9 + y * 5 + component * 40 + (x * y) % 7) % 200 - 100 for x in range(8 * bx, 8 * bx + 8)]
-               for y in range(8 * by, 8 * by + 8)]
-    waves = [[
-        math.cos((2 * i + 1) * u * math.pi / 16) * (math.sqrt(0.125) if u == 0 else 0.5) for i in range(8)
-    ] for u in range(8)]
+    samples = [
+        [(x * 9 + y * 5 + component * 40 + (x * y) % 7) % 200 - 100 for x in range(8 * bx, 8 * bx + 8)]
+        for y in range(8 * by, 8 * by + 8)
+    ]
+    waves = [
+        [math.cos((2 * i + 1) * u * math.pi / 16) * (math.sqrt(0.125) if u == 0 else 0.5) for i in range(8)]
+        for u in range(8)
+    ]
     lines = [[sum(row[i] * wave[i] for i in range(8)) for wave in waves] for row in samples]
     plane = [sum(lines[i][u] * waves[v][i] for i in range(8)) for v in range(8) for u in range(8)]
     return [round(plane[k]) for k in ZIGZAG]
@@ -122,7 +144,7 @@ def scan(blocks: list[tuple[int, list[int]]], components: list[int], first: int,
         if last == 0:
             continue
         run = 0
-        for value in values[max(first, 1):last + 1]:
+        for value in values[max(first, 1) : last + 1]:
             if value == 0:
                 run += 1
                 continue
@@ -133,15 +155,17 @@ def scan(blocks: list[tuple[int, list[int]]], components: list[int], first: int,
             run = 0
         if run > 0:
             bits.put(*AC[0])
-    head = bytes([len(components)]) + b"".join(bytes([c + 1, 0]) for c in components) + bytes(
-        [first, last, 0])
+    head = (
+        bytes([len(components)]) + b"".join(bytes([c + 1, 0]) for c in components) + bytes([first, last, 0])
+    )
     return segment(0xDA, head) + bits.bytes()
 
 
 def jpeg(blocks_x: int = 2, blocks_y: int = 1, components: int = 3, progressive: bool = False) -> bytes:
     tables = segment(0xDB, b"\0" + b"\1" * 64)
     tables += segment(0xC4, b"\0" + bytes(DC_COUNTS) + bytes(range(12))) + segment(
-        0xC4, b"\x10" + bytes(AC_COUNTS) + AC_HEAD)
+        0xC4, b"\x10" + bytes(AC_COUNTS) + AC_HEAD
+    )
     frame = struct.pack(">BHHB", 8, 8 * blocks_y, 8 * blocks_x, components)
     frame += b"".join(bytes([c + 1, 0x11, 0]) for c in range(components))
     data = {c: [block(x, y, c) for y in range(blocks_y) for x in range(blocks_x)] for c in range(components)}
@@ -149,8 +173,10 @@ def jpeg(blocks_x: int = 2, blocks_y: int = 1, components: int = 3, progressive:
     every = list(range(components))
     if progressive:
         scans = scan(woven, every, 0, 0) + b"".join(
-            scan([(c, b) for b in data[c]], [c], first, last) for c in every
-            for first, last in ((1, 5), (6, 63)))
+            scan([(c, b) for b in data[c]], [c], first, last)
+            for c in every
+            for first, last in ((1, 5), (6, 63))
+        )
     else:
         scans = scan(woven, every, 0, 63)
     head = b"\xff\xd8" + segment(0xE0, b"JFIF\0\1\1\0\0\1\0\1\0\0")

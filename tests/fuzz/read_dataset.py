@@ -21,8 +21,9 @@ def touch(value: object) -> int:
 def read(folder: str, incomplete: bool) -> int:
     count = 0
     dataset = greatx.load(folder, incomplete=incomplete)
-    count += len(repr(dataset)) + len(dataset.materials) + len(dataset.instances) + len(
-        dataset.semantic_classes)
+    count += (
+        len(repr(dataset)) + len(dataset.materials) + len(dataset.instances) + len(dataset.semantic_classes)
+    )
     count += float(dataset.tick_rate_hz) > 0
     for sequence in dataset.sequences:
         for tick in sequence:

@@ -29,13 +29,17 @@ class Worst:
         for name, (count, worst, bound, at) in self.rows.items():
             wrong = not worst <= bound
             bad += wrong
-            print(f"{'FAIL' if wrong else 'ok':4} {name:48} {worst:9.2e} <= {bound:.0e}  ({count} compared; {at})")
+            print(
+                f"{'FAIL' if wrong else 'ok':4} {name:48} {worst:9.2e} <= {bound:.0e}  ({count} compared; {at})"
+            )
         return bad
 
 
 def wall_of(channel, material):
-    return [(complex(*layer["relative_permittivity"]), layer["thickness_m"])
-            for layer in channel.meta["walls"][material]["layers"]]
+    return [
+        (complex(*layer["relative_permittivity"]), layer["thickness_m"])
+        for layer in channel.meta["walls"][material]["layers"]
+    ]
 
 
 def check_walls(channel, worst):
@@ -44,15 +48,17 @@ def check_walls(channel, worst):
         if wall["layers"] and wall["material"].startswith("itu_") and name in model.ITU:
             eta = complex(*wall["layers"][0]["relative_permittivity"])
             ours = model.permittivity(name, channel.meta["carrier_hz"])
-            worst.add("permittivity of ITU materials, relative", abs(eta - ours) / abs(ours), 1e-9, wall["material"])
+            worst.add(
+                "permittivity of ITU materials, relative", abs(eta - ours) / abs(ours), 1e-9, wall["material"]
+            )
 
 
 def types_of(p, i):
-    return p["interaction"][i][:np.count_nonzero(p["interaction"][i])]
+    return p["interaction"][i][: np.count_nonzero(p["interaction"][i])]
 
 
 def points_of(p, i, tx, rx):
-    return np.vstack([tx, p["vertex"][i][:np.count_nonzero(p["interaction"][i])], rx])
+    return np.vstack([tx, p["vertex"][i][: np.count_nonzero(p["interaction"][i])], rx])
 
 
 def known_normals(channel):
@@ -64,7 +70,10 @@ def known_normals(channel):
             types = types_of(p, i)
             tx, _ = channel.end(record, channel.meta["transmitters"][p["tx"][i]])
             points = points_of(p, i, tx, channel.end(record, channel.meta["receivers"][p["rx"][i]])[0])
-            if not (types == model.REFLECTION).any() or np.linalg.norm(np.diff(points, axis=0), axis=1).min() < 1e-2:
+            if (
+                not (types == model.REFLECTION).any()
+                or np.linalg.norm(np.diff(points, axis=0), axis=1).min() < 1e-2
+            ):
                 continue
             for facet, normal in zip(p["facet"][i], model.bisectors(points, types)):
                 if np.isfinite(normal).all():
@@ -78,9 +87,16 @@ def check_identity(p, worst, known, where):
         sequence = tuple(tuple(p[name][i]) for name in ("interaction", "facet", "element"))
         by_id = known.setdefault(int(p["id"][i]), sequence)
         by_sequence = known.setdefault(sequence, int(p["id"][i]))
-        worst.add("id and sequence of interactions, both ways", not (by_id == sequence and by_sequence == int(p["id"][i])), 0, where)
+        worst.add(
+            "id and sequence of interactions, both ways",
+            not (by_id == sequence and by_sequence == int(p["id"][i])),
+            0,
+            where,
+        )
         middle = np.isin(p["interaction"][i], (model.DIFFRACTION, model.SCATTERING))
-        worst.add("element at diffractions and scatterings alone", ((p["element"][i] > 0) != middle).any(), 0, where)
+        worst.add(
+            "element at diffractions and scatterings alone", ((p["element"][i] > 0) != middle).any(), 0, where
+        )
 
 
 def check_foliage(channel, p, i, length, worst, where):
@@ -101,10 +117,12 @@ def check_transfer(channel, p, i, points, normals, worst, where):
         return
     if len(types) > 0 and (effects["roughness"] or effects["scattering"]):
         return
-    own = np.array([normals.get(int(f), np.full(3, np.nan)) for f in p["facet"][i][:len(types)]]).reshape(-1, 3)
+    own = np.array([normals.get(int(f), np.full(3, np.nan)) for f in p["facet"][i][: len(types)]]).reshape(
+        -1, 3
+    )
     if not np.isfinite(own[types == model.TRANSMISSION]).all():
         return
-    walls = [wall_of(channel, m - 1) for m in p["object_material"][i][:len(types)]]
+    walls = [wall_of(channel, m - 1) for m in p["object_material"][i][: len(types)]]
     ours = model.transfer(points, types, walls, own, C / channel.meta["carrier_hz"])
     stored = p["transfer"][i].astype(complex)
     scale = 1.0
@@ -113,7 +131,12 @@ def check_transfer(channel, p, i, points, normals, worst, where):
         worst.add("strength beside that in vacuum, above 1", max(0.0, scale - 1), 1e-6, where)
     through = int((types == model.TRANSMISSION).sum())
     name = f"transfer, {len(types) - through} reflections, {through} walls, relative"
-    worst.add(name, np.abs(stored - scale * ours).max() / np.abs(scale * ours).max(), 2e-6 if through else 1e-6, where)
+    worst.add(
+        name,
+        np.abs(stored - scale * ours).max() / np.abs(scale * ours).max(),
+        2e-6 if through else 1e-6,
+        where,
+    )
 
 
 def check_path(channel, p, i, tx, rx, normals, worst, where):
@@ -121,10 +144,22 @@ def check_path(channel, p, i, tx, rx, normals, worst, where):
     points = points_of(p, i, tx, rx)
     segments = np.diff(points, axis=0)
     length = np.linalg.norm(segments, axis=1).sum()
-    worst.add("no vertex beyond the last interaction", 0 if np.isnan(p["vertex"][i][count:]).all() else 1, 0, where)
-    worst.add("delay * c over the polyline's length, relative", abs(p["delay"][i] * C - length) / length, 1e-12, where)
+    worst.add(
+        "no vertex beyond the last interaction", 0 if np.isnan(p["vertex"][i][count:]).all() else 1, 0, where
+    )
+    worst.add(
+        "delay * c over the polyline's length, relative",
+        abs(p["delay"][i] * C - length) / length,
+        1e-12,
+        where,
+    )
     if count == 0:
-        worst.add("line of sight: delay * c over the poses' distance", abs(p["delay"][i] * C - length) / length, 1e-12, where)
+        worst.add(
+            "line of sight: delay * c over the poses' distance",
+            abs(p["delay"][i] * C - length) / length,
+            1e-12,
+            where,
+        )
     check_foliage(channel, p, i, length, worst, where)
     if np.linalg.norm(segments, axis=1).min() < 1e-3:
         return  # both reflections of a corner: directions between them are rounding
@@ -160,18 +195,27 @@ def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
     rx_place, rx_turn = channel.end(record, rx)
     for i in range(len(q["rx"])):
         check_path(channel, q, i, tx_place, rx_place, normals, worst, f"{where}, path {i}")
-    a = model.amplitudes(meta, tx, tx_turn, rx, rx_turn, q["transfer"].astype(complex), q["departure"], q["arrival"],
-                         q["delay"])
+    a = model.amplitudes(
+        meta,
+        tx,
+        tx_turn,
+        rx,
+        rx_turn,
+        q["transfer"].astype(complex),
+        q["departure"],
+        q["arrival"],
+        q["delay"],
+    )
     h = model.response(meta, a, q["delay"], q["doppler"])
-    energy = np.sum(np.abs(h)**2)
+    energy = np.sum(np.abs(h) ** 2)
     if len(q["rx"]) == 0:
         worst.add("no path: |H|", np.abs(stored), 0, where)
         return
     if link[2]:
-        worst.add("NMSE of H", np.sum(np.abs(h - stored)**2) / energy, 1e-12, where)
+        worst.add("NMSE of H", np.sum(np.abs(h - stored) ** 2) / energy, 1e-12, where)
     scale = np.abs(a).max()
     worst.add("amplitude, over the largest", np.abs(a - q["amplitude"]).max() / scale, 1e-6, where)
-    gain = np.sum(np.abs(a)**2) / (a.shape[1] * a.shape[2])
+    gain = np.sum(np.abs(a) ** 2) / (a.shape[1] * a.shape[2])
     worst.add("path_gain, relative", abs(gain - link[0]) / gain, 1e-6, where)
     direct = (q["interaction"].sum(1) == 0).any()  # no interaction at all
     worst.add("line_of_sight flag", abs(int(direct) - int(link[1])), 0, where)
@@ -186,7 +230,9 @@ def check_doppler(channel, worst):
     for record in range(len(channel)):
         p = channel.paths(record)
         ids = zip(p["rx"], p["tx"], p["id"])
-        tables.append({tuple(map(int, key)): values for key, values in zip(ids, zip(p["delay"], p["doppler"]))})
+        tables.append(
+            {tuple(map(int, key)): values for key, values in zip(ids, zip(p["delay"], p["doppler"]))}
+        )
     carrier = channel.meta["carrier_hz"]
     for record in range(2, len(channel) - 2):
         ticks = [channel.records[record + o][0] for o in (-2, -1, 0, 1, 2)]
@@ -200,7 +246,12 @@ def check_doppler(channel, worst):
                 kink = (-3 * tau + 4 * p1 - p2) - (3 * tau - 4 * m1 + m2)
                 uncertain = (4 * abs(slope - (p1 - m1) / (2 * step)) + abs(kink) / (2 * step)) * carrier
                 where = f"tick {ticks[2]}, {nu:.3f} Hz, path {key[2]:016x}"
-                worst.add("Doppler over differences of the delay, Hz", abs(nu + carrier * slope), 1e-3 + uncertain, where)
+                worst.add(
+                    "Doppler over differences of the delay, Hz",
+                    abs(nu + carrier * slope),
+                    1e-3 + uncertain,
+                    where,
+                )
 
 
 def main():

@@ -43,7 +43,9 @@ def main():
             # The list is of reflections: paths with a wall passed, an edge or a patch are none of its
             # business.
             mine = [k for k in np.flatnonzero(p["rx"] == r) if (p["interaction"][k] <= 1).all()]
-            ours = [(p["delay"][k] * C, p["vertex"][k][:np.count_nonzero(p["interaction"][k])]) for k in mine]
+            ours = [
+                (p["delay"][k] * C, p["vertex"][k][: np.count_nonzero(p["interaction"][k])]) for k in mine
+            ]
             left = list(ours)
             for path in reference.get(i, []):
                 total += 1
@@ -58,9 +60,13 @@ def main():
                 doubled += len(hits) - 1
                 left = [other for k, other in enumerate(left) if k not in hits]
             extra += len(left)
-            notes += [f"  extra: receiver {i}, depth {len(v)}, {l:.6f} m {np.round(v, 4).tolist()}" for l, v in left]
-        print(f"{folder}: {channel.meta['candidates'].get('guarantee', 'no search')}; {found} of {total} found, {extra} extra, {doubled} doubled; "
-              f"largest difference: length {length_difference:.1e} m, vertex {vertex_difference:.1e} m")
+            notes += [
+                f"  extra: receiver {i}, depth {len(v)}, {l:.6f} m {np.round(v, 4).tolist()}" for l, v in left
+            ]
+        print(
+            f"{folder}: {channel.meta['candidates'].get('guarantee', 'no search')}; {found} of {total} found, {extra} extra, {doubled} doubled; "
+            f"largest difference: length {length_difference:.1e} m, vertex {vertex_difference:.1e} m"
+        )
         print("\n".join(notes), end="\n" if notes else "")
 
 

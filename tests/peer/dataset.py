@@ -13,9 +13,13 @@ C = 299792458.0
 def rotation(q):
     """3x3 matrix of the unit quaternion w, x, y, z."""
     w, x, y, z = np.asarray(q, float) / np.linalg.norm(q)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 class Channel:
@@ -59,7 +63,7 @@ class Channel:
         for name, array in self.arrays.items():
             if not name.endswith("_offsets"):
                 offsets = self.arrays[name + "_offsets"]
-                out[name] = np.array(array[offsets[row]:offsets[row + 1]])
+                out[name] = np.array(array[offsets[row] : offsets[row + 1]])
         return out
 
     def response(self, record):
@@ -71,5 +75,7 @@ class Channel:
         row = self.records[record][2]
         turn = rotation(self.orientation[row, node])
         mount = description["body_from_antenna"]
-        return (self.position[row, node] + turn @ np.array(mount["position_m"]),
-                turn @ rotation(mount["orientation_wxyz"]))
+        return (
+            self.position[row, node] + turn @ np.array(mount["position_m"]),
+            turn @ rotation(mount["orientation_wxyz"]),
+        )

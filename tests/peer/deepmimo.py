@@ -51,11 +51,23 @@ def set_up(program):
     if not stamp.is_file():
         print(f"setting up {ENVIRONMENT}", flush=True)
         subprocess.run([sys.executable, "-m", "venv", "--clear", ENVIRONMENT], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", f"DeepMIMO=={VERSION}"],
-                       check=True)
+        subprocess.run(
+            [
+                python,
+                "-m",
+                "pip",
+                "install",
+                "--quiet",
+                "--disable-pip-version-check",
+                f"DeepMIMO=={VERSION}",
+            ],
+            check=True,
+        )
         stamp.touch()
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
-    return subprocess.run([python, __file__, "--inside", str(pathlib.Path(program).resolve())], env=environment).returncode
+    return subprocess.run(
+        [python, __file__, "--inside", str(pathlib.Path(program).resolve())], env=environment
+    ).returncode
 
 
 class Worst:
@@ -66,6 +78,7 @@ class Worst:
 
     def add(self, name, value, bound):
         import numpy as np
+
         count, worst, _ = self.rows.get(name, (0, 0.0, bound))
         value = float(np.max(value, initial=0.0))
         self.rows[name] = (count + 1, value if not value <= worst else worst, bound)
@@ -74,7 +87,9 @@ class Worst:
         bad = 0
         for name, (count, worst, bound) in self.rows.items():
             bad += not worst <= bound
-            print(f"{'ok' if worst <= bound else 'FAIL':4} {name:58} {worst:9.2e} <= {bound:.0e}  ({count} compared)")
+            print(
+                f"{'ok' if worst <= bound else 'FAIL':4} {name:58} {worst:9.2e} <= {bound:.0e}  ({count} compared)"
+            )
         return bad
 
 
@@ -82,6 +97,7 @@ def check_link(theirs, user, record, rx, worst):
     """One receiver of a deepmimo.Dataset against one of a record."""
     import numpy as np
     from greatx.links import antenna_pose, receivers, transmitters
+
     meta = record.sensor.metadata
     ours = record.paths(rx, 0)
     strongest = np.argsort(-np.abs(ours["amplitude"][:, 0, 0]), kind="stable")
@@ -95,41 +111,74 @@ def check_link(theirs, user, record, rx, worst):
     worst.add("delay, relative", np.abs(theirs.delay[user, :n] / ours["delay"] - 1), 1e-7)
     for name, want in (("aoa", ours["arrival"]), ("aod", ours["departure"])):
         for what, column in (("el", 0), ("az", 1)):
-            worst.add("angles, degrees", np.abs(theirs[f"{name}_{what}"][user, :n] - np.degrees(want[:, column])), 2e-5)
+            worst.add(
+                "angles, degrees",
+                np.abs(theirs[f"{name}_{what}"][user, :n] - np.degrees(want[:, column])),
+                2e-5,
+            )
     letters = np.array(["", "R", "T", "D", "S"])
     expected = ["".join(letters[row]) for row in ours["interaction"]]
-    worst.add("interactions, as deepmimo names them", sum(a != b for a, b in zip(theirs.inter_str[user, :n], expected)), 0)
+    worst.add(
+        "interactions, as deepmimo names them",
+        sum(a != b for a, b in zip(theirs.inter_str[user, :n], expected)),
+        0,
+    )
     depth = theirs.inter_pos.shape[2]
     places, wanted = theirs.inter_pos[user, :n], ours["vertex"][:, :depth]
-    worst.add("places of interactions, NaN where there is none", np.sum(np.isnan(places) != np.isnan(wanted)), 0)
+    worst.add(
+        "places of interactions, NaN where there is none", np.sum(np.isnan(places) != np.isnan(wanted)), 0
+    )
     worst.add("places of interactions, m", np.nan_to_num(np.abs(places - wanted)), 1e-5)
     worst.add("line of sight", abs(int(theirs.los[user]) - int(np.ravel(record["line_of_sight"])[rx])), 0)
-    worst.add("ends, m", np.abs(theirs.rx_pos[user] - antenna_pose(record, receivers(record.sensor)[rx])[0]), 1e-5)
-    worst.add("ends, m", np.abs(np.ravel(theirs.tx_pos) - antenna_pose(record, transmitters(record.sensor)[0])[0]), 1e-5)
+    worst.add(
+        "ends, m", np.abs(theirs.rx_pos[user] - antenna_pose(record, receivers(record.sensor)[rx])[0]), 1e-5
+    )
+    worst.add(
+        "ends, m",
+        np.abs(np.ravel(theirs.tx_pos) - antenna_pose(record, transmitters(record.sensor)[0])[0]),
+        1e-5,
+    )
 
     # Their grid begins at the carrier: their subcarrier k is our k + N/2.
     half = meta["subcarriers"] // 2
     h = theirs.channel[user, 0, 0].T * np.sqrt(meta["subcarriers"])
     want = record["cfr"][rx, 0, 0, 0, :, half:]
-    worst.add("H(f, t) of single antennas, relative to its mean power",
-              np.abs(h - want) / np.sqrt(np.mean(np.abs(want) ** 2)), 1e-4)
+    worst.add(
+        "H(f, t) of single antennas, relative to its mean power",
+        np.abs(h - want) / np.sqrt(np.mean(np.abs(want) ** 2)),
+        1e-4,
+    )
     conjugate = np.abs(np.conj(h) - want) / np.sqrt(np.mean(np.abs(want) ** 2))
     worst.add("(the other time convention would not do: 0 if so)", float(conjugate.max() < 0.1), 0)
-    worst.add("(nor would H at rest: 0 if so)", float(np.abs(want[1] - want[0]).max() < 1e-3 * np.abs(want).max()), 0)
+    worst.add(
+        "(nor would H at rest: 0 if so)",
+        float(np.abs(want[1] - want[0]).max() < 1e-3 * np.abs(want).max()),
+        0,
+    )
 
 
 def compute(theirs, folder, meta):
     """Their channel of single antennas: [user, 1, 1, subcarrier, time]."""
     import deepmimo as dm
     import numpy as np
+
     one = {"shape": np.array([1, 1])}
     doppler = np.load(pathlib.Path("deepmimo_scenarios", folder, "doppler_t000_tx000_r001.npz"))["doppler"]
-    theirs.set_doppler(np.nan_to_num(doppler[:, :theirs.max_paths]))
-    theirs.compute_channels(dm.ChannelParameters(
-        num_paths=1000, doppler=True, bs_antenna=one, ue_antenna=one,
-        ofdm={"subcarriers": meta["subcarriers"], "bandwidth": meta["subcarriers"] * meta["subcarrier_spacing_hz"],
-              "selected_subcarriers": np.arange(meta["subcarriers"] // 2)}),
-        times=np.arange(meta["time_samples"]) * meta["time_spacing_s"])
+    theirs.set_doppler(np.nan_to_num(doppler[:, : theirs.max_paths]))
+    theirs.compute_channels(
+        dm.ChannelParameters(
+            num_paths=1000,
+            doppler=True,
+            bs_antenna=one,
+            ue_antenna=one,
+            ofdm={
+                "subcarriers": meta["subcarriers"],
+                "bandwidth": meta["subcarriers"] * meta["subcarrier_spacing_hz"],
+                "selected_subcarriers": np.arange(meta["subcarriers"] // 2),
+            },
+        ),
+        times=np.arange(meta["time_samples"]) * meta["time_spacing_s"],
+    )
 
 
 def check(program):
@@ -137,6 +186,7 @@ def check(program):
     import numpy as np
     import greatx
     from greatx.convert import write_deepmimo
+
     worst = Worst()
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)

@@ -8,13 +8,20 @@ from dataset import C
 EPSILON_0 = 8.8541878128e-12
 # P.2040-4, Table 3: (a, b, c, d, from GHz, to GHz), rows that hold below 100 GHz.
 ITU = {
-    "concrete": (5.24, 0, .0462, .7822, 1, 100), "brick": (3.91, 0, .0238, .16, 1, 40),
-    "plasterboard": (2.73, 0, .0085, .9395, 1, 100), "wood": (1.99, 0, .0047, 1.0718, .001, 100),
-    "glass": (6.31, 0, .0036, 1.3394, .1, 100), "ceiling_board": (1.48, 0, .0011, 1.075, 1, 100),
-    "chipboard": (2.58, 0, .0217, .78, 1, 100), "plywood": (2.71, 0, .33, 0, 1, 40),
-    "marble": (7.074, 0, .0055, .9262, 1, 60), "metal": (1, 0, 1e7, 0, 1, 100),
-    "asphalt_concrete": (4.83, 0, .0108, 1.3969, 1, 40), "very_dry_ground": (3, 0, .00015, 2.52, 1, 10),
-    "medium_dry_ground": (15, -.1, .035, 1.63, 1, 10), "wet_ground": (30, -.4, .15, 1.30, 1, 10),
+    "concrete": (5.24, 0, 0.0462, 0.7822, 1, 100),
+    "brick": (3.91, 0, 0.0238, 0.16, 1, 40),
+    "plasterboard": (2.73, 0, 0.0085, 0.9395, 1, 100),
+    "wood": (1.99, 0, 0.0047, 1.0718, 0.001, 100),
+    "glass": (6.31, 0, 0.0036, 1.3394, 0.1, 100),
+    "ceiling_board": (1.48, 0, 0.0011, 1.075, 1, 100),
+    "chipboard": (2.58, 0, 0.0217, 0.78, 1, 100),
+    "plywood": (2.71, 0, 0.33, 0, 1, 40),
+    "marble": (7.074, 0, 0.0055, 0.9262, 1, 60),
+    "metal": (1, 0, 1e7, 0, 1, 100),
+    "asphalt_concrete": (4.83, 0, 0.0108, 1.3969, 1, 40),
+    "very_dry_ground": (3, 0, 0.00015, 2.52, 1, 10),
+    "medium_dry_ground": (15, -0.1, 0.035, 1.63, 1, 10),
+    "wet_ground": (30, -0.4, 0.15, 1.30, 1, 10),
 }
 
 
@@ -38,18 +45,22 @@ def basis(d):
     """theta-hat and phi-hat at a direction [3]; at the poles phi = 0, whatever the sign of its zeros."""
     d = np.where(np.abs(d) < 1e-15, 0.0, d)
     t, p = np.arctan2(np.hypot(d[0], d[1]), d[2]), np.arctan2(d[1], d[0])
-    return (np.array([np.cos(t) * np.cos(p), np.cos(t) * np.sin(p), -np.sin(t)]),
-            np.array([-np.sin(p), np.cos(p), 0.0]))
+    return (
+        np.array([np.cos(t) * np.cos(p), np.cos(t) * np.sin(p), -np.sin(t)]),
+        np.array([-np.sin(p), np.cos(p), 0.0]),
+    )
 
 
 def fresnel(wall, cosine, wavelength):
     """(r_TE, r_TM) of a wall: [(eta, thickness), ...], by the impedance of a chain of lines (Pozar, 2.5): a
     way of its own, neither eq. 43 of P.2040 nor its recursion. Thickness 0 in the last layer: half-space,
     else vacuum behind."""
+
     def admittances(eta):
         n = np.sqrt(complex(eta) - 1 + cosine**2)
         n = -n if n.imag > 0 else n
         return n, n, eta / n if n != 0 else 0j  # normal component; TE and TM admittance over that of vacuum
+
     layers = [(complex(e), t) for e, t in wall]
     if layers[-1][1] > 0:
         layers.append((1 + 0j, 0.0))
@@ -73,9 +84,14 @@ def passed(wall, cosine, wavelength):
         n = -n if n.imag > 0 else n
         angle = 2 * np.pi / wavelength * n * thickness
         for matrix, y in ((te, n), (tm, complex(eta) / n)):
-            matrix[:] = matrix @ np.array([[np.cos(angle), 1j * np.sin(angle) / y], [1j * y * np.sin(angle), np.cos(angle)]])
+            matrix[:] = matrix @ np.array(
+                [[np.cos(angle), 1j * np.sin(angle) / y], [1j * y * np.sin(angle), np.cos(angle)]]
+            )
     way = np.exp(2j * np.pi / wavelength * cosine * sum(thickness for _, thickness in wall))
-    return [way * 2 * y / (y * m[0, 0] + y * y * m[0, 1] + m[1, 0] + y * m[1, 1]) for m, y in ((te, cosine), (tm, 1 / cosine))]
+    return [
+        way * 2 * y / (y * m[0, 0] + y * y * m[0, 1] + m[1, 0] + y * m[1, 1])
+        for m, y in ((te, cosine), (tm, 1 / cosine))
+    ]
 
 
 REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = 1, 2, 3, 4
@@ -110,7 +126,7 @@ def transfer(points, types, walls, normals, wavelength):
         te, tm = passed(wall, cosine, wavelength) if through else fresnel(wall, cosine, wavelength)
         across = np.cross(before, normal)
         if np.linalg.norm(across) < 1e-8:
-            across = np.cross(before, [1, 0, 0] if abs(before[0]) < .5 else [0, 1, 0])
+            across = np.cross(before, [1, 0, 0] if abs(before[0]) < 0.5 else [0, 1, 0])
         s = unit(across)
         dyad = (te * np.outer(s, s) + tm * np.outer(np.cross(after, s), np.cross(before, s))) @ dyad
     length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
@@ -120,13 +136,20 @@ def transfer(points, types, walls, normals, wavelength):
 def table_field(table, zenith, azimuth):
     """(F_theta, F_phi) of an imported pattern, bilinear in zenith and azimuth."""
     rows, columns = table["zeniths"], table["azimuths"]
-    part = lambda name: np.array(table[name].split(), float).reshape(rows, columns) if name in table else np.zeros((rows, columns))
+    part = (
+        lambda name: np.array(table[name].split(), float).reshape(rows, columns)
+        if name in table
+        else np.zeros((rows, columns))
+    )
     row = np.degrees(zenith) / 180 * (rows - 1)
     column = (np.degrees(azimuth) - table["first_azimuth_deg"]) / 360 * columns % columns
     i, j = min(int(row), rows - 2), int(column) % columns
     weights = np.outer([1 - (row - i), row - i], [1 - (column - j), column - j])
     at = np.ix_([i, i + 1], [j, (j + 1) % columns])
-    return [np.sum(weights * (part(f"{name}_re")[at] + 1j * part(f"{name}_im")[at])) for name in ("f_theta", "f_phi")]
+    return [
+        np.sum(weights * (part(f"{name}_re")[at] + 1j * part(f"{name}_im")[at]))
+        for name in ("f_theta", "f_phi")
+    ]
 
 
 def element_field(antenna, tables, zenith, azimuth):
@@ -139,9 +162,9 @@ def element_field(antenna, tables, zenith, azimuth):
     if shape == "half_wave_dipole":
         return np.sqrt(1.6409223770) * np.cos(np.pi / 2 * np.cos(zenith)) / np.sin(zenith), 0.0
     if shape == "tr38901":  # Table 7.3-1
-        vertical = -min(12 * ((np.degrees(zenith) - 90) / 65)**2, 30)
-        horizontal = -min(12 * (np.degrees(azimuth) / 65)**2, 30)
-        return 10**((8 - min(-(vertical + horizontal), 30)) / 20), 0.0
+        vertical = -min(12 * ((np.degrees(zenith) - 90) / 65) ** 2, 30)
+        horizontal = -min(12 * (np.degrees(azimuth) / 65) ** 2, 30)
+        return 10 ** ((8 - min(-(vertical + horizontal), 30)) / 20), 0.0
     assert shape == "imported"
     return table_field(tables[antenna["pattern_table"]], zenith, azimuth)
 
@@ -152,7 +175,9 @@ def element_positions(antenna):
         return np.array(antenna["elements_m"], float)
     along = [np.eye(3)["xyz".index(axis)] for axis in antenna["plane"]]  # of columns, of rows
     offset = lambda n, spacing: (np.arange(n) - (n - 1) / 2) * spacing
-    across, up = offset(antenna["columns"], antenna["column_spacing_m"]), offset(antenna["rows"], antenna["row_spacing_m"])
+    across, up = offset(antenna["columns"], antenna["column_spacing_m"]), offset(
+        antenna["rows"], antenna["row_spacing_m"]
+    )
     return np.array([c * along[0] + r * along[1] for r in up for c in across])
 
 
@@ -188,7 +213,12 @@ def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, 
         # C_R^H: by reciprocity a port receives with the pattern that it radiates with, transposed, not
         # conjugated.
         at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength)
-        out.append(wavelength / (4 * np.pi) * (at_rx @ t @ from_tx.T) * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1)))
+        out.append(
+            wavelength
+            / (4 * np.pi)
+            * (at_rx @ t @ from_tx.T)
+            * np.exp(-2j * np.pi * (meta["carrier_hz"] * tau % 1))
+        )
     return np.array(out) if out else np.zeros((0, rx["ports"], tx["ports"]), complex)
 
 

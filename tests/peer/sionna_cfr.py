@@ -19,7 +19,9 @@ def sionna_response(sionna, receivers, samples, normalize_delays=False, **option
     for position in receivers:
         sionna.place([position])
         paths = sionna.solve(samples=samples, **options)
-        re, im = paths.cfr(frequencies=mi.Float(FREQUENCIES.astype(np.float32)), normalize_delays=normalize_delays)
+        re, im = paths.cfr(
+            frequencies=mi.Float(FREQUENCIES.astype(np.float32)), normalize_delays=normalize_delays
+        )
         out.append((np.array(re) + 1j * np.array(im))[0, :, 0, :, 0, :])
     return np.array(out)
 
@@ -42,13 +44,18 @@ def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, repo
     in_fp64 = response(theirs, case, FREQUENCIES, len(few))
     data_set = greatx.response(case, few, ", polarization: vh", ", polarization: vh")
     theirs_cfr = sionna_response(sionna, few, 1e6)
-    rows = [("greatx's data set beside the sum over greatx's paths", data_set, reference),
-            ("Sionna RT's cfr(normalize_delays=False) beside greatx", theirs_cfr, data_set),
-            ("the same, from its paths with fp64 phases", in_fp64, data_set),
-            ("the same, the way through walls counted once",
-             response(slabs_put_right(case, referee, theirs), case, FREQUENCIES, len(few)), data_set),
-            ("its cfr() beside its paths with fp64 phases", theirs_cfr, in_fp64),
-            ("its cfr() as it comes (normalize_delays=True)", sionna_response(sionna, few, 1e6, True), data_set)]
+    rows = [
+        ("greatx's data set beside the sum over greatx's paths", data_set, reference),
+        ("Sionna RT's cfr(normalize_delays=False) beside greatx", theirs_cfr, data_set),
+        ("the same, from its paths with fp64 phases", in_fp64, data_set),
+        (
+            "the same, the way through walls counted once",
+            response(slabs_put_right(case, referee, theirs), case, FREQUENCIES, len(few)),
+            data_set,
+        ),
+        ("its cfr() beside its paths with fp64 phases", theirs_cfr, in_fp64),
+        ("its cfr() as it comes (normalize_delays=True)", sionna_response(sionna, few, 1e6, True), data_set),
+    ]
     report("  H over 256 subcarriers, 100 MHz, V and H at both ends: NMSE, dB       median     worst")
     result["nmse_db"] = {}
     for name, found, expected in rows:
@@ -56,19 +63,56 @@ def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, repo
         result["nmse_db"][name] = [median, worst]
         report(f"    {name:62s} {median:10.1f} {worst:9.1f}")
     largest = max((p.delay for p in theirs), default=0.0)
-    report(f"    (fp32 phase: 2 pi f tau of up to {2 * np.pi * case.carrier_hz * largest:.0f} rad has a last bit of "
-           f"{2 * np.pi * case.carrier_hz * largest * 2**-24:.1e} rad; {C * largest:.0f} m)")
+    report(
+        f"    (fp32 phase: 2 pi f tau of up to {2 * np.pi * case.carrier_hz * largest:.0f} rad has a last bit of "
+        f"{2 * np.pi * case.carrier_hz * largest * 2**-24:.1e} rad; {C * largest:.0f} m)"
+    )
 
 
 # Sionna RT's pattern, polarization; greatx's fields; rows, columns, their spacing in wavelengths;
 # synthetic_array
 ANTENNAS = [
     ("isotropic, V", "iso", "V", "pattern: isotropic, polarization: v", (1, 1, 0.5, 0.5), True),
-    ("short dipole, V and H", "dipole", "VH", "pattern: short_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
-    ("half-wave dipole, V and H", "hw_dipole", "VH", "pattern: half_wave_dipole, polarization: vh", (1, 1, 0.5, 0.5), True),
-    ("TR 38.901, +-45 deg", "tr38901", "cross", "pattern: tr38901, polarization: slant", (1, 1, 0.5, 0.5), True),
-    ("panel 4 x 8, TR 38.901, +-45 deg, as a plane wave", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2.0, 0.5), True),
-    ("the same, every element traced", "tr38901", "cross", "pattern: tr38901, polarization: slant", (4, 8, 2.0, 0.5), False),
+    (
+        "short dipole, V and H",
+        "dipole",
+        "VH",
+        "pattern: short_dipole, polarization: vh",
+        (1, 1, 0.5, 0.5),
+        True,
+    ),
+    (
+        "half-wave dipole, V and H",
+        "hw_dipole",
+        "VH",
+        "pattern: half_wave_dipole, polarization: vh",
+        (1, 1, 0.5, 0.5),
+        True,
+    ),
+    (
+        "TR 38.901, +-45 deg",
+        "tr38901",
+        "cross",
+        "pattern: tr38901, polarization: slant",
+        (1, 1, 0.5, 0.5),
+        True,
+    ),
+    (
+        "panel 4 x 8, TR 38.901, +-45 deg, as a plane wave",
+        "tr38901",
+        "cross",
+        "pattern: tr38901, polarization: slant",
+        (4, 8, 2.0, 0.5),
+        True,
+    ),
+    (
+        "the same, every element traced",
+        "tr38901",
+        "cross",
+        "pattern: tr38901, polarization: slant",
+        (4, 8, 2.0, 0.5),
+        False,
+    ),
 ]
 
 
@@ -97,7 +141,9 @@ def arrays(case, greatx, sionna, receivers, result, report):
         theirs = sionna_response(sionna, few, 1e6, synthetic_array=synthetic)
         order = port_order(sionna.scene.tx_array, rows, columns, vertical, horizontal, polarization)
         text = f", {fields}, rows: {rows}, columns: {columns}, row_spacing_wl: {vertical}, column_spacing_wl: {horizontal}"
-        ours = greatx.response(case, few, text, ", polarization: vh", f", every_element: {'off' if synthetic else 'on'}")
+        ours = greatx.response(
+            case, few, text, ", polarization: vh", f", every_element: {'off' if synthetic else 'on'}"
+        )
         median, worst = nmse_db(theirs[:, :, order], ours)
         report(f"    {name:62s} {median:10.1f} {worst:9.1f}")
         result["arrays_db"][name] = [median, worst]

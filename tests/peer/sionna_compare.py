@@ -16,8 +16,11 @@ from sionna_referee import Referee
 from sionna_side import Sionna, scene_file
 
 # Where to look for a path that Sionna RT did not find: what finds it says why it was not.
-SEARCHES = [("another seed", {"seed": 7}), ("10 x the rays", {"samples": 1e7}),
-            ("10 x the rays, 10 x the hash table", {"samples": 1e7, "table": 1e7})]
+SEARCHES = [
+    ("another seed", {"seed": 7}),
+    ("10 x the rays", {"samples": 1e7}),
+    ("10 x the rays, 10 x the hash table", {"samples": 1e7, "table": 1e7}),
+]
 
 
 def report(text=""):
@@ -30,8 +33,11 @@ def why_missing(sionna, case, receivers, missing, options):
     for name, settings in SEARCHES:
         left = [i for i in range(len(missing)) if i not in reasons]
         for r in sorted({missing[i].receiver for i in left}):
-            found = sionna.paths([receivers[r]], first=r, samples=options.samples) if not settings else \
-                sionna.paths([receivers[r]], first=r, **({"samples": options.samples} | settings))
+            found = (
+                sionna.paths([receivers[r]], first=r, samples=options.samples)
+                if not settings
+                else sionna.paths([receivers[r]], first=r, **({"samples": options.samples} | settings))
+            )
             mine = [i for i in left if missing[i].receiver == r]
             _, still, _, _ = pair([missing[i] for i in mine], found)
             for i in mine:
@@ -44,12 +50,23 @@ def classify(path, verdict, carries_nothing):
     if verdict["exists"] is None:
         return verdict["why"]
     if not verdict["exists"]:
-        return "does not exist: " + ("reflection outside of its facet" if "outside" in verdict["why"] else
-                                     "other surfaces on the way" if "crosses" in verdict["why"] else verdict["why"])
+        return "does not exist: " + (
+            "reflection outside of its facet"
+            if "outside" in verdict["why"]
+            else "other surfaces on the way"
+            if "crosses" in verdict["why"]
+            else verdict["why"]
+        )
     if carries_nothing:
         return "exists, carries nothing (below -300 dB)"
     edge = verdict["edge_mm"]
-    return "exists, " + ("within 0.5 mm of an edge" if edge < 0.5 else "within 5 mm of an edge" if edge < 5 else "clear of edges")
+    return "exists, " + (
+        "within 0.5 mm of an edge"
+        if edge < 0.5
+        else "within 5 mm of an edge"
+        if edge < 5
+        else "clear of edges"
+    )
 
 
 def table_of(counter):
@@ -60,8 +77,14 @@ def sets(case, referee, sionna, options, ours, theirs, receivers, result):
     """Who has what, and who is right about it."""
     pairs, missing, extra, doubled = pair(ours, theirs)
     report(f"  greatx {len(ours)}, Sionna RT {len(theirs)}; pairs {len(pairs)}")
-    reasons = {} if options.no_search or not missing else why_missing(sionna, case, receivers, missing, options)
-    counts = {"only greatx": collections.Counter(), "only Sionna RT": collections.Counter(), "doubled": collections.Counter()}
+    reasons = (
+        {} if options.no_search or not missing else why_missing(sionna, case, receivers, missing, options)
+    )
+    counts = {
+        "only greatx": collections.Counter(),
+        "only Sionna RT": collections.Counter(),
+        "doubled": collections.Counter(),
+    }
     examples = []
     for i, path in enumerate(missing):
         verdict = referee.judge(path)
@@ -83,10 +106,18 @@ def sets(case, referee, sionna, options, ours, theirs, receivers, result):
         for line in table_of(counter):
             report(line)
     for title, path, what, verdict in examples[:12]:
-        report(f"      e.g. {title}: rx{path.receiver} {path.kinds or 'LoS'} {path.length:.4f} m {path.gain_db:.1f} dB {what} "
-               f"{verdict.get('why', '')} {'edge %.3f mm' % verdict['edge_mm'] if 'edge_mm' in verdict else ''}")
-    result |= {"greatx": len(ours), "sionna": len(theirs), "pairs": len(pairs), "doubled": len(doubled),
-               "only_greatx": dict(counts["only greatx"]), "only_sionna": dict(counts["only Sionna RT"])}
+        report(
+            f"      e.g. {title}: rx{path.receiver} {path.kinds or 'LoS'} {path.length:.4f} m {path.gain_db:.1f} dB {what} "
+            f"{verdict.get('why', '')} {'edge %.3f mm' % verdict['edge_mm'] if 'edge_mm' in verdict else ''}"
+        )
+    result |= {
+        "greatx": len(ours),
+        "sionna": len(theirs),
+        "pairs": len(pairs),
+        "doubled": len(doubled),
+        "only_greatx": dict(counts["only greatx"]),
+        "only_sionna": dict(counts["only Sionna RT"]),
+    }
     return pairs
 
 
@@ -97,8 +128,12 @@ def fields(case, referee, pairs, result):
         return
     d = differences(pairs)
     strong = np.array([p.gain_db > -250 for p, _ in pairs])
-    lines = [("delay, mm of path", 1e3 * 299792458.0 * d[:, 0]), ("departure, rad", d[:, 1]), ("arrival, rad", d[:, 2]),
-             ("points, mm", 1e3 * d[:, 4])]
+    lines = [
+        ("delay, mm of path", 1e3 * 299792458.0 * d[:, 0]),
+        ("departure, rad", d[:, 1]),
+        ("arrival, rad", d[:, 2]),
+        ("points, mm", 1e3 * d[:, 4]),
+    ]
     report("  pairs differ by                       median      worst")
     for name, values in lines:
         report(f"    {name:32s} {np.median(values):10.2e} {values.max():10.2e}")
@@ -108,8 +143,15 @@ def fields(case, referee, pairs, result):
             groups["below -250 dB"].append((d[i, 3], np.nan, np.nan, np.nan))
             continue
         verdict = referee.judge(ours)
-        kind = "line of sight" if not ours.kinds else "with walls passed" if "T" in ours.kinds else \
-            "with an edge" if "D" in ours.kinds else "reflections"
+        kind = (
+            "line of sight"
+            if not ours.kinds
+            else "with walls passed"
+            if "T" in ours.kinds
+            else "with an edge"
+            if "D" in ours.kinds
+            else "reflections"
+        )
         own = corrected = np.nan
         if verdict["exists"]:
             field = referee.field(ours, verdict, case)
@@ -120,15 +162,21 @@ def fields(case, referee, pairs, result):
             groups[kind].append((d[i, 3], own, np.linalg.norm(theirs.transfer - field) / size, corrected))
         else:
             groups[kind].append((d[i, 3], own, np.nan, corrected))
-    report("  transfer, relative (median / worst)     between the two     greatx - model    Sionna - model    Sionna, slab's phase put right")
+    report(
+        "  transfer, relative (median / worst)     between the two     greatx - model    Sionna - model    Sionna, slab's phase put right"
+    )
     result["transfer"] = {}
     for kind, rows in sorted(groups.items()):
         rows = np.array(rows)
-        text = " ".join(f"{np.nanmedian(c):8.1e} / {np.nanmax(c):7.1e}" if np.isfinite(c).any() else "        -         "
-                        for c in rows.T)
+        text = " ".join(
+            f"{np.nanmedian(c):8.1e} / {np.nanmax(c):7.1e}" if np.isfinite(c).any() else "        -         "
+            for c in rows.T
+        )
         report(f"    {kind:22s} {len(rows):5d}        {text}")
-        result["transfer"][kind] = {"count": len(rows), "worst": [float(np.nanmax(c)) if np.isfinite(c).any() else None
-                                                                  for c in rows.T]}
+        result["transfer"][kind] = {
+            "count": len(rows),
+            "worst": [float(np.nanmax(c)) if np.isfinite(c).any() else None for c in rows.T],
+        }
 
 
 def recall(case, greatx, receivers, result):
@@ -137,13 +185,18 @@ def recall(case, greatx, receivers, result):
         return
     answer = greatx.recall(case, receivers)
     result["recall"] = answer
-    report("  greatx bench --recall, exhaustive reference: " + ", ".join(f"{k} {v}" for k, v in answer[0]["beams"]["all"].items()))
+    report(
+        "  greatx bench --recall, exhaustive reference: "
+        + ", ".join(f"{k} {v}" for k, v in answer[0]["beams"]["all"].items())
+    )
 
 
 def compare(case, options, program):
-    report(f"\n{case.name}: {case.scene}, transmitter {case.transmitter}, {case.count} receivers, depth {case.depth}, "
-           f"{case.walls} walls at most{', diffraction' if case.diffraction else ''}, {case.carrier_hz / 1e9:g} GHz, "
-           f"{options.samples:.0e} rays, one receiver a call")
+    report(
+        f"\n{case.name}: {case.scene}, transmitter {case.transmitter}, {case.count} receivers, depth {case.depth}, "
+        f"{case.walls} walls at most{', diffraction' if case.diffraction else ''}, {case.carrier_hz / 1e9:g} GHz, "
+        f"{options.samples:.0e} rays, one receiver a call"
+    )
     xml = scene_file(case, options.work)
     referee = Referee(xml)
     receivers = referee.draw_receivers(case)
@@ -168,7 +221,10 @@ def main(options):
         print("\n".join(c.name for c in CASES))
         return 0
     program = sionna_setup.program(options)
-    results = [compare(case, options, program) for case in ([case_called(n) for n in options.case] if options.case else CASES)]
+    results = [
+        compare(case, options, program)
+        for case in ([case_called(n) for n in options.case] if options.case else CASES)
+    ]
     if options.json:
         options.json.write_text(json.dumps(results, indent=1))
     return 0

@@ -45,16 +45,30 @@ class Greatx:
     def run(self, *words):
         done = subprocess.run([str(self.program), *map(str, words)], capture_output=True, text=True)
         if done.returncode != 0:
-            raise SystemExit(f"greatx {' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr}")
+            raise SystemExit(
+                f"greatx {' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr}"
+            )
         return done.stdout
 
     def scenario(self, case, receivers, tx_antenna="", rx_antenna="", more=""):
         file = self.work / f"{case.name}.yaml"
-        file.write_text(SCENARIO.format(
-            name=case.name, scene=self.scene, tx=triple(case.transmitter), tx_antenna=tx_antenna,
-            receivers="".join(RECEIVER.format(i=i, p=triple(p), antenna=rx_antenna) for i, p in enumerate(receivers)),
-            names=", ".join(f"rx{i}/antenna" for i in range(len(receivers))), carrier=repr(float(case.carrier_hz)),
-            depth=case.depth, walls=case.walls, diffraction="on" if case.diffraction else "off", more=more))
+        file.write_text(
+            SCENARIO.format(
+                name=case.name,
+                scene=self.scene,
+                tx=triple(case.transmitter),
+                tx_antenna=tx_antenna,
+                receivers="".join(
+                    RECEIVER.format(i=i, p=triple(p), antenna=rx_antenna) for i, p in enumerate(receivers)
+                ),
+                names=", ".join(f"rx{i}/antenna" for i in range(len(receivers))),
+                carrier=repr(float(case.carrier_hz)),
+                depth=case.depth,
+                walls=case.walls,
+                diffraction="on" if case.diffraction else "off",
+                more=more,
+            )
+        )
         return file
 
     def points_file(self, case, receivers):
@@ -63,8 +77,17 @@ class Greatx:
         return file
 
     def answer(self, case, receivers):
-        return json.loads(self.run("paths", self.scenario(case, receivers[:1]), "--assets", self.scenes, "--receivers",
-                                   self.points_file(case, receivers), "--json"))
+        return json.loads(
+            self.run(
+                "paths",
+                self.scenario(case, receivers[:1]),
+                "--assets",
+                self.scenes,
+                "--receivers",
+                self.points_file(case, receivers),
+                "--json",
+            )
+        )
 
     def paths(self, case, receivers):
         scale = case.wavelength / (4 * np.pi)
@@ -72,22 +95,55 @@ class Greatx:
         for r in self.answer(case, receivers)["receivers"]:
             for p in r["paths"]:
                 transfer = np.array(p["transfer_per_m"], float)
-                angles = [np.array([p[k]["zenith_rad"], p[k]["azimuth_rad"]]) for k in ("departure", "arrival")]
-                out.append(Path(r["index"], "" if p["chain"] == "LoS" else p["chain"], np.array(p["vertices_m"], float),
-                                p["delay_s"], *angles, scale * (transfer[:, 0] + 1j * transfer[:, 1]).reshape(2, 2),
-                                [i["materials"][0] for i in p["interactions"]], p["id"]))
+                angles = [
+                    np.array([p[k]["zenith_rad"], p[k]["azimuth_rad"]]) for k in ("departure", "arrival")
+                ]
+                out.append(
+                    Path(
+                        r["index"],
+                        "" if p["chain"] == "LoS" else p["chain"],
+                        np.array(p["vertices_m"], float),
+                        p["delay_s"],
+                        *angles,
+                        scale * (transfer[:, 0] + 1j * transfer[:, 1]).reshape(2, 2),
+                        [i["materials"][0] for i in p["interactions"]],
+                        p["id"],
+                    )
+                )
         return out
 
     def response(self, case, receivers, tx_antenna="", rx_antenna="", more=""):
         """H [rx, rx_ant, tx_ant, subcarrier] of a generated data set."""
         folder = self.work / f"dataset_{case.name}"
         shutil.rmtree(folder, ignore_errors=True)
-        self.run("generate", self.scenario(case, receivers, tx_antenna, rx_antenna, more), "--assets", self.scenes, "-o", folder)
+        self.run(
+            "generate",
+            self.scenario(case, receivers, tx_antenna, rx_antenna, more),
+            "--assets",
+            self.scenes,
+            "-o",
+            folder,
+        )
         return np.load(folder / "sequence_0000" / "csi" / "cfr.npy")[0, :, :, 0, :, 0, :]
 
     def recall(self, case, receivers):
         """What greatx bench --recall says: found, missing, doubled, extra, held against its exhaustive
         reference."""
-        return json.loads(self.run("bench", self.scenario(case, receivers[:1]), "--assets", self.scenes, "--recall",
-                                   "--receivers", self.points_file(case, receivers), "--depth", case.depth, "--walls",
-                                   case.walls, "--max-rays", 0, "--json"))
+        return json.loads(
+            self.run(
+                "bench",
+                self.scenario(case, receivers[:1]),
+                "--assets",
+                self.scenes,
+                "--recall",
+                "--receivers",
+                self.points_file(case, receivers),
+                "--depth",
+                case.depth,
+                "--walls",
+                case.walls,
+                "--max-rays",
+                0,
+                "--json",
+            )
+        )

@@ -3,13 +3,19 @@
 """Pairs the paths of two answers one to one, and measures how far the pairs are apart."""
 import numpy as np
 
-POINT_M = 0.25   #: the same point: fp32 moves points of grazing reflections by some 30 mm at some hundred metres
+POINT_M = (
+    0.25  #: the same point: fp32 moves points of grazing reflections by some 30 mm at some hundred metres
+)
 LENGTH_M = 2e-3
 
 
 def same_polyline(a, b):
-    return (a.receiver == b.receiver and a.kinds == b.kinds and abs(a.length - b.length) < LENGTH_M
-            and np.abs(a.points - b.points).max() < POINT_M)
+    return (
+        a.receiver == b.receiver
+        and a.kinds == b.kinds
+        and abs(a.length - b.length) < LENGTH_M
+        and np.abs(a.points - b.points).max() < POINT_M
+    )
 
 
 def pair(greatx, sionna):
@@ -42,7 +48,9 @@ def doubled_within(paths):
     groups = {}
     for p in paths:
         groups.setdefault((p.receiver, p.kinds), []).append(p)
-    return sum(any(same_polyline(p, q) for q in group[:i]) for group in groups.values() for i, p in enumerate(group))
+    return sum(
+        any(same_polyline(p, q) for q in group[:i]) for group in groups.values() for i, p in enumerate(group)
+    )
 
 
 def angle_between(a, b):
@@ -60,9 +68,15 @@ def differences(pairs):
     """Per pair: delay (s), angles of both ends (rad), transfer (relative), vertices (m)."""
     out = []
     for ours, theirs in pairs:
-        out.append((abs(ours.delay - theirs.delay), angle_between(ours.departure, theirs.departure),
-                    angle_between(ours.arrival, theirs.arrival), relative(theirs.transfer, ours.transfer),
-                    np.abs(ours.points - theirs.points).max()))
+        out.append(
+            (
+                abs(ours.delay - theirs.delay),
+                angle_between(ours.departure, theirs.departure),
+                angle_between(ours.arrival, theirs.arrival),
+                relative(theirs.transfer, ours.transfer),
+                np.abs(ours.points - theirs.points).max(),
+            )
+        )
     return np.array(out).reshape(-1, 5)
 
 

@@ -11,13 +11,14 @@ C = 299792458.0
 @dataclasses.dataclass
 class Path:
     """One path, transmitter to receiver."""
+
     receiver: int
-    kinds: str                #: a letter an interaction: R reflection, T wall passed, D diffraction; "" line of sight
-    points: np.ndarray        #: [n + 2, 3] m: transmitter, interactions, receiver
-    delay: float              #: s
-    departure: np.ndarray     #: zenith, azimuth, rad
-    arrival: np.ndarray       #: the same, from the receiver back along the path
-    transfer: np.ndarray      #: [2, 2] (lambda / 4 pi) T: (theta, phi) at the receiver by (theta, phi) at the transmitter
+    kinds: str  #: a letter an interaction: R reflection, T wall passed, D diffraction; "" line of sight
+    points: np.ndarray  #: [n + 2, 3] m: transmitter, interactions, receiver
+    delay: float  #: s
+    departure: np.ndarray  #: zenith, azimuth, rad
+    arrival: np.ndarray  #: the same, from the receiver back along the path
+    transfer: np.ndarray  #: [2, 2] (lambda / 4 pi) T: (theta, phi) at the receiver by (theta, phi) at the transmitter
     materials: list = dataclasses.field(default_factory=list)  #: of greatx: one name an interaction
     label: str = ""
 
@@ -34,21 +35,24 @@ class Path:
 @dataclasses.dataclass
 class Case:
     """What both tools are asked."""
+
     name: str
-    scene: str                #: of sionna.rt.scene
+    scene: str  #: of sionna.rt.scene
     transmitter: tuple
-    count: int                #: receivers
-    low: tuple                #: of the box that they are drawn from
+    count: int  #: receivers
+    low: tuple  #: of the box that they are drawn from
     high: tuple
     carrier_hz: float = 3.5e9
     depth: int = 3
-    walls: int = 3            #: walls passed at most; 0: opaque in both tools
+    walls: int = 3  #: walls passed at most; 0: opaque in both tools
     reflection: bool = True
     diffraction: bool = False
     seed: int = 1
-    arrays: bool = False      #: compare antennas as well
-    recall: bool = True       #: run greatx's exhaustive reference, which large scenes with walls passed take hours for
-    material: str = ""        #: of P.2040: instead of all materials of the scene
+    arrays: bool = False  #: compare antennas as well
+    recall: bool = (
+        True  #: run greatx's exhaustive reference, which large scenes with walls passed take hours for
+    )
+    material: str = ""  #: of P.2040: instead of all materials of the scene
 
     @property
     def wavelength(self):
@@ -59,12 +63,49 @@ CASES = [
     Case("box", "box", (1.1, -0.7, 2.3), 20, (-4.5, -4.5, 0.3), (4.5, 4.5, 4.5)),
     Case("canyon", "simple_street_canyon", (-30, 5, 10), 40, (-60, -12, 1.5), (60, 12, 20), arrays=True),
     Case("canyon_cars", "simple_street_canyon_with_cars", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20)),
-    Case("canyon_28ghz", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), carrier_hz=28e9),
-    Case("canyon_edges", "simple_street_canyon", (-30, 5, 10), 20, (-60, -12, 1.5), (60, 12, 20), depth=1, walls=0,
-         diffraction=True),
-    Case("wedge", "simple_wedge", (10, 5, 1), 60, (-25, -25, -5), (25, 20, 5), depth=1, walls=0, diffraction=True),
-    Case("wedge_metal", "simple_wedge", (10, 5, 1), 60, (-25, -25, -5), (25, 20, 5), depth=1, walls=0, diffraction=True,
-         material="metal"),
+    Case(
+        "canyon_28ghz",
+        "simple_street_canyon",
+        (-30, 5, 10),
+        20,
+        (-60, -12, 1.5),
+        (60, 12, 20),
+        carrier_hz=28e9,
+    ),
+    Case(
+        "canyon_edges",
+        "simple_street_canyon",
+        (-30, 5, 10),
+        20,
+        (-60, -12, 1.5),
+        (60, 12, 20),
+        depth=1,
+        walls=0,
+        diffraction=True,
+    ),
+    Case(
+        "wedge",
+        "simple_wedge",
+        (10, 5, 1),
+        60,
+        (-25, -25, -5),
+        (25, 20, 5),
+        depth=1,
+        walls=0,
+        diffraction=True,
+    ),
+    Case(
+        "wedge_metal",
+        "simple_wedge",
+        (10, 5, 1),
+        60,
+        (-25, -25, -5),
+        (25, 20, 5),
+        depth=1,
+        walls=0,
+        diffraction=True,
+        material="metal",
+    ),
     Case("etoile", "etoile", (60, -80, 25), 100, (-220, -220, 1.5), (220, 220, 30), walls=0),
     Case("etoile_walls", "etoile", (60, -80, 25), 30, (-220, -220, 1.5), (220, 220, 30), recall=False),
     Case("munich", "munich", (8.5, 21, 27), 30, (-150, -150, 1.5), (150, 150, 30), recall=False),

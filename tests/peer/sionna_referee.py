@@ -9,7 +9,16 @@ import numpy as np
 
 from model import ITU, fresnel, passed, permittivity, transfer  # noqa: F401 (transfer: for who imports this)
 
-TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4", "double": "f8"}
+TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "i2",
+    "ushort": "u2",
+    "int": "i4",
+    "uint": "u4",
+    "float": "f4",
+    "double": "f8",
+}
 
 
 def read_ply(file):
@@ -40,8 +49,13 @@ class Referee:
     def __init__(self, xml):
         xml = pathlib.Path(xml)
         root = ElementTree.parse(xml).getroot()
-        self.itu = {b.get("id"): (b.find("string[@name='type']").get("value"),
-                                  float(b.find("float[@name='thickness']").get("value"))) for b in root.findall("bsdf")}
+        self.itu = {
+            b.get("id"): (
+                b.find("string[@name='type']").get("value"),
+                float(b.find("float[@name='thickness']").get("value")),
+            )
+            for b in root.findall("bsdf")
+        }
         triangles, materials = [], []
         for shape in root.iter("shape"):
             name = shape.find("string[@name='filename']")
@@ -170,11 +184,15 @@ class Referee:
         walls, at = [], 0
         for i, (p, q) in enumerate(zip(corners, corners[1:])):
             passed_here = len(path.kinds[at:].split("R")[0])
-            own = [self.normals[f] for f in faces[max(0, i - 1):i + 1]]
+            own = [self.normals[f] for f in faces[max(0, i - 1) : i + 1]]
             found = self.distinct(p, q, own)
             if len(found) != passed_here:
-                return answer | {"exists": False, "why": f"segment {i + 1} crosses {len(found)} surfaces where "
-                                                         f"{passed_here} are claimed", "crossed": len(found) - passed_here}
+                return answer | {
+                    "exists": False,
+                    "why": f"segment {i + 1} crosses {len(found)} surfaces where "
+                    f"{passed_here} are claimed",
+                    "crossed": len(found) - passed_here,
+                }
             walls += found
             at += passed_here + 1
         return answer | {"exists": True, "why": "", "walls": walls, "corners": corners, "faces": faces}
@@ -188,8 +206,12 @@ class Referee:
             at_end = min(t, 1 - t) * length < 1e-4 * (1 + 1e-2 * length)
             if at_end and any(abs(n @ self.normals[face]) > 1 - 1e-6 for n in own):
                 continue
-            if out and (t - out[-1][0]) * length < 1e-6 and abs(self.normals[face] @ self.normals[out[-1][1]]) > 1 - 1e-6 \
-                    and self._seam(face, out[-1][1]):
+            if (
+                out
+                and (t - out[-1][0]) * length < 1e-6
+                and abs(self.normals[face] @ self.normals[out[-1][1]]) > 1 - 1e-6
+                and self._seam(face, out[-1][1])
+            ):
                 continue
             out.append((t, face))
         return out
@@ -217,7 +239,9 @@ class Referee:
                 points.append(verdict["corners"][corner])
                 corner += 1
         points.append(verdict["corners"][-1])
-        t = transfer(np.array(points), np.array(types, int), walls, np.array(normals).reshape(-1, 3), case.wavelength)
+        t = transfer(
+            np.array(points), np.array(types, int), walls, np.array(normals).reshape(-1, 3), case.wavelength
+        )
         return case.wavelength / (4 * np.pi) * t
 
     def slab_phase(self, path, verdict, case):

@@ -18,14 +18,24 @@ import sionna_setup
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--greatx", type=pathlib.Path, help="the program (default: build/release/greatx)")
-    parser.add_argument("--work", type=pathlib.Path, default=sionna_setup.ROOT / "build" / "peer",
-                        help="venv, imported scenes, results (default: build/peer)")
+    parser.add_argument(
+        "--work",
+        type=pathlib.Path,
+        default=sionna_setup.ROOT / "build" / "peer",
+        help="venv, imported scenes, results (default: build/peer)",
+    )
     parser.add_argument("--case", action="append", help="one case of the comparison (may be repeated)")
     parser.add_argument("--list", action="store_true", help="name the cases")
-    parser.add_argument("--samples", type=float, default=1e6, help="Sionna RT's rays a transmitter (its default: 1e6)")
-    parser.add_argument("--no-search", action="store_true", help="do not look for the settings that find missing paths")
+    parser.add_argument(
+        "--samples", type=float, default=1e6, help="Sionna RT's rays a transmitter (its default: 1e6)"
+    )
+    parser.add_argument(
+        "--no-search", action="store_true", help="do not look for the settings that find missing paths"
+    )
     parser.add_argument("--json", type=pathlib.Path, help="write all figures here as well")
     parser.add_argument("--table", action="store_true", help="measure time and memory instead")
     parser.add_argument("--quick", action="store_true", help="of --table: fewer repetitions and no long rows")
@@ -37,8 +47,10 @@ def main():
     sionna_setup.enter(options.work)  # comes back inside the environment
     if options.table:
         import sionna_table
+
         return sionna_table.main(options)
     import sionna_compare
+
     return sionna_compare.main(options)
 
 

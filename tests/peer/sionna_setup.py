@@ -14,8 +14,11 @@ PACKAGE = "sionna-rt==2.2.0"
 
 def find_llvm():
     """Dr.Jit compiles its kernels with LLVM; libllvm15 fails on Sionna RT's, 19 does them."""
-    found = sorted(glob.glob("/usr/lib/*/libLLVM.so.19*") + glob.glob("/usr/lib/*/libLLVM-19.so*")
-                   + glob.glob("/usr/lib/llvm-19/lib/libLLVM*.so*"))
+    found = sorted(
+        glob.glob("/usr/lib/*/libLLVM.so.19*")
+        + glob.glob("/usr/lib/*/libLLVM-19.so*")
+        + glob.glob("/usr/lib/llvm-19/lib/libLLVM*.so*")
+    )
     return found[0] if found else ctypes.util.find_library("LLVM-19")
 
 
@@ -24,7 +27,9 @@ def enter(work):
     if "DRJIT_LIBLLVM_PATH" not in os.environ:
         library = find_llvm()
         if library is None:
-            sys.exit("sionna_rt.py: no libLLVM 19 found: apt-get install libllvm19 (or set DRJIT_LIBLLVM_PATH)")
+            sys.exit(
+                "sionna_rt.py: no libLLVM 19 found: apt-get install libllvm19 (or set DRJIT_LIBLLVM_PATH)"
+            )
         os.environ["DRJIT_LIBLLVM_PATH"] = library
     venv = work / "venv"
     python, marker = venv / "bin" / "python", venv / "installed"
@@ -40,7 +45,11 @@ def enter(work):
 
 def program(options):
     """The greatx to run."""
-    for path in [options.greatx] if options.greatx else [ROOT / "build" / "release" / "greatx", ROOT / "build" / "greatx"]:
+    for path in (
+        [options.greatx]
+        if options.greatx
+        else [ROOT / "build" / "release" / "greatx", ROOT / "build" / "greatx"]
+    ):
         if path.exists():
             return path.resolve()
     sys.exit("sionna_rt.py: greatx is not built: scripts/build.sh release greatx, or name it with --greatx")

@@ -22,7 +22,9 @@ def scene_file(case, work):
     folder = work / "scenes" / f"{case.scene}_{case.material}"
     shutil.copytree(file.parent, folder, dirs_exist_ok=True)
     copy = folder / f"{folder.name}.xml"
-    text, changes = re.subn(r'(<string name="type" value=)"[a-z_]+"', rf'\1"{case.material}"', file.read_text())
+    text, changes = re.subn(
+        r'(<string name="type" value=)"[a-z_]+"', rf'\1"{case.material}"', file.read_text()
+    )
     assert changes > 0
     copy.write_text(text)
     return copy
@@ -38,11 +40,21 @@ class Sionna:
         self.antennas("iso", "VH", 1, 1)
         self.scene.add(rt.Transmitter("tx", mi.Point3f(*case.transmitter)))
 
-    def antennas(self, pattern, polarization, rows, columns, vertical=0.5, horizontal=0.5, receiver=("iso", "VH")):
+    def antennas(
+        self, pattern, polarization, rows, columns, vertical=0.5, horizontal=0.5, receiver=("iso", "VH")
+    ):
         """The transmitter's array; the receivers have one element."""
-        self.scene.tx_array = rt.PlanarArray(num_rows=rows, num_cols=columns, vertical_spacing=vertical,
-                                             horizontal_spacing=horizontal, pattern=pattern, polarization=polarization)
-        self.scene.rx_array = rt.PlanarArray(num_rows=1, num_cols=1, pattern=receiver[0], polarization=receiver[1])
+        self.scene.tx_array = rt.PlanarArray(
+            num_rows=rows,
+            num_cols=columns,
+            vertical_spacing=vertical,
+            horizontal_spacing=horizontal,
+            pattern=pattern,
+            polarization=polarization,
+        )
+        self.scene.rx_array = rt.PlanarArray(
+            num_rows=1, num_cols=1, pattern=receiver[0], polarization=receiver[1]
+        )
 
     def place(self, receivers):
         for name in list(self.scene.receivers):
@@ -53,9 +65,17 @@ class Sionna:
     def solve(self, samples=1e6, deterministic=False, seed=42, synthetic_array=True, table=1e6):
         case = self.case
         solver = rt.PathSolver(deterministic=deterministic)
-        return solver(self.scene, max_depth=case.depth, samples_per_src=int(samples), max_num_paths_per_src=int(table),
-                      specular_reflection=case.reflection, refraction=case.walls > 0, diffraction=case.diffraction,
-                      synthetic_array=synthetic_array, seed=seed)
+        return solver(
+            self.scene,
+            max_depth=case.depth,
+            samples_per_src=int(samples),
+            max_num_paths_per_src=int(table),
+            specular_reflection=case.reflection,
+            refraction=case.walls > 0,
+            diffraction=case.diffraction,
+            synthetic_array=synthetic_array,
+            seed=seed,
+        )
 
     def paths(self, receivers, first=0, **options):
         """Path objects of all receivers, solved in one call; their numbers begin at `first`."""
@@ -83,8 +103,19 @@ class Sionna:
         out = []
         for r, t, i in np.argwhere(valid):
             letters = "".join(LETTERS[int(k)] for k in kinds[:, r, t, i])
-            points = np.vstack([self.case.transmitter, vertices[:len(letters), r, t, i], receivers[r]]).astype(float)
+            points = np.vstack(
+                [self.case.transmitter, vertices[: len(letters), r, t, i], receivers[r]]
+            ).astype(float)
             tz, ta, rz, ra = (v[r, t, i] for v in angles)
-            out.append(Path(int(r) + first, letters, points, float(delay[r, t, i]), np.array([tz, ta]), np.array([rz, ra]),
-                            a[r, :2, t, :2, i]))
+            out.append(
+                Path(
+                    int(r) + first,
+                    letters,
+                    points,
+                    float(delay[r, t, i]),
+                    np.array([tz, ta]),
+                    np.array([rz, ra]),
+                    a[r, :2, t, :2, i],
+                )
+            )
         return out

@@ -85,20 +85,39 @@ def compare(case, pairs, result, report):
         if ours.kinds != "D":
             continue
         exact = exact_transfer(ours, case)
-        rows.append([np.abs(np.diag(p.transfer) / exact - 1).max() for p in (ours, theirs)]
-                    + [20 * np.log10(np.abs(np.diag(p.transfer) / exact)).flat[i] for p in (ours, theirs) for i in (0, 1)])
+        rows.append(
+            [np.abs(np.diag(p.transfer) / exact - 1).max() for p in (ours, theirs)]
+            + [
+                20 * np.log10(np.abs(np.diag(p.transfer) / exact)).flat[i]
+                for p in (ours, theirs)
+                for i in (0, 1)
+            ]
+        )
     if not rows:
         return
     rows = np.array(rows)
-    report(f"  {len(rows)} paths over the edge beside the exact field of a conducting wedge (UTD is asymptotic: some 1/kL):")
-    for name, error, soft, hard in (("greatx", rows[:, 0], rows[:, 2], rows[:, 3]), ("Sionna RT", rows[:, 1], rows[:, 4], rows[:, 5])):
-        report(f"    {name:10s} relative: median {np.median(error):.1e}, worst {error.max():.1e};  median |dB|: E along the edge "
-               f"{np.median(np.abs(soft)):.2f} (worst {np.abs(soft).max():.2f}), across {np.median(np.abs(hard)):.2f} "
-               f"(worst {np.abs(hard).max():.2f})")
+    report(
+        f"  {len(rows)} paths over the edge beside the exact field of a conducting wedge (UTD is asymptotic: some 1/kL):"
+    )
+    for name, error, soft, hard in (
+        ("greatx", rows[:, 0], rows[:, 2], rows[:, 3]),
+        ("Sionna RT", rows[:, 1], rows[:, 4], rows[:, 5]),
+    ):
+        report(
+            f"    {name:10s} relative: median {np.median(error):.1e}, worst {error.max():.1e};  median |dB|: E along the edge "
+            f"{np.median(np.abs(soft)):.2f} (worst {np.abs(soft).max():.2f}), across {np.median(np.abs(hard)):.2f} "
+            f"(worst {np.abs(hard).max():.2f})"
+        )
         result[f"wedge_{name}"] = [float(np.median(error)), float(error.max())]
-    report("    factors of UTD's four terms that fit best (a conductor: 1 1 -1 -1 along the edge, 1 1 1 1 across), and the rest:")
+    report(
+        "    factors of UTD's four terms that fit best (a conductor: 1 1 -1 -1 along the edge, 1 1 1 1 across), and the rest:"
+    )
     for name, which in (("greatx", 0), ("Sionna RT", 1)):
         paths = [pair[which] for pair in pairs if pair[0].kinds == "D"]
         for title, end, sign in (("along", 0, 1), ("across", 1, -1)):
             factors, rest = fit(paths, case, end, sign)
-            report(f"      {name:10s} {title:7s} " + " ".join(f"{f.real:+.3f}" for f in factors) + f"   {rest:.0e}")
+            report(
+                f"      {name:10s} {title:7s} "
+                + " ".join(f"{f.real:+.3f}" for f in factors)
+                + f"   {rest:.0e}"
+            )

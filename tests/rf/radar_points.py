@@ -49,8 +49,12 @@ for x, y, z, vx, vy, vz, amplitude, phase in points:
         for receiver in range(receivers):
             delay = (way - toward @ (sent_from[transmitter] + received_at[receiver])) / C
             turns = oscillator_turns(since_ramp) - oscillator_turns(since_ramp - delay)
-            received = amplitude * np.exp(1j * phase)  # of e^{+j omega t}; the mixer conjugates what is received
-            expected[receiver, transmitter, chirp] += np.sqrt(power) * np.conj(received) * np.exp(2j * np.pi * turns)
+            received = amplitude * np.exp(
+                1j * phase
+            )  # of e^{+j omega t}; the mixer conjugates what is received
+            expected[receiver, transmitter, chirp] += (
+                np.sqrt(power) * np.conj(received) * np.exp(2j * np.pi * turns)
+            )
 
 scale = np.sqrt(power) * points[:, 6].sum()
 fault = np.abs(cube - expected).max() / scale

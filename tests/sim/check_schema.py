@@ -20,12 +20,18 @@ class Core(yaml.SafeLoader):
 
 
 Core.yaml_implicit_resolvers = {}
-Core.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(true|True|TRUE|false|False|FALSE)$"), list("tTfF"))
-Core.add_implicit_resolver("tag:yaml.org,2002:null", re.compile(r"^(~|null|Null|NULL|)$"), ["~", "n", "N", ""])
+Core.add_implicit_resolver(
+    "tag:yaml.org,2002:bool", re.compile(r"^(true|True|TRUE|false|False|FALSE)$"), list("tTfF")
+)
+Core.add_implicit_resolver(
+    "tag:yaml.org,2002:null", re.compile(r"^(~|null|Null|NULL|)$"), ["~", "n", "N", ""]
+)
 Core.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?[0-9]+$"), list("-+0123456789"))
 Core.add_implicit_resolver(
     "tag:yaml.org,2002:float",
-    re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"), list("-+.0123456789"))
+    re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$"),
+    list("-+.0123456789"),
+)
 Core.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
 Core.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
 
@@ -39,7 +45,15 @@ def main():
 
     # JSON Schema ignores keywords that it does not know: a misspelt one would accept anything.
     known = set(jsonschema.Draft202012Validator.VALIDATORS) | {
-        "$schema", "$defs", "title", "description", "default", "minItems", "maxItems", "then"}
+        "$schema",
+        "$defs",
+        "title",
+        "description",
+        "default",
+        "minItems",
+        "maxItems",
+        "then",
+    }
 
     def look(node, in_names):
         if isinstance(node, dict):

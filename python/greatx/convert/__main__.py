@@ -13,18 +13,33 @@ from .sionna import write_sionna
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(prog="python3 -m greatx.convert", description="Writes a data set's channel in the "
-                                     "conventions of another tool (docs/converters.md). Nothing is normalised.")
+    parser = argparse.ArgumentParser(
+        prog="python3 -m greatx.convert",
+        description="Writes a data set's channel in the "
+        "conventions of another tool (docs/converters.md). Nothing is normalised.",
+    )
     commands = parser.add_subparsers(dest="to", required=True, metavar="deepmimo|sionna")
-    for name, help_text in (("deepmimo", "a scenario that DeepMIMO 4 loads"), ("sionna", "Sionna RT's arrays, .npz")):
+    for name, help_text in (
+        ("deepmimo", "a scenario that DeepMIMO 4 loads"),
+        ("sionna", "Sionna RT's arrays, .npz"),
+    ):
         command = commands.add_parser(name, help=help_text, description=help_text)
         command.add_argument("DIR", help="the data set")
         command.add_argument("OUT", help="folder to make; it must not exist or be empty")
         command.add_argument("--channel", help="name of the channel; needed if there are several")
-        command.add_argument("--sequence", type=int, help="number of the sequence"
-                             + ("; needed if there are several" if name == "deepmimo" else "; default: all"))
-    commands.choices["deepmimo"].add_argument("--layout", choices=LAYOUTS, default=LAYOUTS[0], help="ticks as snapshots of "
-                                              "a dynamic scenario, or as users of a static one (default: %(default)s)")
+        command.add_argument(
+            "--sequence",
+            type=int,
+            help="number of the sequence"
+            + ("; needed if there are several" if name == "deepmimo" else "; default: all"),
+        )
+    commands.choices["deepmimo"].add_argument(
+        "--layout",
+        choices=LAYOUTS,
+        default=LAYOUTS[0],
+        help="ticks as snapshots of "
+        "a dynamic scenario, or as users of a static one (default: %(default)s)",
+    )
     given = parser.parse_args(arguments)
     try:
         dataset = load(given.DIR)

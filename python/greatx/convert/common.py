@@ -17,12 +17,16 @@ def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:
     """The sequence of this number; None: the only one."""
     if number is None:
         if len(dataset.sequences) != 1:
-            raise DatasetError(f"{dataset.path}: has {len(dataset.sequences)} sequences: say which one (--sequence)")
+            raise DatasetError(
+                f"{dataset.path}: has {len(dataset.sequences)} sequences: say which one (--sequence)"
+            )
         return dataset.sequences[0]
     for sequence in dataset.sequences:
         if sequence.number == number:
             return sequence
-    raise DatasetError(f"{dataset.path}: has no sequence {number}; it has {', '.join(str(s.number) for s in dataset.sequences)}")
+    raise DatasetError(
+        f"{dataset.path}: has no sequence {number}; it has {', '.join(str(s.number) for s in dataset.sequences)}"
+    )
 
 
 def pick_channel(sequence: Sequence, name: Optional[str]) -> Sensor:
@@ -32,7 +36,9 @@ def pick_channel(sequence: Sequence, name: Optional[str]) -> Sensor:
     for channel in channels:
         if channel.name == name or (name is None and len(channels) == 1):
             return channel
-    what = f"no channel {name!r}" if name is not None else "several channels or none: say which one (--channel)"
+    what = (
+        f"no channel {name!r}" if name is not None else "several channels or none: say which one (--channel)"
+    )
     raise DatasetError(f"{sequence.dataset.path}: has {what}; channels: {names}")
 
 

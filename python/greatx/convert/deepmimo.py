@@ -20,8 +20,17 @@ import numpy as np
 from ..dataset import Dataset, Record, Sensor
 from ..errors import DatasetError
 from ..files import interpreting
-from ..links import DIFFRACTION, REFLECTION, SCATTERING, SPEED_OF_LIGHT, TRANSMISSION, antenna_pose, paths_of, receivers, \
-    transmitters
+from ..links import (
+    DIFFRACTION,
+    REFLECTION,
+    SCATTERING,
+    SPEED_OF_LIGHT,
+    TRANSMISSION,
+    antenna_pose,
+    paths_of,
+    receivers,
+    transmitters,
+)
 from .common import make_folder, pick_channel, pick_sequence, turns
 
 #: The version of DeepMIMO whose files these are.
@@ -37,8 +46,13 @@ TX_SET, RX_SET = 0, 1
 Point = Tuple[Record, int]  # a receiver at a record
 
 
-def write_deepmimo(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel: Optional[str] = None,
-                   sequence: Optional[int] = None, layout: str = "snapshots") -> Dict[str, Any]:
+def write_deepmimo(
+    dataset: Dataset,
+    out: Union[str, "os.PathLike[str]"],
+    channel: Optional[str] = None,
+    sequence: Optional[int] = None,
+    layout: str = "snapshots",
+) -> Dict[str, Any]:
     """Writes a channel of one sequence to the folder `out`, whose name is the scenario's; counts of what was
     written.
 
@@ -70,8 +84,14 @@ def write_deepmimo(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channe
         return _write(make_folder(out), sensor, snapshots, records, room, layout)
 
 
-def _write(root: pathlib.Path, sensor: Sensor, snapshots: List[List[Point]], records: List[Record], room: "_Room",
-           layout: str) -> Dict[str, Any]:
+def _write(
+    root: pathlib.Path,
+    sensor: Sensor,
+    snapshots: List[List[Point]],
+    records: List[Record],
+    room: "_Room",
+    layout: str,
+) -> Dict[str, Any]:
     active = np.zeros(len(snapshots[0]), bool)
     for number, points in enumerate(snapshots):
         folder = root if len(snapshots) == 1 else root / f"snapshot_{number:06d}"
@@ -85,8 +105,13 @@ def _write(root: pathlib.Path, sensor: Sensor, snapshots: List[List[Point]], rec
         (folder / "objects.json").write_text("[]\n")  # a data set holds no geometry
     params = _params(sensor, records, len(snapshots), len(snapshots[0]), int(active.sum()), layout)
     (root / "params.json").write_text(json.dumps(params, indent=2) + "\n")
-    return {"snapshots": len(snapshots), "transmitters": len(transmitters(sensor)), "receivers": len(snapshots[0]),
-            "paths": room.written, "paths of no vertical amplitude left out": room.left_out}
+    return {
+        "snapshots": len(snapshots),
+        "transmitters": len(transmitters(sensor)),
+        "receivers": len(snapshots[0]),
+        "paths": room.written,
+        "paths of no vertical amplitude left out": room.left_out,
+    }
 
 
 def _vertical_amplitude(sensor: Sensor, paths: Dict[str, np.ndarray]) -> np.ndarray:
@@ -108,7 +133,9 @@ class _Room:
             link = paths["rx"] * links[1] + paths.get("tx", 0)
             counts = np.bincount(link[seen], minlength=links[0] * links[1])
             self.paths = max(self.paths, int(counts.max(initial=0)))
-            self.interactions = max(self.interactions, int(np.count_nonzero(paths["interaction"], axis=1).max(initial=0)))
+            self.interactions = max(
+                self.interactions, int(np.count_nonzero(paths["interaction"], axis=1).max(initial=0))
+            )
             self.written += int(seen.sum())
             self.left_out += int((~seen).sum())
 
@@ -127,7 +154,7 @@ def _arrays(points: List[Point], tx: int, room: _Room) -> Dict[str, np.ndarray]:
         link = _link(record, rx, tx)
         link["inter_pos"] = link["inter_pos"][:, :i]
         for key, value in link.items():
-            out[key][row, :len(value)] = value
+            out[key][row, : len(value)] = value
     out["tx_pos"] = _position(points[0][0], transmitters(points[0][0].sensor)[tx])[None].astype(np.float32)
     return out
 
@@ -144,18 +171,26 @@ def _link(record: Record, rx: int, tx: int) -> Dict[str, np.ndarray]:
     count = np.count_nonzero(digits, axis=1)
     weights = np.where(digits > 0, 10.0 ** (count[:, None] - 1 - np.arange(digits.shape[1])), 0)
     return {
-        "power": 20 * np.log10(np.abs(amplitude)), "phase": np.degrees(np.angle(amplitude)), "delay": paths["delay"],
-        "aoa_el": np.degrees(paths["arrival"][:, 0]), "aoa_az": np.degrees(paths["arrival"][:, 1]),
-        "aod_el": np.degrees(paths["departure"][:, 0]), "aod_az": np.degrees(paths["departure"][:, 1]),
-        "doppler": paths["doppler"], "inter": (digits * weights).sum(axis=1), "inter_pos": paths["vertex"],
+        "power": 20 * np.log10(np.abs(amplitude)),
+        "phase": np.degrees(np.angle(amplitude)),
+        "delay": paths["delay"],
+        "aoa_el": np.degrees(paths["arrival"][:, 0]),
+        "aoa_az": np.degrees(paths["arrival"][:, 1]),
+        "aod_el": np.degrees(paths["departure"][:, 0]),
+        "aod_az": np.degrees(paths["departure"][:, 1]),
+        "doppler": paths["doppler"],
+        "inter": (digits * weights).sum(axis=1),
+        "inter_pos": paths["vertex"],
     }
 
 
 def _position(record: Record, antenna: Dict[str, Any]) -> np.ndarray:
     position = antenna_pose(record, antenna)[0]
     if np.abs(position).max() > 1e5:
-        warnings.warn(f"{antenna['name']}: DeepMIMO's positions are 32-bit: {np.round(position)} m loses millimetres",
-                      stacklevel=4)
+        warnings.warn(
+            f"{antenna['name']}: DeepMIMO's positions are 32-bit: {np.round(position)} m loses millimetres",
+            stacklevel=4,
+        )
     return position
 
 
@@ -164,32 +199,78 @@ def _check_transmitters_stand(sensor: Sensor, records: List[Record]) -> None:
         first = antenna_pose(records[0], antenna)[0]
         for record in records:
             if np.abs(antenna_pose(record, antenna)[0] - first).max() > 1e-6:
-                raise DatasetError(f"{sensor.sequence.dataset.path}: {antenna['name']} moves, which ticks as users of one "
-                                   "static scenario cannot say; use the layout 'snapshots'")
+                raise DatasetError(
+                    f"{sensor.sequence.dataset.path}: {antenna['name']} moves, which ticks as users of one "
+                    "static scenario cannot say; use the layout 'snapshots'"
+                )
 
 
-def _params(sensor: Sensor, records: List[Record], snapshots: int, users: int, active: int, layout: str) -> Dict[str, Any]:
+def _params(
+    sensor: Sensor, records: List[Record], snapshots: int, users: int, active: int, layout: str
+) -> Dict[str, Any]:
     dataset, meta = sensor.sequence.dataset, sensor.metadata
     effects, depth = dataset.run.get("effects", {}), meta["max_depth"]
-    rt = {"raytracer_name": "greatx", "raytracer_version": dataset.run["greatx"], "frequency": meta["carrier_hz"],
-          "max_path_depth": depth, "max_reflections": depth, "max_diffractions": int(effects.get("diffraction", False)),
-          "max_scattering": int(effects.get("scattering", False)),
-          "max_transmissions": depth if effects.get("transmission", False) else 0, "diffuse_reflections": 0,
-          "diffuse_diffractions": 0, "diffuse_transmissions": 0, "diffuse_final_interaction_only": False,
-          "diffuse_random_phases": False, "terrain_reflection": True, "terrain_diffraction": False,
-          "terrain_scattering": False, "num_rays": 0, "ray_casting_method": "none", "synthetic_array": True,
-          "ray_casting_range_az": 360.0, "ray_casting_range_el": 180.0, "gps_bbox": [0, 0, 0, 0], "raw_params": meta}
+    rt = {
+        "raytracer_name": "greatx",
+        "raytracer_version": dataset.run["greatx"],
+        "frequency": meta["carrier_hz"],
+        "max_path_depth": depth,
+        "max_reflections": depth,
+        "max_diffractions": int(effects.get("diffraction", False)),
+        "max_scattering": int(effects.get("scattering", False)),
+        "max_transmissions": depth if effects.get("transmission", False) else 0,
+        "diffuse_reflections": 0,
+        "diffuse_diffractions": 0,
+        "diffuse_transmissions": 0,
+        "diffuse_final_interaction_only": False,
+        "diffuse_random_phases": False,
+        "terrain_reflection": True,
+        "terrain_diffraction": False,
+        "terrain_scattering": False,
+        "num_rays": 0,
+        "ray_casting_method": "none",
+        "synthetic_array": True,
+        "ray_casting_range_az": 360.0,
+        "ray_casting_range_el": 180.0,
+        "gps_bbox": [0, 0, 0, 0],
+        "raw_params": meta,
+    }
     sets = {}
     for number, points, is_tx in ((TX_SET, len(transmitters(sensor)), True), (RX_SET, users, False)):
         sets[f"txrx_set_{number}"] = {
-            "name": "transmitters" if is_tx else "receivers", "id_orig": number, "id": number, "is_tx": is_tx,
-            "is_rx": not is_tx, "num_points": points, "num_active_points": points if is_tx else active, "num_ant": 1,
-            "dual_pol": False, "ant_rel_positions": [[0, 0, 0]], "array_orientation": [0, 0, 0], "grid_spacing": None}
-    scene = {"num_scenes": snapshots, "n_objects": 0, "n_vertices": 0, "n_faces": 0, "n_triangular_faces": 0,
-             "representation": "hull"}
-    return {"version": DEEPMIMO_VERSION, "rt_params": rt, "txrx_sets": sets, "materials": _materials(meta),
-            "scene": scene, "greatx": {"layout": layout, "times_s": [record.time_s for record in records],
-                                       "ticks": [record.tick for record in records]}}
+            "name": "transmitters" if is_tx else "receivers",
+            "id_orig": number,
+            "id": number,
+            "is_tx": is_tx,
+            "is_rx": not is_tx,
+            "num_points": points,
+            "num_active_points": points if is_tx else active,
+            "num_ant": 1,
+            "dual_pol": False,
+            "ant_rel_positions": [[0, 0, 0]],
+            "array_orientation": [0, 0, 0],
+            "grid_spacing": None,
+        }
+    scene = {
+        "num_scenes": snapshots,
+        "n_objects": 0,
+        "n_vertices": 0,
+        "n_faces": 0,
+        "n_triangular_faces": 0,
+        "representation": "hull",
+    }
+    return {
+        "version": DEEPMIMO_VERSION,
+        "rt_params": rt,
+        "txrx_sets": sets,
+        "materials": _materials(meta),
+        "scene": scene,
+        "greatx": {
+            "layout": layout,
+            "times_s": [record.time_s for record in records],
+            "ticks": [record.tick for record in records],
+        },
+    }
 
 
 def _materials(meta: Dict[str, Any]) -> Dict[str, Any]:
@@ -201,7 +282,10 @@ def _materials(meta: Dict[str, Any]) -> Dict[str, Any]:
         real, imaginary = wall["layers"][0]["relative_permittivity"]
         number = len(materials)
         materials[f"material_{number}"] = {
-            "id": number, "name": wall["material"], "permittivity": real,
+            "id": number,
+            "name": wall["material"],
+            "permittivity": real,
             "conductivity": -imaginary * 2 * np.pi * meta["carrier_hz"] * VACUUM_PERMITTIVITY,
-            "thickness": wall["layers"][0]["thickness_m"]}
+            "thickness": wall["layers"][0]["thickness_m"],
+        }
     return materials

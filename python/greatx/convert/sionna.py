@@ -15,8 +15,17 @@ import numpy as np
 from ..dataset import Dataset, Record, Sensor
 from ..errors import DatasetError
 from ..files import Field, interpreting
-from ..links import DIFFRACTION, REFLECTION, SCATTERING, TRANSMISSION, antenna_pose, check_channel, paths_of, receivers, \
-    transmitters
+from ..links import (
+    DIFFRACTION,
+    REFLECTION,
+    SCATTERING,
+    TRANSMISSION,
+    antenna_pose,
+    check_channel,
+    paths_of,
+    receivers,
+    transmitters,
+)
 from .common import make_folder, pick_channel, pick_sequence, turns
 
 #: Our interactions as sionna.rt.constants.InteractionType: SPECULAR, DIFFUSE, REFRACTION, DIFFRACTION.
@@ -69,9 +78,13 @@ def _paths(record: Record, sensor: Sensor) -> SionnaPaths:
     depth = links[0, 0]["interaction"].shape[1]
     link = (rx_count, tx_count, n)
     out: Dict[str, Any] = {
-        "tau": np.full(link, -1.0), "valid": np.zeros(link, bool),
-        "interactions": np.zeros((depth, *link), np.uint32), "objects": np.full((depth, *link), INVALID, np.uint32),
-        "vertices": np.zeros((depth, *link, 3), np.float32), "doppler": np.zeros(link, np.float32)}
+        "tau": np.full(link, -1.0),
+        "valid": np.zeros(link, bool),
+        "interactions": np.zeros((depth, *link), np.uint32),
+        "objects": np.full((depth, *link), INVALID, np.uint32),
+        "vertices": np.zeros((depth, *link, 3), np.float32),
+        "doppler": np.zeros(link, np.float32),
+    }
     out.update({name: np.zeros(link, np.float32) for name in ("theta_t", "phi_t", "theta_r", "phi_r")})
     a = np.zeros((rx_count, ports[0], tx_count, ports[1], n), complex)
     for (rx, tx), p in links.items():
@@ -82,23 +95,35 @@ def _paths(record: Record, sensor: Sensor) -> SionnaPaths:
         out["interactions"][(slice(None), *at)] = _INTERACTIONS[p["interaction"]].T
         out["objects"][(slice(None), *at)] = np.where(p["object"] > 0, p["object"] - np.uint32(1), INVALID).T
         out["vertices"][(slice(None), *at)] = np.nan_to_num(p["vertex"]).transpose(1, 0, 2)
-        a[rx, :, tx, :, :len(p["delay"])] = np.moveaxis(p["amplitude"], 0, -1)
+        a[rx, :, tx, :, : len(p["delay"])] = np.moveaxis(p["amplitude"], 0, -1)
     # `amplitude` is the baseband coefficient, with the carrier's phase: Paths.a is without.
-    passband = a * np.exp(2j * np.pi * turns(carrier, np.where(out["valid"], out["tau"], 0)))[:, None, :, None]
+    passband = (
+        a * np.exp(2j * np.pi * turns(carrier, np.where(out["valid"], out["tau"], 0)))[:, None, :, None]
+    )
     times = np.arange(cfr.shape[4]) * meta["time_spacing_s"]
     moving = times if meta["doppler_in_time_samples"] else 0 * times
     over_time = np.exp(2j * np.pi * out["doppler"][..., None] * moving)[:, None, :, None]
     subcarriers = Field(sensor.metadata.where, meta)["subcarriers"].integer(1, 1 << 20)
     frequencies = (meta["first_subcarrier"] + np.arange(subcarriers)) * meta["subcarrier_spacing_hz"]
     return SionnaPaths(
-        a=passband.astype(np.complex64), cir=(a[..., None] * over_time).astype(np.complex64), cfr=cfr,
-        frequencies=frequencies, times=times, frequency=carrier,
+        a=passband.astype(np.complex64),
+        cir=(a[..., None] * over_time).astype(np.complex64),
+        cfr=cfr,
+        frequencies=frequencies,
+        times=times,
+        frequency=carrier,
         sources=np.array([antenna_pose(record, end)[0] for end in transmitters(sensor)]),
-        targets=np.array([antenna_pose(record, end)[0] for end in receivers(sensor)]), **out)
+        targets=np.array([antenna_pose(record, end)[0] for end in receivers(sensor)]),
+        **out,
+    )
 
 
-def write_sionna(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel: Optional[str] = None,
-                 sequence: Optional[int] = None) -> Dict[str, int]:
+def write_sionna(
+    dataset: Dataset,
+    out: Union[str, "os.PathLike[str]"],
+    channel: Optional[str] = None,
+    sequence: Optional[int] = None,
+) -> Dict[str, int]:
     """OUT/sequence_0000/000000.npz, ...: a file a record, with the fields of SionnaPaths and `tick`,
     `time_s`. Of one sequence or (None) of all. Counts of what was written; DatasetError, or FileExistsError
     for a folder in use."""
@@ -107,8 +132,10 @@ def write_sionna(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel:
     for sensor in sensors:
         for needed in ("cfr", "delay"):
             if needed not in sensor.arrays:
-                raise DatasetError(f"{sensor.name}: expected an array {needed!r}, found none; the scenario's channel needs "
-                                   "outputs: [cfr, paths]")
+                raise DatasetError(
+                    f"{sensor.name}: expected an array {needed!r}, found none; the scenario's channel needs "
+                    "outputs: [cfr, paths]"
+                )
     root = make_folder(out)
     written = 0
     for sensor in sensors:
@@ -116,6 +143,8 @@ def write_sionna(dataset: Dataset, out: Union[str, "os.PathLike[str]"], channel:
         folder.mkdir()
         for record in sensor:
             arrays = vars(sionna_paths(record))
-            np.savez_compressed(folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays)
+            np.savez_compressed(
+                folder / f"{record.sample:06d}.npz", tick=record.tick, time_s=record.time_s, **arrays
+            )
             written += 1
     return {"sequences": len(sensors), "files": written}
