@@ -58,6 +58,21 @@ std::string escaped(std::string_view text, bool keep_lines) {
   return shown;
 }
 
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
 }  // namespace
 
 std::optional<size_t> find_bad_utf8(std::string_view text) {
@@ -79,6 +94,20 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string* best = nullptr;
+  size_t best_distance = std::max<size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    // A forgotten unit ("rate" for "rate_hz") is nearer than the distance of the letters says.
+    const bool prefix = candidate.starts_with(std::string(word) + "_");
+    const size_t distance = prefix ? 1 : edit_distance(word, candidate);
+    if (distance >= best_distance || distance >= candidate.size()) continue;
+    best = &candidate;
+    best_distance = distance;
+  }
+  return best ? fmt::format(" (did you mean '{}'?)", *best) : "";
 }
 
 }  // namespace greatx

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace greatx {
 
@@ -27,5 +28,8 @@ std::string printable_lines(std::string_view text);
 /// [-+]? ( \. [0-9]+ | [0-9]+ ( \. [0-9]* )? ) ( [eE] [-+]? [0-9]+ )?
 /// The result is empty if the text does not match or the number is not finite.
 std::optional<double> parse_number(std::string_view text);
+
+/// Returns " (did you mean 'x'?)" for the candidate nearest to `word`, or an empty text if none is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace greatx

@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "sim/scenario/parse/scenario_yaml.h"
+#include "core/text.h"
 
 namespace greatx::apps {
 
@@ -97,7 +97,7 @@ std::string unknown_command(const CLI::App& app, const std::vector<std::string>&
     if (commands.empty() || at->get_require_subcommand_min() == 0) return "";
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
-    std::string hint = sim::suggestion(argument, names);  // " (did you mean 'x'?)"
+    std::string hint = suggestion(argument, names);  // " (did you mean 'x'?)"
     hint = hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", "))
                         : fmt::format(", {}", hint.substr(2, hint.size() - 3));
     return fmt::format("no command '{}{}{}'{}", at == &app ? "" : at->get_name(), at == &app ? "" : " ",

@@ -130,7 +130,7 @@ void read_radio(Material& material, const json& document, const std::string& wha
   if (const json* extension = extension_of(document, "GREATX_radio_material")) {
     sources = read_radio_fields(field_from_json(*extension, what, "GREATX_radio_material"), sources);
   }
-  if (const RadioField* entry = sidecar.find(material.name)) sources = read_radio_fields(*entry, sources);
+  if (const Field* entry = sidecar.find(material.name)) sources = read_radio_fields(*entry, sources);
   material.radio = std::move(sources.radio);
   material.reflectance_905nm = sources.reflectance_905nm;
   material.reflectance_1550nm = sources.reflectance_1550nm;

@@ -21,10 +21,10 @@ class RadioSidecar {
 
   /// Returns the fields for `material_name`: the entry of that exact name, else the first glob that matches,
   /// else null.
-  const RadioField* find(const std::string& material_name) const;
+  const Field* find(const std::string& material_name) const;
 
  private:
-  std::vector<std::pair<std::string, RadioField>> entries_;
+  std::vector<std::pair<std::string, Field>> entries_;
 };
 
 }  // namespace greatx::scene

@@ -8,9 +8,6 @@
 
 namespace greatx::sim {
 
-/// The bounds of every number that is not an integer: squares and ratios in single precision on the device
-/// can hold them. Most quantities have narrower bounds of their own.
-inline constexpr double least_number = 1e-30, most_number = 1e30;
 inline constexpr double most_position_m = 1e8;  ///< beyond the geostationary satellites
 inline constexpr double most_angle_deg = 1e6;   ///< the sine of a larger angle has lost its digits
 inline constexpr double most_time_s = 1e9;      ///< thirty years

@@ -21,4 +21,19 @@ void PosedScene::at_instants(gpu::TickSlot& slot, const TickContext& context,
   if (instants.away_) instants.move_to(context.time_s);
 }
 
+std::vector<Pose> TracedInstants::move_to(double time_s) {
+  std::vector<Pose> bodies = context_.body_poses_at(time_s);
+  const bool of_tick = time_s == context_.time_s;
+  if (!of_tick || away_) scene_.record_update(slot_, bodies);
+  away_ = !of_tick;
+  return bodies;
+}
+
+void at_traced_instants(scene::GpuScene& scene, gpu::TickSlot& slot, const TickContext& context,
+                        const std::function<void(TracedInstants&)>& record) {
+  TracedInstants instants(scene, slot, context);
+  record(instants);
+  if (instants.away_) instants.move_to(context.time_s);
+}
+
 }  // namespace greatx::sim

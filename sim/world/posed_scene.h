@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene that cameras look at, posed for any instant of a tick: sub-steps of event cameras, instants
-// within an exposure.
+// Poses the scene for any instant of a tick: sub-steps of event cameras, instants within an exposure, frames
+// of a radar that are traced several times. Whoever asks for other instants finds everything back at the tick
+// afterwards.
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "renderer/light/lighting.h"
 #include "scene/device/gpu_scene.h"
@@ -53,5 +55,29 @@ class PosedScene {
   render::SceneLighting& lighting_;
   const World& world_;
 };
+
+/// The instants that one sensor traces at within its record(): only at_traced_instants() makes them, and it
+/// undoes them.
+class TracedInstants {
+ public:
+  /// Poses every body for the rays recorded next. Returns the poses, in local coordinates.
+  std::vector<Pose> move_to(double time_s);
+
+ private:
+  friend void at_traced_instants(scene::GpuScene& scene, gpu::TickSlot& slot, const TickContext& context,
+                                 const std::function<void(TracedInstants&)>& record);
+  TracedInstants(scene::GpuScene& scene, gpu::TickSlot& slot, const TickContext& context)
+      : scene_(scene), slot_(slot), context_(context) {}
+
+  scene::GpuScene& scene_;
+  gpu::TickSlot& slot_;
+  const TickContext& context_;
+  bool away_ = false;  ///< the poses recorded last are not those of the tick
+};
+
+/// Lets `record` trace rays at as many instants as it likes. Afterwards the acceleration structure stands as
+/// `context` has it again.
+void at_traced_instants(scene::GpuScene& scene, gpu::TickSlot& slot, const TickContext& context,
+                        const std::function<void(TracedInstants&)>& record);
 
 }  // namespace greatx::sim

@@ -22,7 +22,7 @@ using greatx::apps::test::Outcome;
 using greatx::apps::test::read_file;
 using testing::HasSubstr;
 
-constexpr const char* scenario = R"(# A drone and a bus, both drawn.
+constexpr const char* override_scenario = R"(# A drone and a bus, both drawn.
 greatx: 1
 name: drawn
 # How long.
@@ -44,7 +44,7 @@ channels:
 
 class Override : public testing::Test {
  protected:
-  void SetUp() override { std::ofstream(folder_ / "drawn.yaml") << scenario; }
+  void SetUp() override { std::ofstream(folder_ / "drawn.yaml") << override_scenario; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void generate(const std::string& from, const std::string& to, const std::string& more = "") const {
     const Outcome made = greatx(fmt::format("generate {} -o {} -q {}", path(from), path(to), more));
@@ -68,7 +68,7 @@ TEST_F(Override, TheScenarioOfTheDataSetMakesItAgain) {
   // What is said anyway changes nothing.
   generate("drawn.yaml", "plain");
   generate("drawn.yaml", "said", "--seed 1 --ticks 6 --sequences 1");
-  EXPECT_EQ(file("plain/scenario.yaml"), scenario);
+  EXPECT_EQ(file("plain/scenario.yaml"), override_scenario);
   EXPECT_EQ(file("plain/manifest.json"), file("said/manifest.json"));
 }
 

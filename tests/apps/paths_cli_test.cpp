@@ -27,7 +27,7 @@ using testing::HasSubstr;
 
 constexpr double speed_of_light = 299792458.0;
 
-constexpr const char* scenario = R"(greatx: 1
+constexpr const char* paths_scenario = R"(greatx: 1
 name: flat
 ticks: 11
 tick_rate_hz: 10
@@ -50,7 +50,7 @@ class PathsCli : public testing::Test {
  protected:
   void SetUp() override {
     write("ground.gltf", ground_gltf);
-    write("flat.yaml", scenario);
+    write("flat.yaml", paths_scenario);
   }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -230,7 +230,7 @@ TEST_F(PathsCli, FaultyRequests) {
 }
 
 TEST_F(PathsCli, AViewMayBeAnEventCameras) {
-  std::string text = scenario;
+  std::string text = paths_scenario;
   const std::string antenna_alone = "[{name: antenna, type: antenna}]";
   const std::string eyes =
       "[{name: antenna, type: antenna}, {name: front, type: camera, rate_hz: 10, width: 64, height: 48, "
@@ -342,7 +342,7 @@ TEST_F(PathsCli, WhatIsNoFileOfTheCacheIsWarnedOf) {
 }
 
 TEST_F(PathsCli, TakesOneOfSeveralTransmitters) {
-  std::string text = scenario;
+  std::string text = paths_scenario;
   const std::string one = "name: csi, tx: bs/panel, rx: [uav/antenna]";
   text.replace(text.find(one), one.size(), "name: csi, tx: [bs/panel, uav/antenna], rx: [bs/panel]");
   text.replace(text.find(", polarization: vh"), 18, "");

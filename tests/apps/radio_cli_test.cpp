@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A house of 10 x 10 x 10 m with a corner at (20, -5, 0); a base station beside it, a terminal in front.
-constexpr const char* scenario = R"(greatx: 1
+constexpr const char* radio_scenario = R"(greatx: 1
 name: house
 ticks: 2
 tick_rate_hz: 10
@@ -50,7 +50,7 @@ class RadioCli : public testing::Test {
   void SetUp() override {
     write_box();
     write("radio.yaml", radio);
-    write("house.yaml", scenario);
+    write("house.yaml", radio_scenario);
   }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -117,7 +117,7 @@ TEST_F(RadioCli, TheSceneOfTheseTestsIsSound) {
 }
 
 TEST_F(RadioCli, FrequenciesOutsideOfAMaterial) {
-  change("house.yaml", scenario, "max_depth: 2", "carrier_hz: 105e9");
+  change("house.yaml", radio_scenario, "max_depth: 2", "carrier_hz: 105e9");
   fails("gap", {"house.yaml:", "channels[0].carrier_hz", "channel 'csi'", "material 'plaster'", "105 GHz",
                 "1 to 100 GHz"});
   change("radio.yaml", radio, "itu: concrete", "itu: concrete\n    extrapolate: true");
@@ -137,7 +137,7 @@ TEST_F(RadioCli, ThicknessesAndScatteringThatCannotBe) {
 }
 
 TEST_F(RadioCli, ATransmitterInsideASolidIsNamed) {
-  change("house.yaml", scenario, "[0, 0, 5]", "[25, 0, 5]");
+  change("house.yaml", radio_scenario, "[0, 0, 5]", "[25, 0, 5]");
   const Outcome outcome = run("paths", "--json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
@@ -151,7 +151,7 @@ TEST_F(RadioCli, ATransmitterInsideASolidIsNamed) {
 }
 
 TEST_F(RadioCli, EndsExactlyOnASurfaceAreNamed) {
-  change("house.yaml", scenario, "[0, 0, 5]", "[20, 0, 5]");
+  change("house.yaml", radio_scenario, "[0, 0, 5]", "[20, 0, 5]");
   const Outcome outcome = run("paths", "--json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning"), HasSubstr("bs/panel lies on a surface of 'house"),
@@ -161,12 +161,12 @@ TEST_F(RadioCli, EndsExactlyOnASurfaceAreNamed) {
   EXPECT_TRUE(result["receivers"][0]["line_of_sight"]) << "its own surface does not hide it";
   // Nor does it reflect: what is left goes through to the far wall and back.
   for (const json& found : result["receivers"][0]["paths"]) EXPECT_NE(found["chain"], "R");
-  change("house.yaml", scenario, "[10, 3, 1.5]", "[20, 3, 1.5]");
+  change("house.yaml", radio_scenario, "[10, 3, 1.5]", "[20, 3, 1.5]");
   EXPECT_THAT(run("paths").err, HasSubstr("ue/antenna lies on a surface of 'house"));
 }
 
 TEST_F(RadioCli, PathsBeyondTheBoundAreCountedAndSaid) {
-  change("house.yaml", scenario, "max_depth: 2", "max_depth: 2, max_paths: 5, scattering_patch_m: 1");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 2, max_paths: 5, scattering_patch_m: 1");
   write("house.yaml", greatx::apps::test::read_file(folder_ / "house.yaml") + "effects: {scattering: on}\n");
   const Outcome outcome = run("paths", "--json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -187,26 +187,26 @@ TEST_F(RadioCli, PathsBeyondTheBoundAreCountedAndSaid) {
   EXPECT_GT(summary["counters"]["csi.path_overflow"], 200);
   EXPECT_THAT(summary["notes"]["csi.guarantee"].get<std::string>(),
               HasSubstr("geometric paths are left out"));
-  change("house.yaml", scenario, "max_depth: 2", "max_paths: 0");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_paths: 0");
   fails("no paths", {"house.yaml:", "channels[0].max_paths", "'0'"});
 }
 
 // Walls passed have a bound of their own, which a path that may be deeper does not break.
 TEST_F(RadioCli, TheDeepestPathsRun) {
-  change("house.yaml", scenario, "max_depth: 2", "max_depth: 16");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 16");
   const Outcome outcome = run("paths", "--json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(json::parse(outcome.out)["guarantee"].get<std::string>(),
               AllOf(HasSubstr("up to 16 reflections"), HasSubstr("walls: at most 8")));
-  change("house.yaml", scenario, "max_depth: 2", "max_depth: 17");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 17");
   fails("too deep", {"house.yaml:", "channels[0].max_depth", "'17'"});
-  change("house.yaml", scenario, "max_depth: 2", "max_transmissions: 9");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_transmissions: 9");
   fails("too many walls", {"house.yaml:", "channels[0].max_transmissions", "'9'"});
 }
 
 TEST_F(RadioCli, PatchesTooSmallToBeCutAreRefused) {
   const auto with_patches_of = [&](const std::string& side) {
-    change("house.yaml", scenario, "max_depth: 2", "scattering_patch_m: " + side);
+    change("house.yaml", radio_scenario, "max_depth: 2", "scattering_patch_m: " + side);
     write("house.yaml",
           greatx::apps::test::read_file(folder_ / "house.yaml") + "effects: {scattering: on}\n");
   };
@@ -240,7 +240,7 @@ TEST_F(RadioCli, ReceiverListsWithFaults) {
 }
 
 TEST_F(RadioCli, EffectsThatAreNoneAndWeatherThatIsNone) {
-  const std::string text = scenario;
+  const std::string text = radio_scenario;
   write("house.yaml", text + "effects: {difraction: on}\n");
   fails("effect", {"house.yaml", "effects: 'difraction' is no effect; expected one of", "diffraction"});
   write("house.yaml", text + "effects: {channel: off}\n");
@@ -253,7 +253,7 @@ TEST_F(RadioCli, EffectsThatAreNoneAndWeatherThatIsNone) {
 
 TEST_F(RadioCli, ExplainSaysHowCandidatesAreFoundAndWhatThatGuarantees) {
   const auto explained = [&](const std::string& channel) {
-    change("house.yaml", scenario, "max_depth: 2", channel);
+    change("house.yaml", radio_scenario, "max_depth: 2", channel);
     const Outcome outcome = run("explain", "--json");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const json notes = json::parse(outcome.out)["channels"]["csi"];
@@ -274,7 +274,7 @@ TEST_F(RadioCli, ExplainSaysHowCandidatesAreFoundAndWhatThatGuarantees) {
               AllOf(HasSubstr("10000 rays"), HasSubstr("may be missed")));
   EXPECT_EQ(explained("max_depth: 0")["search"], "none");
   // What the run says afterwards is what was said before.
-  change("house.yaml", scenario, "max_depth: 2", "max_depth: 2");
+  change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 2");
   const json summary = json::parse(run("generate", "--json -o " + path("out")).out);
   EXPECT_EQ(summary["notes"]["csi.guarantee"], beams["guarantee"]);
 }

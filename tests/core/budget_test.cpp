@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string message_of(const auto& call) {
+std::string budget_message(const auto& call) {
   try {
     call();
   } catch (const UserError& error) {
@@ -37,10 +37,10 @@ TEST(Budget, ProductsAndSumsStayAtTheTop) {
 TEST(Budget, TheMessageSaysWhereWhatAndHowMuch) {
   const Budget budget{"a thing", 2 * budget::gib};
   EXPECT_NO_THROW(require_within("x.glb: mesh 'm'", 2 * budget::gib, budget));
-  EXPECT_EQ(message_of([&] { require_within("x.glb: mesh 'm'", 3 * budget::gib, budget); }),
+  EXPECT_EQ(budget_message([&] { require_within("x.glb: mesh 'm'", 3 * budget::gib, budget); }),
             "x.glb: mesh 'm': expected at most 2 GiB for a thing (docs/limits.md), found 3 GiB");
   const Budget values{"a list", 10, "values"};
-  EXPECT_EQ(message_of([&] { require_within("x.yaml:3", UINT64_MAX, values); }),
+  EXPECT_EQ(budget_message([&] { require_within("x.yaml:3", UINT64_MAX, values); }),
             "x.yaml:3: expected at most 10 values for a list (docs/limits.md), found more than "
             "18446744073709551615 values");
 }
@@ -48,8 +48,8 @@ TEST(Budget, TheMessageSaysWhereWhatAndHowMuch) {
 TEST(Budget, SharesAreSummed) {
   Spending spending({"things", 10, "values"});
   spending.plan("a", 6);
-  EXPECT_THAT(message_of([&] { spending.plan("b", 5); }), HasSubstr("b: expected at most 10 values"));
-  EXPECT_THAT(message_of([&] { spending.plan("c", UINT64_MAX); }), HasSubstr("c: expected"));
+  EXPECT_THAT(budget_message([&] { spending.plan("b", 5); }), HasSubstr("b: expected at most 10 values"));
+  EXPECT_THAT(budget_message([&] { spending.plan("c", UINT64_MAX); }), HasSubstr("c: expected"));
 }
 
 TEST(InputFile, ReadsWhatIsRegularAndWithinItsBudget) {
@@ -60,10 +60,11 @@ TEST(InputFile, ReadsWhatIsRegularAndWithinItsBudget) {
   EXPECT_EQ(InputFile(path, "text", budget).text(), "hello");
   std::ofstream(path) << "hello!";
   EXPECT_THAT(
-      message_of([&] { InputFile(path, "text", budget); }),
+      budget_message([&] { InputFile(path, "text", budget); }),
       testing::AllOf(HasSubstr("text: file '" + path.string()), HasSubstr("5 bytes"), HasSubstr("found 6")));
-  EXPECT_THAT(message_of([&] { InputFile(folder.path(), "text", budget); }), HasSubstr("not a regular file"));
-  EXPECT_THAT(message_of([&] { InputFile(folder.path() / "b", "text", budget); }),
+  EXPECT_THAT(budget_message([&] { InputFile(folder.path(), "text", budget); }),
+              HasSubstr("not a regular file"));
+  EXPECT_THAT(budget_message([&] { InputFile(folder.path() / "b", "text", budget); }),
               HasSubstr("does not exist"));
 }
 
@@ -71,7 +72,7 @@ TEST(InputFile, APipeIsRefusedAndNotWaitedFor) {
   const test::TemporaryFolder folder;
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THAT(message_of([&] { InputFile(pipe, "text", budget::csv_file); }),
+  EXPECT_THAT(budget_message([&] { InputFile(pipe, "text", budget::csv_file); }),
               HasSubstr("not a regular file"));
 }
 
@@ -82,7 +83,7 @@ TEST(InputFile, ASparseFileOfAHundredGibibytesIsRefusedBeforeItIsRead) {
   std::error_code error;
   std::filesystem::resize_file(path, 100 * budget::gib, error);
   if (error) GTEST_SKIP() << "this file system has no sparse files: " << error.message();
-  EXPECT_THAT(message_of([&] { InputFile(path, "positions", budget::csv_file); }),
+  EXPECT_THAT(budget_message([&] { InputFile(path, "positions", budget::csv_file); }),
               testing::AllOf(HasSubstr("sparse.csv"), HasSubstr("256 MiB"), HasSubstr("100 GiB")));
 }
 

@@ -19,7 +19,7 @@ using render::EventDesc;
 using render::EventFrame;
 using render::EventSteps;
 
-constexpr int64_t ms = 1'000'000;
+constexpr int64_t millisecond_ns = 1'000'000;
 
 size_t total(const std::vector<EventFrame>& frames) {
   size_t sum = 0;
@@ -48,13 +48,13 @@ TEST(Events, RampHasTheExactCountAndTimes) {
       EventDesc desc = plain_events(35, 2, c);
       desc.substeps = substeps;
       EventRig rig(desc, [&](uint32_t x, uint32_t y, double t) { return std::exp(8.0 + slope(x, y) * t); });
-      const std::vector<EventFrame> frames = rig.run(33 * ms, 4);
+      const std::vector<EventFrame> frames = rig.run(33 * millisecond_ns, 4);
       EXPECT_EQ(frames[0].size(), 0u);
       for (uint32_t row = 0; row < 2; ++row)
         for (uint32_t column = 0; column < 35; ++column) {
           const double s = slope(column, row);
           const double change = rig.signal(column, row, 0.099) - rig.signal(column, row, 0.0);
-          const std::vector<PixelEvent> events = events_of(frames, 33 * ms, column, row);
+          const std::vector<PixelEvent> events = events_of(frames, 33 * millisecond_ns, column, row);
           ASSERT_EQ(events.size(), std::floor(std::abs(change) / c + 1e-6)) << column << " " << row;
           for (size_t k = 0; k < events.size(); ++k) {
             EXPECT_EQ(events[k].on, s > 0);
@@ -70,7 +70,7 @@ TEST(Events, TenthsAddUpToOne) {
   // From 1 to e in one step: ten thresholds of 0.1, not the nine of a sum in single precision.
   EventRig rig(plain_events(1, 1, 0.1),
                [](uint32_t, uint32_t, double t) { return (t > 0 ? 2.7182818 : 1.0) - 1e-6; });
-  EXPECT_EQ(total(rig.run(10 * ms, 3)), 10u);
+  EXPECT_EQ(total(rig.run(10 * millisecond_ns, 3)), 10u);
 }
 
 TEST(Events, ReconstructionStaysWithinOneThreshold) {
@@ -82,7 +82,7 @@ TEST(Events, ReconstructionStaysWithinOneThreshold) {
     return std::exp(4.0 + 2.0 * std::sin(0.3 * x + 0.7 * y + 40.0 * t) + std::sin(0.11 * x * y - 90.0 * t));
   };
   EventRig rig(desc, luminance);
-  const std::vector<EventFrame> frames = rig.run(20 * ms, 12);
+  const std::vector<EventFrame> frames = rig.run(20 * millisecond_ns, 12);
   std::vector<double> level(50 * 40);
   for (uint32_t y = 0; y < 40; ++y)
     for (uint32_t x = 0; x < 50; ++x) level[y * 50 + x] = rig.signal(x, y, 0.0);
@@ -106,7 +106,7 @@ TEST(Events, HardCaseN56StreamIsInOrderOfTimeRowColumnPolarity) {
   desc.shot_rate_hz = 200.0;
   EventRig rig(desc,
                [](uint32_t x, uint32_t y, double t) { return std::exp(2 + 20 * t * ((x / 5 + y) % 3)); });
-  for (const EventFrame& frame : rig.run(10 * ms, 5)) {
+  for (const EventFrame& frame : rig.run(10 * millisecond_ns, 5)) {
     size_t ties = 0;
     for (size_t i = 1; i < frame.size(); ++i) {
       const auto key = [&](size_t j) {
@@ -133,11 +133,11 @@ TEST(Events, HalvingTheStepQuartersTheErrorOfTimes) {
     EventDesc desc = plain_events(16, 1, c);
     desc.substeps = substeps;
     EventRig rig(desc, [&](uint32_t x, uint32_t, double t) { return std::exp(signal(x, t)); });
-    const std::vector<EventFrame> frames = rig.run(40 * ms, 4);
+    const std::vector<EventFrame> frames = rig.run(40 * millisecond_ns, 4);
     double sum = 0.0;
     size_t count = 0;
     for (uint32_t x = 0; x < 16; ++x) {
-      const std::vector<PixelEvent> events = events_of(frames, 40 * ms, x, 0);
+      const std::vector<PixelEvent> events = events_of(frames, 40 * millisecond_ns, x, 0);
       EXPECT_EQ(events.size(), std::floor((signal(x, 0.12) - signal(x, 0.0)) / c)) << x;
       for (size_t k = 0; k < events.size(); ++k, ++count)
         sum += std::pow(1e-9 * double(events[k].t_ns) - exact(x, signal(x, 0) + double(k + 1) * c), 2);
@@ -155,7 +155,7 @@ TEST(Events, HardCaseN53BlackToBlackGivesNoEvent) {
   EventDesc desc = plain_events(33, 3, 0.01);
   desc.substeps = 2;
   EventRig rig(desc, [](uint32_t, uint32_t, double t) { return t > 0.015 ? 0.0 : -0.0; });
-  EXPECT_EQ(total(rig.run(10 * ms, 6)), 0u);
+  EXPECT_EQ(total(rig.run(10 * millisecond_ns, 6)), 0u);
 }
 
 TEST(Events, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
@@ -168,7 +168,7 @@ TEST(Events, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
   };
   EventRig rig(desc, levels);
   std::vector<size_t> counts;
-  for (const EventFrame& frame : rig.run(10 * ms, 5)) counts.push_back(frame.size());
+  for (const EventFrame& frame : rig.run(10 * millisecond_ns, 5)) counts.push_back(frame.size());
   EXPECT_THAT(counts, testing::ElementsAre(0, 1, 0, 1, 1));
 }
 
@@ -177,23 +177,23 @@ TEST(Events, HardCaseN55StillPicturesGiveNothing) {
   desc.substeps = 4;
   desc.cutoff_hz = 100.0;
   EventRig rig(desc, [](uint32_t x, uint32_t y, double) { return std::exp(0.3 * x - y); });
-  EXPECT_EQ(total(rig.run(10 * ms, 4)), 0u);
+  EXPECT_EQ(total(rig.run(10 * millisecond_ns, 4)), 0u);
 }
 
 TEST(Events, OverflowIsCountedAndKeepsTheFirst) {
   EventDesc desc = plain_events(40, 10, 0.1);
   desc.substeps = 2;
   const auto luminance = [](uint32_t x, uint32_t, double t) { return std::exp(3 + 0.01 * x + 80 * t); };
-  const std::vector<EventFrame> whole = EventRig(desc, luminance).run(10 * ms, 3);
+  const std::vector<EventFrame> whole = EventRig(desc, luminance).run(10 * millisecond_ns, 3);
   desc.capacity = 1000;
-  const std::vector<EventFrame> cut = EventRig(desc, luminance).run(10 * ms, 3),
-                                again = EventRig(desc, luminance).run(10 * ms, 3);
+  const std::vector<EventFrame> cut = EventRig(desc, luminance).run(10 * millisecond_ns, 3),
+                                again = EventRig(desc, luminance).run(10 * millisecond_ns, 3);
   expect_same(cut, again);
   for (size_t k = 1; k < 3; ++k) {
     EXPECT_EQ(whole[k].dropped, 0u);
     EXPECT_EQ(cut[k].size(), 1000u);
     EXPECT_EQ(cut[k].size() + cut[k].dropped, whole[k].size());
-    EXPECT_EQ(std::ranges::count_if(cut[k].t_ns, [](uint32_t t) { return t > 5 * ms; }), 0);
+    EXPECT_EQ(std::ranges::count_if(cut[k].t_ns, [](uint32_t t) { return t > 5 * millisecond_ns; }), 0);
   }
 }
 
@@ -207,7 +207,7 @@ TEST(Events, DifferenceImageHasThreeValues) {
   EventRig rig(desc, [](uint32_t x, uint32_t y, double t) {
     return 1000.0 * (y + 1) + 10.0 * (double(x) - 3.0) * std::round(t * 100);
   });
-  const std::vector<EventFrame> frames = rig.run(10 * ms, 3);
+  const std::vector<EventFrame> frames = rig.run(10 * millisecond_ns, 3);
   EXPECT_THAT(frames[0].difference, testing::Each(0));
   for (size_t k = 1; k < 3; ++k)
     for (uint32_t y = 0; y < 3; ++y)
@@ -223,14 +223,14 @@ TEST(Events, AdaptiveStepsByBrightness) {
   };
   EventDesc desc = plain_events(40, 4, 0.1);
   desc.substeps = 16;
-  const std::vector<EventFrame> fixed = EventRig(desc, luminance).run(20 * ms, 6);
+  const std::vector<EventFrame> fixed = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
   desc.steps = EventSteps::by_brightness;
   desc.wanted = 1e-6;  // never enough: every instant is taken, and nothing differs
-  const std::vector<EventFrame> all = EventRig(desc, luminance).run(20 * ms, 6);
+  const std::vector<EventFrame> all = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
   expect_same(fixed, all);
   desc.wanted = 2.0;
-  const std::vector<EventFrame> some = EventRig(desc, luminance).run(20 * ms, 6);
-  expect_same(some, EventRig(desc, luminance).run(20 * ms, 6));
+  const std::vector<EventFrame> some = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
+  expect_same(some, EventRig(desc, luminance).run(20 * millisecond_ns, 6));
   EXPECT_EQ(all[2].pictures, 16u);
   EXPECT_EQ(some[1].pictures, 5u);  // at first nothing is known: steps of 1, 2, 4, 8 and the rest
   EXPECT_LE(some[2].pictures, 4u);

@@ -41,7 +41,7 @@ TEST(AbsentFacets, StandInNobodysWay) {
     EXPECT_TRUE(crossing.walls.empty());
     EXPECT_EQ(crossing.foliage_m, 0.0);
   }
-  EXPECT_THAT(blocked, testing::ElementsAre(false, false, true, false));
+  EXPECT_THAT(blocked, ::testing::ElementsAre(false, false, true, false));
   // As walls they do stand there, as foliage they take their share.
   EXPECT_THAT(cross(scene, kinds_with(FacetKind::wall), segments)[0].blocked, true);
   EXPECT_NEAR(cross(scene, kinds_with(FacetKind::foliage), segments)[0].foliage_m, 4.0, 1e-3);
@@ -61,9 +61,9 @@ TEST(AbsentFacets, RaysMeetWhatIsBehindThem) {
       if (!list.sequence(i).empty()) all.emplace_back(list.sequence(i).begin(), list.sequence(i).end());
     return all;
   };
-  EXPECT_THAT(sequences(FacetKind::absent), testing::ElementsAre(std::vector<uint32_t>{0}));
-  EXPECT_THAT(sequences(FacetKind::foliage), testing::ElementsAre(std::vector<uint32_t>{0}));
-  EXPECT_THAT(sequences(FacetKind::opaque), testing::Contains(std::vector<uint32_t>{6}));
+  EXPECT_THAT(sequences(FacetKind::absent), ::testing::ElementsAre(std::vector<uint32_t>{0}));
+  EXPECT_THAT(sequences(FacetKind::foliage), ::testing::ElementsAre(std::vector<uint32_t>{0}));
+  EXPECT_THAT(sequences(FacetKind::opaque), ::testing::Contains(std::vector<uint32_t>{6}));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ double worst(const PatternTable& table, const std::function<Jones(double, double
   return largest;
 }
 
-Jones analytic(Pattern shape, double theta, double phi) {
+Jones analytic_field(Pattern shape, double theta, double phi) {
   return element_field(shape, 0.0, direction_of(theta, phi));
 }
 
@@ -56,7 +56,7 @@ TEST(PatternTable, ErrorIsWithinItsBound) {
 
 TEST(PatternTable, SecondOrderAgainstDipoles) {
   for (const Pattern shape : {Pattern::short_dipole, Pattern::half_wave_dipole}) {
-    const auto field = [&](double theta, double phi) { return analytic(shape, theta, phi); };
+    const auto field = [&](double theta, double phi) { return analytic_field(shape, theta, phi); };
     double last = 0.0;
     for (const uint32_t n : {19u, 37u, 73u, 145u}) {
       const double error = worst(sampled(n, 8, 0.0, field), field);
@@ -70,7 +70,7 @@ TEST(PatternTable, SecondOrderAgainstDipoles) {
 }
 
 TEST(PatternTable, SecondOrderAgainstTr38901WhereItIsSmooth) {
-  const auto field = [](double theta, double phi) { return analytic(Pattern::tr38901, theta, phi); };
+  const auto field = [](double theta, double phi) { return analytic_field(Pattern::tr38901, theta, phi); };
   double last = 0.0;
   for (const uint32_t n : {37u, 73u, 145u}) {
     // Within 45 degrees of boresight: clear of where A_v + A_h meets the floor.
@@ -90,7 +90,7 @@ TEST(PatternTable, AnElementOfSamplesIsTheElement) {
   // The whole way, slants, models and turns included.
   const auto table =
       std::make_shared<const PatternTable>(sampled(361, 720, 0.0, [](double theta, double phi) {
-        return analytic(Pattern::half_wave_dipole, theta, phi);
+        return analytic_field(Pattern::half_wave_dipole, theta, phi);
       }));
   RandomStream random(6, 1);
   for (const PolarizationModel model : {PolarizationModel::model_1, PolarizationModel::model_2})

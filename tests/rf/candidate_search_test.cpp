@@ -19,7 +19,7 @@ namespace greatx::rf {
 namespace {
 
 using test::TinyScene;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 CandidateSearchResult search(const scene::Scene& scene, const CandidateSearchOptions& options,
                              const dvec3& source, const std::vector<Pose>& bodies = {Pose{}},
@@ -197,8 +197,8 @@ TEST(CandidateSearch, MoreRaysThanTheDeviceHoldsAreRefusedByNumber) {
     const CandidateSearch pass(gpu_scene, options);
     FAIL() << "2^31 rays were taken";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("rays: expected at most"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("2147483648"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("rays: expected at most"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("2147483648"));
   }
 }
 

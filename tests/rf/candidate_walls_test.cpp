@@ -28,7 +28,7 @@ CandidateSearchResult search(const scene::Scene& scene, const FacetKinds& kinds,
   return CandidateSearch(gpu_scene, options, kinds).search(std::vector<Pose>(scene.bodies.size()), source);
 }
 
-Sequences sequences(const CandidateList& list) {
+Sequences walled_sequences(const CandidateList& list) {
   Sequences all;
   for (size_t i = 0; i < list.size(); ++i)
     all.insert(std::vector(list.sequence(i).begin(), list.sequence(i).end()));
@@ -111,7 +111,7 @@ TEST(CandidateWalls, BetweenPlatesBothWaysAreFollowed) {
         search(plates.scene().build(), plates.kinds, options, {3.0 * before + 1.3, 0, 0});
     EXPECT_TRUE(result.list.is_canonical());
     EXPECT_EQ(result.overflow(), 0u);
-    EXPECT_EQ(sequences(result.list), plates.expected(before)) << "trial " << trial;
+    EXPECT_EQ(walled_sequences(result.list), plates.expected(before)) << "trial " << trial;
   }
 }
 
@@ -128,7 +128,7 @@ TEST(CandidateWalls, WithoutTransmissionsWallsAreOpaque) {
   EXPECT_EQ(search(scene, all_of(FacetKind::opaque, scene), options, source).list, opaque);
   const CandidateSearchResult through = search(scene, all_of(FacetKind::wall, scene), options, source);
   // Whatever is found without passing a wall is found with it.
-  const Sequences more = sequences(through.list), fewer = sequences(opaque);
+  const Sequences more = walled_sequences(through.list), fewer = walled_sequences(opaque);
   EXPECT_TRUE(std::includes(more.begin(), more.end(), fewer.begin(), fewer.end()));
   EXPECT_GT(more.size(), fewer.size());
 }
@@ -285,7 +285,7 @@ TEST(CandidateWalls, AWallThatIsThereTwiceIsPassedOnce) {
   options.max_transmissions = 1;
   const FacetKinds kinds{FacetKind::wall, FacetKind::wall, FacetKind::opaque};
   for (const double x : {5.0, 8.0})
-    EXPECT_TRUE(sequences(search(tiny.build(), kinds, options, {x, 0, 0}).list).contains({2})) << x;
+    EXPECT_TRUE(walled_sequences(search(tiny.build(), kinds, options, {x, 0, 0}).list).contains({2})) << x;
 }
 
 TEST(CandidateWalls, FourMillimetresApartBothArePassed) {
@@ -298,7 +298,8 @@ TEST(CandidateWalls, FourMillimetresApartBothArePassed) {
     options.rays = 4096;
     options.max_transmissions = 2;
     const FacetKinds kinds{FacetKind::wall, FacetKind::wall, FacetKind::opaque};
-    const Sequences found = sequences(search(tiny.build(), kinds, options, {shift - 2, shift, 0}).list);
+    const Sequences found =
+        walled_sequences(search(tiny.build(), kinds, options, {shift - 2, shift, 0}).list);
     EXPECT_TRUE(found.contains({2})) << shift;
     EXPECT_TRUE(found.contains({1})) << shift;
     EXPECT_TRUE(found.contains({0})) << shift;
@@ -306,7 +307,8 @@ TEST(CandidateWalls, FourMillimetresApartBothArePassed) {
     // count two as one: then more is found than was asked for.
     options.max_transmissions = 1;
     if (shift < 1000.0) {
-      EXPECT_FALSE(sequences(search(tiny.build(), kinds, options, {shift - 2, shift, 0}).list).contains({2}));
+      EXPECT_FALSE(
+          walled_sequences(search(tiny.build(), kinds, options, {shift - 2, shift, 0}).list).contains({2}));
     }
   }
 }

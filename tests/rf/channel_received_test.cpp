@@ -18,8 +18,8 @@ using testing::antenna;
 using testing::plain_path;
 using testing::random_paths;
 
-constexpr double carrier_hz = 3.5e9;
-const double wavelength_m = speed_of_light / carrier_hz;
+constexpr double received_carrier_hz = 3.5e9;
+const double wavelength_m = speed_of_light / received_carrier_hz;
 constexpr double dipole_directivity = 1.6409223770;
 
 Path line_of_sight(double distance_m) { return plain_path(distance_m / speed_of_light, 1.0 / distance_m); }
@@ -33,7 +33,7 @@ TEST(Received, FreeSpace) {
     for (const Pattern pattern : {Pattern::isotropic, Pattern::half_wave_dipole}) {
       const double gain = pattern == Pattern::isotropic ? 1.0 : dipole_directivity, power = 20.0;
       const auto found = receive(line_of_sight(distance), antenna(pattern), antenna(pattern),
-                                 {.carrier_hz = carrier_hz, .transmit_power_w = power});
+                                 {.carrier_hz = received_carrier_hz, .transmit_power_w = power});
       // Friis.
       const double expected = power * std::pow(gain * wavelength_m / (4 * pi * distance), 2);
       EXPECT_NEAR(found.power_w / expected, 1.0, 1e-9);
@@ -45,9 +45,10 @@ TEST(Received, FreeSpace) {
       EXPECT_NEAR(field * distance / std::sqrt(vacuum_impedance_ohm / (4 * pi) * power * gain), 1.0, 1e-9);
       EXPECT_NEAR(std::abs(found.paths[0].field_v_per_m.phi), 0.0, 1e-12);
       // Its phase is that of the path.
-      EXPECT_NEAR(std::abs(std::arg(found.paths[0].field_v_per_m.theta /
-                                    Complex(testing::wide_phasor(carrier_hz, distance / speed_of_light)))),
-                  0.0, 1e-9);
+      EXPECT_NEAR(
+          std::abs(std::arg(found.paths[0].field_v_per_m.theta /
+                            Complex(testing::wide_phasor(received_carrier_hz, distance / speed_of_light)))),
+          0.0, 1e-9);
       // Power density times effective area (gain lambda^2/4 pi).
       const double density = field * field / vacuum_impedance_ohm;
       EXPECT_NEAR(density * gain * wavelength_m * wavelength_m / (4 * pi) / found.power_w, 1.0, 1e-9);
@@ -60,7 +61,7 @@ TEST(Received, HalfWaveDipoleHasALengthOfLambdaOverPi) {
   EXPECT_NEAR(resistance, 73.08, 0.005);
   const auto found =
       receive(line_of_sight(40.0), antenna(), antenna(Pattern::half_wave_dipole),
-              {.carrier_hz = carrier_hz, .transmit_power_w = 2.0, .resistance_ohm = resistance});
+              {.carrier_hz = received_carrier_hz, .transmit_power_w = 2.0, .resistance_ohm = resistance});
   const double field = std::abs(found.paths[0].field_v_per_m.theta);
   EXPECT_NEAR(std::abs(found.open_circuit_v) / (field * wavelength_m / pi), 1.0, 1e-9);
   // What a matched load takes of it.
@@ -71,8 +72,8 @@ TEST(Received, TotalsAreSumsOfPhasors) {
   // Half a wavelength apart: the phasors cancel, the powers add.
   const double distance = 1000 * wavelength_m;
   std::vector<Path> paths{line_of_sight(distance), line_of_sight(distance)};
-  paths[1].delay_s += 0.5 / carrier_hz;
-  const RadioLink link{.carrier_hz = carrier_hz, .transmit_power_w = 0.1};
+  paths[1].delay_s += 0.5 / received_carrier_hz;
+  const RadioLink link{.carrier_hz = received_carrier_hz, .transmit_power_w = 0.1};
   const Received found = received(paths, antenna(), antenna(), link);
   EXPECT_LT(found.power_w, 1e-18 * found.mean_power_w);
   EXPECT_NEAR(found.mean_power_w / (2 * found.paths[0].power_w), 1.0, 1e-12);
@@ -89,7 +90,7 @@ TEST(Received, FieldsFromSeveralSidesAddAsVectors) {
   paths[1].transfer[2] = Complex(0.0, 0.25);  // V to phi
   paths[1].transfer[3] = 0.0;
   const Received found =
-      received(paths, antenna(), antenna(), {.carrier_hz = carrier_hz, .transmit_power_w = 4.0});
+      received(paths, antenna(), antenna(), {.carrier_hz = received_carrier_hz, .transmit_power_w = 4.0});
   const double scale = std::sqrt(vacuum_impedance_ohm * 4.0 / (4 * pi));
   EXPECT_NEAR(found.field_v_per_m.re.z, -0.5 * scale, 1e-12);
   EXPECT_NEAR(found.field_v_per_m.im.y, 0.25 * scale, 1e-12);
@@ -103,12 +104,12 @@ TEST(Received, AgreesWithTheImpulseResponseAtEveryPort) {
   tx.array.columns = rx.array.rows = 2;
   tx.array.column_spacing_m = rx.array.row_spacing_m = 0.05;
   tx.orientation = orientation_from_yaw_pitch_roll(0.7, 0.2, -0.4);
-  const ImpulseResponse impulse = impulse_response(paths, tx, rx, carrier_hz);
+  const ImpulseResponse impulse = impulse_response(paths, tx, rx, received_carrier_hz);
   const uint32_t tx_ports = tx.array.port_count(), rx_ports = rx.array.port_count();
   for (uint32_t u = 0; u < rx_ports; ++u)
     for (uint32_t s = 0; s < tx_ports; ++s) {
       const Received found = received(paths, tx, rx,
-                                      {.carrier_hz = carrier_hz,
+                                      {.carrier_hz = received_carrier_hz,
                                        .transmit_power_w = 3.0,
                                        .resistance_ohm = 50.0,
                                        .transmit_port = s,
@@ -118,7 +119,7 @@ TEST(Received, AgreesWithTheImpulseResponseAtEveryPort) {
         EXPECT_LT(std::abs(found.paths[i].amplitude - amplitude), 1e-6 * std::abs(amplitude));
         // V = h^T E with h of the port alone: the field is the one at its element.
         std::vector<Jones> pattern;
-        Ports(rx, carrier_hz).fields(paths[i].arrival, pattern);
+        Ports(rx, received_carrier_hz).fields(paths[i].arrival, pattern);
         const Jones& own = pattern[u % 2];
         const Jones& field = found.paths[i].field_v_per_m;
         const Complex voltage = wavelength_m * std::sqrt(50.0 / (pi * vacuum_impedance_ohm)) *
@@ -130,7 +131,7 @@ TEST(Received, AgreesWithTheImpulseResponseAtEveryPort) {
 
 TEST(Received, AnyOrderOfPathsGivesTheSameBits) {
   auto paths = random_paths(500, 1e-6, 12);
-  const RadioLink link{.carrier_hz = carrier_hz};
+  const RadioLink link{.carrier_hz = received_carrier_hz};
   const Received first = received(paths, antenna(), antenna(), link);
   testing::shuffle(paths, 12);
   const Received second = received(paths, antenna(), antenna(), link);

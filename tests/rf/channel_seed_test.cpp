@@ -21,7 +21,7 @@ namespace {
 using testing::HandScene;
 using testing::wide_phasor;
 
-constexpr double carrier_hz = 28e9;
+constexpr double seed_carrier_hz = 28e9;
 constexpr double impedance_ohm = 376.730313668;  // Z_0, as printed in CODATA
 
 struct Pair {
@@ -77,10 +77,10 @@ SeedPath seed_path(const GeometricPath& path, const HandScene& hand, const SeedL
   }
   const Basis arriving{theta_hat(-k), phi_hat(-k)};
   field = w(arriving, basis, field);
-  const Complex spreading(wide_phasor(carrier_hz, length / speed_of_light));
+  const Complex spreading(wide_phasor(seed_carrier_hz, length / speed_of_light));
   const double humid = std::pow(10.0, -link.humid_db_per_km * length / 1000.0 / 20.0);
   for (Complex* part : {&field.a, &field.b}) *part *= spreading / length * humid;
-  const double wavelength = speed_of_light / carrier_hz;
+  const double wavelength = speed_of_light / seed_carrier_hz;
   // (21), C_R = theta-hat.
   const Complex voltage =
       std::sqrt(wavelength * wavelength / (4 * pi) * 4 * link.resistance_ohm / impedance_ohm) * field.a;
@@ -95,12 +95,12 @@ TEST(SeedFormulas, PathByPath) {
   const Weather humid_air{.water_vapour_g_m3 = 20.0};
   const WeatherEffects gas_alone{.gas = true, .rain = false, .fog = false};
   const FacetWorld world(hand.scene);
-  const RadioSurfaces surfaces(hand.scene, carrier_hz);
+  const RadioSurfaces surfaces(hand.scene, seed_carrier_hz);
   FieldModel model{&world, &surfaces};
   model.effects.gas = true;
-  model.attenuation = path_attenuation(humid_air, carrier_hz, gas_alone);
+  model.attenuation = path_attenuation(humid_air, seed_carrier_hz, gas_alone);
   const SeedLink link{2.5, 73.1, model.attenuation.gas,
-                      Complex(5.24, -0.2 / (2 * pi * carrier_hz * vacuum_permittivity))};
+                      Complex(5.24, -0.2 / (2 * pi * seed_carrier_hz * vacuum_permittivity))};
   const dvec3 tx(1.1, 2.2, 0.7), rx(5.3, 3.1, 2.2);
   std::vector<Path> paths;
   std::vector<SeedPath> seeds;
@@ -110,10 +110,12 @@ TEST(SeedFormulas, PathByPath) {
   }
   ASSERT_EQ(paths.size(), 1u + 6 + 18 + 38);
   const ArrayPose vertical = testing::antenna();
-  const Received ours = received(
-      paths, vertical, vertical,
-      {.carrier_hz = carrier_hz, .transmit_power_w = link.power_w, .resistance_ohm = link.resistance_ohm});
-  const auto response = frequency_response_fp64(paths, vertical, vertical, {carrier_hz, 30e3, 1, 1, 1e-3});
+  const Received ours = received(paths, vertical, vertical,
+                                 {.carrier_hz = seed_carrier_hz,
+                                  .transmit_power_w = link.power_w,
+                                  .resistance_ohm = link.resistance_ohm});
+  const auto response =
+      frequency_response_fp64(paths, vertical, vertical, {seed_carrier_hz, 30e3, 1, 1, 1e-3});
   Complex whole = 0.0;
   double size = 0.0;
   for (size_t i = 0; i < paths.size(); ++i) {
@@ -124,7 +126,7 @@ TEST(SeedFormulas, PathByPath) {
     EXPECT_LT(std::abs(peak * path.field_v_per_m.theta - seeds[i].field.a), 1e-7 * scale) << i;
     EXPECT_LT(std::abs(peak * path.field_v_per_m.phi - seeds[i].field.b), 1e-7 * scale) << i;
     const double volts =
-        speed_of_light / carrier_hz * std::sqrt(link.resistance_ohm / (pi * impedance_ohm)) * scale;
+        speed_of_light / seed_carrier_hz * std::sqrt(link.resistance_ohm / (pi * impedance_ohm)) * scale;
     EXPECT_LT(std::abs(peak * path.open_circuit_v - seeds[i].voltage), 1e-7 * volts) << i;
     EXPECT_NEAR(path.power_w, std::norm(seeds[i].voltage) / (8 * link.resistance_ohm),  // (20)
                 1e-7 * volts * volts / link.resistance_ohm);
@@ -138,8 +140,8 @@ TEST(SeedFormulas, PathByPath) {
 TEST(SeedFormulas, HumidityCounts) {
   // The factor is not 1: 20 g/m3 over 10 km at 28 GHz take more than dry air.
   const WeatherEffects gas_alone{.gas = true, .rain = false, .fog = false};
-  const double dry = path_attenuation({.water_vapour_g_m3 = 0.0}, carrier_hz, gas_alone).gas;
-  const double humid = path_attenuation({.water_vapour_g_m3 = 20.0}, carrier_hz, gas_alone).gas;
+  const double dry = path_attenuation({.water_vapour_g_m3 = 0.0}, seed_carrier_hz, gas_alone).gas;
+  const double humid = path_attenuation({.water_vapour_g_m3 = 20.0}, seed_carrier_hz, gas_alone).gas;
   EXPECT_GT(humid, 2.0 * dry);
   EXPECT_DOUBLE_EQ(amplitude(humid, 10e3), std::pow(10.0, -humid * 10.0 / 20.0));
 }

@@ -249,7 +249,7 @@ TEST(CrossedFoliage, StandsAmongWallsAndOpaqueThings) {
       segment({-3, 0.2, 3}, {9, 0.2, 3}, 1), segment({-3, 0.2, 3}, {2, 0.2, 3}, 0)};
   const std::vector<Crossing> found = cross(tiny.build(), kinds, segments);
   EXPECT_FALSE(found[0].blocked);
-  EXPECT_THAT(found[0].walls, testing::ElementsAre(6));
+  EXPECT_THAT(found[0].walls, ::testing::ElementsAre(6));
   EXPECT_NEAR(found[0].foliage_m, 6.0, 1e-5);
   EXPECT_TRUE(found[1].blocked);
   EXPECT_TRUE(found[2].blocked);
@@ -363,7 +363,7 @@ TEST(HardCase, N63_CrossingsAndCandidatesAreTheSameWithOneTwoAndSixteenThreads) 
     std::string output;
     for (char part[256]; std::fgets(part, sizeof part, pipe) != nullptr;) output += part;
     EXPECT_EQ(pclose(pipe), 0) << output;
-    EXPECT_THAT(output, testing::HasSubstr(expected)) << threads;
+    EXPECT_THAT(output, ::testing::HasSubstr(expected)) << threads;
   }
 }
 

@@ -17,8 +17,8 @@ using test::all_of;
 using test::cross;
 using test::segment;
 using test::TinyScene;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 constexpr uint32_t blocked = ~0u;
 
@@ -122,7 +122,7 @@ TEST(CrossedWalls, TheSeamOfTwoWallsIsOneWall) {
   house.box({0, 0, 0}, {4, 4, 4});
   EXPECT_THAT(
       passed(house, std::vector{segment({-1, -1, 1}, {2, 2, 1.5}, 8), segment({-1, -1, 1}, {5, 5, 2}, 8)}),
-      ElementsAre(testing::SizeIs(1), testing::SizeIs(2)));
+      ElementsAre(::testing::SizeIs(1), ::testing::SizeIs(2)));
 }
 
 TEST(CrossedWalls, AWallThatIsThereTwiceIsOneAndTwoMillimetresApartAreTwo) {

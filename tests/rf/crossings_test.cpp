@@ -16,7 +16,7 @@ namespace {
 using test::cross;
 using test::segment;
 using test::TinyScene;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Everything opaque: 1 visible, 0 blocked.
 std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
@@ -223,8 +223,8 @@ TEST(HardCase, N07_VisibilityAtUtmCoordinatesIsTheSame) {
   }
   const std::vector<uint8_t> near = visible(wall_on_ground().build(), segments);
   EXPECT_EQ(near, visible(there.build(utm), segments));
-  EXPECT_THAT(near, testing::Contains(0));
-  EXPECT_THAT(near, testing::Contains(1));
+  EXPECT_THAT(near, ::testing::Contains(0));
+  EXPECT_THAT(near, ::testing::Contains(1));
 }
 
 TEST(HardCase, N11_PointExactlyOnASurfaceIsSeenFromBothSides) {

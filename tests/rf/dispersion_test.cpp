@@ -28,11 +28,11 @@ double frequency_of(const ChannelGrid& grid, uint32_t k) {
 }
 
 /// A scene with its field model at the grid's carrier.
-struct Model {
+struct SampledModel {
   FacetWorld world;
   RadioSurfaces surfaces;
   FieldModel field;
-  Model(const HandScene& hand, const ChannelGrid& grid)
+  SampledModel(const HandScene& hand, const ChannelGrid& grid)
       : world(hand.scene), surfaces(hand.scene, grid.carrier_hz), field{&world, &surfaces} {}
 };
 
@@ -62,7 +62,7 @@ TEST(Dispersion, SlabOverTwoGigahertz) {
     HandScene hand;
     hand.itu_material("concrete", thickness_m);
     hand.ground(100.0);
-    const Model model(hand, grid);
+    const SampledModel model(hand, grid);
     const dvec3 tx(0, 0, 3), behind(6.0 * std::sqrt(3.0), 0, -3), before(6.0 * std::sqrt(3.0), 0, 3);
     const std::vector<Path> paths{
         path_field({{{InteractionType::transmission, 0}}, {tx, 0.5 * (tx + behind), behind}, 12.0},
@@ -114,7 +114,7 @@ TEST(Dispersion, AtTheCarrierItIsTheCarriersField) {
   hand.itu_material("plasterboard", 0.013);
   hand.room({7, 5, 3});
   const ChannelGrid grid = two_gigahertz(28e9, 64);
-  const Model model(hand, grid);
+  const SampledModel model(hand, grid);
   const Dispersion dispersion(hand.scene, model.field, {}, grid);
   for (const Path& path : room_paths(hand, model.field)) {
     const TransferSpectrum spectrum = dispersion.spectrum(path, *model.field.world);
@@ -128,7 +128,7 @@ TEST(Dispersion, WhatDoesNotDependOnFrequencyStays) {
   hand.material("lossless ground", 5.0);
   hand.room({7, 5, 3});
   const ChannelGrid grid{3.5e9, 10e6, 37, 2, 1e-3};
-  const Model model(hand, grid);
+  const SampledModel model(hand, grid);
   const std::vector<Path> paths = room_paths(hand, model.field);
   ArrayPose tx, rx;
   tx.array = {.pattern = Pattern::half_wave_dipole,
@@ -156,7 +156,7 @@ TEST(Dispersion, AnyOrderOfPathsGivesTheSameBits) {
   hand.itu_material("glass", 0.006);
   hand.room({7, 5, 3});
   const ChannelGrid grid = two_gigahertz(10e9, 33);
-  const Model model(hand, grid);
+  const SampledModel model(hand, grid);
   std::vector<Path> paths = room_paths(hand, model.field);
   for (int i = 0; i < 40; ++i) paths.push_back(Path(paths[i % 20]));
   auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths, *model.field.world);
@@ -174,7 +174,7 @@ TEST(Dispersion, AirChangesOverTheBand) {
   // Up the flank of the oxygen complex: 1 km at 50 to 52 GHz.
   HandScene hand;
   const ChannelGrid grid = two_gigahertz(51e9, 5);
-  Model model(hand, grid);
+  SampledModel model(hand, grid);
   const Weather weather{.rain_mm_h = 10.0};
   model.field.effects.gas = model.field.effects.rain = true;
   model.field.attenuation = path_attenuation(weather, grid.carrier_hz, {true, true, false});
@@ -194,7 +194,7 @@ TEST(Dispersion, ABandThatLeavesAMaterialsRowsIsRefused) {
   hand.itu_material("brick", 0.24);  // 1 to 40 GHz, then from 110
   hand.ground(10.0);
   const ChannelGrid grid = two_gigahertz(39.5e9, 11);
-  const Model model(hand, grid);
+  const SampledModel model(hand, grid);
   try {
     Dispersion(hand.scene, model.field, {}, grid);
     FAIL() << "40.5 GHz lies in the gap";

@@ -17,15 +17,15 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double frequency_hz = 3.5e9;
-const double wavelength_m = speed_of_light / frequency_hz;
+constexpr double wave_hz = 3.5e9;
+const double wavelength_m = speed_of_light / wave_hz;
 
 Complex conductive(double relative, double sigma, double f_hz) {
   return {relative, -sigma / (2.0 * pi * f_hz * vacuum_permittivity)};
 }
-Complex concrete() { return conductive(5.24, 0.0462 * std::pow(3.5, 0.7822), frequency_hz); }
+Complex concrete() { return conductive(5.24, 0.0462 * std::pow(3.5, 0.7822), wave_hz); }
 
-void expect_near(Complex found, Complex expected, double tolerance) {
+void expect_equal(Complex found, Complex expected, double tolerance) {
   EXPECT_NEAR(found.real(), expected.real(), tolerance);
   EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
 }
@@ -55,13 +55,13 @@ TEST(SpecularShare, IsOfRoughnessAndScatteringApartAndTogether) {
 }
 
 TEST(Fresnel, ConcreteAt3500MHz) {
-  expect_near(concrete(), {5.24, -0.632143}, 5e-7);
+  expect_equal(concrete(), {5.24, -0.632143}, 5e-7);
   const FresnelCoefficients face = half_space(concrete(), std::sqrt(0.5));
-  expect_near(face.r_te, {-0.511723497, 0.024481843}, 6e-10);
-  expect_near(face.r_tm, {0.261261576, -0.025055869}, 6e-10);
+  expect_equal(face.r_te, {-0.511723497, 0.024481843}, 6e-10);
+  expect_equal(face.r_tm, {0.261261576, -0.025055869}, 6e-10);
   const FresnelCoefficients wall = slab({concrete(), 0.1}, wavelength_m, 1.0);
-  expect_near(wall.r_te, {-0.422222101, -0.007580311}, 6e-10);
-  expect_near(wall.t_te, {-0.136274648, 0.270959987}, 6e-10);
+  expect_equal(wall.r_te, {-0.422222101, -0.007580311}, 6e-10);
+  expect_equal(wall.t_te, {-0.136274648, 0.270959987}, 6e-10);
 }
 
 TEST(Fresnel, BoundaryConditionsHold) {
@@ -69,36 +69,36 @@ TEST(Fresnel, BoundaryConditionsHold) {
   for (const double c : {1.0, 0.7, 0.2, 1e-3}) {
     const Complex eta = concrete(), a = normal_component(eta, c);
     const FresnelCoefficients face = half_space(eta, c);
-    expect_near(1.0 + face.r_te, face.t_te, 1e-15);
-    expect_near(c * (1.0 - face.r_te), a * face.t_te, 1e-15);
-    expect_near(1.0 + face.r_tm, std::sqrt(eta) * face.t_tm, 2e-15);            // H
-    expect_near(c * (1.0 - face.r_tm), a / std::sqrt(eta) * face.t_tm, 2e-15);  // E along the face
+    expect_equal(1.0 + face.r_te, face.t_te, 1e-15);
+    expect_equal(c * (1.0 - face.r_te), a * face.t_te, 1e-15);
+    expect_equal(1.0 + face.r_tm, std::sqrt(eta) * face.t_tm, 2e-15);            // H
+    expect_equal(c * (1.0 - face.r_tm), a / std::sqrt(eta) * face.t_tm, 2e-15);  // E along the face
   }
 }
 
 TEST(FresnelHardCase, N26_NormalIncidenceKnowsNoPlane) {
   const FresnelCoefficients face = half_space(concrete(), 1.0),
                             wall = slab({concrete(), 0.1}, wavelength_m, 1.0);
-  expect_near(face.r_te, -face.r_tm, 1e-16);
-  expect_near(wall.r_te, -wall.r_tm, 1e-15);
-  expect_near(wall.t_te, wall.t_tm, 1e-15);
+  expect_equal(face.r_te, -face.r_tm, 1e-16);
+  expect_equal(wall.r_te, -wall.r_tm, 1e-15);
+  expect_equal(wall.t_te, wall.t_tm, 1e-15);
 }
 
 TEST(FresnelHardCase, N27_Grazing) {
-  const Complex metal = conductive(1.0, 1e7, frequency_hz);
+  const Complex metal = conductive(1.0, 1e7, wave_hz);
   for (const Complex eta :
        {Complex(5.24, 0.0), concrete(), metal, Complex(0.5, 0.0), Complex(1.0 + 1e-9, 0.0)}) {
     for (const FresnelCoefficients& found :
          {half_space(eta, 0.0), slab({eta, 0.1}, wavelength_m, 0.0),
           multilayer(std::vector<DielectricLayer>{{eta, 0.1}, {2.0, 0.02}}, wavelength_m, 0.0)}) {
-      expect_near(found.r_te, -1.0, 1e-15);
-      expect_near(found.r_tm, -1.0, 1e-15);
-      expect_near(found.t_te, 0.0, 1e-15);
-      expect_near(found.t_tm, 0.0, 1e-15);
+      expect_equal(found.r_te, -1.0, 1e-15);
+      expect_equal(found.r_tm, -1.0, 1e-15);
+      expect_equal(found.t_te, 0.0, 1e-15);
+      expect_equal(found.t_tm, 0.0, 1e-15);
     }
     // The limit is reached from above, too.
-    expect_near(half_space(eta, 1e-14).r_te, -1.0, 1e-8);
-    expect_near(half_space(eta, 1e-14).r_tm, -1.0, 1e-8);
+    expect_equal(half_space(eta, 1e-14).r_te, -1.0, 1e-8);
+    expect_equal(half_space(eta, 1e-14).r_tm, -1.0, 1e-8);
   }
 }
 
@@ -117,8 +117,8 @@ TEST(FresnelHardCase, N29_AlmostVacuum) {
 }
 
 TEST(FresnelHardCase, N30_ConductorNearGrazing) {
-  const Complex r = half_space(conductive(1.0, 1e7, frequency_hz), std::cos(radians(89.9))).r_tm;
-  expect_near(r, {0.8876, -0.1010}, 5e-5);
+  const Complex r = half_space(conductive(1.0, 1e7, wave_hz), std::cos(radians(89.9))).r_tm;
+  expect_equal(r, {0.8876, -0.1010}, 5e-5);
 }
 
 TEST(FresnelHardCase, N31_TotalReflectionAndThickSlabs) {
@@ -139,8 +139,8 @@ TEST(FresnelHardCase, N31_TotalReflectionAndThickSlabs) {
     const FresnelCoefficients layered = multilayer(
         std::vector<DielectricLayer>{{concrete(), thickness}, {{3.0, -1.0}, thickness}}, wavelength_m, c);
     for (const FresnelCoefficients& found : {wall, layered}) {
-      expect_near(found.r_te, face.r_te, 1e-14);
-      expect_near(found.r_tm, face.r_tm, 1e-14);
+      expect_equal(found.r_te, face.r_te, 1e-14);
+      expect_equal(found.r_tm, face.r_tm, 1e-14);
       EXPECT_LT(std::abs(found.t_te) + std::abs(found.t_tm), 1e-12);
     }
   }
@@ -219,8 +219,8 @@ TEST(FresnelHardCase, N34_VacuumSlabIsInvisible) {
       EXPECT_EQ(found.r_te, Complex(0.0));
       EXPECT_EQ(found.r_tm, Complex(0.0));
       // As a sheet without thickness it must not add the free-space phase a second time.
-      expect_near(found.t_te * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
-      expect_near(found.t_tm * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
+      expect_equal(found.t_te * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
+      expect_equal(found.t_tm * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
     }
   }
 }
@@ -246,16 +246,16 @@ TEST(Fresnel, LayersOfOneMediumAreOneSlab) {
     for (const auto& layers : {std::vector<DielectricLayer>{{concrete(), 0.1}},
                                std::vector<DielectricLayer>{{concrete(), 0.03}, {concrete(), 0.07}}}) {
       const FresnelCoefficients many = multilayer(layers, wavelength_m, c);
-      expect_near(many.r_te, one.r_te, 1e-13);
-      expect_near(many.r_tm, one.r_tm, 1e-13);
-      expect_near(many.t_te, one.t_te, 1e-13);
-      expect_near(many.t_tm, one.t_tm, 1e-13);
+      expect_equal(many.r_te, one.r_te, 1e-13);
+      expect_equal(many.r_tm, one.r_tm, 1e-13);
+      expect_equal(many.t_te, one.t_te, 1e-13);
+      expect_equal(many.t_tm, one.t_tm, 1e-13);
     }
     // A half-space of the same medium behind it: no second face.
     const FresnelCoefficients backed =
         multilayer(std::vector<DielectricLayer>{{concrete(), 0.03}, {concrete(), 0.0}}, wavelength_m, c);
-    expect_near(backed.r_te, half_space(concrete(), c).r_te, 1e-13);
-    expect_near(backed.r_tm, half_space(concrete(), c).r_tm, 1e-13);
+    expect_equal(backed.r_te, half_space(concrete(), c).r_te, 1e-13);
+    expect_equal(backed.r_tm, half_space(concrete(), c).r_tm, 1e-13);
   }
 }
 
@@ -279,7 +279,7 @@ TEST(RadioSurface, IsWhatTheMaterialSays) {
   layers.push_back({hand.scene.materials[ground].radio->layers[0].medium, 0.0});
   for (const uint32_t material : {ground, pane, plastered}) hand.ground(1.0, material, material);
 
-  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(hand.scene, wave_hz);
   const double c = 0.8;
   EXPECT_EQ(surfaces.reflect(ground, true, c).r_te, half_space(4.0, c).r_te);
   EXPECT_EQ(surfaces.reflect(ground, false, c).r_te, half_space(4.0, c).r_te);
@@ -302,7 +302,7 @@ TEST(RadioSurface, PassesWhatHasNoHalfSpace) {
   for (const uint32_t material : {ground, pane, plastered, tiled, crown})
     hand.ground(1.0, material, material);
 
-  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(hand.scene, wave_hz);
   EXPECT_TRUE(surfaces.penetrable(pane));
   EXPECT_TRUE(surfaces.penetrable(plastered));
   for (const uint32_t material : {ground, tiled, crown, unused}) {
@@ -311,12 +311,12 @@ TEST(RadioSurface, PassesWhatHasNoHalfSpace) {
   }
   EXPECT_TRUE(surfaces.surface(crown).foliage);
   const double c = 0.8;
-  const std::vector<DielectricLayer> layers{{conductive(2.73, 0.01, frequency_hz), 0.02}, {concrete(), 0.1}};
+  const std::vector<DielectricLayer> layers{{conductive(2.73, 0.01, wave_hz), 0.02}, {concrete(), 0.1}};
   const FresnelCoefficients wall = multilayer(layers, wavelength_m, c);
   for (const bool from_front : {true, false}) {
     const SheetTransmission sheet = surfaces.transmit(plastered, from_front, c);
-    expect_near(sheet.te, wall.t_te * sheet_phase(0.12, wavelength_m, c), 1e-15);
-    expect_near(sheet.tm, wall.t_tm * sheet_phase(0.12, wavelength_m, c), 1e-15);
+    expect_equal(sheet.te, wall.t_te * sheet_phase(0.12, wavelength_m, c), 1e-15);
+    expect_equal(sheet.tm, wall.t_tm * sheet_phase(0.12, wavelength_m, c), 1e-15);
   }
 }
 
@@ -325,14 +325,14 @@ TEST(RadioSurface, RefusesLayersThatMakeNoSense) {
   const uint32_t index = hand.material("odd", 4.0, 0.0, 0.0);
   auto& radio = *hand.scene.materials[index].radio;
   radio.layers.push_back(radio.layers[0]);
-  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);  // a layer behind a half-space
+  EXPECT_THROW(radio_surface(radio, wave_hz, "odd"), UserError);  // a layer behind a half-space
   radio.layers[0].thickness_m = -0.1;
-  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);
+  EXPECT_THROW(radio_surface(radio, wave_hz, "odd"), UserError);
   radio.layers.clear();
-  EXPECT_THROW(radio_surface(radio, frequency_hz, "odd"), UserError);
+  EXPECT_THROW(radio_surface(radio, wave_hz, "odd"), UserError);
   hand.ground(1.0);
   hand.scene.materials[index].radio.reset();
-  EXPECT_THROW(RadioSurfaces(hand.scene, frequency_hz), UserError);
+  EXPECT_THROW(RadioSurfaces(hand.scene, wave_hz), UserError);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ namespace greatx::rf {
 namespace {
 
 using test::TinyScene;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 constexpr double carrier_hz = 3.5e9;
 

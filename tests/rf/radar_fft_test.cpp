@@ -13,7 +13,7 @@ namespace greatx::rf {
 namespace {
 
 /// Sizes of the template's radices, and others.
-class RadarFft : public testing::TestWithParam<uint32_t> {};
+class RadarFft : public ::testing::TestWithParam<uint32_t> {};
 
 TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
   const uint32_t size = GetParam();
@@ -47,8 +47,8 @@ TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, RadarFft, testing::Values(1, 2, 3, 5, 12, 15, 49, 56, 97, 128, 250, 384),
-                         testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Sizes, RadarFft, ::testing::Values(1, 2, 3, 5, 12, 15, 49, 56, 97, 128, 250, 384),
+                         ::testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace greatx::rf

@@ -21,7 +21,7 @@ namespace {
 
 using testing::HandScene;
 
-constexpr double frequency_hz = 3.5e9;
+constexpr double link_hz = 3.5e9;
 
 GeometricPath reversed(GeometricPath path) {
   std::reverse(path.interactions.begin(), path.interactions.end());
@@ -35,7 +35,7 @@ std::array<std::array<Complex, 2>, 2> ports(const std::vector<Path>& paths, cons
   ArrayPose from, to;
   from.array.polarization = to.array.polarization = Polarization::vh;
   from.orientation = tx, to.orientation = rx;
-  const auto h = frequency_response_fp64(paths, from, to, {frequency_hz, 30e3, 1, 1, 1e-3});
+  const auto h = frequency_response_fp64(paths, from, to, {link_hz, 30e3, 1, 1, 1e-3});
   return {{{h[0], h[1]}, {h[2], h[3]}}};
 }
 
@@ -82,7 +82,7 @@ TEST(ReciprocityHardCase, N52_ConductorScene) {
   for (const double conductivity : {1e7, 1e30}) {
     const ScreenRoom room(conductivity);
     const FacetWorld world(room.hand.scene);
-    const RadioSurfaces surfaces(room.hand.scene, frequency_hz);
+    const RadioSurfaces surfaces(room.hand.scene, link_hz);
     FieldModel model{&world, &surfaces};
     model.wedges = {&room.wedge, 1};
     const dvec3 tx(1.1, 2.2, 0.7), rx(5.3, 3.1, 2.2), edge = keller_point(room.wedge, tx, rx).value();
@@ -111,7 +111,7 @@ TEST(Reciprocity, LayeredWalls) {
   hand.scene.materials[wall].radio->layers.push_back({*scene::itu_medium("concrete"), 0.1});
   hand.quad({3, -9, -9}, {3, 9, -9}, {4, 9, 9}, {4, -9, 9}, wall);
   const FacetWorld world(hand.scene);
-  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(hand.scene, link_hz);
   const dvec3 tx(0, 0, 1), rx(10, 3, 2);
   const GeometricPath passed{
       {{InteractionType::transmission, 0}}, {tx, glm::mix(tx, rx, 0.35), rx}, glm::length(rx - tx)};
@@ -170,7 +170,7 @@ TEST(ReciprocityHardCase, N51_HalfTurns) {
   hand.material("conductor", 1.0, 1e30);
   hand.ground(10.0);
   const FacetWorld world(hand.scene);
-  const RadioSurfaces surfaces(hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(hand.scene, link_hz);
   const auto paths = solve_paths(world, {1, 2, 3}, {1, 2, 3}, exhaustive_candidates(1, 1));
   ASSERT_EQ(paths.size(), 1u);
   const Path echo = path_field(paths[0], {&world, &surfaces}, {}, {});

@@ -19,7 +19,7 @@ namespace {
 using scene::ScatteringPattern;
 using testing::HandScene;
 
-constexpr double frequency_hz = 3.5e9;
+constexpr double scattered_hz = 3.5e9;
 
 struct Direction {
   dvec3 out;
@@ -200,7 +200,7 @@ TEST(Scattering, EnergyBalanceOfAPatch) {
     for (const double zenith : {0.0, 0.5, 1.3}) {
       const Patch patch(surface, 5.0, 0.1);
       const FacetWorld world(patch.hand.scene);
-      const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+      const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
       const dvec3 in = incoming(zenith, 0.8), tx = point - 4.0 * in;
       const FresnelCoefficients fresnel = surfaces.reflect(0, true, std::cos(zenith));
       double received[4]{};
@@ -227,7 +227,7 @@ TEST(Scattering, CrossPolarizationTakesItsShare) {
   DiffuseScattering surface{.coefficient = 0.7, .cross_polarization = 0.2};
   const Patch patch(surface, 4.0, 0.0);
   const FacetWorld world(patch.hand.scene);
-  const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
   const Path path = path_field(patch.over({-3, 1, 4}, {0, 0, 0}, {5, -2, 6}), {&world, &surfaces}, {}, {});
   EXPECT_NEAR(std::norm(path.transfer[2]) / std::norm(path.transfer[0]), 0.2 / 0.8, 1e-12);
   EXPECT_NEAR(std::norm(path.transfer[1]) / std::norm(path.transfer[3]), 0.2 / 0.8, 1e-12);
@@ -235,7 +235,7 @@ TEST(Scattering, CrossPolarizationTakesItsShare) {
   const double before = std::sqrt(26.0), after = std::sqrt(65.0);
   const double cos_in = 4.0 / before, cos_out = 6.0 / after;
   const double expected =
-      0.7 * std::abs(half_space({4.0, -0.05 / (2 * pi * frequency_hz * vacuum_permittivity)}, cos_in).r_tm) *
+      0.7 * std::abs(half_space({4.0, -0.05 / (2 * pi * scattered_hz * vacuum_permittivity)}, cos_in).r_tm) *
       std::sqrt(0.8 * cos_out * cos_in * patch.area_m2 / pi) / (before * after);
   EXPECT_NEAR(std::abs(path.transfer[0]) / expected, 1.0, 1e-12);
 }
@@ -243,7 +243,7 @@ TEST(Scattering, CrossPolarizationTakesItsShare) {
 TEST(Scattering, BothSidesOfAWallScatter) {
   const Patch patch({.coefficient = 0.5}, 4.0, 0.0);
   const FacetWorld world(patch.hand.scene);
-  const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
   const FieldModel model{&world, &surfaces};
   const Path above = path_field(patch.over({-3, 1, 4}, {0, 0, 0}, {5, -2, 6}), model, {}, {});
   const Path below = path_field(patch.over({-3, 1, -4}, {0, 0, 0}, {5, -2, -6}), model, {}, {});
@@ -262,7 +262,7 @@ TEST(Scattering, ReflectionsBeforeAndAfterAreImages) {
   const uint32_t conductor = patch.hand.material("conductor", 1.0, 1e30);
   const uint32_t wall = patch.hand.quad({10, -50, 0}, {10, -50, 50}, {10, 50, 50}, {10, 50, 0}, conductor);
   const FacetWorld world(patch.hand.scene);
-  const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
   const FieldModel model{&world, &surfaces};
   const dvec3 tx(1, 2, 5), rx(4, 9, 3), point(2, 3, 0);
   const auto mirrored = [](const dvec3& p) { return dvec3(20 - p.x, p.y, p.z); };
@@ -301,7 +301,7 @@ TEST(Scattering, WhatIsScatteredIsNotReflected) {
   // reflects.
   Patch patch({.coefficient = 0.6}, 4.0, 0.0);
   const FacetWorld world(patch.hand.scene);
-  const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
   const GeometricPath path{{{InteractionType::reflection, 0}}, {{-3, 0, 4}, {0, 0, 0}, {3, 0, 4}}, 10.0};
   FieldModel model{&world, &surfaces};
   const Path smooth = path_field(path, model, {}, {});
@@ -316,7 +316,7 @@ TEST(Scattering, DopplerOfAMovingPatch) {
   const uint32_t body = patch.hand.body();
   const uint32_t plate = patch.hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);
   FacetWorld world(patch.hand.scene);
-  const RadioSurfaces surfaces(patch.hand.scene, frequency_hz);
+  const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
   const dvec3 tx(9, 5, 3), rx(7, -6, 2), v_tx(1, 2, -3), v_rx(-4, 5, 0.5), in_body(0, 0.4, -0.3);
   const auto at = [&](double t) {
     Motion motion;
@@ -331,7 +331,7 @@ TEST(Scattering, DopplerOfAMovingPatch) {
   };
   const double rate = (at(5e-5).length_m - at(-5e-5).length_m) / 1e-4;
   const double found = at(0.0).doppler_hz;
-  EXPECT_NEAR(found, -rate * frequency_hz / speed_of_light, 1e-4);
+  EXPECT_NEAR(found, -rate * scattered_hz / speed_of_light, 1e-4);
   EXPECT_GT(std::abs(found), 10.0);
 }
 

@@ -17,7 +17,7 @@ using test::has_note;
 using test::json;
 using test::TemporaryFolder;
 
-GltfWriter quad(const std::string& name = "wall") {
+GltfWriter itu_quad(const std::string& name = "wall") {
   GltfWriter writer;
   writer.add_triangles(name, test::unit_quad(), test::quad_indices(), writer.itu_material());
   return writer;
@@ -25,7 +25,7 @@ GltfWriter quad(const std::string& name = "wall") {
 
 /// `change` breaks a good file.
 void refuse(const std::function<void(GltfWriter&)>& change, std::vector<std::string> parts) {
-  GltfWriter writer = quad();
+  GltfWriter writer = itu_quad();
   EXPECT_NO_THROW(writer.load());
   change(writer);
   parts.emplace_back("test.glb");
@@ -52,7 +52,7 @@ TEST(HostileFile, MissingEmptyAndForeign) {
 }
 
 TEST(HostileFile, EveryTruncationOfAGlbIsRefused) {
-  const std::vector<unsigned char> whole = quad().glb();
+  const std::vector<unsigned char> whole = itu_quad().glb();
   for (size_t size = 0; size < whole.size(); ++size) {
     const std::vector<unsigned char> part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
     expect_user_error([&] { GltfWriter::load_bytes(part); }, {"test.glb"});
@@ -61,7 +61,7 @@ TEST(HostileFile, EveryTruncationOfAGlbIsRefused) {
 
 TEST(HostileFile, GlbHeadersThatLie) {
   const auto with_word = [](size_t offset, uint32_t word) {
-    std::vector<unsigned char> bytes = quad().glb();
+    std::vector<unsigned char> bytes = itu_quad().glb();
     std::memcpy(bytes.data() + offset, &word, 4);
     return bytes;
   };
@@ -76,7 +76,7 @@ TEST(HostileFile, GlbHeadersThatLie) {
 TEST(HostileFile, UrisStayInTheFolder) {
   const TemporaryFolder folder;
   const std::filesystem::path inside = folder.path / "asset";
-  GltfWriter writer = quad();
+  GltfWriter writer = itu_quad();
   folder.write("secret.bin", writer.binary);
   folder.write("asset/wall.bin", writer.binary);
   std::filesystem::create_symlink(folder.path / "secret.bin", inside / "link.bin");
@@ -126,7 +126,7 @@ TEST(HostileFile, UrisStayInTheFolder) {
 TEST(HostileFile, ImageUrisStayInTheFolderToo) {
   const TemporaryFolder folder;
   folder.write("secret.png", test::encode_png(1, 1, {1, 2, 3, 4}));
-  GltfWriter writer = quad();
+  GltfWriter writer = itu_quad();
   writer.append("images", {{"uri", "../secret.png"}});
   std::filesystem::create_directory(folder.path / "asset");
   expect_user_error([&] { load_model(folder.write("asset/wall.glb", writer.glb()), {}); },
@@ -242,7 +242,7 @@ TEST(HostileFile, NodesThatDoNotMakeATree) {
 }
 
 TEST(HostileFile, AHundredThousandNodesDeep) {
-  GltfWriter writer = quad();
+  GltfWriter writer = itu_quad();
   json& nodes = writer.document["nodes"];
   for (int index = 1; index <= 100000; ++index) nodes.push_back({{"children", {index == 1 ? 0 : index - 1}}});
   writer.document["scenes"][0]["nodes"] = {100000};
@@ -342,7 +342,7 @@ TEST(HostileFile, AnyJsonValueAnywhereIsSurvived) {
                              json::array(),
                              json::object(),
                              json::array({1, "x", nullptr})};
-  GltfWriter writer = quad();
+  GltfWriter writer = itu_quad();
   writer.append("images",
                 {{"uri", "data:image/png;base64," + test::base64(test::encode_png(1, 1, {1, 2, 3, 4}))}});
   writer.append("samplers", {{"wrapS", 33071}});

@@ -346,12 +346,15 @@ TEST(RadioSidecar, ErrorsHaveFileAndLine) {
   refuse("materials:\n  paint: { itu: concrete }\n  other: { itu: cheese }\n", {"radio.yaml:3", "cheese"});
   refuse("materials:\n  paint: { itu: concrete, thickness_m: -1 }\n", {"radio.yaml:2", "thickness_m", "-1"});
   refuse("materials:\n  paint: { itu: concrete, thickness_m: \"0.3\" }\n", {"radio.yaml:2", "'0.3'"});
-  refuse("stuff: 1\n", {"radio.yaml:1", "unknown or repeated key 'stuff'"});
-  refuse("materials:\n  - paint\n", {"radio.yaml", "a map of names or globs"});
-  refuse("materials:\n  paint: { itu: concrete\n", {"radio.yaml", "not valid YAML"});
+  refuse("stuff: 1\n", {"radio.yaml:1", "unknown key 'stuff'"});
+  refuse("materials:\n  - paint\n", {"radio.yaml", "materials: expected a map"});
+  refuse("materials:\n  paint: { itu: concrete\n", {"radio.yaml", "well-formed YAML"});
   refuse("materials:\n  paint: { itu: concrete }\n  paint: { itu: glass }\n",
-         {"radio.yaml:3", "given twice"});
+         {"radio.yaml:3", "materials: expected every key once, found a second 'paint'"});
   refuse("", {"radio.yaml:1", "expected a map"});
+  refuse("materials: {}\n---\nmaterials: {}\n", {"radio.yaml:3", "expected one YAML document, found 2"});
+  refuse("materials:\n  paint: { itu: concrete, roughnes_m: 0.1 }\n",
+         {"radio.yaml:2", "did you mean 'roughness_m'"});
   LoadOptions missing;
   missing.radio_materials = "/nonexistent/radio.yaml";
   expect_user_error(

@@ -28,7 +28,7 @@ std::string message_of(const std::string& sensor) {
 }
 
 TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
-  using testing::StartsWith;
+  using ::testing::StartsWith;
   // 640x480 behind fx 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, where the
   // picture shows r' = 0.6086: 194.7 px.
   const std::string message =
@@ -46,7 +46,7 @@ TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
 TEST(CameraPlan, AVignettingThatLetsNoLightThroughIsNamedWithFileAndLine) {
   EXPECT_THAT(
       message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-2, 0, 0]"),
-      testing::StartsWith("s.yaml:8: camera car/front: vignetting: expected factors above 0 and up to 1"));
+      ::testing::StartsWith("s.yaml:8: camera car/front: vignetting: expected factors above 0 and up to 1"));
   EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 90, vignetting: [-0.3, 0, 0]"), "accepted");
 }
 

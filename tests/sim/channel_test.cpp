@@ -30,11 +30,11 @@ using sim::testing::RadioRun;
 using sim::testing::run;
 using test::TinyScene;
 
-constexpr double carrier_hz = 3.5e9, tick_s = 0.01;
+constexpr double channel_carrier_hz = 3.5e9, tick_s = 0.01;
 constexpr int ticks = 25;
 
 /// A street with gaps and thin walls, some of which scatter.
-scene::Scene street() {
+scene::Scene channel_street() {
   TinyScene tiny;
   const uint32_t ground = tiny.material_as(radio_material("medium_dry_ground"));
   scene::Material rough = radio_material("brick", 0.2);
@@ -56,8 +56,8 @@ struct Terminal {
 const std::vector<Terminal> terminals{
     {{3.1, 0.4, 1.5}}, {{6.2, -1.3, 1.7}}, {{-3.0, 2.2, 12.0}}, {{8.4, 4.1, 1.6}}, {{-14.2, -4.0, 2.5}}};
 
-std::string scenario(const std::vector<uint32_t>& receivers, const std::string& channel = "",
-                     const std::string& more = "") {
+std::string channel_scenario(const std::vector<uint32_t>& receivers, const std::string& channel = "",
+                             const std::string& more = "") {
   std::string text = fmt::format(
       "greatx: 1\nname: test\nseed: 5\nticks: {}\ntick_rate_hz: 100\nnodes:\n"
       "  - name: bs\n    trajectory: {{type: static, position_m: [-6.3, 1.1, 5.2]}}\n"
@@ -78,7 +78,7 @@ std::string scenario(const std::vector<uint32_t>& receivers, const std::string& 
          fmt::format(
              "channels:\n  - {{name: csi, tx: bs/antenna, rx: [{}], rate_hz: 100, subcarriers: 16, "
              "bandwidth_hz: 20e6, carrier_hz: {}, max_depth: 2{}}}\n",
-             fmt::join(names, ", "), carrier_hz, channel) +
+             fmt::join(names, ", "), channel_carrier_hz, channel) +
          more;
 }
 
@@ -116,7 +116,7 @@ std::vector<std::map<uint64_t, Known>> paths_of(const RadioRun& run, size_t pack
 }
 
 TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
-  const RadioRun r = run(scenario({0, 1, 3}, "", everything), street());
+  const RadioRun r = run(channel_scenario({0, 1, 3}, "", everything), channel_street());
   ASSERT_EQ(r.packets.size(), static_cast<size_t>(ticks));
   std::map<uint64_t, Known> ever;
   uint64_t births = 0, deaths = 0, lasting = 0, all = 0;
@@ -155,7 +155,7 @@ TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
 TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
   // Of reflections and walls. What an edge adds turns by half where the wave that it belongs to begins or
   // ends: that is what keeps their sum continuous (rf_diffraction).
-  const RadioRun r = run(scenario({0, 2, 3}), street());
+  const RadioRun r = run(channel_scenario({0, 2, 3}), channel_street());
   size_t compared = 0;
   double largest = 0.0;
   for (size_t tick = 0; tick + 1 < r.packets.size(); ++tick) {
@@ -170,7 +170,7 @@ TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
                              [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
         const size_t which = static_cast<size_t>(entry - path.transfer);
         const auto turns = [&](const Known& p) {
-          return std::arg(std::complex<double>(p.transfer[which])) / (2 * pi) - carrier_hz * p.delay;
+          return std::arg(std::complex<double>(p.transfer[which])) / (2 * pi) - channel_carrier_hz * p.delay;
         };
         const double predicted = 0.5 * (path.doppler + there->second.doppler) * tick_s;
         const double off = turns(there->second) - turns(path) - predicted;
@@ -185,9 +185,9 @@ TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
 TEST(ChannelOverTime, AnySubsetOfReceiversGivesTheSameBytes) {
   const std::vector<uint32_t> all{0, 1, 2, 3, 4};
   for (const std::string& channel : {std::string(), std::string(", max_reflections_after: 1")}) {
-    const RadioRun together = run(scenario(all, channel, everything), street());
+    const RadioRun together = run(channel_scenario(all, channel, everything), channel_street());
     for (const std::vector<uint32_t>& some : {std::vector<uint32_t>{2}, {4, 1}, {3, 0, 1}}) {
-      const RadioRun few = run(scenario(some, channel, everything), street());
+      const RadioRun few = run(channel_scenario(some, channel, everything), channel_street());
       for (size_t tick = 0; tick < few.packets.size(); ++tick) {
         const auto mine = few.values<std::complex<float>>(tick, "cfr"),
                    theirs = together.values<std::complex<float>>(tick, "cfr");
@@ -212,8 +212,9 @@ TEST(ChannelOverTime, AnySubsetOfReceiversGivesTheSameBytes) {
 
 TEST(ChannelOverTime, OnceAndAtEveryTickAreTheSameWhereNothingMoves) {
   for (const std::string& effects : {std::string(), everything}) {
-    const RadioRun once = run(scenario({0, 1, 2}, ", search: once", effects), street()),
-                   always = run(scenario({0, 1, 2}, ", search: every_tick", effects), street());
+    const RadioRun once = run(channel_scenario({0, 1, 2}, ", search: once", effects), channel_street()),
+                   always =
+                       run(channel_scenario({0, 1, 2}, ", search: every_tick", effects), channel_street());
     ASSERT_GT(once.counter("paths"), 100u);
     expect_same_bytes(once, always, effects);
   }
@@ -227,7 +228,7 @@ class SearchKept : public ::testing::Test {
   void TearDown() override { setenv("GREATX_CACHE", before_.c_str(), 1); }
   RadioRun with(const std::string& cache, const std::string& yaml) {
     setenv("GREATX_CACHE", cache.c_str(), 1);
-    return run(yaml, street());
+    return run(yaml, channel_street());
   }
   greatx::test::TemporaryFolder temporary_;
   const fs::path folder_ = temporary_.path();
@@ -235,7 +236,7 @@ class SearchKept : public ::testing::Test {
 };
 
 TEST_F(SearchKept, GivesTheSameBytesAsOneThatWasMade) {
-  const std::string yaml = scenario({0, 1, 2}, "", everything);
+  const std::string yaml = channel_scenario({0, 1, 2}, "", everything);
   const RadioRun none = with("off", yaml), first = with(folder_, yaml), second = with(folder_, yaml);
   EXPECT_EQ(none.counter("candidates_from_cache"), 0u);
   EXPECT_EQ(first.counter("candidates_from_cache"), 0u);
@@ -255,7 +256,7 @@ TEST_F(SearchKept, IsForTheEffectsThatItWasMadeWith) {
   // Free edges and walls change what is to be found; the cache must tell them apart.
   for (const std::string effects :
        {"diffraction: on", "diffraction: on, free_edges: on", "transmission: off", "diffraction: off"}) {
-    const std::string yaml = scenario({0, 1}, "", "effects: {" + effects + "}\n");
+    const std::string yaml = channel_scenario({0, 1}, "", "effects: {" + effects + "}\n");
     const RadioRun filled = with(folder_, yaml), again = with(folder_, yaml), none = with("off", yaml);
     EXPECT_EQ(filled.counter("candidates_from_cache"), 0u) << effects;
     EXPECT_EQ(again.counter("candidates_from_cache"), 1u) << effects;
@@ -264,7 +265,7 @@ TEST_F(SearchKept, IsForTheEffectsThatItWasMadeWith) {
 }
 
 TEST(ChannelHardCase, N63_OneAndTwoThreadsGiveTheSameBytes) {
-  const std::string yaml = scenario({0, 1, 2, 3, 4}, ", max_reflections_after: 1", everything);
+  const std::string yaml = channel_scenario({0, 1, 2, 3, 4}, ", max_reflections_after: 1", everything);
   cpu_set_t all, first;
   ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
   if (CPU_COUNT(&all) < 2) GTEST_SKIP() << "one core";
@@ -274,10 +275,10 @@ TEST(ChannelHardCase, N63_OneAndTwoThreadsGiveTheSameBytes) {
   // parallel_for takes as many threads as there are cores for the process.
   ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);
   EXPECT_EQ(usable_cores(), 1u);
-  const RadioRun one = run(yaml, street());
+  const RadioRun one = run(yaml, channel_street());
   ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
   EXPECT_GT(usable_cores(), 1u);
-  expect_same_bytes(one, run(yaml, street()), "threads");
+  expect_same_bytes(one, run(yaml, channel_street()), "threads");
 }
 
 }  // namespace

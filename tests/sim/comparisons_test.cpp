@@ -112,10 +112,10 @@ TEST_F(Comparisons, AFigureIsFoundAgainFromFilesOrSaysWhyNot) {
   }
   EXPECT_EQ(comparison_called("lidar"), nullptr);
   SensorSpec camera;
-  EXPECT_THAT(comparison_called(lidar_figure)->needs(camera).of_other, testing::ElementsAre("depth"));
+  EXPECT_THAT(comparison_called(lidar_figure)->needs(camera).of_other, ::testing::ElementsAre("depth"));
   camera.arrays.push_back({"box_2d", DType::f32, {-1, 4}, "pixel", ""});
   EXPECT_THAT(comparison_called(lidar_figure)->needs(camera).of_other,
-              testing::ElementsAre("depth", "instance"));
+              ::testing::ElementsAre("depth", "instance"));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(EffectList, ScenariosSwitchWhatIsSwitchableAndNothingElse) {
     ++fixed;
     EXPECT_THAT([&] { make_effect_plan(with_effect(row->name, "on"), {}); },
                 testing::ThrowsMessage<UserError>(
-                    testing::HasSubstr(fmt::format("effects.{}: cannot be switched", row->name))));
+                    ::testing::HasSubstr(fmt::format("effects.{}: cannot be switched", row->name))));
   }
   EXPECT_GT(fixed, 10u);
 }

@@ -25,11 +25,12 @@ using sim::testing::run;
 using test::TinyScene;
 
 constexpr int subcarriers = 16;
-constexpr double carrier_hz = 28e9, bandwidth_hz = 100e6;
+constexpr double element_carrier_hz = 28e9, bandwidth_hz = 100e6;
 
 /// A 4 x 8 panel that looks along +x at the origin, and one antenna at each distance from it.
-std::string scenario(const std::vector<double>& distances_m, const std::string& effects,
-                     const std::string& panel = "rows: 4, columns: 8", const std::string& channel = "") {
+std::string element_scenario(const std::vector<double>& distances_m, const std::string& effects,
+                             const std::string& panel = "rows: 4, columns: 8",
+                             const std::string& channel = "") {
   std::string text =
       "greatx: 1\nname: test\nticks: 1\ntick_rate_hz: 10\nnodes:\n"
       "  - name: bs\n    trajectory: {type: static, position_m: [0, 0, 0]}\n"
@@ -46,7 +47,7 @@ std::string scenario(const std::vector<double>& distances_m, const std::string& 
   return text + fmt::format(
                     "channels:\n  - {{name: csi, tx: bs/panel, rx: [{}], rate_hz: 10, subcarriers: {}, "
                     "bandwidth_hz: {}, carrier_hz: {}, max_depth: 1{}}}\n{}",
-                    receivers, subcarriers, bandwidth_hz, carrier_hz, channel, effects);
+                    receivers, subcarriers, bandwidth_hz, element_carrier_hz, channel, effects);
 }
 
 scene::Scene nothing() {
@@ -76,7 +77,7 @@ constexpr const char* plane = "effects: {line_of_sight: on, reflection: off, gas
 TEST(EveryElement, OneRuleSaysWhichLinksAreSolvedElementByElement) {
   const auto within = [](const std::string& effects, const std::string& channel, const char* from) {
     const Scenario parsed =
-        parse_scenario(scenario({5.0}, effects, "rows: 4, columns: 8", channel), "test.yaml", ".");
+        parse_scenario(element_scenario({5.0}, effects, "rows: 4, columns: 8", channel), "test.yaml", ".");
     const ChannelConfig& config = parsed.channels[0];
     rf::AntennaArray panel, single;
     panel.rows = 4, panel.columns = 8;
@@ -94,17 +95,17 @@ TEST(EveryElement, OneRuleSaysWhichLinksAreSolvedElementByElement) {
 }
 
 TEST(EveryElement, IsFriisBetweenEveryTwoElements) {
-  const RadioRun r = run(scenario({5.0}, forced), nothing());
+  const RadioRun r = run(element_scenario({5.0}, forced), nothing());
   const auto h = r.values<std::complex<float>>(0, "cfr");
   EXPECT_EQ(r.values<uint8_t>(0, "every_element"), std::vector<uint8_t>{1});
   EXPECT_EQ(r.counter("every_element_paths"), 32u);
-  const double wavelength = speed_of_light / carrier_hz;
+  const double wavelength = speed_of_light / element_carrier_hz;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 8; ++column) {
       const double y = (column - 3.5) * 0.5 * wavelength, z = (row - 1.5) * 0.5 * wavelength;
       const double distance = std::hypot(5.0, y, z);
       for (int k = 0; k < subcarriers; ++k) {
-        const double f = carrier_hz + (k - subcarriers / 2) * bandwidth_hz / subcarriers;
+        const double f = element_carrier_hz + (k - subcarriers / 2) * bandwidth_hz / subcarriers;
         const std::complex<double> expected = std::polar(
             wavelength / (4.0 * pi * distance), -2.0 * pi * std::fmod(f * (distance / speed_of_light), 1.0));
         const std::complex<double> found(h[static_cast<size_t>((row * 8 + column) * subcarriers + k)]);
@@ -116,7 +117,7 @@ TEST(EveryElement, IsFriisBetweenEveryTwoElements) {
 TEST(EveryElement, PairsOfElementsArePlannedBeforeTheyAreMade) {
   const std::string far = "effects: {line_of_sight: on, reflection: off}\n";
   try {
-    run(scenario({1.0, 2.0}, far, "rows: 800, columns: 700"), nothing());
+    run(element_scenario({1.0, 2.0}, far, "rows: 800, columns: 700"), nothing());
     FAIL() << "no error";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(),
@@ -129,11 +130,11 @@ TEST(EveryElement, PairsOfElementsArePlannedBeforeTheyAreMade) {
 
 TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
   const std::vector<double> distances{5.0, 10.0, 20.0, 50.0, 100.0};
-  const RadioRun exact = run(scenario(distances, forced, "rows: 1, columns: 32"), nothing());
-  const RadioRun wave = run(scenario(distances, plane, "rows: 1, columns: 32"), nothing());
+  const RadioRun exact = run(element_scenario(distances, forced, "rows: 1, columns: 32"), nothing());
+  const RadioRun wave = run(element_scenario(distances, plane, "rows: 1, columns: 32"), nothing());
   EXPECT_EQ(wave.values<uint8_t>(0, "every_element"), std::vector<uint8_t>(5, 0));
   const auto h = exact.values<std::complex<float>>(0, "cfr"), p = wave.values<std::complex<float>>(0, "cfr");
-  const double wavelength = speed_of_light / carrier_hz;
+  const double wavelength = speed_of_light / element_carrier_hz;
   for (size_t r = 0; r < distances.size(); ++r) {
     // The phase k y^2/(2 d) that a plane wave does not have; amplitudes agree to (y/d)^2.
     double expected = 0.0;
@@ -151,13 +152,14 @@ TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
 
 TEST(EveryElement, IsChosenWithinTheFarFieldDistanceAlone) {
   // D = sqrt(3.5^2 + 1.5^2) lambda: 2 D^2 / lambda = 29 lambda = 0.3105 m.
-  const RadioRun r = run(scenario({0.3, 0.32}, "effects: {line_of_sight: on, reflection: off}\n"), nothing());
+  const RadioRun r =
+      run(element_scenario({0.3, 0.32}, "effects: {line_of_sight: on, reflection: off}\n"), nothing());
   EXPECT_TRUE(r.plan.every_element.on);
   EXPECT_THAT(r.plan.every_element.bound, ::testing::HasSubstr("0.31 m"));
   EXPECT_EQ(r.values<uint8_t>(0, "every_element"), (std::vector<uint8_t>{1, 0}));
   EXPECT_EQ(r.counter("every_element_links"), 1u);
   const RadioRun far =
-      run(scenario({0.32, 9.0}, "effects: {line_of_sight: on, reflection: off}\n"), nothing());
+      run(element_scenario({0.32, 9.0}, "effects: {line_of_sight: on, reflection: off}\n"), nothing());
   EXPECT_FALSE(far.plan.every_element.on) << "no link comes near enough";
   EXPECT_EQ(far.statistics.counters.count("csi.every_element_links"), 0u) << "nothing of it is built";
 }
@@ -167,7 +169,7 @@ TEST(EveryElement, AnEdgeMayHideSomeElementsAndNotOthers) {
   TinyScene tiny;
   tiny.object("screen", 0, tiny.material_as(radio_material("metal")))
       .quad({2, -50, -50}, {2, 50, -50}, {2, 50, -1e-4}, {2, -50, -1e-4});
-  const RadioRun r = run(scenario({4.0}, forced), tiny.build());
+  const RadioRun r = run(element_scenario({4.0}, forced), tiny.build());
   const auto h = r.values<std::complex<float>>(0, "cfr");
   for (size_t element = 0; element < 32; ++element) {
     const bool below = element < 16;
@@ -181,7 +183,7 @@ TEST(EveryElement, PortsKeepTheirPlacesAtBothEnds) {
   const std::string panel = "rows: 2, columns: 3, polarization: slant, pattern: tr38901";
   std::string yaml[2];
   for (int i = 0; i < 2; ++i) {
-    yaml[i] = scenario({400.0}, i == 0 ? forced : plane, panel);
+    yaml[i] = element_scenario({400.0}, i == 0 ? forced : plane, panel);
     const std::string single = "{name: antenna, type: antenna}";
     yaml[i].replace(
         yaml[i].find(single), single.size(),
@@ -196,7 +198,7 @@ TEST(EveryElement, PortsKeepTheirPlacesAtBothEnds) {
 }
 
 TEST(EveryElement, HardCaseN63ThreadsChangeNoByte) {
-  const std::string yaml = scenario({0.2, 5.0}, forced);
+  const std::string yaml = element_scenario({0.2, 5.0}, forced);
   const RadioRun all = run(yaml, nothing());
   cpu_set_t before;
   ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
@@ -212,7 +214,7 @@ TEST(EveryElement, HardCaseN63ThreadsChangeNoByte) {
 
 TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
   // Comes into the near field at tick 2, where its elements are searched from for the first time.
-  std::string yaml = scenario({0.25}, "effects: {line_of_sight: on, reflection: on}\n");
+  std::string yaml = element_scenario({0.25}, "effects: {line_of_sight: on, reflection: on}\n");
   const std::string still = "trajectory: {type: static, position_m: [0.25, 0, 0]}";
   yaml.replace(
       yaml.find(still), still.size(),
@@ -236,17 +238,17 @@ TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
 
 TEST(EveryElement, MoreElementsThanATickHasTimestampsFor) {
   // 17 x 16 elements: as many crossings to record in one tick.
-  const RadioRun r = run(scenario({0.5}, forced, "rows: 17, columns: 16"), nothing());
+  const RadioRun r = run(element_scenario({0.5}, forced, "rows: 17, columns: 16"), nothing());
   EXPECT_EQ(r.counter("every_element_paths"), 272u);
 }
 
 TEST(EveryElement, AnElementOffTheOriginHasItsOwnDistance) {
   // One element 0.4 m before the mount: paths of the mount would be 0.4 m too long.
-  const double offset_wl = 0.4 * carrier_hz / speed_of_light;
+  const double offset_wl = 0.4 * element_carrier_hz / speed_of_light;
   const RadioRun r =
-      run(scenario({2.0}, forced, fmt::format("elements_wl: [[{}, 0, 0]]", offset_wl)), nothing());
+      run(element_scenario({2.0}, forced, fmt::format("elements_wl: [[{}, 0, 0]]", offset_wl)), nothing());
   const auto h = r.values<std::complex<float>>(0, "cfr");
-  const double expected = speed_of_light / carrier_hz / (4.0 * pi * 1.6);
+  const double expected = speed_of_light / element_carrier_hz / (4.0 * pi * 1.6);
   EXPECT_NEAR(std::abs(h[0]), expected, 1e-5 * expected);
 }
 

@@ -196,8 +196,8 @@ TEST(EventSensor, OverflowIsReported) {
   EXPECT_EQ(r.arrays("eye/dvs", "t")[1].element_count(), 62 * 46);
   ASSERT_EQ(r.statistics.warnings.size(), 1u);
   EXPECT_THAT(r.statistics.warnings[0],
-              testing::StartsWith(fmt::format("eye/dvs: {} events were left out", dropped)));
-  EXPECT_THAT(r.statistics.warnings[0], testing::HasSubstr("max_events_per_pixel"));
+              ::testing::StartsWith(fmt::format("eye/dvs: {} events were left out", dropped)));
+  EXPECT_THAT(r.statistics.warnings[0], ::testing::HasSubstr("max_events_per_pixel"));
 }
 
 }  // namespace

@@ -197,14 +197,14 @@ TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
 TEST(LidarRun, ThePlanSaysWhatTheSceneCallsFor) {
   const KeptRun plain = keep_run(street(""));
   EXPECT_TRUE(plain.plan.lidar_glass.on);  // of the car
-  EXPECT_THAT(plain.plan.lidar_glass.reason, testing::HasSubstr("lets light through"));
+  EXPECT_THAT(plain.plan.lidar_glass.reason, ::testing::HasSubstr("lets light through"));
   for (const Effect* effect :
        {&plain.plan.lidar_divergence, &plain.plan.lidar_detection, &plain.plan.lidar_range_noise,
         &plain.plan.lidar_backscatter, &plain.plan.lidar_haze})
     EXPECT_FALSE(effect->on) << effect->name;
   const KeptRun rain = keep_run(street(", detection: {range_m: 30}", "environment: {rain_mm_h: 20}\n"));
   EXPECT_TRUE(rain.plan.lidar_haze.on && rain.plan.lidar_backscatter.on);
-  EXPECT_THAT(rain.plan.lidar_backscatter.bound, testing::HasSubstr("reflectance"));
+  EXPECT_THAT(rain.plan.lidar_backscatter.bound, ::testing::HasSubstr("reflectance"));
 }
 
 }  // namespace

@@ -119,9 +119,9 @@ TEST(ShotTable, LastsNoLongerThanAPeriod) {
     parse_scenario(text, "s.yaml", folder);
     FAIL() << "accepted";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr("s.yaml:9: nodes[0].sensors[0].shots_file: expected times of at most one "
-                                   "period, 0.0005 s, found a last one of 0.001 s"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(
+                                  "s.yaml:9: nodes[0].sensors[0].shots_file: expected times of at most one "
+                                  "period, 0.0005 s, found a last one of 0.001 s"));
   }
 }
 

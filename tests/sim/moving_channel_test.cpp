@@ -45,8 +45,8 @@ TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
                 whole = keep_run(street(link + ", search: every_tick", ""));
   EXPECT_TRUE(kept.plan.moving_reflectors.on);
   EXPECT_GT(kept.counter("csi.paths"), 20u);
-  EXPECT_THAT(kept.note("csi.search"), testing::HasSubstr("every tick for what moves"));
-  EXPECT_THAT(kept.note("csi.guarantee_moving"), testing::HasSubstr("with a moving facet"));
+  EXPECT_THAT(kept.note("csi.search"), ::testing::HasSubstr("every tick for what moves"));
+  EXPECT_THAT(kept.note("csi.guarantee_moving"), ::testing::HasSubstr("with a moving facet"));
   expect_same_bytes(kept, whole);
   // What moves does reflect.
   std::string still = street(link, "");
@@ -57,7 +57,7 @@ TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
 TEST(MovingChannel, StaticReceiversKeepTheirs) {
   const std::string link = "tx: uav/antenna, rx: [bs/antenna]";
   const KeptRun kept = keep_run(street(link, ", transmission: off"));
-  EXPECT_THAT(kept.note("csi.search"), testing::StartsWith("once, from each receiver"));
+  EXPECT_THAT(kept.note("csi.search"), ::testing::StartsWith("once, from each receiver"));
   // From the other end, the same sequences the other way round: compared with the whole search from there.
   const KeptRun whole = keep_run(street(link + ", search: every_tick", ", transmission: off"));
   EXPECT_EQ(kept.counter("csi.paths"), whole.counter("csi.paths"));
@@ -70,7 +70,7 @@ TEST(MovingChannel, BothEndsMove) {
     const KeptRun between = keep_run(street(link, effects)),
                   whole = keep_run(street(link + ", search: every_tick", effects));
     EXPECT_GT(between.counter("csi.paths"), 10u);
-    EXPECT_THAT(between.note("csi.search"), testing::StartsWith("every tick, from both ends"));
+    EXPECT_THAT(between.note("csi.search"), ::testing::StartsWith("every tick, from both ends"));
     EXPECT_LT(between.counter("csi.candidates"), whole.counter("csi.candidates"));
     expect_same_bytes(between, whole);
   }
@@ -136,8 +136,8 @@ TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
 
 TEST(MovingChannel, DiffractionWithMovingReflectorsSearchesWholeAndSaysSo) {
   const KeptRun r = keep_run(street("tx: bs/antenna, rx: [uav/antenna]", ", diffraction: on"));
-  EXPECT_THAT(r.note("csi.search"), testing::StartsWith("every tick, from the transmitter"));
-  EXPECT_THAT(r.note("csi.reuse"), testing::StartsWith("none"));
+  EXPECT_THAT(r.note("csi.search"), ::testing::StartsWith("every tick, from the transmitter"));
+  EXPECT_THAT(r.note("csi.reuse"), ::testing::StartsWith("none"));
 }
 
 }  // namespace

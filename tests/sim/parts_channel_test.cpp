@@ -21,7 +21,7 @@ namespace {
 using test::keep_run;
 using test::KeptRun;
 
-constexpr double carrier_hz = 5e9, rate_hz = 3.0, face_m = 0.32;
+constexpr double vane_carrier_hz = 5e9, rate_hz = 3.0, face_m = 0.32;
 const dvec3 axle(4, -3, 5);
 
 /// A mill with one upright vane whose outer face is `face_m` off the axle, 4 m wide and 2 m high.
@@ -55,8 +55,8 @@ std::string mill(const std::filesystem::path& file, const dvec3& tx, const dvec3
       "channels:\n  - {{name: csi, tx: tx/antenna, rx: [rx/antenna], rate_hz: 1000, carrier_hz: {}, "
       "subcarriers: 16, "
       "bandwidth_hz: 20e6, max_depth: 1{}}}\neffects: {{moving_reflectors: on}}\n",
-      end("tx", tx), end("rx", rx), axle.x, axle.y, axle.z, file.string(), rate_hz, phase_deg, carrier_hz,
-      channel);
+      end("tx", tx), end("rx", rx), axle.x, axle.y, axle.z, file.string(), rate_hz, phase_deg,
+      vane_carrier_hz, channel);
 }
 
 /// The path off the vane's outer face when it has turned by `angle`.
@@ -90,8 +90,8 @@ TEST(PartsChannel, DopplerOffAVaneIsThatOfTheClosedForm) {
           (Closed(tx, rx, angle + omega * step).length_m - Closed(tx, rx, angle - omega * step).length_m) /
           (2.0 * step);
       const double speed = glm::dot(glm::cross(dvec3(0, 0, omega), now.point), now.normal);
-      const double doppler_hz = -slope * carrier_hz / speed_of_light;
-      EXPECT_NEAR(doppler_hz, 2.0 * speed * now.cosine * carrier_hz / speed_of_light, 1e-5);
+      const double doppler_hz = -slope * vane_carrier_hz / speed_of_light;
+      EXPECT_NEAR(doppler_hz, 2.0 * speed * now.cosine * vane_carrier_hz / speed_of_light, 1e-5);
       EXPECT_GT(std::abs(doppler_hz), 10.0);
       const auto delays = run.array<double>(tick, "csi", "delay");
       const auto dopplers = run.array<double>(tick, "csi", "doppler");

@@ -19,7 +19,7 @@
 namespace greatx::sim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A drone that banks along a curve, its model turned, shifted and scaled on it, by the name of its parts.
 std::string flying(const std::string& parts, const std::string& trajectory = "") {

@@ -18,9 +18,9 @@
 namespace greatx::sim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-std::string message_of(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   try {
     parse_pattern_csv(text, "p.csv");
   } catch (const UserError& error) {
@@ -116,7 +116,7 @@ TEST(PatternCsv, Tr38901IsAcceptedThoughItsPolesDependOnAzimuth) {
     const double v = (theta - 90.0) / 65.0, h = (phi > 180.0 ? phi - 360.0 : phi) / 65.0;
     return fmt::format("{:.6f}", 8.0 - std::min(12.0 * v * v + 12.0 * h * h, 30.0));
   };
-  EXPECT_EQ(message_of(file(gain_header, lines(gain))), "accepted");
+  EXPECT_EQ(refusal_of(file(gain_header, lines(gain))), "accepted");
 }
 
 TEST(PatternCsv, FaultsNameLineColumnAndField) {
@@ -124,7 +124,7 @@ TEST(PatternCsv, FaultsNameLineColumnAndField) {
   const auto with = [&](size_t row, const std::string& text) {
     std::vector<std::string> changed = rows;
     changed[row] = text;
-    return message_of(file(gain_header, changed));
+    return refusal_of(file(gain_header, changed));
   };
   EXPECT_EQ(with(9, "45,45,"), "p.csv:11:7: gain_dbi: expected a finite number, found a gap");
   EXPECT_EQ(with(9, "45,45,nan"), "p.csv:11:7: gain_dbi: expected a finite number, found 'nan'");
@@ -153,38 +153,38 @@ TEST(PatternCsv, LessThanTheWholeSphereIsRefused) {
   std::vector<std::string> rows = lines(flat);
   std::vector<std::string> gap = rows;
   gap.erase(gap.begin() + 9);
-  EXPECT_EQ(message_of(file(gain_header, gap)),
+  EXPECT_EQ(refusal_of(file(gain_header, gap)),
             "p.csv:10: theta_deg 45, phi_deg 45: expected a line, found none");
   std::vector<std::string> hemisphere(rows.begin(), rows.begin() + 24);
-  EXPECT_EQ(message_of(file(gain_header, hemisphere)),
+  EXPECT_EQ(refusal_of(file(gain_header, hemisphere)),
             "p.csv:18: theta_deg: expected zeniths from 0 to 180, found them from 0 to 90");
   std::vector<std::string> row_missing = rows;
   row_missing.erase(row_missing.begin() + 8, row_missing.begin() + 16);
-  EXPECT_THAT(message_of(file(gain_header, row_missing)), HasSubstr("theta_deg: expected even steps"));
-  EXPECT_EQ(message_of(file(gain_header, lines(flat, -90.0, 90.0))),
+  EXPECT_THAT(refusal_of(file(gain_header, row_missing)), HasSubstr("theta_deg: expected even steps"));
+  EXPECT_EQ(refusal_of(file(gain_header, lines(flat, -90.0, 90.0))),
             "p.csv:6: phi_deg: expected azimuths once around (360 degrees), found 5 from -90 to 90");
-  EXPECT_EQ(message_of(file(gain_header, lines(flat, 0.0, 0.0))),
+  EXPECT_EQ(refusal_of(file(gain_header, lines(flat, 0.0, 0.0))),
             "p.csv:1: phi_deg: expected 4 azimuths or more, found 1");
-  EXPECT_EQ(message_of(file(gain_header, {"0,0,0", "0,90,0", "0,180,0", "0,270,0", "180,0,0", "180,90,0",
+  EXPECT_EQ(refusal_of(file(gain_header, {"0,0,0", "0,90,0", "0,180,0", "0,270,0", "180,0,0", "180,90,0",
                                           "180,180,0", "180,270,0"})),
             "p.csv:1: theta_deg: expected 3 zeniths or more, found 2");
   // The meridian that is there twice must be one.
   std::vector<std::string> seam = lines(flat, -180.0, 180.0);
   seam[17] = "45,180,4";
   EXPECT_EQ(
-      message_of(file(gain_header, seam)),
+      refusal_of(file(gain_header, seam)),
       "p.csv:19: theta_deg 45, phi_deg 180: expected the values of phi_deg -180 (line 11), found others");
 }
 
 TEST(PatternCsv, HeadersAndEmptyFiles) {
-  EXPECT_EQ(message_of(""), "p.csv:1: expected samples of a pattern, found none");
-  EXPECT_EQ(message_of(std::string(gain_header) + "\n"),
+  EXPECT_EQ(refusal_of(""), "p.csv:1: expected samples of a pattern, found none");
+  EXPECT_EQ(refusal_of(std::string(gain_header) + "\n"),
             "p.csv:1: expected samples of a pattern, found none");
-  EXPECT_EQ(message_of("phi_deg,theta_deg,gain_dbi\n"),
+  EXPECT_EQ(refusal_of("phi_deg,theta_deg,gain_dbi\n"),
             fmt::format("p.csv:1:1: expected the header '{}' or '{}', found 'phi_deg,theta_deg,gain_dbi'",
                         gain_header, field_header));
-  EXPECT_THAT(message_of("0,0,1\n"), HasSubstr("p.csv:1:1: expected the header"));
-  EXPECT_EQ(message_of(file(gain_header, lines([](double, double) { return "-inf"; }))),
+  EXPECT_THAT(refusal_of("0,0,1\n"), HasSubstr("p.csv:1:1: expected the header"));
+  EXPECT_EQ(refusal_of(file(gain_header, lines([](double, double) { return "-inf"; }))),
             "p.csv:1: expected a gain somewhere, found none");
 }
 
@@ -193,7 +193,7 @@ TEST(PatternCsv, LinesThatEachHaveTheirOwnAnglesMakeNoSquareOfThem) {
   std::string text = std::string(gain_header) + "\n";
   for (int i = 0; i <= 30000; ++i)
     text += fmt::format("{:.6f},{:.6f},0\n", i * (180.0 / 30000.0), i * (360.0 / 30001.0));
-  EXPECT_EQ(message_of(text), "p.csv:2: theta_deg 0, phi_deg 0.012: expected a line, found none");
+  EXPECT_EQ(refusal_of(text), "p.csv:2: theta_deg 0, phi_deg 0.012: expected a line, found none");
 }
 
 TEST(PatternCsv, AFileThatIsNotThereIsNamed) {

@@ -142,7 +142,7 @@ TEST(RadarScenario, FaultsAreNamedWithTheirLine) {
       scenario_with(fields);
       ADD_FAILURE() << fields;
     } catch (const UserError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr(message));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(message));
     }
   }
 }

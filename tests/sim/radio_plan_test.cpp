@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// A base station and a terminal 30 m apart above the ground, one channel.
-std::string scenario(const std::string& channel = "", const std::string& more = "") {
+std::string planned_scenario(const std::string& channel = "", const std::string& more = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 1\ntick_rate_hz: 10\n"
          "nodes:\n"
          "  - name: bs\n    trajectory: {type: static, position_m: [-15, 0, 8]}\n"
@@ -40,7 +40,7 @@ std::string scenario(const std::string& channel = "", const std::string& more = 
 }
 
 /// A ground and a wall of these materials.
-scene::Scene street(scene::Material ground, scene::Material wall) {
+scene::Scene planned_street(scene::Material ground, scene::Material wall) {
   TinyScene tiny;
   const uint32_t g = tiny.material_as(ground), w = tiny.material_as(wall);
   tiny.object("ground", 0, g).quad({-30, -20, 0}, {30, -20, 0}, {30, 20, 0}, {-30, 20, 0});
@@ -48,7 +48,9 @@ scene::Scene street(scene::Material ground, scene::Material wall) {
   tiny.object("fence", 0, w).quad({5, -20, 0}, {5, 20, 0}, {5, 20, 1}, {5, -20, 1});
   return tiny.build();
 }
-scene::Scene street() { return street(radio_material("medium_dry_ground"), radio_material("concrete")); }
+scene::Scene planned_street() {
+  return planned_street(radio_material("medium_dry_ground"), radio_material("concrete"));
+}
 
 EffectPlan plan(const std::string& yaml, const scene::Scene& scene) {
   return make_effect_plan(parse_scenario(yaml, "test.yaml", "."), scene);
@@ -63,9 +65,9 @@ void expect(const Effect& effect, bool on, const std::string& reason, const std:
 const std::string switches(const std::string& effects) { return "effects: {" + effects + "}\n"; }
 
 TEST(RadioPlan, WithoutAChannelThereIsNone) {
-  std::string yaml = scenario();
+  std::string yaml = planned_scenario();
   yaml.resize(yaml.find("channels:"));
-  const EffectPlan none = plan(yaml, street());
+  const EffectPlan none = plan(yaml, planned_street());
   for (const Effect* effect : {&none.channel, &none.line_of_sight, &none.reflection, &none.transmission,
                                &none.diffraction, &none.scattering, &none.roughness, &none.gas, &none.rain,
                                &none.fog, &none.foliage, &none.dispersion, &none.doppler})
@@ -73,52 +75,65 @@ TEST(RadioPlan, WithoutAChannelThereIsNone) {
 }
 
 TEST(RadioPlan, ReflectionsComeWithSurfacesAndDepth) {
-  expect(plan(scenario(), street()).reflection, true, "up to 2", "none is missed");
-  expect(plan(scenario(", candidates: rays"), street()).reflection, true, "up to 2", "may be missed");
-  expect(plan(scenario(), TinyScene().build()).reflection, false, "no surface");
-  std::string flat = scenario();
+  expect(plan(planned_scenario(), planned_street()).reflection, true, "up to 2", "none is missed");
+  expect(plan(planned_scenario(", candidates: rays"), planned_street()).reflection, true, "up to 2",
+         "may be missed");
+  expect(plan(planned_scenario(), TinyScene().build()).reflection, false, "no surface");
+  std::string flat = planned_scenario();
   flat.replace(flat.find("max_depth: 2"), 12, "max_depth: 0");
-  expect(plan(flat, street()).reflection, false, "max_depth is 0");
-  expect(plan(scenario("", switches("reflection: off")), street()).reflection, false, "switched off (");
-  expect(plan(scenario("", switches("line_of_sight: off")), street()).line_of_sight, false, "switched off (");
+  expect(plan(flat, planned_street()).reflection, false, "max_depth is 0");
+  expect(plan(planned_scenario("", switches("reflection: off")), planned_street()).reflection, false,
+         "switched off (");
+  expect(plan(planned_scenario("", switches("line_of_sight: off")), planned_street()).line_of_sight, false,
+         "switched off (");
 }
 
 TEST(RadioPlan, TransmissionComesWithThinWalls) {
-  expect(plan(scenario(), street()).transmission, false, "no material lets waves pass");
-  const scene::Scene thin = street(radio_material("medium_dry_ground"), radio_material("glass", 0.01));
-  const EffectPlan walls = plan(scenario(), thin);
+  expect(plan(planned_scenario(), planned_street()).transmission, false, "no material lets waves pass");
+  const scene::Scene thin =
+      planned_street(radio_material("medium_dry_ground"), radio_material("glass", 0.01));
+  const EffectPlan walls = plan(planned_scenario(), thin);
   expect(walls.transmission, true, "1 materials let waves pass, up to 2 walls", "glass wall, takes");
-  expect(plan(scenario(", max_transmissions: 0"), thin).transmission, false, "max_transmissions");
-  std::string deep = scenario();
+  expect(plan(planned_scenario(", max_transmissions: 0"), thin).transmission, false, "max_transmissions");
+  std::string deep = planned_scenario();
   deep.replace(deep.find("max_depth: 2"), 12, "max_depth: 16");
   expect(plan(deep, thin).transmission, true, "up to 8 walls");
-  expect(plan(scenario("", switches("transmission: off")), thin).transmission, false, "switched off (");
-  const scene::Scene dark = street(radio_material("medium_dry_ground"), radio_material("metal", 0.002));
-  expect(plan(scenario(), dark).transmission, false, "take 100 dB or more");
+  expect(plan(planned_scenario("", switches("transmission: off")), thin).transmission, false,
+         "switched off (");
+  const scene::Scene dark =
+      planned_street(radio_material("medium_dry_ground"), radio_material("metal", 0.002));
+  expect(plan(planned_scenario(), dark).transmission, false, "take 100 dB or more");
 }
 
 TEST(RadioPlan, TheAirComesWithDistanceAndFrequency) {
-  const scene::Scene scene = street();
-  expect(plan(scenario(", carrier_hz: 3.5e9"), scene).gas, false, "within the tolerance", "at most");
-  expect(plan(scenario(", carrier_hz: 39e9"), scene).gas, true, "more than the tolerance", "at 39 GHz");
-  expect(plan(scenario(", carrier_hz: 39e9", "tolerance_db: 1\n"), scene).gas, false, "within the tolerance");
-  expect(plan(scenario(", carrier_hz: 39e9", switches("gas: off")), scene).gas, false, "switched off (more");
-  expect(plan(scenario("", switches("gas: on")), scene).gas, true, "switched on (within");
-  EXPECT_THAT(plan(scenario(), scene).rain.bound, IsEmpty());
-  expect(plan(scenario(), scene).rain, false, "no rain");
-  expect(plan(scenario("", "environment: {rain_mm_h: 2}\n"), scene).rain, false, "within the tolerance",
+  const scene::Scene scene = planned_street();
+  expect(plan(planned_scenario(", carrier_hz: 3.5e9"), scene).gas, false, "within the tolerance", "at most");
+  expect(plan(planned_scenario(", carrier_hz: 39e9"), scene).gas, true, "more than the tolerance",
+         "at 39 GHz");
+  expect(plan(planned_scenario(", carrier_hz: 39e9", "tolerance_db: 1\n"), scene).gas, false,
+         "within the tolerance");
+  expect(plan(planned_scenario(", carrier_hz: 39e9", switches("gas: off")), scene).gas, false,
+         "switched off (more");
+  expect(plan(planned_scenario("", switches("gas: on")), scene).gas, true, "switched on (within");
+  EXPECT_THAT(plan(planned_scenario(), scene).rain.bound, IsEmpty());
+  expect(plan(planned_scenario(), scene).rain, false, "no rain");
+  expect(plan(planned_scenario("", "environment: {rain_mm_h: 2}\n"), scene).rain, false,
+         "within the tolerance", "at most");
+  expect(plan(planned_scenario(", carrier_hz: 28e9", "environment: {rain_mm_h: 25}\n"), scene).rain, true,
+         "more");
+  expect(plan(planned_scenario(), scene).fog, false, "no fog");
+  expect(plan(planned_scenario("", "environment: {fog_g_m3: 0.05}\n"), scene).fog, false, "within",
          "at most");
-  expect(plan(scenario(", carrier_hz: 28e9", "environment: {rain_mm_h: 25}\n"), scene).rain, true, "more");
-  expect(plan(scenario(), scene).fog, false, "no fog");
-  expect(plan(scenario("", "environment: {fog_g_m3: 0.05}\n"), scene).fog, false, "within", "at most");
-  expect(plan(scenario(", carrier_hz: 39e9", "environment: {fog_g_m3: 0.5}\n"), scene).fog, true, "more");
-  expect(plan(scenario(", carrier_hz: 0.5e9"), TinyScene().build()).gas, false, "does not cover 0.5 GHz");
+  expect(plan(planned_scenario(", carrier_hz: 39e9", "environment: {fog_g_m3: 0.5}\n"), scene).fog, true,
+         "more");
+  expect(plan(planned_scenario(", carrier_hz: 0.5e9"), TinyScene().build()).gas, false,
+         "does not cover 0.5 GHz");
 }
 
 TEST(RadioPlan, TheAirIsBoundedForTheChannelThatItTakesMostFrom) {
   // The oxygen band at 60 GHz takes ten times what 80 GHz loses.
   const std::string two =
-      scenario(", carrier_hz: 60e9") +
+      planned_scenario(", carrier_hz: 60e9") +
       "  - {name: second, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
       "bandwidth_hz: 20e6, carrier_hz: 80e9}\n";
   expect(plan(two, TinyScene().build()).gas, true, "more", "at 60 GHz");
@@ -127,7 +142,7 @@ TEST(RadioPlan, TheAirIsBoundedForTheChannelThatItTakesMostFrom) {
 TEST(RadioPlan, AChannelThatTheAirDoesNotCoverGoesWithoutAndThePlanSaysSo) {
   const scene::Scene scene = TinyScene().build();
   const std::string two =
-      scenario(", carrier_hz: 39e9") +
+      planned_scenario(", carrier_hz: 39e9") +
       "  - {name: second, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
       "bandwidth_hz: 20e6, carrier_hz: 0.5e9}\n";
   expect(plan(two + switches("gas: on"), scene).gas, true, "not at 0.5 GHz, which P.676-13 does not cover");
@@ -136,73 +151,75 @@ TEST(RadioPlan, AChannelThatTheAirDoesNotCoverGoesWithoutAndThePlanSaysSo) {
   effects.weather.rain_mm_h = 25.0;
   EXPECT_TRUE(rf::RadioModel(scene, 0.5e9, effects).field_model().attenuation.none());
   EXPECT_FALSE(rf::RadioModel(scene, 39e9, effects).field_model().attenuation.none());
-  EXPECT_THROW(plan(scenario(", carrier_hz: 0.5e9", switches("gas: on")), scene), UserError);
+  EXPECT_THROW(plan(planned_scenario(", carrier_hz: 0.5e9", switches("gas: on")), scene), UserError);
 }
 
 TEST(RadioPlan, RoughnessComesWithHeightsThatMatterOverAllReflections) {
   const auto rough = [](double rms_m) {
     scene::Material ground = radio_material("medium_dry_ground");
     ground.radio->roughness_m = rms_m;
-    return street(ground, radio_material("concrete"));
+    return planned_street(ground, radio_material("concrete"));
   };
-  expect(plan(scenario(), rough(0.0)).roughness, false, "no material has one");
-  expect(plan(scenario(), rough(1e-4)).roughness, false, "within", "over 2 reflections");
-  expect(plan(scenario(), rough(1e-2)).roughness, true, "more than the tolerance");
+  expect(plan(planned_scenario(), rough(0.0)).roughness, false, "no material has one");
+  expect(plan(planned_scenario(), rough(1e-4)).roughness, false, "within", "over 2 reflections");
+  expect(plan(planned_scenario(), rough(1e-2)).roughness, true, "more than the tolerance");
   // 0.3 mm: 0.0084 dB a reflection, within the tolerance of 0.01 dB once and beyond it twice.
-  std::string once = scenario();
+  std::string once = planned_scenario();
   once.replace(once.find("max_depth: 2"), 12, "max_depth: 1");
   EXPECT_FALSE(plan(once, rough(3e-4)).roughness.on);
-  EXPECT_TRUE(plan(scenario(), rough(3e-4)).roughness.on);
+  EXPECT_TRUE(plan(planned_scenario(), rough(3e-4)).roughness.on);
 }
 
 TEST(RadioPlan, FoliageComesWithCrowns) {
-  expect(plan(scenario(), street()).foliage, false, "the scene has none");
+  expect(plan(planned_scenario(), planned_street()).foliage, false, "the scene has none");
   scene::Material leaves;
   leaves.name = "leaves";
   leaves.radio.emplace().foliage.emplace();
-  expect(plan(scenario(), street(radio_material("concrete"), leaves)).foliage, true, "crowns");
+  expect(plan(planned_scenario(), planned_street(radio_material("concrete"), leaves)).foliage, true,
+         "crowns");
 }
 
 TEST(RadioPlan, WhatIsAskedForByName) {
-  const EffectPlan silent = plan(scenario(), street());
+  const EffectPlan silent = plan(planned_scenario(), planned_street());
   expect(silent.diffraction, false, "not asked for (effects: {diffraction: on})", "6 dB");
   expect(silent.diffraction_lit_region, false, "diffraction is off");
   expect(silent.scattering, false, "no material has a scattering coefficient");
   expect(silent.dispersion, false, "not asked for");
-  const EffectPlan asked =
-      plan(scenario("", switches("diffraction: on, dispersion: on, free_edges: on")), street());
+  const EffectPlan asked = plan(
+      planned_scenario("", switches("diffraction: on, dispersion: on, free_edges: on")), planned_street());
   expect(asked.diffraction, true, "switched on (");
   expect(asked.diffraction_lit_region, true, "continuous");
   expect(asked.free_edges, true, "switched on (");
   expect(asked.dispersion, true, "switched on (");
   // Nothing to act on: off, and the reason does not say on.
-  expect(plan(scenario("", switches("scattering: on")), street()).scattering, false,
+  expect(plan(planned_scenario("", switches("scattering: on")), planned_street()).scattering, false,
          "nothing to act on (no material has");
-  expect(plan(scenario("", switches("diffraction: on")), TinyScene().build()).diffraction, false,
+  expect(plan(planned_scenario("", switches("diffraction: on")), TinyScene().build()).diffraction, false,
          "nothing to act on (the scene has no edge)");
   scene::Material wall = radio_material("concrete");
   wall.radio->scattering_coefficient = 0.3;
-  const scene::Scene scatters = street(radio_material("medium_dry_ground"), wall);
-  expect(plan(scenario(), scatters).scattering, false, "not asked for");
-  expect(plan(scenario("", switches("scattering: on")), scatters).scattering, true, "switched on (");
+  const scene::Scene scatters = planned_street(radio_material("medium_dry_ground"), wall);
+  expect(plan(planned_scenario(), scatters).scattering, false, "not asked for");
+  expect(plan(planned_scenario("", switches("scattering: on")), scatters).scattering, true, "switched on (");
 }
 
 TEST(RadioPlan, DopplerComesWithTimeSamples) {
-  expect(plan(scenario(), street()).doppler, false, "one time sample");
-  expect(plan(scenario(", time_samples: 8"), street()).doppler, true, "8 time samples", "turns per m/s");
+  expect(plan(planned_scenario(), planned_street()).doppler, false, "one time sample");
+  expect(plan(planned_scenario(", time_samples: 8"), planned_street()).doppler, true, "8 time samples",
+         "turns per m/s");
 }
 
 TEST(RadioPlan, EveryEffectHasAReasonAndUnknownNamesAreErrors) {
-  const EffectPlan whole = plan(scenario(), street());
+  const EffectPlan whole = plan(planned_scenario(), planned_street());
   for (const Effect* effect : whole.all()) EXPECT_FALSE(effect->reason.empty()) << effect->name;
   try {
-    plan(scenario("", switches("difraction: on")), street());
+    plan(planned_scenario("", switches("difraction: on")), planned_street());
     FAIL();
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("effects: 'difraction' is no effect; expected one of"));
     EXPECT_THAT(error.what(), HasSubstr("diffraction"));
   }
-  EXPECT_THROW(plan(scenario("", switches("channel: off")), street()), UserError);
+  EXPECT_THROW(plan(planned_scenario("", switches("channel: off")), planned_street()), UserError);
 }
 
 TEST(RadioPlan, WeatherThatIsNoneIsAnErrorByField) {
@@ -210,7 +227,7 @@ TEST(RadioPlan, WeatherThatIsNoneIsAnErrorByField) {
                                      std::pair("water_vapour_g_m3", "nan"), std::pair("rain_mm_h", "-3"),
                                      std::pair("fog_g_m3", "11"), std::pair("rain", "3")}) {
     try {
-      plan(scenario("", fmt::format("environment: {{{}: {}}}\n", field, value)), street());
+      plan(planned_scenario("", fmt::format("environment: {{{}: {}}}\n", field, value)), planned_street());
       ADD_FAILURE() << field;
     } catch (const UserError& error) {
       EXPECT_THAT(error.what(), HasSubstr(std::string("test.yaml:"))) << field;
@@ -253,9 +270,9 @@ void expect_within(const RadioRun& plain, const RadioRun& forced, double most_db
 TEST(RadioPlan, ForcedWhereItIsWithinTheToleranceItChangesLessThanItsBound) {
   scene::Material ground = radio_material("medium_dry_ground");
   ground.radio->roughness_m = 1e-4;
-  const scene::Scene scene = street(ground, radio_material("concrete"));
+  const scene::Scene scene = planned_street(ground, radio_material("concrete"));
   const std::string weather = "environment: {rain_mm_h: 2, fog_g_m3: 0.02}\n";
-  const RadioRun plain = run(scenario("", weather), scene);
+  const RadioRun plain = run(planned_scenario("", weather), scene);
   ASSERT_GE(plain.values<int32_t>(0, "path_count")[0], 4);
   for (const char* name : {"gas", "rain", "fog", "roughness"}) {
     const auto effect = [&](const RadioRun& r) {
@@ -265,7 +282,7 @@ TEST(RadioPlan, ForcedWhereItIsWithinTheToleranceItChangesLessThanItsBound) {
     };
     EXPECT_FALSE(effect(plain).on) << name;
     EXPECT_THAT(effect(plain).reason, HasSubstr("within the tolerance"));
-    const RadioRun forced = run(scenario("", weather + switches(fmt::format("{}: on", name))), scene);
+    const RadioRun forced = run(planned_scenario("", weather + switches(fmt::format("{}: on", name))), scene);
     EXPECT_TRUE(effect(forced).on) << name;
     const double bound = bound_db(effect(forced));
     EXPECT_LE(bound, 0.01) << name << ": the tolerance";
@@ -276,11 +293,11 @@ TEST(RadioPlan, ForcedWhereItIsWithinTheToleranceItChangesLessThanItsBound) {
 }
 
 TEST(RadioPlan, ForcedWhereThereIsNothingItChangesNoByte) {
-  const scene::Scene scene = street();
-  const RadioRun plain = run(scenario(), scene);
+  const scene::Scene scene = planned_street();
+  const RadioRun plain = run(planned_scenario(), scene);
   for (const char* name : {"rain", "fog", "foliage", "roughness", "transmission", "doppler"})
-    sim::testing::expect_same_bytes(plain, run(scenario("", switches(fmt::format("{}: on", name))), scene),
-                                    name);
+    sim::testing::expect_same_bytes(
+        plain, run(planned_scenario("", switches(fmt::format("{}: on", name))), scene), name);
 }
 
 TEST(RadioPlan, WallsThatAreDarkAreOpaqueAmongOthers) {
@@ -288,20 +305,20 @@ TEST(RadioPlan, WallsThatAreDarkAreOpaqueAmongOthers) {
   // pass.
   const scene::Material pane = radio_material("glass", 0.01);
   for (const scene::Material& ground : {radio_material("medium_dry_ground"), pane}) {
-    const RadioRun thick = run(scenario("", switches("transmission: on")),
-                               street(ground, radio_material("metal"))),
-                   thin = run(scenario("", switches("transmission: on")),
-                              street(ground, radio_material("metal", 0.002)));
+    const RadioRun thick = run(planned_scenario("", switches("transmission: on")),
+                               planned_street(ground, radio_material("metal"))),
+                   thin = run(planned_scenario("", switches("transmission: on")),
+                              planned_street(ground, radio_material("metal", 0.002)));
     EXPECT_EQ(thick.values<uint64_t>(0, "id"), thin.values<uint64_t>(0, "id"));
     expect_within(thick, thin, 1e-5, "metal");
   }
 }
 
 TEST(RadioPlan, DispersionLeavesTheCarrierAlone) {
-  const scene::Scene scene = street(radio_material("concrete"), radio_material("glass", 0.01));
+  const scene::Scene scene = planned_street(radio_material("concrete"), radio_material("glass", 0.01));
   const std::string wide = ", carrier_hz: 28e9";
-  const RadioRun plain = run(scenario(wide), scene),
-                 forced = run(scenario(wide, switches("dispersion: on")), scene);
+  const RadioRun plain = run(planned_scenario(wide), scene),
+                 forced = run(planned_scenario(wide, switches("dispersion: on")), scene);
   const auto a = plain.values<std::complex<float>>(0, "cfr"),
              b = forced.values<std::complex<float>>(0, "cfr");
   EXPECT_LT(std::abs(a[8] - b[8]), 1e-6f * std::abs(a[8])) << "f_8 is the carrier";
@@ -318,12 +335,12 @@ TEST(RadioPlan, CrownsThatAreOffAreNotThere) {
     tiny->object("ground", 0, g).quad({-30, -20, 0}, {30, -20, 0}, {30, 20, 0}, {-30, 20, 0});
     if (tiny == &with) tiny->object("crown", 0, l).box({-3, -4, 0.5}, {3, 4, 7});
   }
-  const RadioRun none = run(scenario(), without.build());
+  const RadioRun none = run(planned_scenario(), without.build());
   ASSERT_EQ(none.values<int32_t>(0, "path_count")[0], 2);
   for (const char* candidates : {"", ", candidates: rays, rays: 20000"}) {
-    const RadioRun off = run(scenario(candidates, switches("foliage: off")), with.build());
+    const RadioRun off = run(planned_scenario(candidates, switches("foliage: off")), with.build());
     EXPECT_TRUE(off.array(0, "cfr").bytes == none.array(0, "cfr").bytes) << candidates;
-    const RadioRun on = run(scenario(candidates), with.build());
+    const RadioRun on = run(planned_scenario(candidates), with.build());
     EXPECT_EQ(on.values<int32_t>(0, "path_count")[0], 2) << candidates;
     EXPECT_GT(on.values<double>(0, "foliage")[0], 5.0) << candidates;
     EXPECT_LT(on.values<double>(0, "path_gain")[0], 0.9 * none.values<double>(0, "path_gain")[0]);

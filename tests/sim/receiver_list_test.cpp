@@ -10,9 +10,9 @@
 namespace greatx::sim {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
-std::string message_of(const std::string& text) {
+std::string list_refusal(const std::string& text) {
   try {
     parse_receiver_list(text, "r.csv");
   } catch (const UserError& error) {
@@ -38,21 +38,21 @@ TEST(ReceiverList, HeaderCommentsBlankLinesAndWindowsEndsAreFine) {
 }
 
 TEST(ReceiverList, FaultsNameLineColumnAndField) {
-  EXPECT_EQ(message_of(""), "r.csv: expected one position (x, y, z) or more, found none");
-  EXPECT_EQ(message_of("# none\nx,y,z\n"), "r.csv: expected one position (x, y, z) or more, found none");
-  EXPECT_EQ(message_of("0,0,0\n1,,3\n"), "r.csv:2:3: y: expected a finite number, found a gap");
-  EXPECT_EQ(message_of(",0,0\n"), "r.csv:1:1: x: expected a finite number, found a gap");
-  EXPECT_EQ(message_of("0,0,0\n0,0,nan\n"), "r.csv:2:5: z: expected a finite number, found 'nan'");
-  EXPECT_EQ(message_of("nan,0,0\n"), "r.csv:1:1: x: expected a finite number, found 'nan'");
-  EXPECT_EQ(message_of("0,-inf,0\n"), "r.csv:1:3: y: expected a finite number, found '-inf'");
-  EXPECT_EQ(message_of("0,0,1e999\n"), "r.csv:1:5: z: expected a finite number, found '1e999'");
-  EXPECT_EQ(message_of("0,0,3 m\n"), "r.csv:1:5: z: expected a finite number, found '3 m'");
-  EXPECT_EQ(message_of("0,0\n"), "r.csv:1:3: expected 3 values (x, y, z), found 2");
-  EXPECT_EQ(message_of("0,0,0,0\n"), "r.csv:1:7: expected 3 values (x, y, z), found 4");
-  EXPECT_EQ(message_of("0;0;0\n"), "r.csv:1:1: expected 3 values (x, y, z), found 1");
-  EXPECT_EQ(message_of("y,x,z\n0,0,0\n"),
+  EXPECT_EQ(list_refusal(""), "r.csv: expected one position (x, y, z) or more, found none");
+  EXPECT_EQ(list_refusal("# none\nx,y,z\n"), "r.csv: expected one position (x, y, z) or more, found none");
+  EXPECT_EQ(list_refusal("0,0,0\n1,,3\n"), "r.csv:2:3: y: expected a finite number, found a gap");
+  EXPECT_EQ(list_refusal(",0,0\n"), "r.csv:1:1: x: expected a finite number, found a gap");
+  EXPECT_EQ(list_refusal("0,0,0\n0,0,nan\n"), "r.csv:2:5: z: expected a finite number, found 'nan'");
+  EXPECT_EQ(list_refusal("nan,0,0\n"), "r.csv:1:1: x: expected a finite number, found 'nan'");
+  EXPECT_EQ(list_refusal("0,-inf,0\n"), "r.csv:1:3: y: expected a finite number, found '-inf'");
+  EXPECT_EQ(list_refusal("0,0,1e999\n"), "r.csv:1:5: z: expected a finite number, found '1e999'");
+  EXPECT_EQ(list_refusal("0,0,3 m\n"), "r.csv:1:5: z: expected a finite number, found '3 m'");
+  EXPECT_EQ(list_refusal("0,0\n"), "r.csv:1:3: expected 3 values (x, y, z), found 2");
+  EXPECT_EQ(list_refusal("0,0,0,0\n"), "r.csv:1:7: expected 3 values (x, y, z), found 4");
+  EXPECT_EQ(list_refusal("0;0;0\n"), "r.csv:1:1: expected 3 values (x, y, z), found 1");
+  EXPECT_EQ(list_refusal("y,x,z\n0,0,0\n"),
             "r.csv:1:1: x: expected a number, or 'x' in a header line, found 'y'");
-  EXPECT_EQ(message_of("x,y,z\nx,y,z\n"), "r.csv:2:1: x: expected a finite number, found 'x'");
+  EXPECT_EQ(list_refusal("x,y,z\nx,y,z\n"), "r.csv:2:1: x: expected a finite number, found 'x'");
 }
 
 TEST(ReceiverList, AFileThatIsNotThereIsNamed) {
@@ -60,7 +60,7 @@ TEST(ReceiverList, AFileThatIsNotThereIsNamed) {
     load_receiver_list("absent.csv");
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("absent.csv: expected a readable file"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("absent.csv: expected a readable file"));
   }
 }
 

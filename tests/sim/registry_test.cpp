@@ -54,8 +54,8 @@ TEST(Registry, EverySensorIsMadeInTheScenariosOrderByTheMakerOfItsKind) {
     EXPECT_EQ(run.sensor->draws_pictures(), spec.kind.ends_with("camera")) << spec.name;
     EXPECT_TRUE(io::has_panels(spec.kind)) << spec.kind;
   }
-  EXPECT_THAT(made, testing::ElementsAre("poses pose", "a/radar radar", "a/camera camera", "b/lidar lidar",
-                                         "b/eye camera", "b/dvs event_camera", "csi csi"));
+  EXPECT_THAT(made, ::testing::ElementsAre("poses pose", "a/radar radar", "a/camera camera", "b/lidar lidar",
+                                           "b/eye camera", "b/dvs event_camera", "csi csi"));
 }
 
 TEST(SensorKinds, EveryKindThatFiresHasPanels) {
@@ -66,7 +66,8 @@ TEST(SensorKinds, EveryKindThatFiresHasPanels) {
 TEST(SensorKinds, ASentenceHasTheRightArticle) {
   std::vector<std::string> words;
   for (const SensorKind& kind : sensor_kinds) words.push_back(with_article(kind));
-  EXPECT_THAT(words, testing::ElementsAre("a camera", "an event camera", "a LiDAR", "a radar", "an antenna"));
+  EXPECT_THAT(words,
+              ::testing::ElementsAre("a camera", "an event camera", "a LiDAR", "a radar", "an antenna"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace greatx::sim {
 namespace {
 
-const std::filesystem::path folder = GREATX_SCENARIOS;
+const std::filesystem::path bad_folder = GREATX_SCENARIOS;
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -33,9 +33,9 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return at == std::string::npos ? text : text.replace(at, what.size(), with);
 }
 
-std::string message_of(const std::string& text) {
+std::string scenario_refusal(const std::string& text) {
   try {
-    parse_scenario(text, "s.yaml", folder);
+    parse_scenario(text, "s.yaml", bad_folder);
   } catch (const UserError& error) {
     return error.what();
   }
@@ -43,48 +43,48 @@ std::string message_of(const std::string& text) {
 }
 
 TEST(BadScenarios, EachGivesItsMessageAndLine) {
-  const std::string base = read(folder / "everything.yaml");
-  ASSERT_EQ(message_of(base), "accepted");
-  const auto cases = nlohmann::json::parse(read(folder / "bad_scenarios.json"));
+  const std::string base = read(bad_folder / "everything.yaml");
+  ASSERT_EQ(scenario_refusal(base), "accepted");
+  const auto cases = nlohmann::json::parse(read(bad_folder / "bad_scenarios.json"));
   ASSERT_GT(cases.size(), 100u);
   for (const auto& bad : cases) {
     SCOPED_TRACE(bad["name"].get<std::string>());
     const std::string text =
         bad.contains("text")
             ? bad["text"].get<std::string>()
-            : replaced(read(folder / bad.value("base", "everything.yaml")), bad["replace"], bad["with"]);
+            : replaced(read(bad_folder / bad.value("base", "everything.yaml")), bad["replace"], bad["with"]);
     std::string message = bad["message"];
     if (message.find("{folder}") != std::string::npos)
-      message = replaced(message, "{folder}", folder.string());
+      message = replaced(message, "{folder}", bad_folder.string());
     message = fmt::format("s.yaml:{}: {}", bad["line"].get<int>(), message);
     if (bad.value("prefix", false))  // goes on in yaml-cpp's own words
-      EXPECT_THAT(message_of(text), testing::StartsWith(message));
+      EXPECT_THAT(scenario_refusal(text), ::testing::StartsWith(message));
     else
-      EXPECT_EQ(message_of(text), message);
+      EXPECT_EQ(scenario_refusal(text), message);
   }
 }
 
 TEST(BadScenarios, MissingFileIsNamed) {
   try {
-    load_scenario(folder / "missing.yaml");
+    load_scenario(bad_folder / "missing.yaml");
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_EQ(std::string(error.what()),
-              (folder / "missing.yaml").string() + ": expected a scenario file, found no such file");
+              (bad_folder / "missing.yaml").string() + ": expected a scenario file, found no such file");
   }
 }
 
-TEST(BadScenarios, FolderIsNoScenario) { EXPECT_THROW(load_scenario(folder), UserError); }
+TEST(BadScenarios, FolderIsNoScenario) { EXPECT_THROW(load_scenario(bad_folder), UserError); }
 
 TEST(BadScenarios, HostileBytesAreRefusedWithoutCrash) {
-  const std::string base = read(folder / "everything.yaml");
-  EXPECT_THROW(parse_scenario(std::string("\0\xff\xfe greatx", 10), "s.yaml", folder), UserError);
-  EXPECT_THROW(parse_scenario(std::string(100000, '['), "s.yaml", folder), UserError);
-  EXPECT_THROW(parse_scenario("greatx: 1\nname: &a [*a]\nticks: 1\n", "s.yaml", folder), UserError);
+  const std::string base = read(bad_folder / "everything.yaml");
+  EXPECT_THROW(parse_scenario(std::string("\0\xff\xfe greatx", 10), "s.yaml", bad_folder), UserError);
+  EXPECT_THROW(parse_scenario(std::string(100000, '['), "s.yaml", bad_folder), UserError);
+  EXPECT_THROW(parse_scenario("greatx: 1\nname: &a [*a]\nticks: 1\n", "s.yaml", bad_folder), UserError);
   // Cut anywhere, it is read or refused by a UserError.
   for (size_t length = 0; length < base.size(); length += 7) {
     try {
-      parse_scenario(base.substr(0, length), "s.yaml", folder);
+      parse_scenario(base.substr(0, length), "s.yaml", bad_folder);
     } catch (const UserError&) {
     }
   }

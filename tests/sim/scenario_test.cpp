@@ -17,7 +17,7 @@
 namespace greatx::sim {
 namespace {
 
-const std::filesystem::path folder = GREATX_SCENARIOS;
+const std::filesystem::path good_folder = GREATX_SCENARIOS;
 
 template <typename T>
 const T& sensor(const Scenario& scenario, size_t node, size_t index) {
@@ -25,9 +25,9 @@ const T& sensor(const Scenario& scenario, size_t node, size_t index) {
 }
 
 TEST(Scenario, MinimalHasTheDocumentedDefaults) {
-  const Scenario s = load_scenario(folder / "minimal.yaml");
+  const Scenario s = load_scenario(good_folder / "minimal.yaml");
   EXPECT_EQ(s.name, "minimal");
-  EXPECT_EQ(s.file, folder / "minimal.yaml");
+  EXPECT_EQ(s.file, good_folder / "minimal.yaml");
   EXPECT_EQ(s.text, "greatx: 1\nname: minimal\nticks: 1\n");
   EXPECT_EQ(s.seed, 1u);
   EXPECT_EQ(s.sequences, 1u);
@@ -45,14 +45,14 @@ TEST(Scenario, MinimalHasTheDocumentedDefaults) {
 }
 
 TEST(Scenario, EverythingTop) {
-  const Scenario s = load_scenario(folder / "everything.yaml");
+  const Scenario s = load_scenario(good_folder / "everything.yaml");
   EXPECT_EQ(s.seed, 18446744073709551615u);
   EXPECT_EQ(s.sequences, 3u);
   EXPECT_EQ(s.ticks, 2000);
   EXPECT_EQ(s.tick_rate_hz, (Rational{2000, 1}));
   ASSERT_EQ(s.scene.objects.size(), 3u);
   EXPECT_EQ(s.scene.objects[0].name, "");
-  EXPECT_EQ(std::get<std::filesystem::path>(s.scene.objects[0].model.source), folder / "box.gltf");
+  EXPECT_EQ(std::get<std::filesystem::path>(s.scene.objects[0].model.source), good_folder / "box.gltf");
   EXPECT_EQ(s.scene.objects[0].model.where.line, 9);
   const StaticObject& house = s.scene.objects[1];
   EXPECT_EQ(house.position_m, dvec3(10, -20, 0.5));
@@ -63,7 +63,7 @@ TEST(Scenario, EverythingTop) {
   EXPECT_EQ(van.kind, "car");
   EXPECT_EQ(van.variant, "van");
   EXPECT_EQ(s.scene.objects[2].scale, dvec3(1, -1, 1.5));
-  EXPECT_EQ(s.scene.radio_materials, folder / "materials.yaml");
+  EXPECT_EQ(s.scene.radio_materials, good_folder / "materials.yaml");
   EXPECT_EQ(s.scene.origin_m, dvec3(691000.0, 5335000.0, 500.0));
   EXPECT_DOUBLE_EQ(s.environment.sun_azimuth, radians(-30.0));
   EXPECT_DOUBLE_EQ(s.environment.sun_elevation, radians(60.0));
@@ -81,7 +81,7 @@ TEST(Scenario, EverythingTop) {
 }
 
 TEST(Scenario, EverythingMoves) {
-  const Scenario s = load_scenario(folder / "everything.yaml");
+  const Scenario s = load_scenario(good_folder / "everything.yaml");
   ASSERT_EQ(s.nodes.size(), 6u);
   const auto& fixed = std::get<StaticTrajectory>(s.nodes[0].trajectory);
   EXPECT_EQ(fixed.position_m, dvec3(0, 0, 25));
@@ -124,7 +124,7 @@ TEST(Scenario, EverythingMoves) {
 }
 
 TEST(Scenario, EverythingSenses) {
-  const Scenario s = load_scenario(folder / "everything.yaml");
+  const Scenario s = load_scenario(good_folder / "everything.yaml");
   const auto& panel = sensor<AntennaConfig>(s, 0, 0);
   EXPECT_EQ(panel.pattern.shape, rf::Pattern::isotropic);
   EXPECT_EQ(panel.pattern.model, rf::PolarizationModel::model_2);
@@ -186,7 +186,7 @@ TEST(Scenario, EverythingSenses) {
 }
 
 TEST(Scenario, FieldOfViewIsHorizontalAndCentred) {
-  const Scenario s = load_scenario(folder / "uav_city.yaml");
+  const Scenario s = load_scenario(good_folder / "uav_city.yaml");
   const auto& camera = sensor<CameraConfig>(s, 1, 0);
   EXPECT_NEAR(camera.fx, 320.0, 1e-12);  // 640 / 2 / tan 45 degrees
   EXPECT_EQ(camera.fx, camera.fy);
@@ -201,7 +201,7 @@ TEST(Scenario, ClassesAndModelsAreThoseOfTheSceneAndItsGenerator) {
   const auto parse = [](const std::string& scene) {
     return parse_scenario(
         "greatx: 1\nname: x\nticks: 1\nscene:\n  objects:\n    - {name: a, " + scene + "}\n", "s.yaml",
-        folder);
+        good_folder);
   };
   std::ifstream file(GREATX_SCHEMA);
   const auto schema = nlohmann::json::parse(file);
@@ -223,18 +223,18 @@ TEST(Scenario, ClassesAndModelsAreThoseOfTheSceneAndItsGenerator) {
 
 TEST(Scenario, DurationCountsTicksInIt) {
   const auto ticks = [](const std::string& rest) {
-    return parse_scenario("greatx: 1\nname: x\n" + rest, "s.yaml", folder).ticks;
+    return parse_scenario("greatx: 1\nname: x\n" + rest, "s.yaml", good_folder).ticks;
   };
   EXPECT_EQ(ticks("duration_s: 10\n"), 10000);
   EXPECT_EQ(ticks("duration_s: 0.0001\n"), 1);
   EXPECT_EQ(ticks("duration_s: 0.1\n"), 100);  // 0.1 is not exact in fp64; the text is
   EXPECT_EQ(ticks("duration_s: 0.1001\n"), 101);
   EXPECT_EQ(ticks("duration_s: 1001\ntick_rate_hz: 30000/1001\n"), 30000);
-  EXPECT_EQ(load_scenario(folder / "broadcast_rates.yaml").ticks, 90);  // 89.91
+  EXPECT_EQ(load_scenario(good_folder / "broadcast_rates.yaml").ticks, 90);  // 89.91
 }
 
 TEST(Scenario, RatesAreExact) {
-  const Scenario s = load_scenario(folder / "broadcast_rates.yaml");
+  const Scenario s = load_scenario(good_folder / "broadcast_rates.yaml");
   EXPECT_EQ(s.tick_rate_hz.str(), "60000/1001");
   EXPECT_EQ(s.nodes[0].sensors[0].rate_hz.str(), "30000/1001");
   EXPECT_EQ(s.nodes[0].sensors[1].rate_hz.str(), "2997/125");

@@ -64,7 +64,7 @@ TEST(Schedule, ASensorWithoutARateFiresWheneverAnotherOneDoes) {
     for (const Due& due : schedule.due(tick, before)) all.emplace_back(due.sensor, due.sample);
     return all;
   };
-  using testing::ElementsAre, testing::Pair;
+  using ::testing::ElementsAre, ::testing::Pair;
   EXPECT_THAT(fired(33, 1), ElementsAre(Pair(0u, 1), Pair(2u, 1), Pair(3u, 1)));
   EXPECT_THAT(fired(100, 3), ElementsAre(Pair(0u, 3), Pair(1u, 1), Pair(2u, 3), Pair(3u, 3)));
 }

@@ -99,7 +99,7 @@ TEST(Simulator, SensorsOfDifferentRatesFireWhenTheyShould) {
   for (const Packet& packet : r.packets)
     for (const Record& record : packet.records)
       if (r.sensors[record.sensor].kind == "lidar") lidar_ticks.push_back(record.tick);
-  EXPECT_THAT(lidar_ticks, testing::ElementsAre(0, 3, 5, 8));  // round(k * 2.5), half up
+  EXPECT_THAT(lidar_ticks, ::testing::ElementsAre(0, 3, 5, 8));  // round(k * 2.5), half up
 }
 
 TEST(Consistency, ModalitiesSeeOneWorld) {
@@ -174,8 +174,8 @@ TEST(Plan, NamesThatAreNoneAndSwitchesThatCannotBe) {
     keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {shadow: on}\n");
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("'shadow' is no effect; expected one of"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("static_shadows"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("'shadow' is no effect; expected one of"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("static_shadows"));
   }
   EXPECT_THROW(keep_run(head + city + "nodes:\n" + uav(camera) + "effects: {camera: off}\n"), UserError);
 }

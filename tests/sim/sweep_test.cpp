@@ -68,7 +68,7 @@ void limit_memory() {
 #endif
 }
 
-class Sweep : public testing::TestWithParam<std::string> {
+class Sweep : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { limit_memory(); }
   const std::string text_ = read(folder / (GetParam() + ".yaml"));
@@ -193,7 +193,7 @@ TEST_P(Sweep, AcceptedEndsRunATick) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Numbers, Sweep, testing::ValuesIn(documents()),
+INSTANTIATE_TEST_SUITE_P(Numbers, Sweep, ::testing::ValuesIn(documents()),
                          [](const auto& document) { return document.param; });
 
 }  // namespace

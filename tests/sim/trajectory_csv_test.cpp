@@ -9,7 +9,7 @@
 namespace greatx::sim {
 namespace {
 
-std::string message_of(const std::string& text) {
+std::string csv_refusal(const std::string& text) {
   try {
     parse_way_points(text, "f.csv");
   } catch (const UserError& error) {
@@ -39,24 +39,25 @@ TEST(WayPointCsv, HeaderCommentsBlankLinesAndWindowsEndsAreFine) {
 }
 
 TEST(WayPointCsv, FaultsNameLineAndColumn) {
-  EXPECT_EQ(message_of(""), "f.csv: expected one way-point or more, found none");
-  EXPECT_EQ(message_of("# nothing\nt,x,y,z\n"), "f.csv: expected one way-point or more, found none");
-  EXPECT_EQ(message_of("0,0,0,0\n1, 0, north, 0\n"), "f.csv:2:7: y: expected a finite number, found 'north'");
-  EXPECT_EQ(message_of("0,0,0,nan\n"), "f.csv:1:7: z: expected a finite number, found 'nan'");
-  EXPECT_EQ(message_of("nan,0,0,0\n"), "f.csv:1:1: t: expected a finite number, found 'nan'");
-  EXPECT_EQ(message_of("0,0,inf,0\n"), "f.csv:1:5: y: expected a finite number, found 'inf'");
-  EXPECT_EQ(message_of("0,0,,0\n"), "f.csv:1:5: y: expected a finite number, found ''");
-  EXPECT_EQ(message_of("# c\n0,0,0,0\n0,1,1,1\n"),
+  EXPECT_EQ(csv_refusal(""), "f.csv: expected one way-point or more, found none");
+  EXPECT_EQ(csv_refusal("# nothing\nt,x,y,z\n"), "f.csv: expected one way-point or more, found none");
+  EXPECT_EQ(csv_refusal("0,0,0,0\n1, 0, north, 0\n"),
+            "f.csv:2:7: y: expected a finite number, found 'north'");
+  EXPECT_EQ(csv_refusal("0,0,0,nan\n"), "f.csv:1:7: z: expected a finite number, found 'nan'");
+  EXPECT_EQ(csv_refusal("nan,0,0,0\n"), "f.csv:1:1: t: expected a finite number, found 'nan'");
+  EXPECT_EQ(csv_refusal("0,0,inf,0\n"), "f.csv:1:5: y: expected a finite number, found 'inf'");
+  EXPECT_EQ(csv_refusal("0,0,,0\n"), "f.csv:1:5: y: expected a finite number, found ''");
+  EXPECT_EQ(csv_refusal("# c\n0,0,0,0\n0,1,1,1\n"),
             "f.csv:3:1: t: expected a time greater than the one before, 0, found '0'");
-  EXPECT_EQ(message_of("0,0,0\n"),
+  EXPECT_EQ(csv_refusal("0,0,0\n"),
             "f.csv:1:5: expected 4 or 7 values (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]), found 3");
-  EXPECT_EQ(message_of("0,0,0,0\n1,0,0,0,0,0,0\n"),
+  EXPECT_EQ(csv_refusal("0,0,0,0\n1,0,0,0,0,0,0\n"),
             "f.csv:2:13: expected 4 values as in the lines before, found 7");
-  EXPECT_EQ(message_of("t,x,y,z\n1,0,0,0,0,0,0\n"),
+  EXPECT_EQ(csv_refusal("t,x,y,z\n1,0,0,0,0,0,0\n"),
             "f.csv:2:13: expected 4 values as in the lines before, found 7");
-  EXPECT_EQ(message_of("x,y,z,t\n"), "f.csv:1:1: t: expected a number, or 't' in a header line, found 'x'");
-  EXPECT_EQ(message_of("t,x,y,z\nt,x,y,z\n"), "f.csv:2:1: t: expected a finite number, found 't'");
-  EXPECT_EQ(message_of("0;0;0;0\n"),
+  EXPECT_EQ(csv_refusal("x,y,z,t\n"), "f.csv:1:1: t: expected a number, or 't' in a header line, found 'x'");
+  EXPECT_EQ(csv_refusal("t,x,y,z\nt,x,y,z\n"), "f.csv:2:1: t: expected a finite number, found 't'");
+  EXPECT_EQ(csv_refusal("0;0;0;0\n"),
             "f.csv:1:1: expected 4 or 7 values (t, x, y, z[, yaw_deg, pitch_deg, roll_deg]), found 1");
 }
 

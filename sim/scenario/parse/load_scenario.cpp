@@ -15,7 +15,7 @@ namespace {
 
 /// Returns the number of ticks whose time lies in [0, duration).
 int64_t ticks_of_duration(const Field& field, const Rational& tick_rate_hz) {
-  const Rational duration = field.rational("a duration greater than 0 in seconds");
+  const Rational duration = rational_of(field, "a duration greater than 0 in seconds");
   const auto ticks = product(duration, tick_rate_hz);
   const int64_t whole =
       ticks ? ticks->numerator / ticks->denominator + (ticks->numerator % ticks->denominator ? 1 : 0) : 0;
@@ -26,7 +26,7 @@ int64_t ticks_of_duration(const Field& field, const Rational& tick_rate_hz) {
 
 void parse_time(const FieldMap& map, Scenario& scenario) {
   if (const auto f = map.find("tick_rate_hz"))
-    scenario.tick_rate_hz = f->rational("a rate greater than 0 such as 1000, 29.97 or 30000/1001");
+    scenario.tick_rate_hz = rational_of(*f, "a rate greater than 0 such as 1000, 29.97 or 30000/1001");
   map.exclude("duration_s", "ticks");
   if (const auto f = map.find("ticks"))
     scenario.ticks = static_cast<int64_t>(f->integer(1, most_ticks));
@@ -40,17 +40,17 @@ void parse_time(const FieldMap& map, Scenario& scenario) {
 std::map<std::string, Switch> parse_effects(const Field& field) {
   constexpr Switch switches[] = {Switch::automatic, Switch::on, Switch::off};
   std::map<std::string, Switch> effects;
-  for (const auto& [name, value] : entries_of(field))
+  for (const auto& [name, value] : field.entries())
     effects[name] = switches[value.choice({"auto", "on", "off"})];
   return effects;
 }
 
 /// Refuses names that would share a folder or a body.
 void check_names(const Field& root, const Scenario& scenario) {
-  for (const auto& [key, field] : entries_of(root)) {
+  for (const auto& [key, field] : root.entries()) {
     if (key != "channels") continue;
     for (const Field& channel : field.list("channels"))
-      for (const auto& [name_key, name] : entries_of(channel))
+      for (const auto& [name_key, name] : channel.entries())
         for (const NodeConfig& node : scenario.nodes)
           if (name_key == "name" && name.text() == node.name)
             name.fail("a name that no node has", fmt::format("'{}', a node's", node.name));
@@ -66,7 +66,7 @@ void check_names(const Field& root, const Scenario& scenario) {
 
 Scenario parse_scenario(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                         const std::filesystem::path& assets) {
-  const Field root = Field::parse(text, name, folder, assets);
+  const Field root = Field::parse_yaml(text, {name, folder, assets});
   const FieldMap map(
       root, {"greatx", "name", "seed", "sequences", "duration_s", "ticks", "trajectory_ticks", "tick_rate_hz",
              "scene", "environment", "nodes", "channels", "effects", "tolerance_db"});

@@ -19,7 +19,7 @@ TurnRate parse_turn_rate(const FieldMap& map, const Rational& tick_rate_hz) {
   map.exclude("rate_hz", "rpm");
   const bool per_minute = map.has("rpm");
   const Field field = per_minute ? *map.find("rpm") : map.require("rate_hz", "turns a second (or 'rpm')");
-  TurnRate rate = field.turn_rate("a rate other than 0 such as 90, -87.5 or 1000/7");
+  TurnRate rate = turn_rate_of(field, "a rate other than 0 such as 90, -87.5 or 1000/7");
   const auto hz = per_minute ? quotient(rate.hz, {60, 1}) : rate.hz;
   if (!hz || !quotient(*hz, tick_rate_hz))
     field.fail(
@@ -68,8 +68,8 @@ NodeConfig parse_node(const Field& field, size_t index, const Rational& tick_rat
   if (const auto f = map.find("model")) {
     const FieldMap model(*f, {"file", "generate", "position_m", "rotation_deg", "scale", "parts"});
     node.model = parse_model_source(model);
-    if (const auto g = model.find("position_m")) node.model_mount.position_m = g->position();
-    if (const auto g = model.find("rotation_deg")) node.model_mount.rotation = g->angles_deg();
+    if (const auto g = model.find("position_m")) node.model_mount.position_m = position_of(*g);
+    if (const auto g = model.find("rotation_deg")) node.model_mount.rotation = angles_of(*g);
     if (const auto g = model.find("scale")) node.model_scale = parse_scale(*g);
     if (const auto g = model.find("parts"))
       for (const Field& item : g->list("parts")) node.parts.push_back(parse_part(item, tick_rate_hz));
@@ -275,7 +275,7 @@ ChannelConfig parse_channel(const Field& field, const Rational& tick_rate_hz,
 }  // namespace
 
 Rational rate_of(const Field& field, const Rational& tick_rate_hz) {
-  const Rational rate = field.rational("a rate greater than 0 such as 10, 29.97 or 30000/1001");
+  const Rational rate = rational_of(field, "a rate greater than 0 such as 10, 29.97 or 30000/1001");
   if (less(tick_rate_hz, rate)) field.fail(fmt::format("at most the tick rate, {} Hz", tick_rate_hz.str()));
   if (!quotient(tick_rate_hz, rate))
     field.fail(

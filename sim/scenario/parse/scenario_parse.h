@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/scenario/parse/scenario_yaml.h"
+#include "sim/scenario/parse/scenario_values.h"
 #include "sim/scenario/scenario.h"
 
 namespace greatx::sim {

@@ -52,8 +52,8 @@ StaticObject parse_object(const Field& field) {
   StaticObject object;
   object.name = map.require("name", "a name").name();
   object.model = parse_model_source(map);
-  if (const auto f = map.find("position_m")) object.position_m = f->position();
-  if (const auto f = map.find("rotation_deg")) object.rotation = f->angles_deg();
+  if (const auto f = map.find("position_m")) object.position_m = position_of(*f);
+  if (const auto f = map.find("rotation_deg")) object.rotation = angles_of(*f);
   if (const auto f = map.find("scale")) object.scale = parse_scale(*f);
   if (const auto f = map.find("class")) object.semantic_class = parse_semantic_class(*f);
   return object;
@@ -65,7 +65,7 @@ size_t kind_of(const Field& field, std::string_view key, std::span<const std::st
   std::string expected = "one of";
   for (const std::string_view choice : choices)
     expected += fmt::format("{} {}", choice == choices.front() ? "" : ",", choice);
-  for (const auto& [name, value] : entries_of(field))
+  for (const auto& [name, value] : field.entries())
     if (name == key) return value.choice(choices);
   throw_user_error_at(field.where(), "{}.{}: expected {}, found nothing", field.path(), key, expected);
 }
@@ -123,7 +123,7 @@ SceneConfig parse_scene(const Field& field) {
   }
   if (const auto f = map.find("radio_materials")) scene.radio_materials = f->file();
   if (const auto f = map.find("optical_only")) scene.optical_only = f->boolean();
-  if (const auto f = map.find("origin_m")) scene.origin_m = f->position();
+  if (const auto f = map.find("origin_m")) scene.origin_m = position_of(*f);
   return scene;
 }
 

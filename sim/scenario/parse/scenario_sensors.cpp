@@ -15,8 +15,8 @@ namespace {
 Mount parse_mount(const Field& field) {
   const FieldMap map(field, {"position_m", "rotation_deg"});
   Mount mount;
-  if (const auto f = map.find("position_m")) mount.position_m = f->position();
-  if (const auto f = map.find("rotation_deg")) mount.rotation = f->angles_deg();
+  if (const auto f = map.find("position_m")) mount.position_m = position_of(*f);
+  if (const auto f = map.find("rotation_deg")) mount.rotation = angles_of(*f);
   return mount;
 }
 

@@ -13,8 +13,8 @@ namespace {
 StaticTrajectory parse_static(const Field& field) {
   const FieldMap map(field, {"type", "position_m", "rotation_deg"});
   StaticTrajectory trajectory;
-  trajectory.position_m = map.require("position_m", "a list of 3 numbers").position();
-  if (const auto f = map.find("rotation_deg")) trajectory.rotation = f->angles_deg();
+  trajectory.position_m = position_of(map.require("position_m", "a list of 3 numbers"));
+  if (const auto f = map.find("rotation_deg")) trajectory.rotation = angles_of(*f);
   return trajectory;
 }
 
@@ -27,9 +27,9 @@ std::vector<WayPoint> parse_points(const Field& field) {
     point.time_s = time.number(most_time_s);
     if (!points.empty() && !(point.time_s > points.back().time_s))
       time.fail(fmt::format("a time greater than the one before, {}", points.back().time_s));
-    point.position_m = map.require("position_m", "a list of 3 numbers").position();
+    point.position_m = position_of(map.require("position_m", "a list of 3 numbers"));
     if (const auto f = map.find("rotation_deg")) {
-      const dvec3 angles = f->angles_deg();
+      const dvec3 angles = angles_of(*f);
       point.orientation = orientation_from_yaw_pitch_roll(angles.x, angles.y, angles.z);
     }
     if (!points.empty() && point.orientation.has_value() != points.front().orientation.has_value())
@@ -73,21 +73,21 @@ BezierTrajectory parse_bezier(const Field& field, size_t node, std::vector<NodeR
     for (const char* drawn : {"box", "distance", "offset_m"}) map.exclude("control_points_m", drawn);
     const std::vector<Field> points = control->list("control points");
     if (points.size() != 4) control->fail("a list of 4 control points");
-    trajectory.control_points = {points[0].position(), points[1].position(), points[2].position(),
-                                 points[3].position()};
+    trajectory.control_points = {position_of(points[0]), position_of(points[1]), position_of(points[2]),
+                                 position_of(points[3])};
     return trajectory;
   }
   const FieldMap box(map.require("box", "a box (or 'control_points_m')"), {"min_m", "max_m"});
-  trajectory.min_m = box.require("min_m", "a list of 3 numbers").position();
+  trajectory.min_m = position_of(box.require("min_m", "a list of 3 numbers"));
   const Field upper = box.require("max_m", "a list of 3 numbers");
-  trajectory.max_m = upper.position();
+  trajectory.max_m = position_of(upper);
   for (int axis = 0; axis < 3; ++axis)
     if (trajectory.max_m[axis] < trajectory.min_m[axis])
       upper.fail("a corner not below min_m", fmt::format("{} < {} on axis {}", trajectory.max_m[axis],
                                                          trajectory.min_m[axis], "xyz"[axis]));
   if (const auto f = map.find("distance")) parse_distance(*f, node, trajectory, references);
   if (const auto f = map.find("offset_m")) {
-    trajectory.offset_m = f->position();
+    trajectory.offset_m = position_of(*f);
     if (glm::any(glm::lessThan(trajectory.offset_m, dvec3(0.0))))
       f->fail("3 numbers of at least 0", fmt::format("[{}, {}, {}]", trajectory.offset_m.x,
                                                      trajectory.offset_m.y, trajectory.offset_m.z));
@@ -99,7 +99,7 @@ CorridorTrajectory parse_corridor(const Field& field) {
   const FieldMap map(field, {"type", "center_line_m", "width_m", "height_m", "legs"});
   CorridorTrajectory trajectory;
   for (const Field& item : map.require("center_line_m", "a list of points").list("points", 2)) {
-    const dvec3 point = item.position();
+    const dvec3 point = position_of(item);
     if (!trajectory.center_line_m.empty() && point == trajectory.center_line_m.back())
       item.fail("a point other than the one before", "the same one");
     trajectory.center_line_m.push_back(point);

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "sim/sensors/radar/radar_arrays.h"
 #include "sim/sensors/sensor_metadata.h"
+#include "sim/world/posed_scene.h"
 
 namespace greatx::sim {
 
@@ -165,20 +166,19 @@ void RadarSensor::record(gpu::TickSlot& slot, const TickContext& context) {
   frame.updates.clear();
   frame.seeds = {seed_, fnv1a32(name_ + fmt::format("#{}", context.sequence)),
                  static_cast<uint32_t>(context.tick)};
-  for (uint32_t u = 0; u < config_.updates; ++u) {
-    Update update;
-    update.motion = motion(context, u);
-    const double at_s = update.motion.traced_s;
-    const std::vector<Pose> bodies = context.body_poses_at(context.time_s + at_s);
-    if (u > 0) gpu_scene_.record_update(slot, bodies);
-    const Pose transmitter = update.motion.transmitter(at_s), receiver = update.motion.receiver(at_s);
-    update.attitude = {transmitter.orientation, receiver.orientation};
-    update.rays = finder_.record(slot, transmitter, receiver, bodies);
-    if (u == config_.updates / 2) frame.baseline_m = transmitter.position - receiver.position;
-    frame.updates.push_back(std::move(update));
-  }
-  if (config_.updates > 1)
-    gpu_scene_.record_update(slot, context.body_poses);  // for the sensors after this one
+  at_traced_instants(gpu_scene_, slot, context, [&](TracedInstants& instants) {
+    for (uint32_t u = 0; u < config_.updates; ++u) {
+      Update update;
+      update.motion = motion(context, u);
+      const double at_s = update.motion.traced_s;
+      const std::vector<Pose> bodies = instants.move_to(context.time_s + at_s);
+      const Pose transmitter = update.motion.transmitter(at_s), receiver = update.motion.receiver(at_s);
+      update.attitude = {transmitter.orientation, receiver.orientation};
+      update.rays = finder_.record(slot, transmitter, receiver, bodies);
+      if (u == config_.updates / 2) frame.baseline_m = transmitter.position - receiver.position;
+      frame.updates.push_back(std::move(update));
+    }
+  });
 }
 
 std::vector<Array> RadarSensor::collect(const gpu::TickSlot& slot) { return process(find_echoes(slot)); }

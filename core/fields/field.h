@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads YAML strictly. Every value knows its place in the file and its path ("nodes[1].sensors[0].rate_hz"),
-// and every wrong one throws UserError "file:line: path: expected ..., found ...".
+// Reads the values that people write, in YAML or in JSON, strictly. Every value knows its place in the file
+// and its path ("nodes[1].sensors[0].rate_hz"), and every wrong one throws UserError "file:line: path:
+// expected ..., found ...". io/files/untrusted_json.h reads the large JSON files that programs write.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -13,52 +15,61 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <yaml-cpp/yaml.h>
-
 #include "core/error.h"
+#include "core/fields/field_value.h"
 #include "core/vec.h"
-#include "sim/scenario/limits.h"
-#include "sim/scenario/rational.h"
-#include "sim/scenario/rotation.h"
 
-namespace greatx::sim {
+namespace greatx {
 
-/// Represents one value of the document. Numbers follow YAML 1.2's core schema: they are plain (unquoted)
+/// The bounds of every number that is not an integer: squares and ratios in single precision on the device
+/// can hold them. Most quantities have narrower bounds of their own.
+inline constexpr double least_number = 1e-30, most_number = 1e30;
+
+/// Says where a document comes from.
+struct FieldSource {
+  std::string name;              ///< of the file, for messages
+  std::filesystem::path folder;  ///< where relative paths begin
+  std::filesystem::path assets;  ///< where they are looked for next; empty: nowhere
+};
+
+/// Represents one value of a document. Numbers follow YAML 1.2's core schema: they are plain (unquoted)
 /// scalars, and are 0 or of a magnitude from least_number to most_number.
 class Field {
  public:
-  /// Returns the root of the one document in `text`. Throws UserError with the line if it is not well-formed
-  /// YAML.
-  static Field parse(const std::string& text, const std::string& file_name,
-                     const std::filesystem::path& folder, const std::filesystem::path& assets = {});
+  /// Returns the root of the YAML document in `text`. Throws as read_yaml() does.
+  static Field parse_yaml(const std::string& text, FieldSource source);
+  /// Takes a document's root, whose path is `path`.
+  Field(std::shared_ptr<const FieldValue> root, FieldSource source, std::string path = "");
 
-  SourceLocation where() const { return {source_->file_name, line_}; }
+  SourceLocation where() const { return {source_->name, line_}; }
   const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& expected) const;
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
+  /// Throws UserError "file:line: path: `message`".
+  [[noreturn]] void refuse(const std::string& message) const;
 
-  bool is_list() const { return node_.IsSequence(); }
-  bool is_scalar() const { return node_.IsScalar(); }
+  bool is_list() const { return value_->kind == FieldValue::Kind::list; }
+  bool is_map() const { return value_->kind == FieldValue::Kind::map; }
+  bool is_scalar() const { return value_->kind == FieldValue::Kind::scalar; }
+  /// Returns the text of a scalar, quoted or not, and an empty text for any other value.
+  std::string_view scalar() const { return value_->text; }
   bool boolean() const;
   std::string text() const;  ///< not empty
   /// Returns a name that is also a folder's or file's: it has letters, digits, '_', '-', '.', and does not
   /// begin with '.' or '-'.
   std::string name() const;
+  /// Returns the number of a plain scalar that is finite. Throws "expected `expected`" for any other value.
+  double finite(const std::string& expected = "a finite number") const;
   double number(double most = most_number) const;  ///< from -most
   double positive(double least = least_number, double most = most_number) const;
   double non_negative(double most = most_number) const;
   double between(double low, double high) const;  ///< inclusive
   uint64_t integer(uint64_t low, uint64_t high = std::numeric_limits<uint64_t>::max()) const;
   uint32_t integer32(uint32_t low, uint32_t high) const { return static_cast<uint32_t>(integer(low, high)); }
-  /// Returns a positive rational number, from a number or a text such as 30000/1001; `expected` describes it.
-  Rational rational(const std::string& expected) const;
-  /// Returns the same with a sign, '-' or none.
-  TurnRate turn_rate(const std::string& expected) const;
   dvec3 vector3(double most = most_number) const;  ///< each from -most
-  dvec3 position() const;                          ///< of a thing in the world, or a way or extent in it, m
-  dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
   /// Returns the index of the text in `choices`.
   size_t choice(std::initializer_list<std::string_view> choices) const {
     return choice(std::span(choices.begin(), choices.size()));
@@ -67,23 +78,18 @@ class Field {
   /// Returns the items, of which there must be at least `least`; `of_what` names them in messages, e.g.
   /// "sensors".
   std::vector<Field> list(const std::string& of_what, size_t least = 0) const;
-  /// Returns an existing regular file as an absolute path. A relative one is looked for in the scenario's
+  /// Returns the entries of a map, in the document's order. A duplicate key throws.
+  std::vector<std::pair<std::string, Field>> entries() const;
+  /// Returns an existing regular file as an absolute path. A relative one is looked for in the document's
   /// folder, then among the assets.
   std::filesystem::path file() const;
 
  private:
-  double finite() const;
-  friend std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
-  struct Source {
-    std::string file_name;
-    std::filesystem::path folder;
-    std::filesystem::path assets;  ///< empty: none
-  };
-  Field(std::shared_ptr<const Source> source, YAML::Node node, std::string path, int line);
+  Field(const Field& parent, std::shared_ptr<const FieldValue> value, std::string path, int line);
   std::string describe() const;
 
-  std::shared_ptr<const Source> source_;
-  YAML::Node node_;
+  std::shared_ptr<const FieldSource> source_;
+  std::shared_ptr<const FieldValue> value_;
   std::string path_;
   int line_ = 0;
 };
@@ -112,10 +118,4 @@ class FieldMap {
   std::vector<std::pair<std::string, Field>> entries_;
 };
 
-/// Returns the entries of a map with free keys, in the file's order. Duplicate keys throw.
-std::vector<std::pair<std::string, Field>> entries_of(const Field& field);
-
-/// Returns " (did you mean 'x'?)" for the candidate nearest to `word`, or an empty text if none is near.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
-
-}  // namespace greatx::sim
+}  // namespace greatx
