@@ -60,10 +60,9 @@ class Midpoints {
   };
   /// Holds the whole way of a sequence from its end of the path to a patch.
   struct PatchArrival {
-    uint32_t first = 0,
-             depth = 0;     ///< reflections in PatchArrivals::facets and points, outwards
-    dvec3 from{0.0};        ///< vertex before the patch
-    double length_m = 0.0;  ///< unfolded length to the patch's centre
+    uint32_t first = 0, depth = 0;  ///< range in PatchArrivals::facets and points, outwards
+    dvec3 from{0.0};                ///< vertex before the patch
+    double length_m = 0.0;          ///< unfolded length to the patch's centre
   };
   struct PatchArrivals {
     std::vector<uint32_t> offsets;  ///< [patches + 1] into arrivals
