@@ -101,7 +101,7 @@ TEST_F(InterruptCli, ASearchShowsProgressAndEndsOnCtrlC) {
     EXPECT_THAT(text, HasSubstr("about ")) << command[0];
     EXPECT_TRUE(fs::is_empty(folder_ / "cache")) << command[0] << ": nothing half done is kept";
   }
-  // A data set or a map that was interrupted before its first record can still be examined.
+  // `greatx verify` reports the interrupted data set as unfinished.
   EXPECT_EQ(greatx(fmt::format("verify {}", (folder_ / "data").string())).code, 1);
   EXPECT_THAT(greatx(fmt::format("verify {}", (folder_ / "data").string())).out, HasSubstr("unfinished"));
 }

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Checks docs/scenario.schema.json. The schema must accept the good scenarios. Of the bad ones it must refuse
-exactly those that bad_scenarios.json says a schema can find. The others show only in several fields together or
-in files.
+exactly those that bad_scenarios.json says a schema can find. The others show only in several fields together
+or in files.
 
 usage: check_schema.py SCHEMA FOLDER
 """
