@@ -164,7 +164,7 @@ def check_path(channel, p, i, tx, rx, normals, worst, where):
         )
     check_foliage(channel, p, i, length, worst, where)
     if np.linalg.norm(segments, axis=1).min() < 1e-3:
-        return  # both reflections of a corner: directions between them are rounding
+        return  # two reflections in a corner: the direction between them is rounding error
     for name, d in (("departure", segments[0]), ("arrival", -segments[-1])):
         error = np.linalg.norm(model.direction(p[name][i]) - model.unit(d))
         worst.add(f"{name} over the vertices, rad", error, 1e-9 * max(1, 100 / np.linalg.norm(d)), where)
