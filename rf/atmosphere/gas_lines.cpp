@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tables 1 and 2 of Recommendation ITU-R P.676-13 (2022), "Attenuation by atmospheric gases and related
-// effects", Annex 1: spectroscopic data of oxygen and of water vapour, in the order and units of the
+// Contains Tables 1 and 2 of Recommendation ITU-R P.676-13 (2022), "Attenuation by atmospheric gases and
+// related effects", Annex 1: spectroscopic data of oxygen and of water vapour, in the order and units of the
 // recommendation.
 #include "rf/atmosphere/gas_lines.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small convex polygons in a plane, with counter-clockwise corners, for parts of tubes. They allocate no
-// memory.
+// Provides small convex polygons in a plane, with counter-clockwise corners, for parts of tubes. They
+// allocate no memory.
 #pragma once
 
 #include <algorithm>
