@@ -22,7 +22,7 @@ enum class FacetKind : uint8_t {
   absent = 3,   ///< has no effect: foliage while that effect is off
 };
 
-/// [facets of the scene]
+/// Kinds of all facets, [facets of the scene].
 using FacetKinds = std::vector<FacetKind>;
 
 }  // namespace greatx::rf

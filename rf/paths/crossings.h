@@ -23,8 +23,8 @@ struct Segment {
   dvec3 a{0.0}, b{0.0};                ///< local coordinates, metres
   uint32_t facet_a = shared::rf_none;  ///< a facet that the path touches at `a`; rf_none: none
   uint32_t facet_b = shared::rf_none;
-  uint32_t body_a =
-      shared::rf_none;  ///< body that carries the node at `a` and must not hide it; rf_none: none
+  /// Body that carries the node at `a` and must not hide it; rf_none: none.
+  uint32_t body_a = shared::rf_none;
   uint32_t body_b = shared::rf_none;
   uint32_t other_a = shared::rf_none;  ///< the second face of the wedge at `a`; rf_none: none
   uint32_t other_b = shared::rf_none;

@@ -76,7 +76,7 @@ class MovingSearch {
   std::vector<SequenceBeam> beams_;  ///< of the tree's sequences with fewer than max_depth facets
   CandidateList sequences_;          ///< [beams_]
   uint32_t tree_depth_ = 0;
-  std::vector<uint32_t> fixed_facet_;  ///< [facets of the world]: index in `fixed_`; ~0u: moves, or foliage
+  std::vector<uint32_t> fixed_facet_;  ///< [facets of the world]: index in `fixed_`, or ~0u
 };
 
 }  // namespace greatx::rf
