@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Upper bounds of the attenuation by each part of the air over a distance, for any direction and polarization
-// of a path. An effect whose bound lies within the tolerance may stay off. Each function throws UserError if
-// its model does not cover the frequency; gas_model_covers, rain_model_covers, fog_model_covers and
-// foliage_model_covers tell this in advance.
+// Computes upper bounds of the attenuation by each part of the air over a distance, for any direction and
+// polarization of a path. An effect whose bound lies within the tolerance may stay off. Each function throws
+// UserError if its model does not cover the frequency; gas_model_covers, rain_model_covers, fog_model_covers
+// and foliage_model_covers tell this in advance.
 #pragma once
 
 #include "rf/atmosphere/weather.h"

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Does on the host what EchoPass does on the device. Where the "GPU" is a CPU, a ray costs a third of what it
-// costs in a shader. Rays are traced in fp64 against the convex pieces of facets to which tubes are clipped.
-// Each body has one tree of boxes in its own frame, which poses do not change. The trees are built by binning
-// the surface-area heuristic (I. Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE
-// Symp. Interactive Ray Tracing 2007). A node holds three binary levels, so that eight boxes are tested side
-// by side. If a ray meets two facets at the same distance, the facet with the lower index counts, so that the
-// result does not depend on the tree.
+// Traces rays on the host as EchoPass does on the device. Where the "GPU" is a CPU, a ray costs a third of
+// what it costs in a shader. Rays are traced in fp64 against the convex pieces of facets to which tubes are
+// clipped. Each body has one tree of boxes in its own frame, which poses do not change. The trees are built
+// by binning the surface-area heuristic (I. Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", IEEE Symp. Interactive Ray Tracing 2007). A node holds three binary levels, so that eight
+// boxes are tested side by side. If a ray meets two facets at the same distance, the facet with the lower
+// index counts, so that the result does not depend on the tree.
 #pragma once
 
 #include <array>

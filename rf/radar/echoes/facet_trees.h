@@ -27,7 +27,7 @@ struct KeptSide {
 
 class FacetTrees {
  public:
-  static constexpr uint32_t most_corners = 8;  ///< of a piece
+  static constexpr uint32_t most_corners = 8;  ///< largest number of corners of a piece
 
   explicit FacetTrees(const scene::Scene& scene);
   /// Returns the indices of the pieces whose boxes are not entirely outside one of the half-spaces,

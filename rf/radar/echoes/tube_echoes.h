@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turns the hits of the rays into what every tube sends back: geometry and fields, tube by tube, in fp64.
+// Computes the raw echoes from the hits of the rays: geometry and fields, tube by tube, in fp64.
 #pragma once
 
 #include <cstdint>
@@ -81,8 +81,8 @@ class TubeEchoes {
   /// Selects the mirror on the way to the receiver: the first surface of the tube, or the surface that its
   /// ray meets next.
   enum class Over : uint8_t { first, other };
-  /// Adds what the currents on surface `last` of the chain send to the receiver over `mirror`. If only this
-  /// direction of the path is searched for, the opposite path is added with it.
+  /// Adds the echoes of the currents on surface `last` of the chain that reach the receiver over `mirror`. If
+  /// the opposite path is not searched for, it is added with this one.
   void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
                  bool whole) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;

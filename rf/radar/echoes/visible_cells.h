@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds exactly what a tube sees. The facets that its ray and the rays around it have met are clipped to the
-// tube, and nearer facets hide farther ones.
+// Finds exactly the facets that a tube sees. The facets that its ray and the rays around it have met are
+// clipped to the tube, and nearer facets hide farther ones.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 //
 //   rays over the field of view
 //     ─► EchoPass (GPU; EchoTracer where that is a CPU): hits of every ray tube, bounce by bounce
-//     ─► physical optics of each tube (fp64, host): what it sends back to the receiver
+//     ─► physical optics of each tube (fp64, host): the field that it sends back to the receiver
 //     ─► Echo list: tubes merged into scatterers                  ── rf/radar/echoes ends here
 //     ─► beat signal, cube [rx, tx, chirp, sample] ─► noise       ── rf/radar/signal: needs no device
 //     ─► windows, transforms ─► range-Doppler, range-azimuth maps ─► CFAR ─► detections

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models what a receiver adds to the beat signal: thermal noise, digitization and phase noise. Every random
-// draw is a function of (seed, stream, sequence, purpose).
+// Models the receiver's thermal noise, digitization and phase noise in the beat signal. Every random draw is
+// a function of (seed, stream, sequence, purpose).
 #pragma once
 
 #include <complex>

@@ -35,7 +35,7 @@ struct SlotScales {
   uint32_t grid;         ///< M
 };
 
-/// Holds the tones of a block in one slot, without what differs between virtual antennas.
+/// Holds the tones of a block in one slot, without the differences between virtual antennas.
 struct BlockTones {
   float re[tone_block], im[tone_block];  ///< phasor of the phase at the middle of the slot
   int32_t cell[tone_block];              ///< grid frequency below the tone, in [0, M)
