@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the bytes that two builds of greatx write: a change of structure must leave every one of them
-alone.
+"""Compares the bytes that two builds of greatx write. A change of structure must not change any of them.
 
-    python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER] [--only city --only
-    room]
+    python3 tests/compare_builds.py OLD/greatx NEW/greatx [--ticks 4] [--assets FOLDER]
+            [--only city --only room]
 
 Each embedded scenario, and the examples whose files lie in FOLDER, run for a few ticks in both builds. The
 manifests list the size and the SHA-256 of every file, so equal manifests mean equal data sets. For each
@@ -25,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def run(program, *arguments):
-    """The bytes on stdout. Ends the comparison, with what the program said, if the program fails."""
+    """Returns the bytes on stdout. If the program fails, ends the comparison with the program's message."""
     command = [str(program), *map(str, arguments)]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if done.returncode:
@@ -34,13 +33,14 @@ def run(program, *arguments):
 
 
 def files_of(folder):
-    """path -> (size, SHA-256) of a finished data set."""
+    """Returns path -> (size, SHA-256) of a finished data set."""
     manifest = json.loads((folder / "manifest.json").read_text())
     return {entry["path"]: (entry["size"], entry["sha256"]) for entry in manifest["files"]}
 
 
 def difference_of_sets(old, new):
-    """The first file that differs between two data sets, in words; empty if all are equal."""
+    """Describes the first file that differs between two data sets. Returns an empty string if all are
+    equal."""
     before, after = files_of(old), files_of(new)
     for path in sorted(before.keys() | after.keys()):
         if path not in after:
@@ -48,7 +48,10 @@ def difference_of_sets(old, new):
         if path not in before:
             return f"{path} is missing in the old one"
         if before[path] != after[path]:
-            return f"{path}: {before[path][0]} bytes {before[path][1][:12]}, {after[path][0]} bytes {after[path][1][:12]}"
+            return (
+                f"{path}: {before[path][0]} bytes {before[path][1][:12]}, "
+                f"{after[path][0]} bytes {after[path][1][:12]}"
+            )
     return ""
 
 
@@ -69,7 +72,8 @@ def compare_paths(programs, scenario, extra, tick):
 
 
 def cases_of(assets):
-    """(name, scenario argument, further arguments, whether it has a channel) of everything to compare."""
+    """Yields (name, scenario argument, further arguments, whether it has a channel) of everything to
+    compare."""
     for file in sorted((ROOT / "assets/scenarios").glob("*.yaml")):
         yield file.stem, file.stem, [], "\nchannels:" in file.read_text()
     if assets:

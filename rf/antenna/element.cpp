@@ -12,18 +12,18 @@ namespace greatx::rf {
 namespace {
 
 constexpr double short_directivity = 1.5;
-/// 4 / Cin(2 pi), Balanis, "Antenna Theory", 4th ed., eq. 4-91.
+/// 4 / Cin(2 pi): Balanis, "Antenna Theory", 4th ed., eq. 4-91.
 constexpr double half_wave_directivity = 1.6409223770;
 
-/// cos(pi/2 cos theta) / sin theta, as sin(pi/2 (1 - |cos theta|)) / sin theta with 1 - |c| = s^2 / (1 +
-/// |c|).
+/// Returns cos(pi/2 cos theta) / sin theta times the root of the directivity. The cosine is computed as
+/// sin(pi/2 (1 - |cos theta|)) with 1 - |c| = s^2 / (1 + |c|), which does not cancel near the poles.
 double half_wave_amplitude(const Angles& at) {
   if (at.sin_theta == 0.0) return 0.0;
   const double versine = at.sin_theta * at.sin_theta / (1.0 + std::abs(at.cos_theta));
   return std::sqrt(half_wave_directivity) * std::sin(0.5 * pi * versine) / at.sin_theta;
 }
 
-/// TR 38.901 (V17), Table 7.3-1.
+/// Returns the amplitude of TR 38.901 (V17), Table 7.3-1.
 double tr38901_amplitude(const Angles& at) {
   constexpr double peak_dbi = 8.0, beamwidth = radians(65.0), floor_db = 30.0;
   const double below = std::atan2(at.cos_theta, at.sin_theta) / beamwidth;  // (90 - theta)/65
@@ -51,12 +51,12 @@ Jones unslanted(const ElementPattern& pattern, const Angles& at) {
   GREATX_CHECK(false, "pattern {}", static_cast<uint32_t>(pattern.shape));
 }
 
-/// (cos, sin) of the angle by which the field is turned in the antenna's (theta, phi). `slant`: (cos, sin)
-/// zeta.
+/// Returns (cos, sin) of the angle by which the slant turns the field in the antenna's (theta, phi). `slant`:
+/// (cos, sin) zeta.
 dvec2 turn_of(PolarizationModel model, const dvec2& slant, const Angles& at) {
   if (model == PolarizationModel::model_2) return slant;
-  // (cos, sin) psi times D; D is their length, which unlike 1 - (...)^2 does not cancel. Along the axis
-  // itself psi may be anything: 0.
+  // `turn` is (cos psi, sin psi) times D. Its length is D, and unlike 1 - (...)^2 it does not cancel. Along
+  // the rolled axis psi is arbitrary; 0 is taken.
   const dvec2 turn{slant.x * at.sin_theta + slant.y * at.sin_phi * at.cos_theta, slant.y * at.cos_phi};
   const double d = std::hypot(turn.x, turn.y);
   return d > 0.0 ? turn / d : dvec2(1.0, 0.0);
@@ -88,10 +88,10 @@ TurnedElement::TurnedElement(ElementPattern pattern, std::span<const double> sla
 
 void TurnedElement::respond(const dvec3& world_direction, std::span<Jones> fields) const {
   GREATX_CHECK(fields.size() >= count_, "room for {} of {} polarizations", fields.size(), count_);
-  const Angles own = angles_of(world_direction * world_from_antenna_);  // the transpose times the direction
+  const Angles own = angles_of(world_direction * world_from_antenna_);  // multiplies by the transpose
   const Angles world = angles_of(world_direction);
-  // Both bases lie across the direction: the matrix of eq. 7.1-11 is a turn by the angle between them (eq.
-  // 7.1-12).
+  // Both bases are perpendicular to the direction: the matrix of eq. 7.1-11 is a turn by the angle between
+  // them (eq. 7.1-12).
   const dvec3 own_theta = world_from_antenna_ * own.theta_hat();
   const dvec2 basis{glm::dot(world.theta_hat(), own_theta), glm::dot(world.phi_hat(), own_theta)};
   const Jones field = turned(unslanted(pattern_, own), basis);  // turns about one axis commute

@@ -7,7 +7,7 @@
 
 namespace greatx::rf {
 
-/// A complex field vector.
+/// Holds a complex field vector.
 struct FieldVector {
   dvec3 re{0.0}, im{0.0};
   Complex along(const dvec3& axis) const { return {glm::dot(re, axis), glm::dot(im, axis)}; }

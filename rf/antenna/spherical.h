@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions and field vectors on the spherical basis of a frame: zenith theta from +z, azimuth phi =
-// atan2(y, x) (3GPP TR 38.901, section 7.1).
+// Resolves directions and field vectors on the spherical basis of a frame: zenith theta from +z, azimuth phi
+// = atan2(y, x) (3GPP TR 38.901, section 7.1).
 #pragma once
 
 #include <complex>
@@ -13,25 +13,25 @@ namespace greatx::rf {
 
 using Complex = std::complex<double>;
 
-/// (F_theta, F_phi): amplitude gains, |F|^2 = power gain.
+/// Holds a field as amplitude gains (F_theta, F_phi); |F|^2 is a power gain.
 struct Jones {
   Complex theta{0.0}, phi{0.0};
 };
 
-/// The angles of a direction by their functions: from the components, so that nothing is lost near the poles;
-/// phi = 0 on the z axis.
+/// Holds the cosines and sines of a direction's angles. They are computed from the components, so that no
+/// precision is lost near the poles. phi = 0 on the z axis.
 struct Angles {
   double cos_theta, sin_theta, cos_phi, sin_phi;
   dvec3 theta_hat() const { return {cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta}; }
   dvec3 phi_hat() const { return {-sin_phi, cos_phi, 0.0}; }
 };
-/// `direction` need not be a unit vector, but must have a length.
+/// Returns the angles of `direction`, which need not be a unit vector but must not be zero.
 Angles angles_of(const dvec3& direction);
 
-/// theta = atan2(hypot(x, y), z), phi = atan2(y, x); phi = 0 on the z axis. `direction` need not be a unit
-/// vector.
+/// Returns theta = atan2(hypot(x, y), z) and phi = atan2(y, x); phi = 0 on the z axis. `direction` need not
+/// be a unit vector.
 dvec2 theta_phi(const dvec3& direction);
-/// The unit vectors theta-hat and phi-hat at a direction; at the poles the limit along phi = 0.
+/// Return the unit vectors theta-hat and phi-hat at a direction; at the poles, their limits along phi = 0.
 dvec3 theta_hat(const dvec3& direction);
 dvec3 phi_hat(const dvec3& direction);
 

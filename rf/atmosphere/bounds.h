@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The most that each part of the air can take over a distance, whatever a path's directions and polarization.
-// An effect whose bound is within the tolerance may stay off. Each throws UserError where its model does not
-// cover the frequency (gas_model_covers, rain_model_covers, fog_model_covers, foliage_model_covers tell
-// beforehand).
+// Computes upper bounds of the attenuation by each part of the air over a distance, for any direction and
+// polarization of a path. An effect whose bound lies within the tolerance may stay off. Each function throws
+// UserError if its model does not cover the frequency; gas_model_covers, rain_model_covers, fog_model_covers
+// and foliage_model_covers tell this in advance.
 #pragma once
 
 #include "rf/atmosphere/weather.h"
@@ -12,13 +12,16 @@
 
 namespace greatx::rf {
 
-/// dB over `distance_m`; exact, for gas knows no direction.
+/// Returns the attenuation by gases over `distance_m`, dB. The value is exact because gas attenuation does
+/// not depend on the direction.
 double most_gas_db(const Weather& weather, double frequency_hz, double distance_m);
-/// dB over `distance_m`: the larger of horizontal and vertical polarization, travelling horizontally.
+/// Returns the larger attenuation by rain of horizontal and vertical polarization over `distance_m`, dB, for
+/// a horizontal path.
 double most_rain_db(const Weather& weather, double frequency_hz, double distance_m);
-/// dB over `distance_m`; exact.
+/// Returns the attenuation by fog over `distance_m`, dB. The value is exact.
 double most_fog_db(const Weather& weather, double frequency_hz, double distance_m);
-/// dB of any depth up to `depth_m`, with the step down at 14 m in mind.
+/// Returns the largest attenuation by foliage of any depth from 0 to `depth_m`, dB. The model steps down at a
+/// depth of 14 m, so that the largest value need not be that at `depth_m`.
 double most_foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m);
 
 }  // namespace greatx::rf

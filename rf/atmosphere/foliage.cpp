@@ -27,10 +27,10 @@ void check_frequency(const scene::Foliage& foliage, double frequency_hz, const s
 
 using Place = std::array<double, 3>;
 
-/// One side of a triangle, its smaller end first.
+/// Holds one side of a triangle, with the smaller end first.
 struct Side {
   Place low, high;
-  int direction = 0;  ///< 1: the triangle runs from low to high; -1: back
+  int direction = 0;  ///< 1: the triangle runs from low to high; -1: from high to low
 };
 
 Side side_of(const dvec3& from, const dvec3& to) {
@@ -38,7 +38,7 @@ Side side_of(const dvec3& from, const dvec3& to) {
   return a < b ? Side{a, b, 1} : Side{b, a, -1};
 }
 
-/// Edges along which the sides' directions do not cancel.
+/// Returns the number of edges along which the directions of the sides do not cancel.
 size_t open_edges(std::vector<Side> sides) {
   const auto edge = [](const Side& side) { return std::tie(side.low, side.high); };
   std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return edge(a) < edge(b); });

@@ -11,14 +11,15 @@
 namespace greatx::rf {
 namespace {
 
-/// The air in the recommendation's variables.
+/// Describes the air in the variables of the recommendation.
 struct Air {
   double p;      ///< dry pressure, hPa
   double e;      ///< vapour pressure, hPa
   double theta;  ///< 300 / T
 };
 
-/// Line shape F (P.676-13, eq. 5), all in GHz: width `delta_f`, interference `delta`.
+/// Returns the line shape F (P.676-13, eq. 5), all frequencies in GHz: `delta_f` is the width, `delta` the
+/// interference.
 double line_shape(double f, double f0, double delta_f, double delta) {
   const double below = f0 - f, above = f0 + f;
   return f / f0 *
@@ -58,8 +59,9 @@ double water_vapour(double f, const Air& air) {
   return sum;
 }
 
-/// N''_D (P.676-13, eq. 8 and 9): Debye spectrum of oxygen below 10 GHz, nitrogen under pressure above 100
-/// GHz. The first term is 6.14e-5 / (d (1 + (f/d)^2)), written so that a vacuum (d = 0) has none.
+/// Returns N''_D (P.676-13, eq. 8 and 9): the Debye spectrum of oxygen below 10 GHz and the pressure-induced
+/// absorption of nitrogen above 100 GHz. The first term is 6.14e-5 / (d (1 + (f/d)^2)), written so that it is
+/// 0 in a vacuum (d = 0).
 double dry_continuum(double f, const Air& air) {
   const double d = 5.6e-4 * (air.p + air.e) * std::pow(air.theta, 0.8);
   const double debye = 6.14e-5 * d / (d * d + f * f);

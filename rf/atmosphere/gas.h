@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Attenuation by oxygen and water vapour, line by line: ITU-R P.676-13, Annex 1.
+// Computes the attenuation by oxygen and water vapour line by line by ITU-R P.676-13, Annex 1.
 #pragma once
 
 namespace greatx::rf {
@@ -11,10 +11,10 @@ constexpr bool gas_model_covers(double frequency_hz) {
   return frequency_hz >= gas_min_hz && frequency_hz <= gas_max_hz;
 }
 
-/// Specific attenuation by gases, dB/km: 0.182 f (N''_oxygen + N''_water vapour) (P.676-13, eq. 1), with 44
-/// lines of oxygen, 35 of water vapour and the dry continuum. `dry_pressure_hpa` is that of dry air alone:
-/// the barometer's less the vapour's. Finite at every line's centre, in dry air and in vacuum.
-/// Throws UserError outside 1 to 1000 GHz.
+/// Returns the specific attenuation by gases, dB/km: 0.182 f (N''_oxygen + N''_water vapour) (P.676-13, eq.
+/// 1), with 44 lines of oxygen, 35 lines of water vapour and the dry continuum. `dry_pressure_hpa` is the
+/// pressure of dry air alone: the barometric pressure minus the vapour pressure. The result is finite at the
+/// centre of every line, in dry air and in vacuum. Throws UserError outside 1 to 1000 GHz.
 double gas_db_per_km(double frequency_hz, double temperature_k, double dry_pressure_hpa,
                      double water_vapour_g_m3);
 

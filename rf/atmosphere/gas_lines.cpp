@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recommendation ITU-R P.676-13 (2022), "Attenuation by atmospheric gases and related effects", Annex 1,
-// Tables 1 and 2: spectroscopic data of oxygen and of water vapour, in the recommendation's order and units.
+// Contains Tables 1 and 2 of Recommendation ITU-R P.676-13 (2022), "Attenuation by atmospheric gases and
+// related effects", Annex 1: spectroscopic data of oxygen and of water vapour, in the order and units of the
+// recommendation.
 #include "rf/atmosphere/gas_lines.h"
 
 namespace greatx::rf {

@@ -10,7 +10,7 @@
 namespace greatx::rf {
 namespace {
 
-/// sum_j a exp(-((log10 f - b)/c)^2) + m log10 f + c0 (P.838-3, eq. 2 and 3).
+/// Terms of the regression sum_j a exp(-((log10 f - b)/c)^2) + m log10 f + c0 (P.838-3, eq. 2 and 3).
 struct Bell {
   double a, b, c;
 };
@@ -51,7 +51,8 @@ constexpr Regression log_k_v{k_v_bells, -0.16398, 0.63297};
 constexpr Regression alpha_h{alpha_h_bells, 0.67849, -1.95537};
 constexpr Regression alpha_v{alpha_v_bells, -0.053739, 0.83433};
 
-/// eq. 1, 4 and 5; `lean` = cos^2(elevation) cos(2 tilt), from 1 (level, horizontal) to -1 (level, vertical).
+/// Returns gamma by eq. 1, 4 and 5. `lean` = cos^2(elevation) cos(2 tilt) runs from 1 (horizontal path,
+/// horizontal polarization) to -1 (horizontal path, vertical polarization).
 double gamma_of(const RainCoefficients& c, double rain_mm_h, double lean) {
   const double k = 0.5 * (c.k_h + c.k_v + (c.k_h - c.k_v) * lean);
   const double alpha =

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Attenuation by rain: ITU-R P.838-3 (2005). gamma = k R^alpha dB/km, R in mm/h; drops are flattened, so that
-// horizontal polarization loses more than vertical above some 2 GHz.
+// Computes the attenuation by rain by ITU-R P.838-3 (2005): gamma = k R^alpha dB/km, with R in mm/h. Drops
+// are flattened, so that horizontal polarization loses more than vertical above about 2 GHz.
 #pragma once
 
 namespace greatx::rf {
@@ -12,26 +12,29 @@ constexpr bool rain_model_covers(double frequency_hz) {
   return frequency_hz >= rain_min_hz && frequency_hz <= rain_max_hz;
 }
 
-/// k in (dB/km)/(mm/h)^alpha and alpha, for waves that travel horizontally.
+/// Holds k in (dB/km)/(mm/h)^alpha and alpha, for waves that travel horizontally.
 struct RainCoefficients {
   double k_h = 0.0, alpha_h = 1.0;  ///< horizontal polarization
   double k_v = 0.0, alpha_v = 1.0;  ///< vertical polarization
 };
 
-/// P.838-3, eq. 2 and 3 with Tables 1 to 4. Throws UserError outside 1 to 1000 GHz.
+/// Returns the coefficients by P.838-3, eq. 2 and 3 with Tables 1 to 4. Throws UserError outside 1 to 1000
+/// GHz.
 RainCoefficients rain_coefficients(double frequency_hz);
 
-/// P.838-3, eq. 1, 4 and 5, dB/km. `elevation`: of the path over the horizon, rad; `tilt`: of the
-/// polarization against the horizontal, rad (0 horizontal, pi/2 vertical, pi/4 also stands for circular).
+/// Returns the specific attenuation by P.838-3, eq. 1, 4 and 5, dB/km. `elevation` is the angle of the path
+/// above the horizon, rad. `tilt` is the angle of the polarization from the horizontal, rad: 0 is horizontal,
+/// pi/2 is vertical, and pi/4 also represents circular polarization.
 double rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double elevation, double tilt);
 
-/// Attenuation of the two linear polarizations of one direction, dB/km.
+/// Holds the attenuation of the two linear polarizations of one direction, dB/km.
 struct RainAttenuation {
-  double h = 0.0;  ///< along phi_hat: level
+  double h = 0.0;  ///< along phi_hat: horizontal
   double v = 0.0;  ///< along theta_hat: in the plane of the direction and the zenith
 };
-/// The same for tilts 0 and pi/2 of a direction with cos^2(elevation) = `cos2_elevation`. Both are the same
-/// straight up and down. At every elevation and tilt: at most the larger of the two at cos2_elevation = 1.
+/// Returns the specific attenuation for the tilts 0 and pi/2 of a direction with cos^2(elevation) =
+/// `cos2_elevation`. Both values are equal straight up and down. At any elevation and tilt the attenuation is
+/// at most the larger of the two values at cos2_elevation = 1.
 RainAttenuation rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double cos2_elevation);
 
 }  // namespace greatx::rf

@@ -33,7 +33,7 @@ std::vector<Weighted> weighted(std::span<const Path> paths, std::span<const doub
   return samples;
 }
 
-/// Centres the values on their mean, makes the weights' sum 1 and returns the rms of the values.
+/// Centres the values on their mean, scales the weights to a sum of 1 and returns the rms of the values.
 double normalise(std::vector<Weighted>& samples) {
   double total = 0.0, first = 0.0, second = 0.0;
   const double origin = samples.front().value;
@@ -47,8 +47,8 @@ double normalise(std::vector<Weighted>& samples) {
   return std::sqrt(second);
 }
 
-/// The first x > 0 with |sum w e^{j 2 pi v x}| <= level. The slope of the modulus is at most 2 pi sum w |v|
-/// <= 2 pi rms, so that a step of (modulus - level)/(2 pi rms) jumps over no crossing, however narrow.
+/// Returns the first x > 0 with |sum w e^{j 2 pi v x}| <= level. The slope of the modulus is at most 2 pi sum
+/// w |v| <= 2 pi rms. Therefore a step of (modulus - level)/(2 pi rms) misses no crossing, however narrow.
 double decorrelation(std::vector<Weighted> samples, double level) {
   GREATX_CHECK(level > 0.0 && level < 1.0, "level {} of a correlation", level);
   if (samples.empty()) return not_a_number;
@@ -58,7 +58,7 @@ double decorrelation(std::vector<Weighted> samples, double level) {
       std::max_element(samples.begin(), samples.end(), [](const Weighted& a, const Weighted& b) {
         return a.weight < b.weight;
       })->weight;
-  if (2.0 * strongest - 1.0 > level) return infinity;  // the others cannot take that much off
+  if (2.0 * strongest - 1.0 > level) return infinity;  // the other samples cannot cancel enough of it
   for (double x = 0.0; x <= 10.0 / rms;) {
     double re = 0.0, im = 0.0;
     for (const Weighted& sample : samples) {
@@ -68,7 +68,8 @@ double decorrelation(std::vector<Weighted> samples, double level) {
     }
     const double above = std::hypot(re, im) - level;
     const double next = x + above / (2.0 * pi * rms);
-    if (above <= 1e-9 * level || !(next > x)) return x;  // or a level below the rounding of the sum
+    // The second condition ends the loop if the level is below the rounding of the sum.
+    if (above <= 1e-9 * level || !(next > x)) return x;
     x = next;
   }
   return infinity;

@@ -14,8 +14,9 @@ void check_count(std::span<const Path> paths, std::span<const TransferSpectrum> 
   GREATX_CHECK(spectra.size() == paths.size(), "{} spectra of {} paths", spectra.size(), paths.size());
 }
 
-/// e^{-j 2 pi f tau} at all subcarriers. A block's subcarriers are (first of the block) x (place in the
-/// block): two phasors, each from exactly reduced turns, and one product; no recurrence whose error grows.
+/// Sets e^{-j 2 pi f tau} at all subcarriers. The phasor of a subcarrier is the product of the phasor of its
+/// block's first subcarrier and of its place in the block. Both come from exactly reduced turns, so that no
+/// recurrence accumulates error.
 void set_phasors(const ChannelGrid& grid, double delay_s, size_t term, ColumnFactors& factors) {
   Complex place[sum_lanes];
   for (size_t lane = 0; lane < sum_lanes; ++lane)

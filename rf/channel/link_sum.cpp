@@ -13,10 +13,10 @@
 namespace greatx::rf {
 namespace {
 
-constexpr size_t term_chunk = 128;  // terms summed at a time: their factors stay in the cache
-constexpr size_t most_factors = size_t{1}
-                                << 20;  // of all columns; the number of terms at a time changes no bit
-constexpr size_t row_tile = 64;         // rows summed at a time: as their amplitudes and sums do
+constexpr size_t term_chunk = 128;  // terms summed at a time, so that their factors stay in the cache
+// Bound of the factors of all columns. The number of terms at a time changes no bit of the result.
+constexpr size_t most_factors = size_t{1} << 20;
+constexpr size_t row_tile = 64;  // rows summed at a time, so that their amplitudes and sums stay in the cache
 
 std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
                                      PathSelection selection) {
@@ -25,7 +25,7 @@ std::vector<uint32_t> selected_order(std::span<const Path> paths, std::span<cons
   return order;
 }
 
-/// A block's sums, rounded, to the row's columns from `first` on.
+/// Rounds the sums of a block and writes them to the columns of `row` from `first` on.
 template <typename Part>
 void store(const double* sums, size_t first, size_t columns, std::complex<Part>* row) {
   const size_t count = std::min(sum_lanes, columns - first);
@@ -69,7 +69,7 @@ void LinkSum::check_spectra() const {
 template <typename Part>
 void LinkSum::write(std::complex<Part>* out) {
   if (terms_ == 0) std::fill_n(out, size(), std::complex<Part>{});
-  // Sums live from chunk to chunk only where there are several.
+  // Sums must last from chunk to chunk only if there are several chunks.
   if (terms_ > chunk_) sums_.assign(factors_.blocks() * rows_ * 2 * sum_lanes, 0.0);
   size_t summed = 0;
   for (const uint32_t index : order_) {
@@ -82,7 +82,8 @@ void LinkSum::write(std::complex<Part>* out) {
 template void LinkSum::write(std::complex<float>*);
 template void LinkSum::write(std::complex<double>*);
 
-/// Puts a path's terms into the chunk's next places: with a spectrum one for each entry of the transfer.
+/// Puts the terms of a path into the next places of the chunk: one term, or with a spectrum one term for each
+/// entry of the transfer.
 void LinkSum::load(uint32_t index) {
   const Path& path = paths_[index];
   if (spectra_.empty()) return load(path, path.transfer);
@@ -112,7 +113,7 @@ void LinkSum::load(const Path& path, const Complex* transfer) {
   }
 }
 
-/// Adds the chunk; `out`, unless null, takes the sums.
+/// Adds the chunk to the sums, and writes the sums to `out` unless it is null.
 template <typename Part>
 void LinkSum::add(std::complex<Part>* out) {
   const AddRows add_chunk = add_rows();

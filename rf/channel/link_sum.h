@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sum over a link's paths that the frequency response and the taps are: a matrix product of what the
-// paths contribute at pairs of ports and times (rows) and of what each of them is at a subcarrier or tap
-// (columns).
+// Sums a link's paths for the frequency response and the taps. The sum is a matrix product: rows hold the
+// contributions of paths at pairs of ports and times, and columns hold the factors of paths at subcarriers or
+// taps.
 #pragma once
 
 #include <complex>
@@ -18,7 +18,7 @@
 
 namespace greatx::rf {
 
-/// The factors of a chunk of terms at each column, in blocks of sum_lanes columns: [block][term][re,
+/// Holds the factors of a chunk of terms at each column, in blocks of sum_lanes columns: [block][term][re,
 /// im][lane].
 class ColumnFactors {
  public:
@@ -28,8 +28,8 @@ class ColumnFactors {
         values_(blocks_ * terms * 2 * sum_lanes) {}
   size_t blocks() const { return blocks_; }
   const double* block(size_t index) const { return values_.data() + index * terms_ * 2 * sum_lanes; }
-  /// A term's real parts in a block; its imaginary parts follow. Lanes beyond the last column may hold
-  /// anything finite.
+  /// Returns the real parts of a term in a block; its imaginary parts follow. Lanes beyond the last column
+  /// may hold any finite value.
   double* at(size_t block, size_t term) { return values_.data() + (block * terms_ + term) * 2 * sum_lanes; }
 
  private:
@@ -37,28 +37,28 @@ class ColumnFactors {
   std::vector<double> values_;
 };
 
-/// What rows are, beside pairs of ports.
+/// Holds the times of the rows; a row is a pair of ports at one time.
 struct RowTimes {
   double carrier_hz = 0.0;
   uint32_t samples = 1;
   double spacing_s = 0.0;
 };
 
-/// sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the column); in fp64,
-/// in summing_order(). Each link has its own, so that threads share nothing.
+/// Computes the sum over paths of (pair amplitude) e^{-j 2 pi f_c tau} e^{j 2 pi nu t_m} (factor at the
+/// column), in fp64 and in summing_order(). Each link has its own object, so that threads share nothing.
 class LinkSum {
  public:
-  /// Writes a path's factors at all columns into the term's place.
+  /// Writes the factors of a path at all columns into the place of the term.
   using SetFactors = std::function<void(const Path& path, size_t term, ColumnFactors& factors)>;
 
-  /// `spectra`: [paths] of one transfer per column, or none for the paths' own transfers. What is passed must
-  /// outlive this.
+  /// `spectra`: [paths], each with one transfer per column, or empty for the paths' own transfers. The paths
+  /// and spectra must outlive this object.
   LinkSum(std::span<const Path> paths, std::span<const TransferSpectrum> spectra,
           const ArrayPose& transmitter, const ArrayPose& receiver, const RowTimes& times, size_t columns,
           PathSelection selection, SetFactors set_factors);
 
   size_t size() const { return rows_ * columns_; }
-  /// out[rx_ant, tx_ant, time, column], of size(); float or double.
+  /// Writes out[rx_ant, tx_ant, time, column], size() values; float or double.
   template <typename Part>
   void write(std::complex<Part>* out);
 
@@ -76,12 +76,13 @@ class LinkSum {
   size_t columns_;
   SetFactors set_factors_;
   PairAmplitudes amplitudes_of_;
-  std::vector<uint32_t> order_;  ///< of the paths that are summed
-  size_t terms_, chunk_;         ///< in all; at a time, a multiple of terms_per_path()
+  std::vector<uint32_t> order_;  ///< indices of the paths that are summed
+  /// Number of all terms, and of terms per chunk, which is a multiple of terms_per_path().
+  size_t terms_, chunk_;
   ColumnFactors factors_;
   size_t rows_, loaded_ = 0;
   std::vector<Complex> amplitudes_, pair_;  ///< [rows, chunk]; [pairs]
-  std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty: one chunk holds all terms
+  std::vector<double> sums_;  ///< [blocks, rows, (re, im), lanes]; empty if one chunk holds all terms
 };
 
 }  // namespace greatx::rf

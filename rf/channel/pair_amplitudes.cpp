@@ -42,7 +42,7 @@ void Ports::respond(const dvec3& direction, std::vector<Jones>& out) const {
   fields(direction, out);
   const size_t polarizations = element_.polarization_count();
   out.resize(count_);
-  // From the last element to the first, which holds the patterns themselves.
+  // The loop goes from the last element to the first, whose entries hold the patterns of all elements.
   for (size_t element = positions_.size(); element-- > 0;) {
     const Complex turn = phase(direction, static_cast<uint32_t>(element * polarizations));
     for (size_t p = 0; p < polarizations; ++p)

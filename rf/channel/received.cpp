@@ -22,7 +22,7 @@ void check_link(const ArrayPose& transmitter, const ArrayPose& receiver, const R
       receiver.array.port_count());
 }
 
-/// One port of each end.
+/// Computes the received quantities of paths between one port of each end.
 class PortPair {
  public:
   PortPair(const ArrayPose& transmitter, const ArrayPose& receiver, const RadioLink& link)
@@ -44,7 +44,7 @@ class PortPair {
     ReceivedPath result;
     result.amplitude =
         wavelength_factor(link_.carrier_hz) * (taken.theta * arriving.theta + taken.phi * arriving.phi);
-    // At the port's element: the plane wave's phase there.
+    // The phase of the plane wave at the element of the port.
     const Complex place = rx_.phase(path.arrival, link_.receive_port);
     result.field_v_per_m = {field_scale_ * arriving.theta * place, field_scale_ * arriving.phi * place};
     result.power_w = link_.transmit_power_w * std::norm(result.amplitude);

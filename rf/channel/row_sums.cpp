@@ -5,8 +5,8 @@
 namespace greatx::rf {
 namespace {
 
-/// Vectors of doubles of the width that the processor has: in registers, and in memory, where they lie as
-/// doubles do. The operators round lane by lane as double's.
+/// Vectors of doubles with the width of the processor's registers: `Vec` in registers, `Stored` in memory,
+/// aligned like a double. The operators round each lane as they round a double.
 struct TwoDoubles {
   using Vec [[gnu::vector_size(16)]] = double;
   using Stored [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
@@ -18,7 +18,7 @@ struct FourDoubles {
 };
 #endif
 
-/// A block's subcarriers of `rows_at_once` rows stay in registers over all terms.
+/// Adds all terms to a block of `rows_at_once` rows. The sums of these rows stay in registers over all terms.
 template <typename Width, size_t rows_at_once>
 [[gnu::always_inline]] inline void add_some_rows(const std::complex<double>* amplitudes, size_t stride,
                                                  const double* phasors, size_t terms, double* sums) {

@@ -15,7 +15,7 @@
 namespace greatx::rf {
 namespace {
 
-/// What of a path is summed. Those that agree in all of it may stand in any order.
+/// Holds the summed properties of a path. Samples that agree in all of them may be in any order.
 struct Sample {
   double delay_s, power, doppler_hz;
   dvec2 departure, arrival;  ///< (theta, phi)
@@ -35,7 +35,7 @@ std::vector<Sample> sorted_samples(std::span<const Path> paths, std::span<const 
     GREATX_CHECK(std::isfinite(powers[i]) && powers[i] >= 0.0 && std::isfinite(path.delay_s) &&
                      std::isfinite(path.doppler_hz),
                  "path {}: power {}, delay {} s, Doppler {} Hz", i, powers[i], path.delay_s, path.doppler_hz);
-    // What has no power weighs nothing, and what it says of angles may be anything.
+    // A path without power has no weight, and its angles may have any value.
     if (powers[i] == 0.0) continue;
     samples.push_back({path.delay_s, powers[i], path.doppler_hz, theta_phi(path.departure),
                        theta_phi(path.arrival), path.interactions.empty()});
@@ -49,7 +49,7 @@ struct Moments {
   double mean, spread;
 };
 
-/// About the first value, then about the mean: nothing cancels.
+/// Computes mean and spread, first about the first value and then about the mean, so that nothing cancels.
 template <typename Value>
 Moments moments(std::span<const Sample> samples, double total, const Value& value) {
   const double origin = value(samples.front());
@@ -63,8 +63,8 @@ Moments moments(std::span<const Sample> samples, double total, const Value& valu
   return {mean, std::sqrt(second / total)};
 }
 
-/// sqrt(-2 ln R) with 1 - R = sum p 2 sin^2(off / 2) / sum p, off from the mean direction: R itself would
-/// lose what is small to its rounding, and give 1e-8 rad for one path.
+/// Returns sqrt(-2 ln R) with 1 - R = sum p 2 sin^2(off / 2) / sum p, where `off` is the difference from the
+/// mean direction. R itself would lose small spreads to its rounding and give 1e-8 rad for one path.
 template <typename Angle>
 double circular_spread(std::span<const Sample> samples, double total, const Angle& angle) {
   const double origin = angle(samples.front());
@@ -79,7 +79,7 @@ double circular_spread(std::span<const Sample> samples, double total, const Angl
     const double half = std::sin(0.5 * (angle(sample) - origin - mean));
     versine += sample.power * 2.0 * half * half;
   }
-  // Opposite directions of equal power: 1, or a rounding more.
+  // For opposite directions of equal power the ratio is 1, or exceeds 1 by a rounding.
   return std::sqrt(-2.0 * std::log1p(-std::min(1.0, versine / total)));
 }
 
@@ -112,7 +112,7 @@ LinkStatistics link_statistics(std::span<const Path> paths, std::span<const doub
     link.path_gain += sample.power;
     (sample.line_of_sight ? direct : others) += sample.power;
   }
-  link.k_factor = direct / others;  // x/0: +inf
+  link.k_factor = direct / others;  // +inf without other paths
   const double total = link.path_gain;
   const Moments delay = moments(samples, total, [](const Sample& sample) { return sample.delay_s; });
   const Moments doppler = moments(samples, total, [](const Sample& sample) { return sample.doppler_hz; });

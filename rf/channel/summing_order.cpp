@@ -9,7 +9,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Everything of a path that reaches a sum.
+/// Returns all properties of a path that enter a sum.
 std::array<double, 16> sum_key(const Path& path) {
   std::array<double, 16> key{path.delay_s,     path.doppler_hz, path.departure.x, path.departure.y,
                              path.departure.z, path.arrival.x,  path.arrival.y,   path.arrival.z};

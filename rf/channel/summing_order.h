@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The order in which paths are summed: by what they are, so that a sum's bits do not depend on where they
-// stand in a list.
+// Orders paths for summation by their properties, so that the bits of a sum do not depend on the places of
+// the paths in a list.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace greatx::rf {
 
-/// A permutation of [0, paths): by delay, then by all else of a path that reaches a sum (Doppler shift,
-/// directions, transfer, spectrum). Paths that agree in all of it add the same terms and may stand in any
-/// order. `spectra`: [paths], or none.
+/// Returns a permutation of [0, paths) by delay and then by all other properties that enter a sum (Doppler
+/// shift, directions, transfer, spectrum). Paths that agree in all of these add the same terms and may be in
+/// any order. `spectra`: [paths], or empty.
 std::vector<uint32_t> summing_order(std::span<const Path> paths,
                                     std::span<const TransferSpectrum> spectra = {});
 

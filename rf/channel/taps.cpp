@@ -19,8 +19,8 @@ void check_grid(const TapGrid& grid) {
                "{} taps at a bandwidth of {} Hz", grid.taps, grid.bandwidth_hz);
 }
 
-/// sinc(l - B tau) at whole numbers l: with B tau = nearest + fraction, sin(pi (l - B tau)) = -(-1)^(l -
-/// nearest) sin(pi fraction), so that one sine serves all taps.
+/// Computes sinc(l - B tau) at whole numbers l. With B tau = nearest + fraction, sin(pi (l - B tau)) =
+/// -(-1)^(l - nearest) sin(pi fraction), so that one sine serves all taps.
 class Sinc {
  public:
   Sinc(double bandwidth_hz, double delay_s) {
@@ -36,7 +36,7 @@ class Sinc {
     const double value = sine_ / (away - fraction_);
     return static_cast<int64_t>(away) % 2 == 0 ? -value : value;
   }
-  /// B tau is in [first, end).
+  /// Tells whether B tau is in [first, end).
   bool in(double first, double end) const {
     return nearest_ - first + fraction_ >= 0.0 && nearest_ - end + fraction_ < 0.0;
   }
@@ -109,7 +109,7 @@ TapCoverage tap_coverage(std::span<const Path> paths, std::span<const double> po
       const double value = sinc(static_cast<double>(grid.first) + column);
       inside += value * value;
     }
-    // The squares add up to 1, or to a rounding more.
+    // The squares of all taps add up to 1, and rounding may exceed it.
     outside += power * std::max(0.0, 1.0 - inside);
     total += power;
     const double first = grid.first - 0.5;

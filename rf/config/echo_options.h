@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the echoes of a radar are asked for (docs/radar_echoes.md). Plain data.
+// Describes the options and the ends of a radar's echo search (docs/radar_echoes.md). Plain data.
 #pragma once
 
 #include <cstdint>
@@ -14,77 +14,82 @@
 
 namespace greatx::rf {
 
-/// The directions that tubes leave the transmitter in: a sector about boresight (+x) of its frame.
+/// Describes the directions in which tubes leave the transmitter: a sector about boresight (+x) of its frame.
 struct FieldOfView {
   double azimuth_min = -1.0471975511965976, azimuth_max = 1.0471975511965976;        ///< rad, towards +y
   double elevation_min = -0.26179938779914946, elevation_max = 0.26179938779914946;  ///< rad, towards +z
 };
 
-/// Who traces the rays. Both meet the same facets but where a ray passes within roundings of an edge.
+/// Selects where rays are traced. Both tracers meet the same facets, except where a ray passes within a
+/// rounding error of an edge.
 enum class EchoTracing : uint8_t {
-  automatic,  ///< the device, if it is no CPU
+  automatic,  ///< the device, unless the device is a CPU
   device,     ///< EchoPass
   host        ///< EchoTracer
 };
 
 struct EchoOptions {
   FieldOfView field_of_view;
-  uint32_t tubes = 6000;  ///< of the field of view, before subdivision
-  /// Surfaces that a tube meets, 1 to most_bounces. From 3 on a monostatic radar sees targets over mirrors,
-  /// out and back over the same one, with so many bounces on the target itself: the mirror does not count.
+  uint32_t tubes = 6000;  ///< number of tubes over the field of view, before subdivision
+  /// Number of surfaces that a tube meets, 1 to most_bounces. With 3 or more, a monostatic radar also sees
+  /// targets over mirrors, out and back over the same mirror. The target itself may then have max_bounces
+  /// bounces: the mirror does not count.
   uint32_t max_bounces = 3;
-  /// Tubes on bodies that move, and on instances named in `targets`, are subdivided to this width at their
-  /// distance, metres.
+  /// Width to which tubes are subdivided on moving bodies and on the instances in `targets`, at the distance
+  /// of the body, metres.
   double target_tube_m = 0.03;
-  /// Tubes that subdivision may add; if it is not enough the width grows (EchoStatistics::target_tube_m says
-  /// to what).
+  /// Number of tubes that subdivision may add. If this is not enough, the width grows;
+  /// EchoStatistics::target_tube_m holds the resulting width.
   uint32_t target_budget = 4096;
-  /// The same for where a monostatic radar sees targets over mirrors: tubes that it may add there on top. 0:
-  /// the images of targets are seen by the tubes that happen to be there.
+  /// Number of tubes that subdivision may add where a monostatic radar sees targets over mirrors, on top of
+  /// target_budget. With 0, only the tubes that are there without subdivision see the images of targets.
   uint32_t mirror_budget = 2048;
   bool moving_targets = true;
   std::vector<uint32_t> targets;  ///< indices into Scene::instances
 
-  /// A surface nearer than this to an end is inside its antenna: an error that names it. Metres.
+  /// Radius of the antennas, metres. A surface nearer than this to an end causes an error that names the
+  /// surface.
   double antenna_radius_m = 0.02;
 
-  /// What edges and corners of surfaces send back is left out, and counted, where it is below that of a body
-  /// of this radar cross-section even for a perfect conductor, m^2. 0: nothing is.
+  /// Radar cross-section, m^2. Edges and corners of surfaces are left out, and counted, if their echo would
+  /// be below that of a body with this cross-section even for a perfect conductor. 0: nothing is left out.
   double border_floor_m2 = 1e-5;
-  /// The same for what the receiver's noise hides (hidden_section_m2()): that of a body 1 m away from both
-  /// ends; it grows with the square of the distance of each. 0: nothing is hidden. m^2.
+  /// Radar cross-section, m^2, below which the receiver's noise hides edges and corners
+  /// (hidden_section_m2()), for a body 1 m away from both ends. It grows with the square of the distance to
+  /// each end. 0: nothing is hidden.
   double hidden_floor_m2 = 0.0;
 
-  bool roughness = false;  ///< coherent fields fall by Ament's factor of the materials' rms heights
-  bool diffuse =
-      false;  ///< rough surfaces scatter what their materials say, with phases fixed to the surface
-  double diffuse_patch_m = 0.25;  ///< side of the patches whose phases are drawn together
-  uint64_t seed = 1;              ///< of those phases
+  /// Coherent fields fall by Ament's factor of the materials' rms heights.
+  bool roughness = false;
+  /// Rough surfaces scatter as their materials say, with phases that are fixed to the surface.
+  bool diffuse = false;
+  double diffuse_patch_m = 0.25;  ///< side of a patch, whose scattering has one random phase, metres
+  uint64_t seed = 1;              ///< seed of these phases
 
-  /// Tubes become one echo if they fall into one cell of delay, delay rate and direction at both ends, by
-  /// `merge_share` of what an output can tell apart: 1/bandwidth, wavelength/frame, `beam_rad`. 0: nothing is
-  /// merged.
+  /// Tubes merge into one echo if they fall into one cell of delay, delay rate and direction at both ends.
+  /// The size of a cell is `merge_share` times the resolution of an output: 1/bandwidth, wavelength/frame,
+  /// `beam_rad`. 0: nothing is merged.
   double merge_share = 0.125;
   double bandwidth_hz = 1e9;
   double beam_rad = 0.1;
-  uint32_t max_echoes = 1u << 16;  ///< the strongest are kept; the rest is counted
+  uint32_t max_echoes = 1u << 16;  ///< the strongest echoes are kept; the others are counted
 
   EchoTracing tracing = EchoTracing::automatic;
-  uint32_t threads = 0;  ///< 0: as many as there are cores; the echoes do not depend on it
+  uint32_t threads = 0;  ///< 0: one per core; the echoes do not depend on the number of threads
 };
 
 inline constexpr uint32_t most_bounces = 6;
-/// The least max_bounces with ghosts by a mirror both ways.
+/// Least max_bounces for which echoes go over a mirror on both ways.
 inline constexpr uint32_t mirror_bounces = 3;
-/// Surfaces on an echo's way: most_bounces on the target, the mirror twice.
+/// Largest number of surfaces on the way of an echo: most_bounces on the target, and the mirror twice.
 inline constexpr uint32_t most_surfaces = most_bounces + 2;
 
-/// One end of a radar: an element at the origin of its frame, which looks along +x.
+/// Describes one end of a radar: an element at the origin of its frame, facing +x.
 struct EchoEnd {
   ElementPattern pattern;
   double slant = 0.0;          ///< rad
-  uint32_t own_body = 0;       ///< rays do not see the body that carries it, nor its parts; 0: none does
-  std::string name = "radar";  ///< for messages
+  uint32_t own_body = 0;       ///< body that carries the end; rays do not see it or its parts; 0: none
+  std::string name = "radar";  ///< name in messages
 };
 
 }  // namespace greatx::rf

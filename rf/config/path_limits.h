@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The limits of a channel's paths: scenario, search, solver and notes read the same ones. Plain data.
+// Holds the limits of a channel's paths. Scenario, search, solver and notes read the same limits. Plain data.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 namespace greatx::rf {
 
 struct PathLimits {
-  uint32_t max_depth = 3;          ///< interactions on a path, of any type
-  uint32_t max_transmissions = 3;  ///< of them walls passed
-  /// Of them reflections between a diffraction or scattering and the target (the end that is not searched
-  /// from).
+  uint32_t max_depth = 3;          ///< interactions on a path, of all types
+  uint32_t max_transmissions = 3;  ///< walls passed, as a part of max_depth
+  /// Reflections between a diffraction or scattering and the target (the end that the search does not start
+  /// from), as a part of max_depth.
   uint32_t max_reflections_after = 0;
-  /// Of them reflections between the source (the end that is searched from) and a scattering.
+  /// Reflections between the source (the end that the search starts from) and a scattering, as a part of
+  /// max_depth.
   uint32_t max_reflections_before_scattering = ~0u;
-  double patch_m = 10.0;           ///< longest side of the pieces that scatter as one
-  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; those beyond are counted, not traced
+  double patch_m = 10.0;           ///< longest side of the patches that scatter as a whole, metres
+  uint64_t max_paths = 1'000'000;  ///< geometric paths of a link; paths beyond it are counted, not traced
 };
 
 }  // namespace greatx::rf

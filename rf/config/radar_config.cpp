@@ -11,7 +11,7 @@ namespace {
 
 using Fault = std::optional<RadarFault>;
 
-/// Sums and quotients of a scenario's decimal numbers may miss equality by roundings.
+/// Sums and quotients of a scenario's decimal numbers may miss equality by rounding errors.
 constexpr double rounding = 1.0 + 1e-12;
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
@@ -46,7 +46,7 @@ Fault check_waveform(const RadarWaveform& w) {
         fmt::format(
             "expected samples that fit the chirp of {} s; {} samples at {} Hz from {} s on end at {} s",
             w.chirp_s, w.samples, w.sample_rate_hz, w.adc_start_s, w.adc_start_s + w.sampled_s())};
-  // Beyond these, bins and noise leave the range of the numbers that files hold.
+  // Beyond these bounds, bins and noise exceed the range of the numbers in files.
   constexpr double least_bandwidth_hz = 1e-3, most_sample_rate_hz = 1e12;
   if (w.sample_rate_hz > most_sample_rate_hz)
     return RadarFault{"waveform.sample_rate_hz", fmt::format("expected at most {:g} Hz, found {} Hz",

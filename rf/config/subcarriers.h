@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How many subcarriers a bandwidth holds. Header alone: the scenario's parser needs it and no device.
+// Computes the number of subcarriers in a bandwidth. It is a header alone, because the scenario's parser
+// needs the function and no device.
 #pragma once
 
 #include <cmath>
@@ -12,10 +13,10 @@
 
 namespace greatx::rf {
 
-/// Subcarriers of `spacing_hz` that lie wholly within `bandwidth_hz`: floor(bandwidth/spacing), where a
-/// quotient within 1e-9 of a whole number is that number (20 MHz / 15 kHz: 1333; 0.3 / 0.1: 3). No guard
-/// bands: give the bandwidth that is occupied. Both finite and above 0, the spacing at most the bandwidth,
-/// the result below 2^32.
+/// Returns the number of subcarriers of `spacing_hz` that lie wholly within `bandwidth_hz`:
+/// floor(bandwidth/spacing). A quotient within 1e-9 of a whole number is that number (20 MHz / 15 kHz: 1333;
+/// 0.3 / 0.1: 3). There are no guard bands: give the occupied bandwidth. Both arguments must be finite and
+/// above 0, the spacing at most the bandwidth, and the result below 2^32.
 inline uint32_t subcarrier_count(double bandwidth_hz, double spacing_hz) {
   GREATX_CHECK(std::isfinite(bandwidth_hz) && spacing_hz > 0.0 && std::isfinite(spacing_hz),
                "subcarriers of {} Hz in {} Hz", spacing_hz, bandwidth_hz);

@@ -10,8 +10,8 @@
 namespace greatx::rf {
 namespace {
 
-/// A unit vector perpendicular to `normal`, without cancellation (Duff et al., "Building an orthonormal
-/// basis, revisited", JCGT 6(1), 2017).
+/// Returns a unit vector perpendicular to `normal`, computed without cancellation (Duff et al., "Building an
+/// orthonormal basis, revisited", JCGT 6(1), 2017).
 dvec3 perpendicular(const dvec3& normal) {
   const double sign = std::copysign(1.0, normal.z);
   const double a = -1.0 / (sign + normal.z);
@@ -51,7 +51,7 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet, Outli
   base.normal = facet.normal;
   base.axis_u = perpendicular(facet.normal);
   base.axis_v = glm::cross(facet.normal, base.axis_u);
-  // The reference corner, moved into the plane: corners may be off it by the merging tolerance.
+  // The reference corner is moved into the plane, because corners may be off it by the merging tolerance.
   const dvec3 first = scene.facet_triangles[facet.first_triangle].corners[0];
   base.corner = first - (glm::dot(facet.normal, first) - facet.offset) * facet.normal;
 
@@ -71,7 +71,7 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet, Outli
       high = glm::max(high, corner[k]);
     }
     const double doubled = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    if (doubled == 0.0) continue;  // no area: nothing can be reflected by it
+    if (doubled == 0.0) continue;  // a triangle without area reflects nothing
     area += std::abs(doubled);
     weighted += std::abs(doubled) / 3.0 * (corner[0] + corner[1] + corner[2]);
     PlanarTriangle planar{};
@@ -94,7 +94,7 @@ void FacetWorld::add(const scene::Scene& scene, const scene::Facet& facet, Outli
   outlines.facets.push_back(base);
   facets_.push_back(posed);
   pose(base, Pose{}, facets_.back());
-  if (facet.body == 0) facets_.back().offset = facet.offset;  // the file's own number, not recomputed
+  if (facet.body == 0) facets_.back().offset = facet.offset;  // exactly the number of the scene
 }
 
 void FacetWorld::pose(const BodyFacet& base, const Pose& local_from_body, PosedFacet& facet) {
@@ -145,7 +145,7 @@ std::array<dvec3, 3> FacetWorld::corners(uint32_t index, uint32_t triangle) cons
   GREATX_CHECK(triangle < facet.triangle_count, "facet {}: triangle {} of {}", index, triangle,
                facet.triangle_count);
   std::array<dvec3, 3> corners = outlines_->corners[facet.first_triangle + triangle];
-  if (facet.body == 0) return corners;  // the file's own numbers
+  if (facet.body == 0) return corners;  // exactly the numbers of the scene
   for (dvec3& corner : corners) corner = motions_[facet.body].pose.apply(corner);
   return corners;
 }

@@ -14,7 +14,7 @@ namespace greatx::rf {
 
 namespace {
 
-constexpr double room_m = 0.1;  ///< beyond a box that still counts as inside
+constexpr double room_m = 0.1;  ///< a point this far outside a box still counts as inside
 constexpr double max_cells = 1u << 20;
 
 scene::Bounds grown(const scene::Bounds& bounds, double by) {
@@ -26,7 +26,7 @@ bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
          a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
-/// Boxes of the static facets of foliage.
+/// Returns the boxes of the static facets of foliage.
 std::vector<scene::Bounds> facet_boxes(const scene::Scene& scene, const FacetKinds& kinds) {
   std::vector<scene::Bounds> boxes;
   for (size_t i = 0; i < scene.facets.size(); ++i) {
@@ -45,14 +45,15 @@ uint32_t root_of(std::vector<uint32_t>& parents, uint32_t i) {
   return i;
 }
 
-/// Boxes around what hangs together: a closed surface does, so it has one box with all of its inside.
+/// Returns boxes around connected groups of boxes. A closed surface is connected, so that one box holds all
+/// of its inside.
 std::vector<scene::Bounds> joined(std::vector<scene::Bounds> boxes) {
   std::sort(boxes.begin(), boxes.end(), [](const scene::Bounds& a, const scene::Bounds& b) {
     return std::tie(a.min.x, a.min.y, a.min.z) < std::tie(b.min.x, b.min.y, b.min.z);
   });
   std::vector<uint32_t> parents(boxes.size());
   std::iota(parents.begin(), parents.end(), 0u);
-  std::vector<uint32_t> active;  // a sweep along x: boxes that have begun and not ended
+  std::vector<uint32_t> active;  // boxes that the sweep along x has entered and not yet left
   for (uint32_t i = 0; i < boxes.size(); ++i) {
     std::erase_if(active, [&](uint32_t other) { return boxes[other].max.x < boxes[i].min.x; });
     for (const uint32_t other : active)
@@ -74,8 +75,8 @@ FoliageVolumes::FoliageVolumes(const scene::Scene& scene, const FacetKinds& kind
   if (!boxes_.empty()) make_grid();
 }
 
-/// +1 at one corner of a box and -1 at its neighbours, then running sums along each axis: as fast for one box
-/// around the whole city as for a thousand small ones.
+/// Marks the touched cells: adds +1 or -1 at the eight corners of each box, and then forms running sums along
+/// each axis. One box around the whole city costs as little as a small one.
 void FoliageVolumes::make_grid() {
   scene::Bounds all;
   for (const scene::Bounds& box : boxes_) all.add(grown(box, room_m));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where foliage may be: tells, on the host and at next to no cost, that a point is outside of all of it.
+// Tells on the host, at very low cost, that a point is outside all foliage.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,9 @@
 
 namespace greatx::rf {
 
-/// The foliage of the static world, as boxes around the volumes and a grid of the cells that they touch. A
-/// volume is what facets of foliage enclose that touch each other, within `touch_m`.
+/// Holds the foliage of the static world as boxes around its volumes, and a grid of the cells that the boxes
+/// touch. A volume is the region that a group of foliage facets encloses; facets belong to one group if they
+/// touch within `touch_m`.
 class FoliageVolumes {
  public:
   static constexpr double touch_m = 0.01;
@@ -23,18 +24,18 @@ class FoliageVolumes {
   /// `kinds`: [facets of the scene].
   FoliageVolumes(const scene::Scene& scene, const FacetKinds& kinds);
 
-  /// False: `point` (local coordinates) is at least 0.1 m outside of every volume's box.
+  /// Returns false only if `point` (local coordinates) is at least 0.1 m outside the box of every volume.
   bool may_contain(const dvec3& point) const;
-  /// Boxes of the volumes, in no particular order but always the same.
+  /// Returns the boxes of the volumes, in an unspecified order that never changes.
   const std::vector<scene::Bounds>& boxes() const { return boxes_; }
 
  private:
   void make_grid();
   std::vector<scene::Bounds> boxes_;
-  dvec3 corner_{0.0};  ///< of the grid
+  dvec3 corner_{0.0};  ///< least corner of the grid
   double cell_m_ = 1.0;
   size_t cells_[3] = {0, 0, 0};
-  std::vector<uint8_t> touched_;  ///< [x, y, z]: 1 where a box is
+  std::vector<uint8_t> touched_;  ///< [x, y, z]: 1 if a box touches the cell
 };
 
 }  // namespace greatx::rf

@@ -18,9 +18,10 @@ namespace {
 
 constexpr size_t rays_around = 8, rays_above = 1 + rays_around, rays = rays_above + rays_around;
 
-/// Upwards, then all around 8 degrees over the horizon, where what has no floor is closed, but what covers a
-/// lot as well; then along the horizon, where only walls are met. No other direction lies in a plane that
-/// people build.
+/// Returns the directions of the rays. The first ray goes upwards. Eight rays go 8 degrees above the horizon,
+/// where objects without a floor are closed; wide roofs are met there as well. The last eight go along the
+/// horizon, where a ray meets only walls. Apart from the horizontal, no direction lies in a plane that people
+/// build.
 std::array<dvec3, rays> directions() {
   std::array<dvec3, rays> all{glm::normalize(dvec3(0.0123, 0.0079, 1.0))};
   for (size_t i = 1; i < rays; ++i) {
@@ -39,16 +40,17 @@ double tolerance_of(const dvec3& point, const dvec3& corner) {
       static_cast<float>(std::max(largest_coordinate(point), largest_coordinate(corner))));
 }
 
-/// On which side of an edge a ray from the origin passes. The two triangles of an edge ask with its ends in
-/// opposite order and get opposite answers, whatever the rounding, so that exactly one of them meets the ray.
+/// Tells on which side of an edge a ray from the origin passes. The two triangles of an edge ask with its
+/// ends in opposite order and get opposite answers, whatever the rounding. Therefore exactly one of them
+/// meets the ray.
 bool left_of(const dvec3& direction, const dvec3& from, const dvec3& to) {
   const bool swapped = std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
   const dvec3 &low = swapped ? to : from, &high = swapped ? from : to;
   return (glm::dot(direction, glm::cross(low, high)) >= 0.0) != swapped;
 }
 
-/// Nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time Collision
-/// Detection", 5.1.5).
+/// Returns the nearest point of a triangle, for the surfaces that a point may lie on (C. Ericson, "Real-Time
+/// Collision Detection", 5.1.5).
 dvec3 nearest_on(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
   const auto on_side = [&](const dvec3& from, const dvec3& to) {
     const dvec3 along = to - from;
@@ -70,7 +72,7 @@ dvec3 nearest_on(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c)
 
 }  // namespace
 
-/// Where a ray goes through a surface: out of the solid (+1) or into it (-1).
+/// Describes a point where a ray crosses a surface: out of the solid (+1) or into it (-1).
 struct Surroundings::Hit {
   double distance = 0.0;
   uint32_t facet = 0;
@@ -105,7 +107,7 @@ Surroundings::Surroundings(const scene::Scene& scene, const FacetKinds& kinds) :
   }
 }
 
-/// Where the ray goes through surfaces, up to a distance, in its order.
+/// Returns the crossings of the ray with surfaces up to a distance, in the order along the ray.
 std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec3& point,
                                                   const dvec3& direction, double reach_m) const {
   std::vector<uint32_t> near;
@@ -119,7 +121,7 @@ std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec
     const dvec3 normal = glm::cross(b - a, c - a);
     const double slope = glm::dot(normal, direction), height = glm::dot(normal, a);
     if (slope == 0.0) continue;
-    // What the point lies on is on neither side of it.
+    // A surface that the point lies on is on neither side of the point.
     if (std::abs(height) <= tolerance_of(point, corners[0]) * glm::length(normal)) continue;
     const double distance = height / slope;
     if (distance > 0.0 && distance < reach_m)
@@ -129,15 +131,15 @@ std::vector<Surroundings::Hit> Surroundings::hits(const Shell& shell, const dvec
   return list;
 }
 
-/// A facet of the surface that the ray comes out of without having gone in, or none.
+/// Returns a facet of the surface that the ray leaves without having entered it, or `none`.
 uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, const dvec3& direction) const {
   const double all = glm::length(shell.bounds.size()) + glm::length(point - shell.bounds.center()) + 1.0;
-  // From inside a house its wall is near: the first look is short.
+  // Inside a house its wall is near, so that the first attempt is short.
   for (const double reach : {std::min(32.0, all), all}) {
     const std::vector<Hit> list = hits(shell, point, direction, reach);
     int out = 0;
     for (size_t i = 0; i < list.size();) {
-      // Both sides of a sheet, or two walls back to back, are passed at once.
+      // The ray passes both sides of a sheet, or two walls back to back, at the same time.
       const double end = list[i].distance + 1e-6;
       if (end > reach) break;
       uint32_t left = Placement::none;
@@ -151,15 +153,16 @@ uint32_t Surroundings::comes_out_of(const Shell& shell, const dvec3& point, cons
   return Placement::none;
 }
 
-/// Whether what is met first straight below is the top of something: the point is over a floor, not in the
-/// ground.
+/// Tells whether the first surface straight below is the top of something. Then the point is above a floor
+/// and not in the ground.
 bool Surroundings::floor_below(const Shell& shell, const dvec3& point) const {
   const double reach = std::max(0.0, point.z - shell.bounds.min.z) + 1.0;
   const std::vector<Hit> list = hits(shell, point, -directions()[0], 2.0 * reach);
   return !list.empty() && list.front().sign < 0;
 }
 
-/// Inside of what all rays come out of, beneath what only those upwards do; else one ray gets away.
+/// A point is inside an object that all rays leave, and beneath a surface that only the rays above the
+/// horizon leave. Otherwise one of these rays escapes.
 void Surroundings::surround(const Shell& shell, const dvec3& point, Placement& placement) const {
   static const std::array<dvec3, rays> all = directions();
   std::array<uint32_t, rays> facets{};
@@ -171,9 +174,9 @@ void Surroundings::surround(const Shell& shell, const dvec3& point, Placement& p
     placement.beneath = most_named(std::span(facets).first(rays_above));
 }
 
-/// A facet of the object that most of the rays come out of.
+/// Returns a facet of the object that most of the rays leave.
 uint32_t Surroundings::most_named(std::span<const uint32_t> facets) const {
-  /// How many rays come out of its object, then of its material there.
+  // Counts the rays that leave the object of `facet`, and those that leave it by the same material.
   const auto votes = [&](uint32_t facet) {
     const scene::Facet& own = scene_->facets[facet];
     std::pair<size_t, size_t> count;
@@ -210,7 +213,7 @@ Placement Surroundings::of(const dvec3& point, std::span<const Pose> body_poses,
                  body_poses.size());
     const dvec3 at = shell.body == 0 ? point : body_poses[shell.body].inverse().apply(point);
     const double room = tolerance_of(at, shell.bounds.max);
-    // Below the static world is in the ground, if it has one.
+    // A point below the static world is in the ground, if the world has one: it is tested for body 0.
     const bool below = at.z < shell.bounds.min.z - room && shell.body != 0;
     const bool beside = at.x < shell.bounds.min.x - room || at.y < shell.bounds.min.y - room;
     if (below || beside || glm::any(glm::greaterThan(at, shell.bounds.max + room))) continue;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where an end of a channel stands: free, inside a solid, beneath an open surface, inside foliage, exactly on
-// a surface. fp64, on the host.
+// Finds out where an end of a channel stands: free, inside a solid, beneath an open surface, inside foliage,
+// or exactly on a surface. It runs on the host in fp64.
 #pragma once
 
 #include <cstdint>
@@ -17,48 +17,51 @@
 
 namespace greatx::rf {
 
-/// Each a facet (index into Scene::facets) that tells the object and its material; none: it is not so.
+/// Describes where a point stands. Each index is a facet (into Scene::facets) that identifies the object and
+/// its material; `none` means that the case does not apply.
 struct Placement {
   static constexpr uint32_t none = ~0u;
-  uint32_t solid = none;  ///< of the object that surrounds the point
-  uint32_t beneath =
-      none;  ///< of the open surface above it, with nothing below: in the ground, if that is a mere sheet
-  uint32_t foliage = none;  ///< of the foliage around it
-  uint32_t surface = none;  ///< that it lies on, the nearest one
-  double surface_m = 0.0;   ///< its distance from that
+  uint32_t solid = none;  ///< facet of the object that surrounds the point
+  /// Facet of the open surface above the point, with nothing below the point: the point is in the ground, if
+  /// the ground is a mere sheet.
+  uint32_t beneath = none;
+  uint32_t foliage = none;  ///< facet of the foliage around the point
+  uint32_t surface = none;  ///< nearest facet that the point lies on
+  double surface_m = 0.0;   ///< distance from that facet, metres
   bool free() const { return solid == none && beneath == none && foliage == none && surface == none; }
   friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// The facets of a scene, ready to be asked where a point stands among them.
+/// Finds the placement of points among the facets of a scene.
 ///
-/// Inside a solid: of 17 rays, one upwards, eight all around just over the horizon and eight along it, each
-/// comes out of more surfaces than it went into, counted from the point to somewhere on its way (normals
-/// point out of what is solid). For a closed mesh this is the winding number; and it holds, too, for what
-/// files have instead: houses without a floor, walls and roof as two objects, furniture within. A room whose
-/// normals point inwards is not solid, nor is what is under a roof without walls however wide (rays along the
-/// horizon find no wall), or behind walls with a hole that one of the rays finds. Rays that meet an edge
-/// between two triangles meet one of them. Meshes without consistent winding give chance answers.
+/// Inside a solid. 17 rays start at the point: one goes upwards, eight go in all directions just above the
+/// horizon, and eight go along the horizon. The point is inside if on every ray, somewhere on its way, the
+/// ray has left more surfaces than it has entered since the point (normals point out of solids). For a closed
+/// mesh this is the winding number. The rule also holds for common faults of files: houses without a floor,
+/// walls and roof as two objects, furniture inside. A room whose normals point inwards is not solid. Neither
+/// is the space under a roof without walls, however wide (rays along the horizon find no wall), or behind
+/// walls with a hole that one of the rays finds. A ray that meets the edge between two triangles meets
+/// exactly one of them. Meshes without consistent winding give arbitrary results.
 ///
-/// Beneath an open surface: the first nine rays come out of one, some along the horizon do not, and downwards
-/// nothing is met that a ray goes into, as under a bridge; of the static world alone. So is a point below a
-/// ground that is a sheet.
+/// Beneath an open surface. The first nine rays leave a surface, at least one ray along the horizon does not,
+/// and the first surface straight below is not one that a ray enters (as it would be under a bridge). Only
+/// the static world counts. This also covers a point below a ground that is a sheet.
 ///
-/// On a surface: within shared::visibility_tolerance of a facet (rf/paths/crossings.h): the surface does not
-/// stand in the point's way to either side.
+/// On a surface. The point is within shared::visibility_tolerance of a facet (rf/paths/crossings.h), so that
+/// the facet blocks the view to neither side.
 class Surroundings {
  public:
-  /// `kinds` [facets of the scene]; absent facets are left out. `scene` is read by every call and must
-  /// outlive this.
+  /// `kinds`: [facets of the scene]; absent facets are left out. Every call reads `scene`, which must outlive
+  /// this object.
   Surroundings(const scene::Scene& scene, const FacetKinds& kinds);
 
-  /// `point` in local coordinates, `body_poses` [bodies of the scene] as they stand. Facets of `own_body`,
-  /// which carries the point, do not count; 0: none does. Each body is judged alone, the static world first.
-  /// Thread-safe.
+  /// Returns the placement of `point` (local coordinates) for the present `body_poses` [bodies of the scene].
+  /// Facets of `own_body`, which carries the point, do not count; 0: no body carries it. Each body is judged
+  /// on its own, the static world first. Thread-safe.
   Placement of(const dvec3& point, std::span<const Pose> body_poses, uint32_t own_body = 0) const;
 
  private:
-  /// The facets of one body that are hard, or foliage.
+  /// Holds the hard facets, or the foliage facets, of one body.
   struct Shell {
     uint32_t body = 0;
     bool foliage = false;
@@ -76,11 +79,11 @@ class Surroundings {
   void touch(const Shell& shell, const dvec3& point, Placement& placement) const;
 
   const scene::Scene* scene_;
-  std::vector<Shell> shells_;  ///< by body, hard ones before foliage
+  std::vector<Shell> shells_;  ///< by body; within a body the hard facets come first
 };
 
-/// What a placement means for what the point sees, as in "lies inside 'house' (material brick): ..."; "is
-/// free" if it is.
+/// Returns a text that explains a placement and its consequence for the visibility, as in "lies inside
+/// 'house' (material brick): ..."; "is free" for a free point.
 std::string describe(const Placement& placement, const scene::Scene& scene, const FacetKinds& kinds);
 
 }  // namespace greatx::rf

@@ -18,33 +18,33 @@ double tolerance_m(const scene::Wedge& wedge) {
   return 1e-9 * length + 1e-13 * (glm::length(wedge.a) + length);
 }
 
-/// Across the edge: in (tangent_0, normal_0).
+/// Returns the components across the edge, in (tangent_0, normal_0).
 dvec2 across(const scene::Wedge& wedge, const dvec3& vector) {
   return {glm::dot(wedge.tangent_0, vector), glm::dot(wedge.normal_0, vector)};
 }
 
 dvec2 face_n_direction(const scene::Wedge& wedge) { return {std::cos(wedge.n * pi), std::sin(wedge.n * pi)}; }
 
-/// Does `at`, across the edge, lie on that face (its plane, on the face's side of the edge)? Very near the
-/// edge the tolerance would be any angle.
+/// Tells whether `at`, across the edge, lies on that face: in its plane and on the face's side of the edge.
+/// The second bound is needed very near the edge, where the tolerance would allow any angle.
 bool on_face(const dvec2& face, const dvec2& at, double tolerance) {
   const double off = std::abs(face.x * at.y - face.y * at.x);
   return off <= tolerance && off <= 0.05 * glm::dot(face, at);
 }
 
-/// One face's reflection between the edge's unit vectors.
+/// Holds the reflection of one face between the unit vectors of the edge.
 struct FaceReflection {
   Complex beta_beta, beta_phi, phi_beta, phi_phi;
 };
 
-/// The specular reflection of a ray that meets a face at `angle` about the edge, whose direction from a to b
-/// makes `cos_beta0` with it, phi counted from that face. With N = sqrt(cos^2 angle + cos^2 beta_0 sin^2
-/// angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi') and (cos angle, cos beta_0
-/// sin angle)/N on (beta_0, phi); p = k x s.
+/// Returns the specular reflection of a ray that meets a face at `angle` about the edge. `cos_beta0` is the
+/// cosine between the ray and the edge from a to b, with phi counted from that face. With N = sqrt(cos^2
+/// angle + cos^2 beta_0 sin^2 angle), s = k x n is (-cos angle, cos beta_0 sin angle)/N on (beta_0', phi')
+/// and (cos angle, cos beta_0 sin angle)/N on (beta_0, phi); p = k x s.
 FaceReflection face_reflection(double angle, double cos_beta0, const FresnelCoefficients& r) {
   double c = std::cos(angle), d = cos_beta0 * std::sin(angle);
   const double norm = std::hypot(c, d);
-  // Normal incidence: r_TE = -r_TM, and any s gives the same.
+  // At normal incidence r_TE = -r_TM, and any s gives the same result.
   if (norm < 1e-8) {
     c = 1.0, d = 0.0;
   } else {
@@ -54,7 +54,7 @@ FaceReflection face_reflection(double angle, double cos_beta0, const FresnelCoef
   return {r.r_tm * (d * d) - r.r_te * (c * c), mixed, -mixed, r.r_te * (d * d) - r.r_tm * (c * c)};
 }
 
-/// A face of the wedge as the wave in the exterior meets it.
+/// Describes a face of the wedge as the wave in the exterior meets it.
 struct Face {
   uint32_t material;
   bool from_front;
@@ -68,7 +68,7 @@ Face face_of(uint32_t facet, const dvec3& exterior_normal, const FacetWorld& wor
 
 FresnelCoefficients fresnel(const Face& face, double cos_theta, const RadioSurfaces& surfaces,
                             const SpecularShare& share) {
-  const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // rounding only
+  const double cosine = std::clamp(cos_theta, 0.0, 1.0);  // removes only rounding
   FresnelCoefficients r = surfaces.reflect(face.material, face.from_front, cosine);
   const double kept = share ? share(face.material, cosine) : 1.0;
   r.r_te *= kept;
@@ -164,7 +164,7 @@ EdgeDyadic edge_dyadic(const scene::Wedge& wedge, const dvec3& in, const dvec3& 
   const dvec3 normal_n = face_n.y * wedge.tangent_0 - face_n.x * wedge.normal_0;  // into the exterior
   const uint32_t facet_n = wedge.facet_n == scene::no_facet ? wedge.facet_0 : wedge.facet_n;
   add(UtdTerm::reflection_0, face_of(wedge.facet_0, wedge.normal_0, world), {1.0, 0.0}, at.face_0, cos_beta0);
-  // From face n the edge runs the other way.
+  // As seen from face n the edge runs in the opposite direction.
   add(UtdTerm::reflection_n, face_of(facet_n, normal_n, world), face_n, at.face_n, -cos_beta0);
   return dyadic;
 }

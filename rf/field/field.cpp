@@ -23,16 +23,16 @@ bool bends(InteractionType type) {
   return type == InteractionType::diffraction || type == InteractionType::scattering;
 }
 
-/// The straight runs of a path, from the transmitter on.
+/// Holds the straight runs of a path, from the transmitter on.
 struct Runs {
-  std::vector<size_t> vertices;   ///< [runs + 1] where the path turns, its ends included
+  std::vector<size_t> vertices;   ///< [runs + 1] vertices where the path turns, with both ends
   std::vector<dvec3> directions;  ///< [runs] unit vectors
-  size_t bend = 0;  ///< the run that starts at the path's diffraction or scattering; 0: there is none
+  size_t bend = 0;  ///< the run that starts at the diffraction or scattering; 0: the path has none
   double before_m = 0.0, after_m = 0.0;  ///< unfolded lengths on both sides of the bend
-  bool scattered = false;                ///< there: what is scattered spreads anew
+  bool scattered = false;                ///< the bend is a scattering, from which the wave spreads anew
 };
 
-/// Directions of the runs [first, last), all joined by reflections; returns the sum of their lengths.
+/// Sets the directions of the runs [first, last), which reflections join. Returns the sum of their lengths.
 double set_directions(const GeometricPath& path, const FacetWorld& world, size_t first, size_t last,
                       Runs& runs) {
   const auto along = [&](size_t run) {
@@ -48,7 +48,7 @@ double set_directions(const GeometricPath& path, const FacetWorld& world, size_t
   GREATX_CHECK(longest_m > 0.0, "path of {} interactions with no length before or after one",
                path.interactions.size());
   runs.directions[longest] = along(longest) / longest_m;
-  const auto normal_before = [&](size_t run) {  // of the facet that the run starts from
+  const auto normal_before = [&](size_t run) {  // normal of the facet that the run starts from
     return world.facet(path.interactions[runs.vertices[run] - 1].element).normal;
   };
   for (size_t run = longest; run + 1 < last; ++run)
@@ -78,21 +78,22 @@ Runs runs_of(const GeometricPath& path, const FacetWorld& world) {
   return runs;
 }
 
-/// Any unit vector perpendicular to k.
+/// Returns any unit vector perpendicular to k.
 dvec3 any_perpendicular(const dvec3& k) {
   const dvec3 axis = std::abs(k.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
   return glm::normalize(glm::cross(k, axis));
 }
 
-/// s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is noise, and r_TE = -r_TM, t_TE =
-/// t_TM to 1e-16: any s gives the same field.
+/// Returns s = k x n / |k x n|. Within 1e-8 of the normal the plane of incidence is only rounding noise,
+/// while r_TE = -r_TM and t_TE = t_TM to 1e-16: any s gives the same field.
 dvec3 across(const dvec3& k, const dvec3& normal) {
   const dvec3 product = glm::cross(k, normal);
   const double sine = glm::length(product);
   return sine > 1e-8 ? product / sine : any_perpendicular(k);
 }
 
-/// The field of a path on its way: what unit fields along theta and phi at the transmitter have become.
+/// Holds the field of a path on its way: the images of the unit fields along theta and phi at the
+/// transmitter.
 class Travelling {
  public:
   Travelling(const FieldModel& model, const dvec3& departure) : model_(model) {
@@ -139,7 +140,7 @@ class Travelling {
         {m.ss * te, m.sp * tm, m.ps * te, m.pp * tm});
   }
 
-  /// Spreads by the whole length from there on, too (edge_dyadic).
+  /// The result also spreads by the whole length from there on (edge_dyadic).
   void diffract(const scene::Wedge& wedge, const dvec3& in, const dvec3& out, double before_m,
                 double after_m) {
     const auto share = [this](uint32_t material, double cosine) { return specular_share(material, cosine); };
@@ -149,7 +150,7 @@ class Travelling {
   }
 
  private:
-  /// From components on (s_in, p_in) to those on (s_out, p_out): the matrix [ss sp; ps pp], out by in.
+  /// Maps components on (s_in, p_in) to components on (s_out, p_out) by the matrix [ss sp; ps pp], out by in.
   void map(const dvec3& s_in, const dvec3& p_in, const dvec3& s_out, const dvec3& p_out,
            const ScatteringMatrix& by) {
     for (FieldVector& field : columns_) {
@@ -183,7 +184,7 @@ const scene::Wedge& wedge_of(const FieldModel& model, const Interaction& interac
   return model.wedges[interaction.element];
 }
 
-/// What the path does to the two unit fields at the transmitter, spreading included.
+/// Sets `transfer` to the images of the two unit fields at the transmitter, including the spreading.
 void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                   Complex (&transfer)[4]) {
   const FacetWorld& world = *model.world;
@@ -221,7 +222,7 @@ void set_transfer(const GeometricPath& path, const FieldModel& model, const Runs
   }
 }
 
-/// Rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
+/// Returns the rate at which the path shortens, m/s: v_0 . k_0 - v_{n+1} . k_n + sum v_i . (k_i - k_{i-1}).
 double closing_rate(const GeometricPath& path, const FieldModel& model, const Runs& runs,
                     const dvec3& transmitter_velocity, const dvec3& receiver_velocity) {
   double rate = glm::dot(transmitter_velocity, runs.directions.front()) -

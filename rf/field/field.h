@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a path does to the field: every interaction between the polarizations at both ends, the air,
-// spreading, delay and Doppler shift.
+// Computes the field of a path: every interaction, the polarizations at both ends, the air, spreading, delay
+// and Doppler shift.
 #pragma once
 
 #include <optional>
@@ -17,65 +17,61 @@
 
 namespace greatx::rf {
 
-/// Which effects act on the field of each path; all off: smooth walls in vacuum.
+/// Selects the effects that act on the field of each path. With all effects off, walls are smooth and in
+/// vacuum.
 struct FieldEffects {
-  bool roughness = false;   ///< specular part x the roughness factor of the material's rms height
-  bool scattering = false;  ///< specular part x sqrt(1 - S^2): what is scattered is not reflected
+  bool roughness = false;   ///< multiplies the specular part by the factor of the material's rms height
+  bool scattering = false;  ///< multiplies the specular part by sqrt(1 - S^2); the rest is scattered
   bool gas = false, rain = false, fog = false, foliage = false;
-  uint64_t seed = 1;  ///< of the phases of scattering patches
+  uint64_t seed = 1;  ///< seed of the phases of scattering patches
   RoughnessModel roughness_model = RoughnessModel::ament;
 };
 
-/// What acts on the field of a channel's paths; the same for all of them, at one frequency.
+/// Holds the models that act on the fields of a channel's paths, at one frequency. All paths share them.
 struct FieldModel {
-  const FacetWorld* world = nullptr;  ///< the one that the paths were solved in
+  const FacetWorld* world = nullptr;  ///< the world in which the paths were solved
   const RadioSurfaces* surfaces = nullptr;
   FieldEffects effects;
-  std::span<const scene::Wedge> wedges;  ///< that paths may be diffracted at
-  PathAttenuation attenuation;           ///< of the air, at the surfaces' carrier: of the effects that are on
-  std::optional<scene::Foliage>
-      foliage;  ///< what GeometricPath::foliage_m is of; needed where effects.foliage is on
+  std::span<const scene::Wedge> wedges;  ///< wedges that may diffract paths
+  PathAttenuation attenuation;           ///< of the air at the surfaces' carrier, for the effects that are on
+  /// The foliage of GeometricPath::foliage_m. It must have a value if effects.foliage is on.
+  std::optional<scene::Foliage> foliage;
 };
 
-/// The field along one path of any reflections and transmissions and at most one diffraction or scattering;
-/// velocities in m/s, local axes (those of the facets and wedges come from FacetWorld::move).
+/// Computes the field along one path with any number of reflections and transmissions and at most one
+/// diffraction or scattering. Velocities are in m/s along local axes; FacetWorld::move gives those of facets
+/// and wedges.
 ///
-/// - Directions. A run is what is straight: from one interaction that turns the path to the next; walls that
-///   it passes
-///   do not split it. The longest run has the direction between its ends, the others follow by the law of
-/// reflection, so
-///   that a run of no length in a corner or one of a few millimetres costs no accuracy, and a wall on the way
-/// does not
-///   change a bit of it. Before and after a diffraction or scattering this is done apart.
-/// - Reflection: s = k x n / |k x n|, p = k x s before and after; E' = rho sqrt(1 - S^2) (r_TE (s . E) s
-///   + r_TM (p_in . E) p_out), rho of the roughness and S of the scattering only where that effect is on
-/// (both: both;
-///   what neither returns is absorbed). At normal incidence any s does.
-/// - Transmission: E' = t_TE (s . E) s + t_TM (p . E) p of the whole wall as a sheet
-///   (RadioSurfaces::transmit), direction
-///   kept. Neither rho nor S applies: both are defined for the reflected power (S^2 of it is what a patch
-/// scatters), and
-///   what passes an rms height is delayed by (sqrt(eta) - 1) of it, not by the 2 cos(theta) that a reflection
-/// is.
-/// - Scattering: E' = (S/(s' s)) sqrt(f_s cos(theta_i) dA) M diag(r_TE, r_TM) E, s' and s the unfolded
-///   lengths before and
-///   after, M and f_s of rf/surface/scattering.h, r of the smooth wall: so S^2 Gamma^2 |E|^2 cos(theta_i) dA
-/// leaves the patch,
-///   Gamma^2 = |r_TE|^2 and |r_TM|^2 weighed with the power in each.
-/// - Diffraction: edge_dyadic (rf/field/diffraction.h), whose faces reflect with the same rho and S.
-/// - Air: each segment takes its dB of theta_hat and phi_hat of its direction; foliage takes foliage_db of
+/// - Directions. A run is a straight part of the path, between two interactions that turn the path; walls
+///   that the path passes do not split a run. The longest run takes its direction from its ends. The
+///   directions of the others follow from the law of reflection. Hence a run of a few millimetres, or of no
+///   length in a corner, costs no accuracy, and a wall on the way changes no bit of the directions. The runs
+///   before and after a diffraction or scattering are treated separately.
+/// - Reflection. s = k x n / |k x n|, and p = k x s before and after. E' = rho sqrt(1 - S^2) (r_TE (s . E) s
+///   + r_TM (p_in . E) p_out), with rho of the roughness and S of the scattering only if that effect is on.
+///   If both are on, both factors apply, and the power that neither returns is absorbed. At normal incidence
+///   any s gives the same field.
+/// - Transmission. E' = t_TE (s . E) s + t_TM (p . E) p of the whole wall as a sheet
+///   (RadioSurfaces::transmit), with the direction unchanged. Neither rho nor S applies: both are defined for
+///   the reflected power, of which a patch scatters the share S^2. A surface height h delays a transmitted
+///   wave by (sqrt(eta) - 1) h, and a reflected wave by 2 cos(theta) h.
+/// - Scattering. E' = (S/(s' s)) sqrt(f_s cos(theta_i) dA) M diag(r_TE, r_TM) E, with the unfolded lengths s'
+///   before and s after the patch, M and f_s of rf/surface/scattering.h, and r of the smooth wall. The power
+///   S^2 Gamma^2 |E|^2 cos(theta_i) dA leaves the patch, where Gamma^2 is the mean of |r_TE|^2 and |r_TM|^2,
+///   weighted by the power in each.
+/// - Diffraction. edge_dyadic (rf/field/diffraction.h), whose faces reflect with the same rho and S.
+/// - Air. Each segment loses its dB in theta_hat and phi_hat of its direction. Foliage takes foliage_db of
 ///   the depth.
-/// - transfer = theta-phi components at the receiver of the two unit fields at the transmitter, with the
-///   spreading:
-///   1/length, but for scattering.
-/// - delay = length / c; doppler = (f/c)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i - k_{i-1})), the sum of
-///   small numbers,
-///   never a product of (1 + v/c) (1e-3 Hz and 7500 m/s alike). Approaching: positive. The phase turns as
-///   e^{+j 2 pi doppler t}. A transmission adds nothing, whatever its wall does.
+/// - Transfer. The theta and phi components at the receiver of the two unit fields at the transmitter, with
+///   the spreading 1/length (for scattering 1/(s' s)).
+/// - Delay and Doppler shift. delay = length / c. doppler = (f/c)(v_tx . k_0 - v_rx . k_n + sum v_i . (k_i -
+///   k_{i-1})), positive for approaching ends. It is a sum of small numbers and not a product of factors (1 +
+///   v/c), and is therefore accurate for 1e-3 Hz and for 7500 m/s alike. The phase turns as e^{+j 2 pi
+///   doppler t}. A transmission adds nothing, whatever the motion of its wall.
 Path path_field(const GeometricPath& geometry, const FieldModel& model, const dvec3& transmitter_velocity,
                 const dvec3& receiver_velocity);
 
-/// Path::transfer alone, by another model of the same world: another frequency.
+/// Computes Path::transfer alone with another model of the same world, as for another frequency.
 void path_transfer(const GeometricPath& geometry, const FieldModel& model, Complex (&transfer)[4]);
 
 }  // namespace greatx::rf

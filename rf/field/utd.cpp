@@ -14,8 +14,8 @@ namespace {
 constexpr Complex j{0.0, 1.0};
 constexpr int node_count = 12;
 
-/// The midpoint rule's nodes t_k = (k + 1/2) h and weights e^{-t_k^2}; h balances the rule's error
-/// e^{-(pi/h)^2} with the truncated tail e^{-(node_count h)^2}.
+/// Holds the nodes t_k = (k + 1/2) h and weights e^{-t_k^2} of the midpoint rule. The step h balances the
+/// error of the rule, e^{-(pi/h)^2}, with the truncated tail, e^{-(node_count h)^2}.
 struct MidpointRule {
   double step;
   std::array<double, node_count> squared_node, weight;
@@ -38,7 +38,7 @@ constexpr bool adds_pi(uint32_t term) {
 }
 constexpr bool reflects(uint32_t term) { return term >= static_cast<uint32_t>(UtdTerm::reflection_n); }
 
-/// N of a term: the whole turns of 2 n pi nearest to beta +- pi.
+/// Returns N of a term: the number of whole turns of 2 n pi that is nearest to beta +- pi.
 double turns_of(uint32_t term, const UtdAngles& angles, double& beta_and_pi) {
   const double beta = reflects(term) ? angles.observed + angles.incident : angles.observed - angles.incident;
   beta_and_pi = adds_pi(term) ? beta + pi : beta - pi;
@@ -53,14 +53,13 @@ void check(const UtdAngles& angles) {
                "angles {} and {} of an exterior of {}", angles.incident, angles.observed, angles.n * pi);
 }
 
-/// y cot y, |y| <= pi/2.
+/// Returns y cot y for |y| <= pi/2.
 double y_cot_y(double y) { return y == 0.0 ? 1.0 : y / std::tan(y); }
 
 Complex term_value(uint32_t term, double delta, double n, double wave_times_distance) {
   const double half = 0.5 * delta, sine = std::abs(std::sin(half));
   const double sinc = half == 0.0 ? 1.0 : sine / std::abs(half);
-  // On the boundary itself: the lit side, which is delta > 0 for the terms with + pi and delta < 0 for the
-  // others.
+  // The boundary itself belongs to the lit side: delta > 0 for the terms with + pi, delta < 0 for the others.
   const double side = delta != 0.0 ? std::copysign(1.0, delta) : adds_pi(term) ? 1.0 : -1.0;
   const double sign = adds_pi(term) ? -side : side;
   return 0.5 * sign * sinc * y_cot_y(0.5 * delta / n) *
@@ -81,15 +80,15 @@ Complex erfcx_on_diagonal(double w) {
       const double share = rule.weight[k] / (squared * squared + t2 * t2);
       re += share * t2;
       im -= share * squared;
-    } else {  // t^4 is lost beside w^4, which may overflow
+    } else {  // t^4 is negligible beside w^4, which may overflow
       re += rule.weight[k] * (t2 / squared) / squared;
       im -= rule.weight[k] / squared;
     }
   }
   const double scale = std::sqrt(2.0) * w * rule.step / pi;  // 2 z h/pi = scale (1 + j)
   Complex value(scale * (re - im), scale * (re + im));
-  // The pole at t = jz, which the rule steps over: 2 e^{z^2}/(1 + e^{2 pi z/h}). Beyond e^{-40} it is
-  // nothing.
+  // The residue of the pole at t = jz, which the rule leaves out: 2 e^{z^2}/(1 + e^{2 pi z/h}). Beyond
+  // e^{-40} it is negligible.
   const double decay = std::sqrt(2.0) * pi * w / rule.step;
   if (decay < 40.0) {
     const Complex shrunk = std::polar(std::exp(-decay), -decay);
@@ -116,8 +115,8 @@ UtdAngles utd_angles(double n, double incident, double observed) {
 }
 
 UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
-  // Into [0, n pi]. A point on a face may be off it by its tolerance, which is an angle to reckon with near
-  // the edge.
+  // Clamps the angle into [0, n pi]. A point on a face may be off it by its tolerance, which is a
+  // considerable angle near the edge.
   const double wide = n * pi;
   const auto from_face_0 = [&](const dvec2& direction) {
     const double turned = std::atan2(direction.y, direction.x);
@@ -127,7 +126,7 @@ UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer) {
   };
   UtdAngles angles = utd_angles(n, from_face_0(source), from_face_0(observer));
   for (uint32_t term = 0; term < 4; ++term) {
-    if (std::abs(angles.delta[term]) > 1.0) continue;  // far from the boundary: nothing to cancel
+    if (std::abs(angles.delta[term]) > 1.0) continue;  // nothing cancels far from the boundary
     double sum = 0.0;
     const double turned = 2.0 * n * pi * turns_of(term, angles, sum);
     const dvec2 opposite(-source.x, reflects(term) ? source.y : -source.y);
@@ -173,7 +172,8 @@ FaceAngles luebbers_angles(const UtdAngles& angles) {
   const double wide = angles.n * pi;
   double nearness = 0.5 * wide - angles.incident;
   if (std::abs(nearness) < 1e-9) nearness = angles.observed - 0.5 * wide;
-  // Rounding only: the nearer face is at most half of the exterior, which is no more than 2 pi, away.
+  // The clamps only remove rounding: the nearer face is at most half of the exterior away, and the exterior
+  // is at most 2 pi wide.
   const auto incident_at = [](double incident) { return std::min(std::max(incident, 0.0), pi); };
   const auto leaving_for = [](double observed) { return pi - std::min(std::max(observed, 0.0), 0.5 * pi); };
   if (nearness >= 0.0) return {incident_at(angles.incident), leaving_for(wide - angles.observed)};

@@ -58,7 +58,7 @@ CandidateList exhaustive_candidates(uint32_t facet_count, uint32_t max_depth, ui
   }
   CandidateList list;
   list.add({});
-  size_t first = 0, last = 1;  // the level before
+  size_t first = 0, last = 1;  // the sequences of the depth before
   std::vector<uint32_t> sequence;
   for (uint32_t depth = 1; depth <= max_depth; ++depth) {
     for (size_t parent = first; parent < last; ++parent) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double shortest_line_of_sight_m = 1e-9;
 
-/// A path that meets the edge between two facets touches both at one point. It exists (as the limit of paths
-/// beside it) only if each facet lies on the side of the other that reflects: the corner of a room, not that
-/// of a house; and never for two facets of one plane.
+/// Tells whether a path may meet the edge between two facets, where it touches both at one point. Such a path
+/// exists (as the limit of paths beside it) only if each facet lies on the reflecting side of the other: in
+/// the corner of a room and not at the corner of a house, and never for two facets of one plane.
 bool joins_as_corner(const PosedFacet& a, double side_a, const PosedFacet& b, double side_b) {
   return side_a * a.distance(b.centroid) > a.tolerance_m && side_b * b.distance(a.centroid) > b.tolerance_m;
 }
@@ -64,7 +64,7 @@ ImageTree::ImageTree(const FacetWorld& world, const dvec3& source, const Candida
 }
 
 void ImageTree::build(const CandidateList& candidates) {
-  std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; looked up only, never walked
+  std::unordered_map<uint64_t, uint32_t> child_of;  // (parent, facet) -> node; never iterated
   child_of.reserve(candidates.size());
   nodes_.reserve(candidates.size());
   node_of_sequence_.assign(candidates.size(), none);
@@ -110,7 +110,7 @@ void ImageTree::mirror(const dvec3& source) {
     const double distance = facet.distance(before);
     images_[i] = before - 2.0 * distance * facet.normal;
     node.distance = -distance;
-    const dvec2 at = facet.plane_coordinates(before);  // mirroring keeps them
+    const dvec2 at = facet.plane_coordinates(before);  // mirroring does not change them
     node.u = at.x;
     node.v = at.y;
     node.min_u = facet.min_u, node.max_u = facet.max_u, node.min_v = facet.min_v, node.max_v = facet.max_v;
@@ -139,8 +139,8 @@ bool ImageTree::reach(size_t sequence, const dvec3& point, GeometricPath& path) 
   return true;
 }
 
-/// By which a node's window is wider than trace() asks for, so that no path that exists is lost before.
-/// Roundings of u and v grow with the distance to the image, not with the facet.
+/// Returns the width by which a node's window exceeds the test of trace(), so that the window loses no path
+/// that exists. Roundings of u and v grow with the distance to the image and not with the facet.
 double ImageTree::room(const Node& node, double tolerance_m) {
   return 2.0 * tolerance_m + 1e-12 * (std::abs(node.u) + std::abs(node.v));
 }
@@ -159,7 +159,7 @@ void ImageTree::build_filter() {
   filter_.build(windows, static_cast<uint32_t>(used_facets_.size()));
 }
 
-/// Does the straight line from the node's image to the target pass the window of its facet?
+/// Tells whether the straight line from the node's image to the target passes the window of its facet.
 bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
   if (node.distance * target.distance >= 0.0) return false;  // the target is behind the mirror
   const double t = node.distance / (node.distance - target.distance);
@@ -168,7 +168,8 @@ bool ImageTree::may_reach(const Node& node, const TargetInFacet& target) const {
   return u >= node.min_u - room && u <= node.max_u + room && v >= node.min_v - room && v <= node.max_v + room;
 }
 
-/// Walks from the target back to the source, cutting the line to each image with that image's facet.
+/// Goes from the target back to the source and intersects the line to each image with the facet of that
+/// image.
 bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
   chain.facets.clear();
   chain.points.clear();
@@ -179,7 +180,7 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
     const Node& node = nodes_[index];
     const uint32_t facet_index = used_facets_[node.slot];
     const PosedFacet& facet = world_->facet(facet_index);
-    const double side = node.distance > 0.0 ? -1.0 : 1.0;  // where the path is: opposite to the image
+    const double side = node.distance > 0.0 ? -1.0 : 1.0;  // the path is opposite to the image
     const double behind = std::abs(node.distance);
     double before = side * facet.distance(from);
     if (behind <= facet.tolerance_m) return false;
@@ -200,7 +201,7 @@ bool ImageTree::trace(uint32_t leaf, const dvec3& target, Chain& chain) const {
   return true;
 }
 
-/// Nodes whose image the target sees through the facet, were nothing before it.
+/// Returns the nodes whose image the target would see through the facet if nothing were in between.
 std::vector<uint32_t> ImageTree::seen_from(const dvec3& target) const {
   std::vector<uint32_t> indices, nodes;
   for (uint32_t slot = 0; slot < used_facets_.size(); ++slot) {

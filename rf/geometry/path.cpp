@@ -10,8 +10,8 @@ namespace greatx::rf {
 
 namespace {
 
-/// The finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014): every bit of the input reaches
-/// every bit.
+/// Applies the finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014), by which every bit of the
+/// input affects every bit of the output.
 uint64_t mixed(uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;

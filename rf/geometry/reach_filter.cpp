@@ -8,16 +8,17 @@ namespace greatx::rf {
 
 namespace {
 
-/// More than all roundings to fp32 (2^-24 each) between the exact bound and its comparison.
+/// Exceeds all roundings to fp32 (2^-24 each) between the exact bound and its comparison.
 constexpr double slack = 1e-6;
-constexpr float open = 1e30f;  ///< a bound that holds nothing back
+constexpr float open = 1e30f;  ///< a bound that excludes nothing
 
 struct Bound {
   float at, slope;
 };
 
-/// u_hit = (u D + U d)/(d + D) >= m is U >= m + D (m - u)/d, for an image at distance d and a point at D on
-/// either side. Rounded outwards; open where fp32 cannot tell: the image is all but in the plane.
+/// Returns the lower bound of U. u_hit = (u D + U d)/(d + D) >= m means U >= m + D (m - u)/d, for an image at
+/// distance d and a point at distance D on either side. The bound is rounded outwards. It is open if the
+/// image is so near the plane that fp32 cannot tell.
 Bound lower(double m, double u, double d) {
   const double slope = (m - u) / d;
   if (!(std::abs(slope) < 1e18 && std::abs(m) < 1e18)) return {-open, 0.0f};
@@ -47,11 +48,11 @@ void ReachFilter::set(Block& block, size_t lane, const ImageWindow& image, uint3
 void ReachFilter::build(std::span<const ImageWindow> images, uint32_t groups) {
   std::vector<uint32_t> count(2 * size_t{groups}, 0);
   for (const ImageWindow& image : images)
-    if (image.distance != 0.0) ++count[side_of(image)];  // an image in the plane is seen from nowhere
+    if (image.distance != 0.0) ++count[side_of(image)];  // no point sees an image in the plane
   first_block_.assign(1, 0);
   for (const uint32_t n : count)
     first_block_.push_back(first_block_.back() + static_cast<uint32_t>((n + lanes - 1) / lanes));
-  // What is left of a side's last block is seen from nowhere.
+  // No point sees the unused lanes of a side's last block.
   blocks_.assign(first_block_.back(), {});
   for (Block& block : blocks_)
     for (size_t lane = 0; lane < lanes; ++lane) block.low_u[lane] = open, block.high_u[lane] = -open;
@@ -66,7 +67,7 @@ void ReachFilter::build(std::span<const ImageWindow> images, uint32_t groups) {
 void ReachFilter::collect(uint32_t group, double distance, double u, double v,
                           std::vector<uint32_t>& indices) const {
   if (distance == 0.0) return;
-  const size_t side = 2 * size_t{group} + (distance > 0.0 ? 0 : 1);  // the image is on the other one
+  const size_t side = 2 * size_t{group} + (distance > 0.0 ? 0 : 1);  // the image is on the other side
   const auto away = static_cast<float>(std::abs(distance));
   const auto above_u = static_cast<float>(u + slack * std::abs(u)),
              below_u = static_cast<float>(u - slack * std::abs(u)),

@@ -22,8 +22,8 @@ shared::GpuFacetPlane plane_of(const scene::Scene& scene, const scene::Facet& fa
   return {vec3(facet.normal), vec3(foot), static_cast<uint32_t>(kind), facet.body};
 }
 
-/// One box for each body that has foliage. Wider than its foliage by far more than fp32 rounds, since a line
-/// is to begin and end outside.
+/// Returns one box for each body that has foliage. A box exceeds its foliage by far more than the rounding of
+/// fp32, since a line must begin and end outside.
 std::vector<shared::GpuFoliageBox> foliage_boxes(const scene::Scene& scene, const FacetKinds& kinds) {
   std::vector<scene::Bounds> bounds(scene.bodies.size());
   for (size_t i = 0; i < scene.facets.size(); ++i) {
@@ -60,14 +60,14 @@ shared::GpuSegment gpu_segment(const Segment& s, size_t index, const FoliageVolu
 
 }  // namespace
 
-/// In which order segments are traced: first those that hang on none, in their order, then the others by the
-/// one that they hang on, so that what is not looked at lies together.
+/// Holds the order in which segments are traced: first the segments without a leader, in their order, and
+/// then the others by leader, so that segments that need no tracing are adjacent.
 struct CrossingPass::Rows {
   explicit Rows(std::span<const Segment> batch);
   std::vector<uint32_t> of;        ///< [segments]
   std::vector<uint32_t> segments;  ///< [rows]
-  uint32_t first_hanging = 0;
-  /// That a hanging segment's row hangs on.
+  uint32_t first_hanging = 0;      ///< first row whose segment has a leader
+  /// Returns the row of the leader of the segment in `row`.
   uint32_t leader_of(uint32_t row, std::span<const Segment> batch) const {
     return of[batch[segments[row]].only_if];
   }
@@ -135,7 +135,8 @@ CrossingPass::CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint
   pipeline_ = gpu::ComputePipeline(device, compute, "crossings");
 }
 
-/// Those that hang on none, then the others, whose part ends where their leaders' part does.
+/// Splits the rows into parts: first the segments without a leader, then the others. A part of the others
+/// ends where the part of their leaders ends.
 std::vector<CrossingPass::Part> CrossingPass::parts_of(const Rows& rows, std::span<const Segment> segments,
                                                        uint32_t row_words) const {
   const uint64_t bytes = std::min<uint64_t>(part_bytes_, scene_->device().limits().maxStorageBufferRange),
@@ -184,7 +185,8 @@ CrossingPass::Pending CrossingPass::record(gpu::TickSlot& slot, std::span<const 
   cmd.bind(pipeline_);
   for (Part& part : parts) {
     part.segments = slot.upload.allocate_for<shared::GpuSegment>(part.count);
-    // A few bytes a segment, each written once: straight into the memory that the host reads.
+    // The results are a few bytes per segment, each written once: they go straight into memory that the host
+    // reads.
     part.results = slot.readback.allocate_for<uint32_t>(size_t{part.count} * row_words);
     upload(rows, segments, parts, part);
     if (part.first == rows.first_hanging) cmd.barrier(gpu::sync::compute_write, gpu::sync::compute_read);
@@ -210,7 +212,7 @@ std::vector<Crossing> CrossingPass::collect(const Pending& pending, std::span<co
                pending.row_of.size(), segments.size());
   std::vector<Crossing> crossings(segments.size());
   if (segments.empty()) return crossings;
-  size_t at = 0;  // the part of the segment before: mostly this one's, too
+  size_t at = 0;  // the part of the segment before, which mostly holds this segment, too
   for (size_t i = 0; i < crossings.size(); ++i) {
     const uint32_t number = pending.row_of[i];
     if (const Part& part = pending.parts[at]; number < part.first || number - part.first >= part.count)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands between two points? Segments of paths, traced on the GPU in the tick's command buffer.
+// Finds the surfaces between two points. The GPU traces segments of paths in the tick's command buffer.
 #pragma once
 
 #include <cstdint>
@@ -18,81 +18,81 @@
 
 namespace greatx::rf {
 
-/// A stretch of a path, with what its ends belong to and therefore does not stand in its way.
+/// Describes a segment of a path, and the facets and bodies at its ends, which therefore do not block it.
 struct Segment {
   dvec3 a{0.0}, b{0.0};                ///< local coordinates, metres
-  uint32_t facet_a = shared::rf_none;  ///< a facet that the path touches in `a`; rf_none: none
+  uint32_t facet_a = shared::rf_none;  ///< a facet that the path touches at `a`; rf_none: none
   uint32_t facet_b = shared::rf_none;
-  uint32_t body_a =
-      shared::rf_none;  ///< body that carries the node in `a` and is not to hide it; rf_none: none
+  /// Body that carries the node at `a` and must not hide it; rf_none: none.
+  uint32_t body_a = shared::rf_none;
   uint32_t body_b = shared::rf_none;
-  uint32_t other_a = shared::rf_none;  ///< the second face of the wedge in `a`; rf_none: none
+  uint32_t other_a = shared::rf_none;  ///< the second face of the wedge at `a`; rf_none: none
   uint32_t other_b = shared::rf_none;
-  uint32_t walls = 0;  ///< FacetKind::wall that it may pass, at most shared::crossings_max
-  /// An earlier segment of the batch with the same ends, that may pass as many walls at least: its answer,
-  /// with all its walls, is this one's. rf_none: none.
+  uint32_t walls = 0;  ///< FacetKind::wall that the segment may pass, at most shared::crossings_max
+  /// An earlier segment of the batch with the same ends that may pass at least as many walls. Its answer,
+  /// with all its walls, is also the answer of this segment. rf_none: none.
   uint32_t same_as = shared::rf_none;
-  /// A segment of the batch that has to be clear: if it is blocked, this one counts as blocked without being
-  /// looked at. That one hangs on none itself. rf_none: none.
+  /// The leader, a segment of the batch that must be clear. If the leader is blocked, this segment counts as
+  /// blocked and is not traced. A leader has no leader itself. rf_none: none.
   uint32_t only_if = shared::rf_none;
 };
 
-/// What a segment meets.
+/// Describes the surfaces that a segment meets.
 struct Crossing {
-  bool blocked = false;  ///< by an opaque facet, or by more walls than allowed; then the rest means nothing
-  std::vector<uint32_t> walls;  ///< facets passed, ascending by index, each once
-  double foliage_m = 0.0;  ///< of its length inside foliage, ends inside included; overlapping volumes add up
-  /// The foliage met on the segment's line is no closed volume with its faces outwards: foliage_m is what can
-  /// be told.
+  /// An opaque facet, or more walls than allowed, blocks the segment. The other members then mean nothing.
+  bool blocked = false;
+  std::vector<uint32_t> walls;  ///< facets passed, each once, ascending by index
+  /// Length inside foliage, also where an end is inside, metres. Overlapping volumes add up.
+  double foliage_m = 0.0;
+  /// The foliage on the segment's line is not a closed volume with its faces outwards: foliage_m is then an
+  /// estimate.
   bool foliage_open = false;
 };
 
-/// What counts as crossed:
-/// - the facets and bodies named in the segment never count, wherever it crosses them;
-/// - nor does a surface whose plane an end lies in as far as fp32 can tell: within
-///   shared::visibility_tolerance, 0.1 mm plus 2.4e-7 of the largest coordinate (0.17 mm at 300 m, 2.5 mm at
-/// 10 km from
-///   the local origin). So a point exactly on a surface is seen from both of its sides, and a point 5 mm in
-/// front of one
-///   is seen from the front alone;
-/// - a wall counts once, however many of its triangles meet where it is passed. So do walls in one plane
-///   (neighbours, a
-///   wall that is there twice), within that tolerance, and walls that are passed in their common edge: the
-/// one of the
-///   lowest index is listed;
-/// - a segment from a point to itself meets nothing;
-/// - texels of alpha masks are solid.
+/// Traces segments by these rules:
+/// - The facets and bodies that the segment names never count, wherever it crosses them.
+/// - A surface does not count if an end lies in its plane as far as fp32 can tell: within
+///   shared::visibility_tolerance, which is 0.1 mm plus 2.4e-7 of the largest coordinate (0.17 mm at 300 m,
+///   2.5 mm at 10 km from the local origin). Hence a point exactly on a surface is seen from both of its
+///   sides, and a point 5 mm in front of a surface is seen only from the front.
+/// - A wall counts once, however many of its triangles meet at the crossing. Walls in one plane (neighbours,
+///   or a wall that exists twice) also count once, within that tolerance, and so do walls that are passed in
+///   their common edge. The wall with the lowest index is listed.
+/// - A segment from a point to itself meets nothing.
+/// - Texels of alpha masks are solid.
 ///
-/// Foliage is a closed volume with its faces outwards. Its rules are its own, since nothing jumps where a
-/// surface is met next to an end: neither ends in its planes nor named facets matter (named bodies do), and
-/// ends may be inside or on it. Lengths are fixed-point, 2^-24 of the segment, on top of fp32: some 0.1 mm
-/// over 100 m, 10 mm at 10 km from the origin.
+/// Foliage is a closed volume with its faces outwards. It has its own rules, since nothing jumps where a
+/// segment meets a surface of foliage next to an end. Planes through the ends and named facets do not matter,
+/// named bodies do, and ends may be inside the foliage or on it. Lengths are fixed-point with a unit of 2^-24
+/// of the segment, in addition to the rounding of fp32: about 0.1 mm over 100 m, 10 mm at 10 km from the
+/// origin.
 class CrossingPass {
  public:
-  /// Builds the pipeline (walls and foliage are compiled in only if `kinds` has any) and uploads the facets'
-  /// planes and kinds, [facets of the scene]. A batch is traced in parts whose buffers hold at most
-  /// `part_bytes`, and not more than the device lets a shader see of one: answers do not depend on it.
+  /// Builds the pipeline (with walls and foliage only if `kinds` has any) and uploads the facets' planes and
+  /// kinds, [facets of the scene]. A batch is traced in parts whose buffers hold at most `part_bytes` each,
+  /// and not more than a shader of the device can address in one buffer. Answers do not depend on the parts.
   CrossingPass(scene::GpuScene& scene, const FacetKinds& kinds, uint64_t part_bytes = uint64_t{128} << 20);
 
-  /// Rows that are traced at once.
+  /// Describes rows that are traced together.
   struct Part {
     uint32_t first = 0, count = 0;
-    uint32_t leaders =
-        0;  ///< index of the part that has the segments these hang on; its own: they hang on none
+    /// Index of the part with the leaders of these segments; its own index if they have no leaders.
+    uint32_t leaders = 0;
     gpu::Slice segments = {}, results = {};
   };
-  /// Where the answers of one batch will be; valid until its slot is begun again.
+  /// Describes where the answers of one batch will be; valid until its slot is begun again.
   struct Pending {
-    std::vector<Part> parts = {};       ///< by `first`
-    uint32_t row_words = 0;             ///< of each row
+    std::vector<Part> parts = {};       ///< ordered by `first`
+    uint32_t row_words = 0;             ///< words of each row
     std::vector<uint32_t> row_of = {};  ///< [segments]
   };
 
-  /// Records a batch among the scene as scene.record_update left it in this tick. Each segment's answer
-  /// depends on it alone (and on the segment that it hangs on). An empty batch records nothing. Throws
-  /// UserError if there are more than 2^32 - 2.
+  /// Records a batch for the scene as scene.record_update left it in this tick. The answer of a segment
+  /// depends only on the segment (and on its leader). An empty batch records nothing. Throws UserError if
+  /// there are more than 2^32 - 2 segments.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, std::span<const Segment> segments);
-  /// In the order of the segments; after the slot's submission is done. `segments`: those that were recorded.
+  /// Returns the answers in the order of the segments, after the slot's submission is done. `segments` must
+  /// be those that were recorded.
   std::vector<Crossing> collect(const Pending& pending, std::span<const Segment> segments) const;
 
  private:

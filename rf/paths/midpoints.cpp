@@ -18,7 +18,7 @@ struct Triangle {
   dvec3 corners[3];
 };
 
-/// How many pieces a triangle is cut into, at least: by its area, and along its longest side.
+/// Returns a lower bound of the number of pieces of a triangle, from its area and from its longest side.
 double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
   const dvec3 &a = triangle.corners[0], &b = triangle.corners[1], &c = triangle.corners[2];
   const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)}),
@@ -33,7 +33,7 @@ double least_pieces(const scene::FacetTriangle& triangle, double side_m) {
                    side_m, most);
 }
 
-/// Of what is numbered with 32 bits.
+/// Checks that a number fits into 32 bits and returns it. Throws UserError if it does not fit.
 uint32_t number_of(size_t count, const char* what) {
   if (count > ~0u)
     throw_user_error("paths: {} {}, expected at most {}; a smaller max_depth, a larger scattering_patch_m",
@@ -41,7 +41,8 @@ uint32_t number_of(size_t count, const char* what) {
   return static_cast<uint32_t>(count);
 }
 
-/// Halves the longest side until none is longer than `side_m`; the pieces in order, first half first.
+/// Halves the longest side until no side is longer than `side_m`. Appends the pieces in order, first half
+/// first.
 void cut(const Triangle& triangle, double side_m, uint32_t facet, std::vector<Patch>& patches, size_t first,
          size_t most) {
   int longest = 0;
@@ -81,7 +82,7 @@ std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKind
     const size_t first = patches.size();
     for (uint32_t t = 0; t < facet.triangle_count; ++t) {
       const scene::FacetTriangle& triangle = scene.facet_triangles[facet.first_triangle + t];
-      // Before it is cut, since halving ends where fp64 does.
+      // The bound is tested before the triangle is cut, because halving would not end before fp64 underflows.
       if (!(least_pieces(triangle, side_m) <= static_cast<double>(most))) too_many_patches(side_m, most);
       cut({{triangle.corners[0], triangle.corners[1], triangle.corners[2]}}, side_m, index, patches, first,
           most);
@@ -91,13 +92,14 @@ std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKind
   return patches;
 }
 
-/// One prefix and one suffix that meet.
+/// Describes a prefix and a suffix that meet.
 struct Midpoints::Chain {
   const ImageTree& tree;
   const ImageTree& suffixes;
   uint32_t prefix = 0, suffix = 0;
 
-  /// Source, prefix, `middle` at `point`, suffix, target; false if either side does not get there.
+  /// Sets `path` to source, prefix, `middle` at `point`, suffix and target. Returns false if either side does
+  /// not reach `point`.
   bool assemble(const Interaction& middle, const dvec3& point, GeometricPath& path) const {
     path.vertices.push_back(tree.source());
     if (!tree.reach(prefix, point, path)) return false;
@@ -118,8 +120,8 @@ Midpoints::Midpoints(const RadioModel& model, const PathLimits& limits, bool mov
   if (model.effects.scattering) patches_ = scattering_patches(*model.scene, model.kinds, limits.patch_m);
 }
 
-/// A path that is reflected at a wedge's own face right before it is reflected in the edge: that is part of
-/// the wedge's field (edge_dyadic).
+/// Finds the sequences that lead to wedges. It leaves out sequences that end with a reflection at one of the
+/// wedge's own faces: that reflection is part of the wedge's field (edge_dyadic).
 Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidates) const {
   const auto leads_to = [&](std::span<const uint32_t> facets, uint32_t index) {
     const scene::Wedge& wedge = model_->wedges[index];
@@ -140,16 +142,17 @@ Midpoints::Arrivals Midpoints::arrivals_at_wedges(const CandidateList& candidate
   return arrivals;
 }
 
-/// A sequence that ends with a facet says that the one without it leads there. `windows`: [sequences of the
-/// answer] where on the facet; or empty.
+/// Finds the sequences that lead to facets. A candidate sequence that ends with a facet shows that the
+/// sequence without this facet leads to the facet. `windows`: [sequences of the result], the part of the
+/// facet that the sequence reaches; or empty.
 Midpoints::Arrivals Midpoints::arrivals_at_facets(const CandidateList& candidates, uint32_t most_reflections,
                                                   std::vector<PlaneWindow>& windows) const {
   struct Pair {
     uint32_t facet, prefix, sequence;
   };
   std::vector<Pair> pairs;
-  // In the canonical order a sequence comes after the one without its last facet, and so do their order's
-  // neighbours.
+  // In the canonical order a sequence comes after its prefix without the last facet, and the prefixes have
+  // the same order as the sequences. One pass therefore finds all prefixes.
   uint32_t prefix = 0;
   for (uint32_t i = 0; i < candidates.size(); ++i) {
     const auto facets = candidates.sequence(i);
@@ -213,7 +216,7 @@ Midpoints::PatchArrivals Midpoints::arrivals_at_patches(const Arrivals& at_facet
   return at_patches;
 }
 
-/// Where nothing is known of what a point sees: every patch may be.
+/// Returns an arrival at every patch, for a point without a search: it may see any patch.
 Midpoints::PatchArrivals Midpoints::straight_to_patches(const dvec3& from) const {
   PatchArrivals at_patches;
   at_patches.offsets.push_back(0);
@@ -253,7 +256,7 @@ void Midpoints::diffract(const Chain& chain, const scene::Wedge& wedge, uint32_t
   paths.push_back(std::move(path));
 }
 
-/// Every prefix with every suffix at every wedge that both lead to.
+/// Joins every prefix with every suffix at each wedge that both lead to.
 void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes, const Arrivals& wedges,
                                std::vector<GeometricPath>& paths) const {
   for (uint32_t index = 0; index + 1 < at_wedges_.offsets.size(); ++index) {
@@ -268,7 +271,7 @@ void Midpoints::join_at_wedges(const ImageTree& tree, const ImageTree& suffixes,
   }
 }
 
-/// Every prefix with every suffix at a patch: what comes from one side is scattered back to it.
+/// Joins every prefix with every suffix at a patch whose centre both reach from the same side.
 void Midpoints::scatter(const ImageTree& tree, const dvec3& target, size_t number,
                         const PatchArrivals& suffixes, std::vector<GeometricPath>& paths) const {
   const Patch& patch = patches_[number];
@@ -317,14 +320,14 @@ LeftOut Midpoints::solve(const ImageTree& tree, const dvec3& target, uint32_t ta
     search.max_transmissions = model_->effects.transmission ? limits_.max_transmissions : 0;
     search.moving_bodies = moving_bodies_;
     search.source_body = target_body;
-    search.threads = 1;  // targets are solved side by side
+    search.threads = 1;  // targets are solved in parallel
     BeamSearchResult result =
         BeamSearch(model_->facets, model_->kinds, model_->wedges, search).search(target);
     left_out = {result.overflow(), result.complete_depth()};
     list = std::move(result.list);
     wedges = arrivals_at_wedges(list);
   } else {
-    // Nothing is known of what the target sees: every wedge may be reached straight.
+    // Without a search, the target may reach every wedge on a straight line.
     list.add({});
     for (uint32_t i = 0; i <= model_->wedges.size(); ++i) wedges.offsets.push_back(i);
     wedges.sequences.assign(model_->wedges.size(), 0);

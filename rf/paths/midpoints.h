@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths with a diffraction or a scattering in the middle: reflections from the source to a wedge or a patch
-// (prefix), reflections from there to the target (suffix). Prefixes come from the source's candidates,
-// suffixes from a search at the target; they meet at the wedge or the patch.
+// Finds paths with a diffraction or a scattering in the middle: reflections lead from the source to a wedge
+// or a patch (prefix) and from there to the target (suffix). Prefixes come from the source's candidates, and
+// suffixes from a search at the target.
 #pragma once
 
 #include <cstdint>
@@ -17,50 +17,52 @@
 
 namespace greatx::rf {
 
-/// A piece of a facet that scatters as a whole.
+/// Holds a piece of a facet that scatters as a whole.
 struct Patch {
   uint32_t facet = 0;
-  uint32_t number = 0;  ///< on its facet
-  dvec3 center{0.0};    ///< in its body's frame
+  uint32_t number = 0;  ///< number of the patch on its facet
+  dvec3 center{0.0};    ///< in the frame of its body
   double area_m2 = 0.0;
 };
 
-/// Cuts every facet whose material scatters into triangles with sides of at most `side_m` (each cut halves
-/// the longest side), in the order of its triangles. Throws UserError if there are more than `most`.
+/// Cuts every facet whose material scatters into triangles with sides of at most `side_m`, in the order of
+/// the facet's triangles. Each cut halves the longest side. Throws UserError if there are more than `most`
+/// patches.
 std::vector<Patch> scattering_patches(const scene::Scene& scene, const FacetKinds& kinds, double side_m,
                                       size_t most = 10'000'000);
 
 class Midpoints {
  public:
-  /// `model` is read by every call and must outlive this. With PathLimits::max_reflections_after above 0
-  /// there is a search at every target. `moving_bodies`: facets of bodies other than 0 reflect.
+  /// Every call reads `model`, which must outlive this object. If PathLimits::max_reflections_after is above
+  /// 0, solve() searches at every target. `moving_bodies`: facets of bodies other than 0 reflect.
   Midpoints(const RadioModel& model, const PathLimits& limits, bool moving_bodies);
 
-  /// Which sequences lead to which wedges and patches; `tree` is built from the same candidates, which list
-  /// wedges if diffraction is on. Patches outside the window of their facet are left out: nothing of the beam
-  /// gets there.
+  /// Sets the sequences that lead to wedges and patches. `tree` is built from the same candidates, which list
+  /// wedges if diffraction is on. Patches outside the window of their facet are left out, because the beam
+  /// does not reach them.
   void set_candidates(const CandidateList& candidates, const ImageTree& tree);
-  /// The source of `tree` has moved, or bodies have: windows hold no more.
+  /// Must be called when the source of `tree` or bodies have moved; the windows are then no longer used.
   void move(const ImageTree& tree);
-  /// Appends every such path between the source of `tree` (as it was given last) and `target` (carried by
-  /// `target_body`), from transmitter to receiver, in no particular order. What the search at the target left
-  /// out.
+  /// Appends every path with a diffraction or scattering between the source of the last `tree` and `target`
+  /// (which `target_body` carries), from transmitter to receiver, in an unspecified order. Returns the number
+  /// of sequences that the search at the target left out.
   LeftOut solve(const ImageTree& tree, const dvec3& target, uint32_t target_body,
                 std::vector<GeometricPath>& paths) const;
 
  private:
-  /// For every wedge, or facet, the sequences that lead to it: [elements + 1] into `sequences`, ascending.
+  /// Holds for every wedge or facet the sequences that lead to it: [elements + 1] into `sequences`,
+  /// ascending.
   struct Arrivals {
     std::vector<uint32_t> offsets, sequences;
     std::span<const uint32_t> of(uint32_t element) const {
       return std::span(sequences).subspan(offsets[element], offsets[element + 1] - offsets[element]);
     }
   };
-  /// A sequence that ends at a patch, all the way from its end of the path.
+  /// Holds the whole way of a sequence from its end of the path to a patch.
   struct PatchArrival {
-    uint32_t first = 0, depth = 0;  ///< reflections, into PatchArrivals::facets and points, outwards
+    uint32_t first = 0, depth = 0;  ///< range in PatchArrivals::facets and points, outwards
     dvec3 from{0.0};                ///< vertex before the patch
-    double length_m = 0.0;          ///< to the patch's centre
+    double length_m = 0.0;          ///< unfolded length to the patch's centre
   };
   struct PatchArrivals {
     std::vector<uint32_t> offsets;  ///< [patches + 1] into arrivals

@@ -13,7 +13,7 @@ namespace greatx::rf {
 
 namespace {
 
-/// Facets that a path touches at a vertex and that therefore do not stand in its way there.
+/// Holds the facets that a path touches at a vertex and that therefore do not block it there.
 struct Touched {
   uint32_t first = shared::rf_none, second = shared::rf_none;
 };
@@ -24,21 +24,21 @@ Touched touched_at(const Interaction& interaction, const std::vector<scene::Wedg
   return {wedge.facet_0, wedge.facet_n};
 }
 
-/// A wall that a segment passes.
+/// Describes a wall that a segment passes.
 struct Passage {
   uint32_t facet = 0;
   double t = 0.0;  ///< along the segment, 0 to 1
   dvec3 point{0.0};
 };
 
-/// Where the segment meets the planes of these walls, in its own order. Two walls in one plane met at one
-/// point (a seam, a wall that the file has twice) are one.
+/// Returns the points where the segment meets the planes of these walls, in order along the segment. Two
+/// walls in one plane that are met at one point (a seam, or a wall that the file holds twice) are one.
 std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_t>& walls, const dvec3& a,
                               const dvec3& b) {
   std::vector<Passage> list;
   for (const uint32_t facet : walls) {
     const double from = world.facet(facet).distance(a), to = world.facet(facet).distance(b);
-    // The GPU met the wall in fp32: to fp64 it may lie beyond an end by a rounding, or along the segment.
+    // The GPU found the wall in fp32. In fp64 it may lie beyond an end by a rounding, or along the segment.
     const double t = from == to ? 0.5 : std::clamp(from / (from - to), 0.0, 1.0);
     list.push_back({facet, t, a + t * (b - a)});
   }
@@ -52,7 +52,7 @@ std::vector<Passage> passages(const FacetWorld& world, const std::vector<uint32_
   return list;
 }
 
-/// The path with its walls as interactions; false if something blocks it.
+/// Sets `full` to the path with its walls as interactions. Returns false if the path is blocked.
 bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<const Crossing> crossings,
                   GeometricPath& full) {
   full = {{}, {path.vertices.front()}, path.length_m, 0.0};
@@ -71,7 +71,7 @@ bool insert_walls(const FacetWorld& world, const GeometricPath& path, std::span<
   return true;
 }
 
-/// The interaction that is a diffraction or a scattering.
+/// Returns the index of the interaction that is a diffraction or a scattering.
 std::optional<size_t> bend_of(const GeometricPath& path) {
   for (size_t i = 0; i < path.interactions.size(); ++i)
     if (path.interactions[i].type == InteractionType::diffraction ||
@@ -80,15 +80,16 @@ std::optional<size_t> bend_of(const GeometricPath& path) {
   return std::nullopt;
 }
 
-/// Segments straight from a patch to an end of the link (0: the transmitter, 1: the receiver): all paths that
-/// are scattered there share them. Looked up only, never walked.
+/// Holds the segments that lead straight from a patch to an end of the link (0: the transmitter, 1: the
+/// receiver). All paths that this patch scatters share them. The maps are never iterated.
 struct StraightToPatches {
   std::unordered_map<uint64_t, uint32_t> to[2];
 };
 
-/// A path with a bend is one of very many, most of them dark: one segment beside the bend is traced first,
-/// where it leads straight to an end, and the others only if that one is clear. `segments` from `first` on
-/// are the path's.
+/// Lets most segments of a path with a bend depend on one leader, because such paths are very many and most
+/// of them are blocked. The leader is a segment next to the bend, one that leads straight to an end if there
+/// is one. The others are traced only if the leader is clear. The segments of the path are `segments` from
+/// `first` on.
 void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vector<Segment>& segments,
                  StraightToPatches& straight) {
   const bool to_receiver = first + bend + 2 == segments.size(), to_transmitter = bend == 0;
@@ -99,8 +100,8 @@ void hang_on_one(const GeometricPath& path, size_t bend, size_t first, std::vect
   if (patch.type != InteractionType::scattering || !(to_receiver || to_transmitter)) return;
   const uint64_t key = uint64_t{patch.element} << 32 | patch.patch;
   const auto [known, is_new] = straight.to[to_receiver].try_emplace(key, static_cast<uint32_t>(leader));
-  // The paths that may pass most walls, those of fewest interactions, come first. finish() counts walls
-  // again.
+  // The paths with the fewest interactions, which may pass the most walls, come first. finish() counts the
+  // walls again.
   if (!is_new && segments[known->second].walls >= segments[leader].walls)
     segments[leader].same_as = known->second;
 }
@@ -109,7 +110,8 @@ bool less(const GeometricPath& a, const GeometricPath& b) {
   return interactions_less(a.interactions, b.interactions);
 }
 
-/// Reflections alone before a diffraction, that before a scattering; shorter chains before longer ones.
+/// Orders paths by type (reflections alone, then diffraction, then scattering) and then by number of
+/// interactions.
 bool matters_more(const GeometricPath& a, const GeometricPath& b) {
   const auto kind = [](const GeometricPath& path) {
     InteractionType most = InteractionType::reflection;

@@ -39,7 +39,8 @@ std::vector<scene::Wedge> wedges_of(const scene::Scene& scene, const FacetKinds&
   return wedges;
 }
 
-/// What all foliage of the scene is: the depth inside is summed over all crowns.
+/// Returns the one kind of foliage of the scene, since the depth inside is summed over all crowns. Throws
+/// UserError if there are two kinds.
 std::optional<scene::Foliage> foliage_of(const scene::Scene& scene, const FacetKinds& kinds) {
   const scene::Material* known = nullptr;
   for (size_t i = 0; i < kinds.size(); ++i) {
@@ -100,7 +101,8 @@ FieldModel RadioModel::field_model() const {
   model.effects = effects.field;
   model.wedges = wedges;
   const FieldEffects& field = effects.field;
-  // An effect is on if any channel needs it; those that it does not cover go without, and the plan says so.
+  // An effect is on if any channel needs it. Channels outside the range of its model go without it, and the
+  // plan reports that.
   const double hz = surfaces.carrier_hz();
   const WeatherEffects weather{field.gas && gas_model_covers(hz), field.rain && rain_model_covers(hz),
                                field.fog && fog_model_covers(hz)};

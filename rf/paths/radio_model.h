@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel's paths meet: the scene as radio waves of one carrier see it, with the effects that are on.
+// Describes the scene as radio waves of one carrier see it, with the effects that are on.
 #pragma once
 
 #include <vector>
@@ -15,31 +15,32 @@
 
 namespace greatx::rf {
 
-/// Which effects act. The effect plan decides; an effect of it has the same name there
+/// Selects the effects. The effect plan decides; an effect has the same name in the plan
 /// (sim/plan/effect_list.h).
 struct RadioEffects {
   bool line_of_sight = true, reflection = true, transmission = false, diffraction = false, scattering = false;
-  bool diffraction_lit_region = true;  ///< diffraction where the wedge does not shade, too
+  bool diffraction_lit_region = true;  ///< diffraction also where the wedge does not shade
   bool free_edges = false;             ///< borders of thin plates diffract
-  /// Of all channels that share the kinds of facets: a wall that takes dark_wall_db there is opaque. 0: none
-  /// is.
+  /// Lowest carrier of all channels that share the facet kinds, Hz. A wall that takes dark_wall_db at this
+  /// carrier is opaque. 0: no wall is.
   double lowest_carrier_hz = 0.0;
-  Weather weather;     ///< of gas, rain and fog, if they are on
-  FieldEffects field;  ///< roughness, scattering loss, weather: what acts on the field of each path
+  Weather weather;     ///< weather for gas, rain and fog, if they are on
+  FieldEffects field;  ///< effects on the field of each path: roughness, scattering loss, weather
 };
 
-/// Can a wave come out on the other side: no half-space among its layers?
+/// Tells whether a wave can come out on the other side: no layer of the material is a half-space.
 bool penetrable(const scene::RadioMaterial& material);
 
-/// A wave that a wall takes this much from is nothing that a receiver could tell from nothing (2 mm of metal
-/// takes thousands). At normal incidence; at others the way through is longer.
+/// Loss of a wall at normal incidence from which on the transmitted wave is negligible for any receiver (2 mm
+/// of metal takes thousands of dB). At other angles the way through is longer.
 inline constexpr double dark_wall_db = 100.0;
 
-/// What a wall takes at normal incidence: -20 lg |T|, inf if nothing is left. The material must be
-/// penetrable. Throws UserError if the frequency is outside of the material's range.
+/// Returns the loss of a wall at normal incidence, -20 lg |T|, dB; inf if nothing is left. The material must
+/// be penetrable. Throws UserError if the frequency is outside the material's range.
 double wall_loss_db(const scene::Material& material, double frequency_hz);
 
-/// The kind of each facet: a function of the materials and the effects, the same for every carrier.
+/// Returns the kind of each facet. It depends on the materials and the effects, and is the same for every
+/// carrier.
 FacetKinds facet_kinds(const scene::Scene& scene, const RadioEffects& effects);
 
 struct RadioModel {
@@ -51,7 +52,7 @@ struct RadioModel {
   RadioSurfaces surfaces;
   FacetKinds kinds;
   std::vector<scene::Wedge> wedges;  ///< empty if diffraction is off
-  uint64_t short_wedges = 0;         ///< edges that diffract but are left out as too short (WedgeOptions)
+  uint64_t short_wedges = 0;         ///< diffracting edges that are left out as too short (WedgeOptions)
 
   FieldModel field_model() const;
 };

@@ -24,12 +24,12 @@ BoxTree::BoxTree(const std::vector<scene::Bounds>& boxes) : items_(boxes.size())
   split(0, 0, static_cast<uint32_t>(boxes.size()), boxes);
 }
 
-/// Halves by the middle of the boxes' centres along the longest axis: at most 32 levels.
+/// Splits the boxes into halves at the median of their centres along the longest axis: at most 32 levels.
 void BoxTree::split(uint32_t index, uint32_t first, uint32_t count, const std::vector<scene::Bounds>& boxes) {
   scene::Bounds all;
   for (uint32_t i = 0; i < count; ++i) all.add(boxes[items_[first + i]]);
   nodes_[index].center = all.center();
-  // Roundings of the box's own centre and half size, many times over.
+  // The box grows by many times the roundings of its own centre and half size.
   nodes_[index].half = 0.5 * all.size() + 1e-12 * (absolute(all.min) + absolute(all.max));
   if (count <= largest_leaf) {
     nodes_[index].first = first;
@@ -57,8 +57,8 @@ bool BoxTree::outside(const Node& node, std::span<const HalfSpace> half_spaces) 
   });
 }
 
-/// Separating axes: the box's own, then their products with the segment (C. Ericson, "Real-Time Collision
-/// Detection", 2005, section 5.3.3).
+/// Tests the separating axes: first those of the box, then their products with the segment (C. Ericson,
+/// "Real-Time Collision Detection", 2005, section 5.3.3).
 bool BoxTree::missed(const Node& node, const dvec3& a, const dvec3& b) {
   const dvec3 half_way = 0.5 * (b - a), middle = 0.5 * (a + b) - node.center;
   const dvec3 reach = absolute(half_way);

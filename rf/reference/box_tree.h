@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference's own hierarchy of boxes (fp64, host): over triangles, facets and receivers. Plain on
-// purpose, since it stands beside nothing of what it checks.
+// Holds the reference's own hierarchy of boxes over triangles, facets and receivers (fp64, host). It is
+// simple on purpose, so that it shares nothing with the code that it checks.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace greatx::rf::reference {
 
-/// The half-space normal . x >= offset.
+/// Describes the half-space normal . x >= offset.
 struct HalfSpace {
   dvec3 normal{0.0};
   double offset = 0.0;
@@ -25,8 +25,8 @@ class BoxTree {
  public:
   explicit BoxTree(const std::vector<scene::Bounds>& boxes);
 
-  /// visit(index) for every box (and perhaps some more) of which something lies in each half-space. In an
-  /// order that depends on the boxes alone.
+  /// Calls visit(index) for every box (and perhaps some more) of which a part lies in each half-space. The
+  /// order depends on the boxes alone.
   template <typename Visit>
   void within(std::span<const HalfSpace> half_spaces, const Visit& visit) const {
     uint32_t stack[64], size = 0;
@@ -43,7 +43,7 @@ class BoxTree {
     }
   }
 
-  /// visit(index) for every box (and perhaps some more) that the segment a-b touches.
+  /// Calls visit(index) for every box (and perhaps some more) that the segment a-b touches.
   template <typename Visit>
   void along(const dvec3& a, const dvec3& b, const Visit& visit) const {
     uint32_t stack[64], size = 0;
@@ -63,8 +63,8 @@ class BoxTree {
  private:
   struct Node {
     dvec3 center{0.0}, half{0.0};
-    uint32_t first = 0;  ///< of its items; inner node: its first child, the other one is next to it
-    uint32_t count = 0;  ///< 0: an inner node
+    uint32_t first = 0;  ///< first item; for an inner node the first child, which the other child follows
+    uint32_t count = 0;  ///< number of items; 0 for an inner node
   };
   static bool outside(const Node& node, std::span<const HalfSpace> half_spaces);
   static bool missed(const Node& node, const dvec3& a, const dvec3& b);

@@ -16,10 +16,10 @@ namespace greatx::rf::reference {
 
 namespace {
 
-/// A sequence of facets on trial, with the image of the transmitter in each.
+/// Holds a sequence of facets under test, with the image of the transmitter in each.
 struct Chain {
   std::vector<uint32_t> facets;
-  std::vector<double> sides;  ///< [facets] +1: its paths are on the side of the facet's normal
+  std::vector<double> sides;  ///< [facets] +1 if the paths are on the side of the facet's normal, else -1
   std::vector<dvec3> images;  ///< [facets + 1]: the transmitter, then its images
 };
 
@@ -28,7 +28,7 @@ struct Found {
   GeometricPath path;
 };
 
-/// What one thread works with and finds.
+/// Holds the memory and the results of one thread.
 struct Worker {
   std::vector<std::vector<HalfSpace>> half_spaces;  ///< by depth
   std::vector<Found> found;
@@ -72,8 +72,8 @@ class Enumeration {
   std::span<const dvec3> receivers_;
   const ExhaustiveOptions& options_;
   Occluders occluders_;
-  std::vector<Hull> hulls_;       ///< [facets]; no corners: cannot reflect
-  std::vector<uint32_t> facets_;  ///< that can
+  std::vector<Hull> hulls_;       ///< [facets]; without corners if the facet cannot reflect
+  std::vector<uint32_t> facets_;  ///< facets that can reflect
   BoxTree facet_tree_;            ///< over facets_
   BoxTree receiver_tree_;
 };
@@ -107,7 +107,7 @@ std::vector<scene::Bounds> Enumeration::boxes_of(std::span<const dvec3> points) 
   return boxes;
 }
 
-/// Extends the chain, unless sides alone tell that no path has this facet next.
+/// Extends the chain by a facet. Returns false if the sides alone show that no path has this facet next.
 bool Enumeration::push(Chain& chain, uint32_t index) const {
   const PosedFacet& facet = world_.facet(index);
   const double distance = facet.distance(chain.images.back());
@@ -135,20 +135,20 @@ void Enumeration::pop(Chain& chain) {
   chain.images.pop_back();
 }
 
-/// What the chain's last image sees through its facet, which has come through the facets before as well. To
-/// be called at each of the chain's lengths.
+/// Returns half-spaces that hold everything the chain's last image sees through its facet, after the facets
+/// before. It must be called for each length of the chain in turn.
 const std::vector<HalfSpace>& Enumeration::view(const Chain& chain, Worker& worker) const {
   const size_t depth = chain.facets.size();
   const uint32_t last = chain.facets.back();
   std::vector<HalfSpace>& half_spaces = worker.half_spaces[depth];
   pyramid(chain.images.back(), world_.facet(last), hulls_[last], chain.sides.back(), half_spaces);
   const std::vector<HalfSpace>& before = worker.half_spaces[depth - 1];
-  for (size_t i = 1; i < before.size(); ++i)  // [0] is the plane of that mirror itself
+  for (size_t i = 1; i < before.size(); ++i)  // before[0] is the plane of the mirror before
     half_spaces.push_back(mirrored(before[i], world_.facet(last)));
   return half_spaces;
 }
 
-/// Tries the receivers behind the chain's last facet, then every facet that may be next, `levels` deep.
+/// Tries the receivers behind the chain's last facet, and then every facet that may be next, `levels` deep.
 void Enumeration::descend(Chain& chain, uint32_t levels, Worker& worker) const {
   ++worker.sequences[chain.facets.size()];
   const std::vector<HalfSpace>& half_spaces = view(chain, worker);
@@ -162,8 +162,9 @@ void Enumeration::descend(Chain& chain, uint32_t levels, Worker& worker) const {
   });
 }
 
-/// Where the path of this chain is reflected: the receiver is mirrored from the last facet to the first, and
-/// the lines to its images are cut from the transmitter on (the other way round than the enumeration goes).
+/// Finds the reflection points of this chain. The receiver is mirrored from the last facet to the first, and
+/// the lines to its images are intersected from the transmitter on, in the opposite direction to the
+/// enumeration.
 bool Enumeration::reflect(const Chain& chain, const dvec3& receiver, GeometricPath& path) const {
   const size_t count = chain.facets.size();
   std::vector<dvec3> targets(count + 1, receiver);
@@ -184,7 +185,7 @@ bool Enumeration::reflect(const Chain& chain, const dvec3& receiver, GeometricPa
     if (!world_.contains(chain.facets[i], facet.plane_coordinates(hit))) return false;
     if (i > 0) {
       const PosedFacet& previous = world_.facet(chain.facets[i - 1]);
-      // The way from the facet before must be on the side that it reflects to.
+      // The hit must be on the reflecting side of the facet before.
       if (chain.sides[i - 1] * previous.distance(hit) < -previous.tolerance_m) return false;
       const bool one_point =
           glm::distance(hit, path.vertices.back()) <= 4.0 * (tolerance + previous.tolerance_m);
@@ -202,7 +203,7 @@ bool Enumeration::reflect(const Chain& chain, const dvec3& receiver, GeometricPa
   return true;
 }
 
-/// False if something stands in the way; else walls passed become interactions of the path.
+/// Turns passed walls into interactions of the path. Returns false if the path is blocked.
 bool Enumeration::pass_walls(GeometricPath& path) const {
   const auto body = [](uint32_t index) { return index == 0 ? Stretch::none : index; };
   const size_t reflections = path.interactions.size();
@@ -239,8 +240,8 @@ void Enumeration::try_receiver(const Chain& chain, uint32_t receiver, Worker& wo
   if (pass_walls(path)) worker.found.push_back({receiver, std::move(path)});
 }
 
-/// All sequences of two facets, in an order without rhyme, so that the time of what is left can be told from
-/// what is done. Tries the receivers for one reflection on the way.
+/// Returns all sequences of two facets in random order, so that the share that is done predicts the remaining
+/// time. On the way it tries the receivers for one reflection.
 std::vector<std::pair<uint32_t, uint32_t>> Enumeration::first_pairs(Worker& worker) const {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   Chain chain{{}, {}, {transmitter_}};
@@ -287,7 +288,7 @@ bool one_polyline(const GeometricPath& a, const GeometricPath& b) {
                     [&](const dvec3& p, const dvec3& q) { return glm::distance(p, q) <= tolerance; });
 }
 
-/// Puts one receiver's paths in order and keeps the first of each polyline.
+/// Sorts one receiver's paths and keeps the first of each polyline.
 std::vector<GeometricPath> without_duplicates(std::vector<GeometricPath> paths) {
   std::sort(paths.begin(), paths.end(), [](const GeometricPath& a, const GeometricPath& b) {
     return interactions_less(a.interactions, b.interactions);

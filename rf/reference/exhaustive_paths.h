@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference that greatx's specular paths are held against: every sequence of facets is tried, host, fp64.
-// It shares no code with the searches (rf/search/, rf/search/candidate_search.h), the image tree
-// (rf/geometry/geometry.h) or the GPU passes; only FacetWorld's planes and its test of a point in a facet are
-// the same.
+// Finds the reference paths with which greatx's specular paths are compared. It tries every sequence of
+// facets, on the host in fp64. It shares no code with the searches (rf/search/), the image tree
+// (rf/geometry/geometry.h) or the GPU passes, except FacetWorld's planes and its test of a point in a facet.
 //
-// Sequences are pruned by two bounds alone, neither of which can lose a path:
-// - pyramids: what an image sees through the convex hull of the facet that it was mirrored at, and of those
-//   before as
-//   the mirrors show them; a facet (or a receiver) wholly outside of one side of one of them cannot be next;
-// - sides: each of two consecutive facets must have a corner on the side of the other that reflects.
-// Nothing is pruned by occlusion: what stands in the way is worked out for whole paths, against all
-// triangles.
+// Only two bounds prune sequences, and neither can lose a path:
+// - Pyramids. A pyramid holds everything that an image sees through the convex hull of the facet that
+//   mirrored it. The pyramids of earlier facets count as well, as the mirrors show them. A facet or a
+//   receiver that lies wholly outside one side of one pyramid cannot be next.
+// - Sides. Each of two consecutive facets must have a corner on the reflecting side of the other.
+// Occlusion prunes nothing: whole paths are tested against all triangles.
 #pragma once
 
 #include <cstdint>
@@ -29,28 +27,29 @@
 namespace greatx::rf::reference {
 
 struct ExhaustiveOptions {
-  uint32_t max_depth = 3;          ///< reflections + walls passed
-  uint32_t max_transmissions = 0;  ///< walls passed (FacetKind::wall) on a whole path
-  uint32_t threads = 0;            ///< 0: as many as the machine has. The result does not depend on it
+  uint32_t max_depth = 3;                            ///< reflections and passed walls of a path
+  uint32_t max_transmissions = 0;                    ///< walls (FacetKind::wall) that a whole path may pass
+  uint32_t threads = 0;                              ///< 0: one per core; the result does not depend on it
   uint32_t transmitter_body = 0, receiver_body = 0;  ///< bodies that do not hide what they carry; 0: none
-  std::function<void(double done)> progress;  ///< from the calling thread now and then, 0 to 1; may be empty
+  /// The calling thread calls this function from time to time with the share done, 0 to 1. May be empty.
+  std::function<void(double done)> progress;
 };
 
 struct ExhaustiveResult {
-  /// [receivers]: line of sight, reflections and walls passed, canonical order. Vertices of walls included.
+  /// [receivers]: line of sight, reflections and passed walls, in canonical order. Walls have vertices, too.
   std::vector<std::vector<GeometricPath>> paths;
-  std::vector<uint64_t>
-      sequences;  ///< [max_depth + 1]: sequences of reflections that the bounds left, by their number
-  uint64_t geometric_paths = 0;  ///< of these, with occlusion not looked at, duplicates included
+  /// [max_depth + 1]: number of reflection sequences that the bounds left, by number of reflections.
+  std::vector<uint64_t> sequences;
+  uint64_t geometric_paths = 0;  ///< paths of these sequences before occlusion, duplicates included
 };
 
-/// What counts as a path is what rf/geometry/geometry.h says: reflections on either side of a facet; facets
-/// closed within PosedFacet::tolerance_m; an end in a facet's plane is not reflected by it; two reflections
-/// in one point only in an inner corner; paths with one polyline (reflection points within 1e-6 m, 1e-9 of
-/// the length beyond 1 km) are one, the first sequence in canonical order. What blocks:
-/// rf/reference/occluders.h.
+/// Returns all paths by the rules of rf/geometry/geometry.h. Reflections happen on either side of a facet.
+/// Facets are closed within PosedFacet::tolerance_m. A facet does not reflect an end that lies in its plane.
+/// Two reflections at one point are a path only in an inner corner. Paths with one polyline (reflection
+/// points within 1e-6 m, or 1e-9 of the length beyond 1 km) are one path, with the first sequence in
+/// canonical order. rf/reference/occluders.h defines what blocks a path.
 ///
-/// `body_poses` [bodies] is what `world` was posed with. Throws UserError naming the receiver if a position
+/// `body_poses` [bodies] are the poses of `world`. Throws UserError, which names the receiver, if a position
 /// is not finite.
 ExhaustiveResult exhaustive_paths(const scene::Scene& scene, const FacetWorld& world,
                                   std::span<const Pose> body_poses, const FacetKinds& kinds,

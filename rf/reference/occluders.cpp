@@ -14,9 +14,9 @@ namespace {
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Where a-b meets a closed triangle (between its ends), as a fraction; the three volumes that the segment's
-/// line spans with the edges have one sign (C. Ericson, "Real-Time Collision Detection", 2005, section
-/// 5.3.4).
+/// Returns the place where a-b meets a closed triangle between its ends, as a fraction. There, the three
+/// volumes that the segment's line spans with the edges have one sign (C. Ericson, "Real-Time Collision
+/// Detection", 2005, section 5.3.4).
 std::optional<double> meets(const dvec3& a, const dvec3& b, const dvec3 (&corners)[3]) {
   const dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double at_a = glm::dot(normal, a - corners[0]), at_b = glm::dot(normal, b - corners[0]);
@@ -72,8 +72,8 @@ bool Occluders::passed_over(const Stretch& stretch, uint32_t index) const {
   return in_plane(stretch.a) || in_plane(stretch.b);
 }
 
-/// The rule that rf/paths/crossings.h states: walls in one plane are one, so are walls met in their common
-/// edge, within the tolerance of visibility.
+/// Applies the rule of rf/paths/crossings.h: walls in one plane are one wall, and so are walls that are met
+/// in their common edge, within the tolerance of visibility.
 bool Occluders::one_wall(const Stretch& stretch, const WallPassed& a, const WallPassed& b) const {
   const double tolerance = 1e-4 + 0x1p-22 * std::max(largest(stretch.a), largest(stretch.b));
   const dvec3 turned = glm::cross(world_->facet(a.facet).normal, world_->facet(b.facet).normal);
@@ -94,7 +94,8 @@ bool Occluders::free_but_for(const Stretch& stretch, uint32_t budget, std::vecto
     met.push_back({*t, triangle.facet});
   });
   if (blocked) return false;
-  // By facet first, so that of walls in one place the first by index stays, whatever the roundings of t.
+  // The order is by facet first, so that the lowest index of walls in one place is kept, whatever the
+  // roundings of t.
   std::sort(met.begin(), met.end(), [](const WallPassed& a, const WallPassed& b) {
     return a.facet != b.facet ? a.facet < b.facet : a.t < b.t;
   });

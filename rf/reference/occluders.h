@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference's own answer to what stands between two points: every triangle, fp64, on the host.
+// Finds the surfaces between two points for the reference: every triangle is tested in fp64 on the host.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace greatx::rf::reference {
 
-/// A straight piece of a path and what its ends belong to.
+/// Describes a straight segment of a path and the facets and bodies at its ends.
 struct Stretch {
   static constexpr uint32_t none = ~0u;
   dvec3 a{0.0}, b{0.0};                     ///< local coordinates
@@ -24,31 +24,31 @@ struct Stretch {
   uint32_t body_a = none, body_b = none;    ///< bodies that carry the ends
 };
 
-/// A wall passed.
+/// Describes a wall that a stretch passes.
 struct WallPassed {
-  double t = 0.0;  ///< where between a (0) and b (1)
+  double t = 0.0;  ///< place between a (0) and b (1)
   uint32_t facet = 0;
   friend bool operator==(const WallPassed&, const WallPassed&) = default;
 };
 
 class Occluders {
  public:
-  /// `world` with every body posed as in `body_poses` ([bodies], local_from_body, [0] the identity); all are
-  /// read later too, `world` and `kinds` must outlive this.
+  /// `world` has every body posed as in `body_poses` ([bodies], local_from_body, [0] the identity). Later
+  /// calls read `world` and `kinds`, which must outlive this object.
   Occluders(const scene::Scene& scene, const FacetWorld& world, std::span<const Pose> body_poses,
             const FacetKinds& kinds);
 
-  /// Whether the stretch is free but for `budget` walls at most, which `passed` then has in order (appended).
-  /// Rules, the same as rf/paths/crossings.h states for greatx:
-  /// - facets and bodies that the stretch names are never in its way;
-  /// - nor is a facet whose plane one of the ends lies in, within 0.1 mm + 2^-22 of the largest coordinate of
-  ///   the end
-  ///   and of the facet's first corner;
-  /// - opaque facets always block, foliage and what is absent never does;
-  /// - a facet of kind wall is passed once however many of its triangles meet in the point, and walls in one
-  ///   plane met in
-  ///   one point (within 1e-6 m) are one, the first by index;
-  /// - triangles are closed: edges and corners block.
+  /// Tells whether nothing but at most `budget` walls blocks the stretch. If no opaque facet blocks it, the
+  /// walls are appended to `passed`, in order. The rules are those that rf/paths/crossings.h states for
+  /// greatx:
+  /// - Facets and bodies that the stretch names never block it.
+  /// - A facet does not block if one of the ends lies in its plane, within 0.1 mm + 2^-22 of the largest
+  ///   coordinate of the end and of the facet's first corner.
+  /// - Opaque facets always block. Foliage and absent facets never do.
+  /// - A facet of kind wall is passed once, however many of its triangles meet at the point. Walls in one
+  ///   plane are one wall, within the tolerance of visibility, and so are walls that are met in their common
+  ///   edge. The wall with the lowest index is kept.
+  /// - Triangles are closed: edges and corners block.
   bool free_but_for(const Stretch& stretch, uint32_t budget, std::vector<WallPassed>& passed) const;
 
  private:

@@ -9,7 +9,7 @@ namespace greatx::rf::reference {
 
 namespace {
 
-constexpr double room_m = 1e-6;  ///< for the roundings of a plane through three points, kilometres away
+constexpr double room_m = 1e-6;  ///< covers the roundings of a plane through three points at kilometres
 
 struct Corner {
   dvec2 at;
@@ -22,12 +22,14 @@ double turn(const Corner& a, const Corner& b, const Corner& c) {
 
 }  // namespace
 
-/// A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
+/// Uses the algorithm of A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions",
+/// 1979.
 Hull convex_hull(const PosedFacet& facet, const std::vector<dvec3>& points) {
   Hull hull;
   std::vector<Corner> corners;
   for (const dvec3& corner : points) {
-    const dvec3 point = corner - facet.distance(corner) * facet.normal;  // files have them off it a little
+    const dvec3 point =
+        corner - facet.distance(corner) * facet.normal;  // files have it slightly off the plane
     corners.push_back({facet.plane_coordinates(point), point});
     hull.box.add(point);
   }
@@ -59,7 +61,7 @@ void pyramid(const dvec3& image, const PosedFacet& facet, const Hull& hull, doub
   const dvec3 to_center = hull.center - image;
   for (size_t i = 0; i < hull.corners.size(); ++i) {
     const dvec3 from = hull.corners[i], edge = hull.corners[(i + 1) % hull.corners.size()] - from;
-    // The facet is closed within its tolerance: move the edge outwards.
+    // The facet is closed within its tolerance, so that the edge is moved outwards.
     dvec3 outwards = glm::cross(facet.normal, edge);
     if (glm::dot(outwards, hull.center - from) > 0.0) outwards = -outwards;
     const double length = glm::length(outwards);

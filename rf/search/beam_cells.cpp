@@ -11,19 +11,19 @@
 namespace greatx::rf {
 namespace {
 
-/// Cells with fewer facets are not worth cutting; nor are those that have been cut so often.
+/// Cells with fewer facets than this are not cut, and neither are cells at this level of cuts.
 constexpr size_t facets_of_leaf = 24;
 constexpr uint32_t most_levels = 24;
-/// Corners sharper than this (sine of half the angle) are blunted when an outline is moved outwards.
+/// When an outline is moved outwards, corners sharper than this (sine of half the angle) are blunted.
 constexpr double sharp = 0.3;
 
-/// Slope halfway between two directions, by angle.
+/// Returns the slope halfway between two directions, by angle.
 double bisect(double a, double b) {
   const double length_a = std::sqrt(1.0 + a * a), length_b = std::sqrt(1.0 + b * b);
   return (a * length_b + b * length_a) / (length_a + length_b);
 }
 
-/// Least and largest depth at which rays of a cell meet a plane.
+/// Returns the least and the largest depth at which rays of a cell meet a plane.
 std::pair<double, double> depths(const ViewFacet& facet, const SlopeRect& rect) {
   const HalfPlane sum{facet.na, facet.nb, facet.n};
   const double least = sum.least(rect), most = sum.most(rect);
@@ -31,10 +31,10 @@ std::pair<double, double> depths(const ViewFacet& facet, const SlopeRect& rect) 
           least > 0.0 ? std::min(facet.max_depth, facet.distance / least) : facet.max_depth};
 }
 
-/// Pieces of one polygon; what else would cut them up further is left out, so that they stay too large.
+/// Largest number of pieces of one polygon. Further cuts are left out, so that the pieces stay too large.
 constexpr size_t most_pieces = 512;
 
-/// Cuts the part [from, to] of the segment a, b; false: nothing is left.
+/// Cuts the part [from, to] of the segment a, b. Returns false if nothing is left.
 bool cut(const HalfPlane& half, const dvec2& a, const dvec2& b, double& from, double& to) {
   const double at_a = half.at(a), at_b = half.at(b);
   if (at_a < 0.0 && at_b < 0.0) return false;
@@ -90,7 +90,7 @@ void BeamCells::settle(const BeamView& view, uint32_t walls, std::vector<BeamHit
   std::sort(wedges.begin() + static_cast<ptrdiff_t>(first_wedge), wedges.end());
 }
 
-/// The cell's facets are lists_[first, end), the last ones of the list.
+/// Examines a cell. Its facets are lists_[first, end), the last facets of the list.
 void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_t level) {
   checkpoint();
   ++cells_;
@@ -110,7 +110,7 @@ void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_
     for (int side = 0; side < 2; ++side)
       for (size_t i = first; i < end; ++i)
         counts[side] += view_->facets()[lists_[i]].box.overlaps(halves[side]);
-    // Not where cutting would but do the same work twice.
+    // The cell is not cut if both halves would hold nearly all facets, which would only do the work twice.
     if (10 * std::max(counts[0], counts[1]) < 9 * (end - first)) {
       for (const SlopeRect& half : halves) {
         for (size_t i = first; i < end; ++i)
@@ -124,8 +124,8 @@ void BeamCells::look_at(const SlopeRect& rect, size_t first, size_t end, uint32_
   settle_leaf(rect, first);
 }
 
-/// Constraints of a polygon's rays: its edges, moved outwards by the clearance so that no gaps are left
-/// between neighbours, and that they start well before it.
+/// Returns the constraints of the rays that a polygon stops: its edges, moved outwards by the clearance so
+/// that no gaps are left between neighbours, and the condition that the rays start well before the polygon.
 std::span<const HalfPlane> BeamCells::outline(uint32_t polygon, const ViewFacet& facet) {
   Outline& known = outlines_[polygon];
   if (known.count == 0) {
@@ -141,7 +141,7 @@ std::span<const HalfPlane> BeamCells::outline(uint32_t polygon, const ViewFacet&
     const double sign = area < 0.0 ? -1.0 : 1.0;
     dvec2 before(0.0);
     const size_t count = corners.size();
-    for (size_t i = 0; i <= count; ++i) {  // the first edge again, for the corner before it
+    for (size_t i = 0; i <= count; ++i) {  // repeats the first edge, for the corner before it
       const dvec2 &from = corners[i % count], &to = corners[(i + 1) % count];
       const double length = std::hypot(to.x - from.x, to.y - from.y);
       if (length == 0.0) continue;
@@ -179,7 +179,7 @@ bool BeamCells::covers(uint32_t index, const SlopeRect& rect) {
   return false;
 }
 
-/// Takes what the nearest facet that fills the cell hides off the last list.
+/// Removes the facets from the last list that are hidden by the nearest facet that fills the cell.
 void BeamCells::drop_hidden(const SlopeRect& rect, size_t first) {
   uint32_t cover = ~0u;
   double nearest = 1e300;
@@ -220,14 +220,15 @@ void BeamCells::settle_leaf(const SlopeRect& rect, size_t first) {
   }
 }
 
-/// Where `cover` is in front of `facet`, in slopes; of unit gradient where it has one.
+/// Returns the half-plane of slopes where `cover` is in front of `facet`, with unit gradient unless it is
+/// constant.
 HalfPlane BeamCells::in_front(const ViewFacet& cover, const ViewFacet& facet) const {
   const double room = facet.is_wedge
                           ? view_->room_m()
                           : view_->room_between({cover.na, cover.nb, cover.n}, {facet.na, facet.nb, facet.n});
   const double reach = cover.distance + room + view_->rounding_m();
   const double distance = facet.distance - view_->rounding_m();
-  if (reach <= 0.0 || distance <= 0.0) return {0.0, 0.0, -1.0};  // the apex is all but in its plane
+  if (reach <= 0.0 || distance <= 0.0) return {0.0, 0.0, -1.0};  // the apex almost lies in its plane
   HalfPlane front{cover.na * distance - facet.na * reach, cover.nb * distance - facet.nb * reach,
                   cover.n * distance - facet.n * reach};
   const double gradient = std::hypot(front.a, front.b);
@@ -236,9 +237,10 @@ HalfPlane BeamCells::in_front(const ViewFacet& cover, const ViewFacet& facet) co
   return {front.a / gradient, front.b / gradient, front.c / gradient};
 }
 
-// Of the facets and edges of a leaf, the lit parts: everything that stands before them is taken away.
+// The functions below find the lit parts of the facets and edges of a leaf: they subtract everything in
+// front.
 
-/// Of the cell, and of the beam.
+/// Returns the sides of the cell and of the beam.
 std::array<HalfPlane, 8> BeamCells::sides_of(const SlopeRect& rect) const {
   const Beam& beam = view_->beam();
   return {{{1.0, 0.0, -rect.min_a},
@@ -251,8 +253,8 @@ std::array<HalfPlane, 8> BeamCells::sides_of(const SlopeRect& rect) const {
            {-1.0, 1.0, beam.max_difference}}};
 }
 
-/// Will two walls be counted as two by every path that passes them? Not if they are in one plane, which
-/// crossings take for one (shaders/rf/crossings.comp.glsl).
+/// Tells whether every path that passes both walls counts them as two. Walls in one plane count as one at the
+/// crossings (shaders/rf/crossings.comp.glsl).
 bool BeamCells::apart(uint32_t wall, uint32_t other) const {
   const BeamScene& scene = view_->scene();
   const BeamFacet& a = scene.facet(view_->facets()[wall].scene_facet);
@@ -264,7 +266,7 @@ bool BeamCells::apart(uint32_t wall, uint32_t other) const {
          std::abs(glm::dot(b.normal, a.reference) - b.offset) >= room;
 }
 
-/// Counts a wall that a piece lies behind; false: that is one too many.
+/// Counts a wall in front of a piece. Returns false if that is one wall too many.
 bool BeamCells::passes_one_more(std::array<uint32_t, most_passed>& passed, uint32_t& walls,
                                 uint32_t wall) const {
   for (uint32_t i = 0; i < walls; ++i)
@@ -286,7 +288,7 @@ void BeamCells::settle_facet(const SlopeRect& rect, const Entry& entry) {
   }
 }
 
-/// Takes all that is in front away from a polygon; what is left is lit.
+/// Subtracts everything in front from a polygon. The rest is lit.
 void BeamCells::settle_polygon(const ViewFacet& facet, const Entry& entry, const Convex& whole) {
   pieces_.assign(1, Piece{whole, 0, {}});
   const SlopeRect box = whole.box();
@@ -314,7 +316,7 @@ void BeamCells::settle_polygon(const ViewFacet& facet, const Entry& entry, const
     add_to(regions_[entry.facet * (walls_ + 1) + piece.walls], facet, piece.shape, cut_by);
 }
 
-/// Takes away what is inside of all constraints, or counts a wall for it.
+/// Removes the part inside all constraints, or counts a wall for this part.
 void BeamCells::subtract(uint32_t cover, const HalfPlane& front, std::span<const HalfPlane> outline) {
   const bool stops = view_->facets()[cover].kind == FacetKind::opaque || walls_ == 0;
   const size_t count = pieces_.size();
@@ -336,7 +338,7 @@ void BeamCells::subtract(uint32_t cover, const HalfPlane& front, std::span<const
   std::erase_if(pieces_, [](const Piece& piece) { return piece.shape.count == 0; });
 }
 
-/// Which constraints run through a polygon? False: it is outside of one.
+/// Finds the constraints that cut through a polygon. Returns false if the polygon is outside one of them.
 bool BeamCells::find_cuts(const Convex& shape, const HalfPlane& front, std::span<const HalfPlane> outline) {
   cuts_.clear();
   const auto look = [&](const HalfPlane& half) {
@@ -351,7 +353,7 @@ bool BeamCells::find_cuts(const Convex& shape, const HalfPlane& front, std::span
   return look(front) && std::all_of(outline.begin(), outline.end(), look);
 }
 
-/// The same for an edge, which is lit if any of it is.
+/// Does the same for an edge, which is lit if any part of it is lit.
 void BeamCells::settle_wedge(const SlopeRect& rect, const Entry& entry) {
   if (lit_[entry.facet]) return;
   const ViewFacet& wedge = view_->facets()[entry.facet];
@@ -399,7 +401,7 @@ void BeamCells::subtract(Interval interval, uint32_t cover, double from, double 
   next_intervals_.push_back(interval);
 }
 
-/// Where a part of the facet's projection lies on the facet itself, `pad` (slopes) wider.
+/// Adds the region of the facet onto which a part of its projection falls. `pad` (slopes) widens the part.
 void BeamCells::add_to(FacetRegion& region, const ViewFacet& view, const Convex& shape, double pad) const {
   const BeamFacet& facet = view_->scene().facet(view.scene_facet);
   const Beam& beam = view_->beam();

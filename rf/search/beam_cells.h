@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which facets does a beam meet, and where on them? The window is cut in two (J. E. Warnock, 1969) until few
-// facets are left in a cell; there, what stands before a facet is taken away from it as polygons (K. Weiler,
-// P. Atherton, 1977). Planes that cross need no order of their own: the side on which one is in front of the
-// other is a half-plane of slopes.
+// Finds the facets that a beam meets, and the regions of the facets where it meets them. The window is cut in
+// two repeatedly (J. E. Warnock, 1969) until a cell holds few facets. In such a cell, everything in front of
+// a facet is subtracted from the facet as polygons (K. Weiler, P. Atherton, 1977). Planes that cross need no
+// order: the region where one is in front of the other is a half-plane of slopes.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace greatx::rf {
 
-/// A convex region of a facet, in metres along BeamFacet::axis_a and axis_b: bounds of a, b, a + b and a - b.
+/// Bounds a convex region of a facet by a, b, a + b and a - b, in metres along BeamFacet::axis_a and axis_b.
 struct FacetRegion {
   double min_a = 1e300, max_a = -1e300, min_b = 1e300, max_b = -1e300;
   double min_sum = 1e300, max_sum = -1e300, min_difference = 1e300, max_difference = -1e300;
@@ -26,36 +26,37 @@ struct FacetRegion {
   bool empty() const { return min_a > max_a; }
 };
 
-/// What a beam was found to meet: a facet behind `walls` more walls than the beam itself, and where on it.
+/// Describes a facet that a beam meets behind `walls` more walls than the beam itself, and the region where
+/// it meets it.
 struct BeamHit {
-  uint32_t facet = 0;  ///< BeamScene's
+  uint32_t facet = 0;  ///< index in the BeamScene
   uint32_t walls = 0;
   FacetRegion region;
 };
 
 class BeamCells {
  public:
-  /// All facets and wedges that the beam of `view` may meet behind at most `walls` walls. `hits`: by facet,
-  /// then walls; `wedges`: indices in the list of wedges, ascending, each once. Both are appended to.
+  /// Appends all facets and wedges that the beam of `view` may meet behind at most `walls` walls. `hits` are
+  /// ordered by facet and then by walls. `wedges` are indices in the list of wedges, ascending, each once.
   void settle(const BeamView& view, uint32_t walls, std::vector<BeamHit>& hits,
               std::vector<uint32_t>& wedges);
-  uint64_t cells() const { return cells_; }  ///< looked at since the start
+  uint64_t cells() const { return cells_; }  ///< number of cells examined since the start
 
  private:
   static constexpr uint32_t most_passed = shared::crossings_max;
-  /// What is left of a facet: a convex part, and the walls before it.
+  /// Holds a lit part of a facet: a convex shape, and the walls in front of it.
   struct Piece {
     Convex shape;
     uint32_t walls = 0;
-    std::array<uint32_t, most_passed> passed{};  ///< of the view
+    std::array<uint32_t, most_passed> passed{};  ///< facets of the view
   };
-  /// What stands in the way as constraints; rays inside all of them meet it.
+  /// Describes an obstacle by constraints. Rays that satisfy all of them meet it.
   struct Outline {
-    uint32_t first = 0, count = 0;  ///< into halves_; count 0: not worked out yet
+    uint32_t first = 0, count = 0;  ///< range in halves_; count 0 if it is not computed yet
   };
-  /// A facet in a leaf.
+  /// Describes a facet in a leaf.
   struct Entry {
-    uint32_t facet = 0;  ///< of the view
+    uint32_t facet = 0;  ///< facet of the view
     double min_depth = 0.0, max_depth = 0.0;
   };
   struct Interval {
@@ -83,15 +84,15 @@ class BeamCells {
 
   const BeamView* view_ = nullptr;
   uint32_t walls_ = 0;
-  std::vector<uint32_t> lists_;  ///< of the cells that are open
-  std::vector<Entry> entries_;   ///< of the leaf, nearest first
+  std::vector<uint32_t> lists_;  ///< facets of the open cells
+  std::vector<Entry> entries_;   ///< facets of the leaf, nearest first
   std::vector<Piece> pieces_;
   std::vector<HalfPlane> cuts_;
   std::vector<Interval> intervals_, next_intervals_;
   std::vector<HalfPlane> halves_;
   std::vector<Outline> outlines_;     ///< [polygons of the view]
   std::vector<FacetRegion> regions_;  ///< [facets of the view][walls + 1]
-  std::vector<uint8_t> lit_;          ///< [facets of the view]: wedges in sight
+  std::vector<uint8_t> lit_;          ///< [facets of the view]: 1 for a visible wedge
   uint64_t cells_ = 0;
 };
 

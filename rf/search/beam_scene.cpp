@@ -14,7 +14,7 @@
 namespace greatx::rf {
 namespace {
 
-/// A corner of a triangle on its way to being welded.
+/// Describes a corner of a triangle before it is welded.
 struct Corner {
   dvec3 position{0.0};
   uint32_t body = 0;
@@ -23,8 +23,8 @@ struct Corner {
 
 bool same_place(const Corner& a, const Corner& b) { return a.body == b.body && a.position == b.position; }
 
-/// Numbers the places that corners stand at: equal coordinates of one body are one vertex, for the mesh that
-/// is traced has no gap there. Corners that merely stand near each other are not welded.
+/// Numbers the positions of corners: equal coordinates of one body are one vertex, because the traced mesh
+/// has no gap there. Corners that are merely near each other are not welded.
 std::vector<uint32_t> weld(std::vector<Corner>& corners, std::vector<dvec3>& vertices) {
   std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
     return std::tie(a.body, a.position.x, a.position.y, a.position.z, a.place) <
@@ -38,18 +38,18 @@ std::vector<uint32_t> weld(std::vector<Corner>& corners, std::vector<dvec3>& ver
   return vertex_of;
 }
 
-/// Convex pieces on their way to being joined.
+/// Holds convex pieces of a facet and joins them.
 class Pieces {
  public:
-  /// `normal`: of their plane. `vertices`: all positions.
+  /// `normal` is the normal of their plane. `vertices` holds all positions.
   Pieces(const std::vector<dvec3>& vertices, const dvec3& normal) : vertices_(vertices), normal_(normal) {}
   void add(std::array<uint32_t, 3> triangle) {
     const double doubled = turn(triangle[0], triangle[1], triangle[2]);
     if (doubled < 0.0) std::swap(triangle[1], triangle[2]);
     loops_.emplace_back(triangle.begin(), triangle.end());
   }
-  /// Across edges that belong to just two of them, as long as what results is convex (S. Hertel, K. Mehlhorn,
-  /// 1983).
+  /// Joins pieces across edges that belong to exactly two of them, as long as the result is convex (S.
+  /// Hertel, K. Mehlhorn, 1983).
   void join();
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 
@@ -85,10 +85,10 @@ void Pieces::join() {
   std::erase_if(loops_, [](const std::vector<uint32_t>& loop) { return loop.empty(); });
 }
 
-/// `first` runs along the edge from `from` to `to`, `second` back.
+/// Joins two pieces. `first` follows the edge from `from` to `to`, and `second` follows it back.
 void Pieces::try_to_join(uint32_t first, uint32_t second, uint32_t from, uint32_t to) {
   if (loops_[first].size() + loops_[second].size() - 2 > BeamPolygon::most_corners) return;
-  const auto opened = [&](const std::vector<uint32_t>& loop, uint32_t start) {  // from `start` once around
+  const auto opened = [&](const std::vector<uint32_t>& loop, uint32_t start) {  // once around from `start`
     std::vector<uint32_t> turned(loop);
     std::rotate(turned.begin(), std::find(turned.begin(), turned.end(), start), turned.end());
     return turned;

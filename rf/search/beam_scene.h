@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene as beams meet it: facets as convex polygons, in a tree of boxes.
+// Holds the scene for beams: facets as convex polygons, in a tree of boxes.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 
 namespace greatx::rf {
 
-/// A convex piece of a facet, counter-clockwise as its normal sees it.
+/// A convex piece of a facet, counter-clockwise as seen from the side of the normal.
 struct BeamPolygon {
   static constexpr uint32_t most_corners = 8;
-  uint32_t first = 0, count = 0;  ///< corners
+  uint32_t first = 0, count = 0;  ///< range of corners
 };
 
 struct BeamFacet {
-  uint32_t index = 0;  ///< in the FacetWorld
+  uint32_t index = 0;  ///< index in the FacetWorld
   FacetKind kind = FacetKind::opaque;
   uint32_t owner = 0;  ///< PosedFacet::owner
   uint32_t first_polygon = 0, polygon_count = 0;
@@ -33,20 +33,20 @@ struct BeamFacet {
   double offset = 0.0;
   double tolerance_m = 0.0;               ///< PosedFacet::tolerance_m
   dvec3 reference{0.0};                   ///< a corner, in the plane
-  dvec3 axis_a{0.0}, axis_b{0.0};         ///< in the plane, unit, axis_a along the longest edge
+  dvec3 axis_a{0.0}, axis_b{0.0};         ///< unit, in the plane; axis_a is along the longest edge
   double offset_a = 0.0, offset_b = 0.0;  ///< a = axis_a . x - offset_a
   double min_a = 0.0, max_a = 0.0, min_b = 0.0, max_b = 0.0;
   scene::Bounds bounds;
 };
 
-/// An edge that diffracts, in local coordinates.
+/// Describes an edge that diffracts, in local coordinates.
 struct BeamWedge {
   dvec3 a{0.0}, b{0.0};
-  uint32_t index = 0;              ///< in the list given
-  uint32_t faces[2] = {~0u, ~0u};  ///< BeamScene's facets; ~0u: none, or left out
+  uint32_t index = 0;              ///< index in the given list
+  uint32_t faces[2] = {~0u, ~0u};  ///< facets of the BeamScene; ~0u: none, or left out
 };
 
-/// Inside: normal . x >= offset.
+/// Describes the half-space normal . x >= offset.
 struct HalfSpace {
   dvec3 normal{0.0};
   double offset = 0.0;
@@ -54,8 +54,8 @@ struct HalfSpace {
 
 class BeamScene {
  public:
-  /// Foliage is left out; so are facets of bodies other than 0, which move, unless `moving_bodies`; and
-  /// wedges that have no face among the rest.
+  /// Foliage and absent facets are left out. So are facets of bodies other than 0, which move, unless
+  /// `moving_bodies`, and wedges without a face among the remaining facets.
   BeamScene(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
             bool moving_bodies);
 
@@ -65,19 +65,19 @@ class BeamScene {
   std::span<const BeamPolygon> polygons(const BeamFacet& facet) const {
     return std::span(polygons_).subspan(facet.first_polygon, facet.polygon_count);
   }
-  /// Vertices.
+  /// Returns the vertices of a polygon.
   std::span<const uint32_t> corners(const BeamPolygon& polygon) const {
     return std::span(corners_).subspan(polygon.first, polygon.count);
   }
-  /// Those that belong to a facet; each belongs to one of its faces.
+  /// Returns the wedges that belong to a facet. Each wedge belongs to one of its faces.
   std::span<const BeamWedge> wedges(const BeamFacet& facet) const {
     return std::span(wedges_).subspan(facet.first_wedge, facet.wedge_count);
   }
   const dvec3& vertex(uint32_t index) const { return vertices_[index]; }
-  /// Largest absolute coordinate of a vertex, metres.
+  /// Returns the largest absolute coordinate of a vertex, metres.
   double largest_coordinate() const { return largest_coordinate_; }
 
-  /// Appends the facets whose boxes are not outside of any of the half-spaces, in ascending order.
+  /// Appends, in ascending order, the facets whose boxes are not outside any of the half-spaces.
   void gather(std::span<const HalfSpace> region, std::vector<uint32_t>& facets) const;
 
  private:
@@ -92,7 +92,7 @@ class BeamScene {
   std::vector<BeamPolygon> polygons_;
   std::vector<uint32_t> corners_;
   std::vector<BeamWedge> wedges_;
-  scene::BoxTree boxes_;  ///< of facets_
+  scene::BoxTree boxes_;  ///< boxes of facets_
   double largest_coordinate_ = 0.0;
 };
 

@@ -17,24 +17,24 @@ namespace greatx::rf {
 namespace {
 
 constexpr uint32_t none = ~0u;
-constexpr size_t nodes_at_once = 2048;  ///< expanded before their children are counted: bounds the memory
+constexpr size_t nodes_at_once = 2048;  ///< expanded before their children are counted; bounds the memory
 
-/// A sequence of facets: that of its parent and one more.
+/// Describes a sequence of facets: the sequence of its parent and one more facet.
 struct Node {
   uint32_t parent = none;
-  uint32_t facet = none;       ///< BeamScene's
-  dvec3 image{0.0};            ///< of the source, mirrored at all of them
-  std::vector<BeamHit> parts;  ///< where on the facet, for each number of walls passed so far
+  uint32_t facet = none;       ///< facet of the BeamScene
+  dvec3 image{0.0};            ///< the source, mirrored at all facets
+  std::vector<BeamHit> parts;  ///< lit regions of the facet, for each number of walls passed so far
 };
 
-/// What a node's beams met.
+/// Holds the facets and wedges that the beams of a node met.
 struct Found {
-  std::vector<BeamHit> hits;  ///< walls: on the whole way from the source
+  std::vector<BeamHit> hits;  ///< their walls count from the source
   std::vector<uint32_t> wedges;
   uint64_t cells = 0;
 };
 
-/// By facet, then walls; one region for each.
+/// Sorts hits by facet and then by walls, and merges their regions.
 void merge(std::vector<BeamHit>& hits) {
   std::sort(hits.begin(), hits.end(), [](const BeamHit& a, const BeamHit& b) {
     return std::tie(a.facet, a.walls) < std::tie(b.facet, b.walls);
@@ -59,7 +59,7 @@ class Tree {
   BeamSearchResult grow();
 
  private:
-  /// Walls that may still be passed on the way to the next reflection; < 0: no next reflection.
+  /// Returns the number of walls that may still be passed before the next reflection; < 0 if none can follow.
   int walls_left(uint32_t depth, uint32_t passed) const {
     if (depth >= options_.max_depth) return -1;
     return static_cast<int>(std::min(options_.max_transmissions, options_.max_depth - depth - 1)) -
@@ -98,7 +98,7 @@ Found Tree::expand_root(uint32_t face) const {
   beam.right[axes[face][0]] = 1.0;
   beam.up[axes[face][1]] = 1.0;
   beam.forward[axes[face][2]] = face % 2 == 0 ? 1.0 : -1.0;
-  const double side = 1.0 + 1e-9;  // neighbours overlap by more than they round
+  const double side = 1.0 + 1e-9;  // neighbours overlap by more than their roundings
   beam.window = {-side, side, -side, side};
   Found found;
   settle(beam, 0, 0, found);
@@ -133,7 +133,7 @@ Found Tree::expand(uint32_t index, uint32_t depth) const {
   return found;
 }
 
-/// Nodes [first, end) of one depth, in their order.
+/// Expands the nodes [first, end) of one depth. The results are in the order of the nodes.
 std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth, WorkStage& stage) const {
   std::vector<Found> found(end - first);
   if (depth == 0) {
@@ -159,7 +159,7 @@ std::vector<Found> Tree::expand_level(size_t first, size_t end, uint32_t depth, 
   return found;
 }
 
-/// Around all parts, in the plane coordinates of the world's facet.
+/// Returns a window around all parts, in the plane coordinates of the world's facet.
 PlaneWindow Tree::window_of(const Node& node) const {
   const BeamFacet& facet = scene_.facet(node.facet);
   const PosedFacet& posed = scene_.world().facet(facet.index);
@@ -183,7 +183,7 @@ PlaneWindow Tree::window_of(const Node& node) const {
           std::max(window.min_v, posed.min_v) - room, std::min(window.max_v, posed.max_v) + room};
 }
 
-/// Around the parts that something may follow after.
+/// Returns a beam around the parts after which the sequence can go on.
 SequenceBeam Tree::beam_of(uint32_t index, uint32_t depth) const {
   const Node& node = nodes_[index];
   SequenceBeam beam;
@@ -216,8 +216,8 @@ void Tree::list_node(uint32_t index, BeamSearchResult& result) const {
   result.list.windows.push_back(index == 0 ? PlaneWindow{0.0, 0.0, 0.0, 0.0} : window_of(nodes_[index]));
 }
 
-/// How many will have been expanded in the end, if each level grows by what this one has grown by so far:
-/// nodes of this level are [level, level_end), `expanded` of all are done.
+/// Estimates the number of nodes that the whole search will expand, if each level grows by the factor of the
+/// present level. The nodes of this level are [level, level_end); `expanded` nodes are done.
 double Tree::expected_nodes(size_t expanded, size_t level, size_t level_end, uint32_t depth) const {
   const auto of_level = static_cast<double>(level_end - level);
   const double growth = static_cast<double>(nodes_.size() - level_end) /
@@ -301,7 +301,7 @@ BeamSearchResult BeamSearch::search(const dvec3& source) const {
 
 uint32_t BeamSearchResult::complete_depth() const {
   if (overflow() == 0) return ~0u;
-  // The next one in the order was left out; it may have as many facets as the last one that fits.
+  // The next sequence in the order was left out. It may have as many facets as the last one that fits.
   const auto last = static_cast<uint32_t>(list.sequence(list.size() - 1).size());
   return std::max(last, 1u) - 1;
 }

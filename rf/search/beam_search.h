@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Candidates with a guarantee: the tree of image sources, each with the beam through what of the facet it was
-// mirrored at is lit. Which facets a beam meets, and where, is worked out with polygons (beam_cells.h): a
-// facet is dropped only where it lies outside of the beam, or wholly behind others. So the tree holds every
-// sequence that has a path to any receiver whatever that keeps clear of edges by half a millimetre; what it
-// holds beyond these costs time, never truth.
+// Finds candidates with a guarantee. The search follows the tree of image sources. The beam of an image goes
+// through the lit part of the facet that mirrored it. The facets that a beam meets, and the regions where it
+// meets them, are computed with polygons (beam_cells.h). A facet is dropped only if it lies outside the beam,
+// or wholly behind other facets. Hence the tree holds every sequence that has a path to any receiver and
+// keeps half a millimetre clear of edges. Further sequences in the tree cost time, but are never wrong
+// results.
 //
-// Why beams and not rays that split: rays know only the directions they took. A beam is the whole set of
-// directions, so the answer does not depend on any spacing, and its prunings (side of the mirror, overlap of
-// pyramids, hidden polygons) are inequalities in fp64 with room for their roundings.
+// The search uses beams and not rays that split, because rays know only the directions that they took. A beam
+// is the whole set of directions, so that the result does not depend on any spacing. Its prunings (side of
+// the mirror, overlap of pyramids, hidden polygons) are inequalities in fp64 with room for their roundings.
 #pragma once
 
 #include <cstdint>
@@ -27,62 +28,64 @@
 namespace greatx::rf {
 
 struct BeamSearchOptions {
-  uint32_t max_depth = 3;  ///< reflections + walls passed
-  uint32_t max_transmissions =
-      0;  ///< walls passed, on the whole path (FacetKind::wall); not more than max_depth
-  uint64_t capacity = 1u << 22;  ///< sequences kept; what is beyond is counted
-  uint32_t threads = 0;          ///< 0: as many as the machine has. The result does not depend on it
-  /// Facets of bodies other than 0 where they stand now; false: they neither reflect nor hide, as they may
-  /// move away.
+  uint32_t max_depth = 3;  ///< reflections and passed walls
+  /// Walls (FacetKind::wall) that the whole path may pass; not more than max_depth.
+  uint32_t max_transmissions = 0;
+  uint64_t capacity = 1u << 22;  ///< number of sequences kept; sequences beyond it are counted
+  uint32_t threads = 0;          ///< 0: one per core; the result does not depend on it
+  /// Facets of bodies other than 0 take part at their present pose. If false, they neither reflect nor hide,
+  /// because they may move away.
   bool moving_bodies = false;
-  /// A body whose facets do not hide what its own antenna sees: the one that carries the source; 0: none.
+  /// The body that carries the source, whose facets do not hide what its own antenna sees; 0: none.
   uint32_t source_body = 0;
-  /// Paths that stay this far clear, in metres, of edges that they have no business with are found for
-  /// certain: what stands before a facet may be taken for wider by as much. 0: nothing is taken for hidden
-  /// that is not, at the price of twice as many sequences, most of which live in the seams between facets
+  /// Paths are found for certain if they stay this far, in metres, from all edges that they do not touch: an
+  /// obstacle in front of a facet may count as wider by this length. With 0, only hidden facets count as
+  /// hidden. The search then finds twice as many sequences, most of which lie in the seams between facets
   /// that meet.
   double clearance_m = 5e-4;
-  /// Sequences of more facets are not looked for, those that could go on are found as if they were: less than
-  /// max_depth for who takes the last steps another way (MovingSearch).
+  /// Largest number of facets of the sequences that the search looks for. Sequences that could go on still
+  /// get beams. It is less than max_depth if another search takes the last steps (MovingSearch).
   uint32_t stop_depth = ~0u;
 };
 
-/// The beam of a sequence that can go on: what leaves its last facet within this rectangle of the facet's
-/// plane, away from the image.
+/// Describes the beam of a sequence that can go on: it leaves the last facet through this rectangle of the
+/// facet's plane, away from the image.
 struct SequenceBeam {
   static constexpr uint32_t none = ~0u;
   dvec3 image{0.0};                ///< the source, mirrored at all facets
-  dvec3 center{0.0};               ///< of the rectangle, local coordinates
-  dvec3 half_a{0.0}, half_b{0.0};  ///< from there to the middles of its sides
-  uint32_t walls = none;           ///< at least so many have been passed; none: nothing can follow
+  dvec3 center{0.0};               ///< centre of the rectangle, local coordinates
+  dvec3 half_a{0.0}, half_b{0.0};  ///< from the centre to the middles of the sides
+  uint32_t walls = none;           ///< least number of walls passed; none if nothing can follow
 };
 
 struct BeamSearchResult {
-  CandidateList
-      list;  ///< canonical order, no duplicates, with windows; [0] is the empty sequence (line of sight)
-  /// Sequences found, the empty one included. If there are more than `capacity`, the list ends with the last
-  /// one that fits, and those of the depths after the one in which that happened have not been looked for:
-  /// then this is the least number that there can be.
+  /// Canonical order, no duplicates, with windows. [0] is the empty sequence (line of sight).
+  CandidateList list;
+  /// Number of sequences found, with the empty one. If it exceeds `capacity`, the list ends with the last
+  /// sequence that fits, and the search has stopped after the depth in which that happened. The number is
+  /// then a lower bound.
   uint64_t found = 0;
-  uint64_t cells = 0;  ///< cells of beams looked at: what the search cost
-  /// Of the sequences [0, beams.size()) of the list, all that have fewer than max_depth facets. That of the
-  /// empty one is everything: its rectangle says nothing.
+  uint64_t cells = 0;  ///< number of cells of beams examined: the cost of the search
+  /// Beams of the sequences [0, beams.size()) of the list, which are all that have fewer than max_depth
+  /// facets. The beam of the empty sequence is everything: its rectangle has no meaning.
   std::vector<SequenceBeam> beams;
   uint64_t overflow() const { return found - list.size(); }
-  /// Up to so many facets the list has all sequences for certain; ~0u: nothing was left out.
+  /// Returns the number of facets up to which the list certainly has all sequences; ~0u if nothing was left
+  /// out.
   uint32_t complete_depth() const;
 };
 
 class BeamSearch {
  public:
-  /// `wedges` empty: none are looked for. All arguments are read by search() and must outlive it.
+  /// If `wedges` is empty, the search looks for none. search() reads all arguments, which must outlive this
+  /// object.
   BeamSearch(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
              const BeamSearchOptions& options);
-  /// Every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Not to be
-  /// called from two threads at once.
+  /// Returns every sequence of facets whose beam from `source` (local coordinates) is not proven dark. Must
+  /// not be called from two threads at once.
   BeamSearchResult search(const dvec3& source) const;
-  /// One sentence for `explain` and the run's summary. `left_out` sequences at least, of more than
-  /// `complete_depth` facets, were left out of a result.
+  /// Returns one sentence for `explain` and the run's summary. A result has left out at least `left_out`
+  /// sequences, all with more than `complete_depth` facets.
   std::string guarantee(uint64_t left_out = 0, uint32_t complete_depth = ~0u) const;
   const BeamSearchOptions& options() const { return options_; }
 
@@ -91,7 +94,7 @@ class BeamSearch {
   const FacetKinds* kinds_;
   std::span<const scene::Wedge> wedges_;
   BeamSearchOptions options_;
-  mutable std::shared_ptr<const BeamScene> scene_;  ///< kept between searches if nothing in it moves
+  mutable std::shared_ptr<const BeamScene> scene_;  ///< kept between searches if it cannot move
 };
 
 }  // namespace greatx::rf

@@ -10,7 +10,7 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double least_sine = 0.1;  ///< of planes that meet at an angle
+constexpr double least_sine = 0.1;  ///< least sine between planes that count as meeting at an angle
 
 double longest_direction_in(const SlopeRect& rect) {
   const double a = std::max(std::abs(rect.min_a), std::abs(rect.max_a));
@@ -20,7 +20,7 @@ double longest_direction_in(const SlopeRect& rect) {
 
 double sine_between(const dvec3& a, const dvec3& b) { return glm::length(glm::cross(a, b)); }
 
-/// Keeps what has z >= least; false: nothing.
+/// Keeps the part of a segment with z >= least. Returns false if nothing is left.
 bool cut_depth(dvec3& from, dvec3& to, double least) {
   if (from.z < least && to.z < least) return false;
   if (from.z >= least && to.z >= least) return true;
@@ -72,7 +72,7 @@ double BeamView::room_between(const dvec3& normal, const dvec3& other) const {
 void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
   const BeamFacet& facet = scene_->facet(scene_facet);
   const double ahead = facet.offset - glm::dot(facet.normal, beam_.apex);
-  if (std::abs(ahead) <= 0.5 * facet.tolerance_m) return;  // edge-on: neither a mirror nor in anything's way
+  if (std::abs(ahead) <= 0.5 * facet.tolerance_m) return;  // edge-on: it neither reflects nor blocks
   const double sign = ahead > 0.0 ? 1.0 : -1.0;
   ViewFacet view;
   view.scene_facet = scene_facet;
@@ -94,8 +94,8 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
   for (const BeamPolygon& polygon : scene_->polygons(facet))
     above = add_polygon(view, scene_->corners(polygon), least_depth, least_rise) || above;
   view.polygon_count = static_cast<uint32_t>(polygons_.size()) - view.first_polygon;
-  // What lies in the mirror's plane, or rises from it by less than the clearance: no path, or none that is
-  // clear.
+  // A facet in the mirror's plane has no path. A facet that rises from this plane by less than the clearance
+  // has no path that is clear of edges.
   if (view.polygon_count == 0 || !above) {
     polygons_.resize(view.first_polygon);
     return;
@@ -105,8 +105,8 @@ void BeamView::add_facet(uint32_t scene_facet, uint32_t transparent_body) {
   facets_.push_back(view);
 }
 
-/// Projects what is deeper than the mirror; true: there is some, and it rises above the mirror by more than
-/// `least_rise`.
+/// Projects the part of a polygon that is deeper than the mirror. Returns true if there is such a part and it
+/// rises above the mirror by more than `least_rise`.
 bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, double least_depth,
                            double least_rise) {
   constexpr size_t most = Convex::capacity;
@@ -116,7 +116,7 @@ bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, 
   double max_depth = -1e300;
   for (const uint32_t vertex : vertices) {
     dvec3 corner = in_frame(scene_->vertex(vertex));
-    corner -= (glm::dot(normal, corner) - view.distance) * normal;  // into the plane, where facets reflect
+    corner -= (glm::dot(normal, corner) - view.distance) * normal;  // moves it into the reflecting plane
     max_depth = std::max(max_depth, corner.z);
     at[count++] = corner;
   }
@@ -126,7 +126,7 @@ bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, 
   polygon.box = SlopeRect::none();
   double min_depth = 1e300;
   const auto add = [&](const dvec3& point) {
-    // What touches the mirror may be behind it by a rounding: a ray starts there, not farther back.
+    // A point that touches the mirror may be behind it by a rounding. The ray starts at the mirror.
     const double depth = std::max(point.z, beam_.near_m);
     const dvec2 slopes(point.x / depth, point.y / depth);
     min_depth = std::min(min_depth, depth);
@@ -152,7 +152,8 @@ bool BeamView::add_polygon(ViewFacet& view, std::span<const uint32_t> vertices, 
   return max_depth - beam_.near_m > least_rise;
 }
 
-/// A ray is stopped by what it starts well before; the rest is decided where the mirror is met.
+/// Finds the rays that a facet stops: those that start well before it. The other rays are decided where the
+/// mirror is met.
 void BeamView::find_start(ViewFacet& view, const BeamFacet& facet) {
   if (beam_.mirror == Beam::no_mirror) {
     view.hides = view.hides && view.distance >= room_m_;
@@ -178,11 +179,11 @@ void BeamView::add_wedge(const BeamWedge& wedge) {
   view.is_wedge = true;
   view.scene_facet = wedge.index;
   view.wedge_faces[0] = wedge.faces[0], view.wedge_faces[1] = wedge.faces[1];
-  // Any plane through the edge will do to compare depths; this one faces the apex.
+  // Any plane through the edge serves to compare depths. This plane faces the apex.
   const dvec3 along = glm::normalize(to - from);
   const dvec3 foot = from - glm::dot(from, along) * along;
   view.distance = glm::length(foot);
-  if (view.distance <= rounding_m_) return;  // the apex is on its line: no cone
+  if (view.distance <= rounding_m_) return;  // the apex is on the edge's line: there is no cone
   view.na = foot.x / view.distance, view.nb = foot.y / view.distance, view.n = foot.z / view.distance;
   const double least_depth =
       mirrored ? beam_.near_m - tolerance - rounding_m_ : 0.5 * view.distance / longest_direction_;

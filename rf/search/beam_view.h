@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A beam, and the facets as its apex sees them: projected onto slopes (a, b), so that straight edges stay
-// straight and the inverse depth of a plane is an affine function.
+// Projects the facets that a beam may meet onto slopes (a, b), as the beam's apex sees them. Straight edges
+// stay straight, and the inverse depth of a plane is an affine function.
 #pragma once
 
 #include <array>
@@ -16,55 +16,55 @@
 
 namespace greatx::rf {
 
-/// All rays from the apex with slopes inside the window: direction a * right + b * up + forward. They start
-/// at depth near_m (the mirror), depth being counted along `forward`.
+/// Describes all rays from the apex with slopes inside the window: the direction is a * right + b * up +
+/// forward. Depth is counted along `forward`. The rays start at depth near_m (the mirror).
 struct Beam {
   static constexpr uint32_t no_mirror = ~0u;
   dvec3 apex{0.0};
   dvec3 right{0.0}, up{0.0}, forward{0.0};  ///< unit, perpendicular
-  double near_m = 0.0;                      ///< 0: no mirror, rays start at the apex
+  double near_m = 0.0;                      ///< 0 without a mirror: rays start at the apex
   SlopeRect window;
-  double min_sum = -1e300, max_sum = 1e300;                ///< of a + b
-  double min_difference = -1e300, max_difference = 1e300;  ///< of a - b
-  uint32_t mirror = no_mirror;                             ///< in the BeamScene
+  double min_sum = -1e300, max_sum = 1e300;                ///< bounds of a + b
+  double min_difference = -1e300, max_difference = 1e300;  ///< bounds of a - b
+  uint32_t mirror = no_mirror;                             ///< facet of the BeamScene
 };
 
-/// A convex piece of a facet in slopes.
+/// Holds a convex piece of a facet in slopes.
 struct ViewPolygon {
-  uint32_t first = 0, count = 0;  ///< corners
+  uint32_t first = 0, count = 0;  ///< range of corners
   SlopeRect box;
-  double max_depth = 0.0;  ///< of its corners
+  double max_depth = 0.0;  ///< largest depth of a corner
 };
 
 struct ViewFacet {
-  uint32_t scene_facet = 0;  ///< BeamScene's; of a wedge: its index in the list given
+  uint32_t scene_facet = 0;  ///< facet of the BeamScene; for a wedge its index in the given list
   FacetKind kind = FacetKind::opaque;
-  bool is_wedge = false;  ///< an edge: two points, no polygons
-  bool hides = false;     ///< stops rays, those in `start` at least
-  /// Depth along the ray with slopes x is distance / (n + na a + nb b).
+  bool is_wedge = false;  ///< an edge: it has two ends and no polygons
+  bool hides = false;     ///< stops rays, at least those in `start`
+  /// The depth along the ray with slopes (a, b) is distance / (n + na a + nb b).
   double n = 0.0, na = 0.0, nb = 0.0;
-  double distance = 0.0;                    ///< of its plane from the apex, > 0
-  double min_depth = 0.0, max_depth = 0.0;  ///< of its points
-  HalfPlane start;                          ///< rays that start well before it
+  double distance = 0.0;                    ///< distance of its plane from the apex, > 0
+  double min_depth = 0.0, max_depth = 0.0;  ///< depths of its points
+  HalfPlane start;                          ///< rays that start well before the facet
   SlopeRect box;
   uint32_t first_polygon = 0, polygon_count = 0;
-  dvec2 ends[2];                         ///< of a wedge
-  uint32_t wedge_faces[2] = {~0u, ~0u};  ///< BeamScene's; they never hide it
+  dvec2 ends[2];                         ///< ends of a wedge
+  uint32_t wedge_faces[2] = {~0u, ~0u};  ///< facets of the BeamScene, which never hide the wedge
 
   double slope_sum(double a, double b) const { return n + na * a + nb * b; }
 };
 
-/// Everything that may be met by a beam.
+/// Holds all facets and wedges that a beam may meet.
 class BeamView {
  public:
   explicit BeamView(const BeamScene& scene) : scene_(&scene) {}
-  /// Forgets the beam before. `clearance_m`: see BeamSearchOptions; `transparent_body`: its facets hide
-  /// nothing; `wedges`: look at them, too.
+  /// Sets the beam and discards the beam before. `clearance_m`: see BeamSearchOptions. Facets of
+  /// `transparent_body` hide nothing. `wedges`: includes wedges.
   void look(const Beam& beam, double clearance_m, uint32_t transparent_body, bool wedges);
 
   const BeamScene& scene() const { return *scene_; }
   const Beam& beam() const { return beam_; }
-  /// Facets, then wedges, each in ascending order.
+  /// Returns the facets and then the wedges, each in ascending order.
   std::span<const ViewFacet> facets() const { return facets_; }
   std::span<const ViewPolygon> polygons(const ViewFacet& facet) const {
     return std::span(polygons_).subspan(facet.first_polygon, facet.polygon_count);
@@ -72,14 +72,15 @@ class BeamView {
   std::span<const dvec2> corners(const ViewPolygon& polygon) const {
     return std::span(corners_).subspan(polygon.first, polygon.count);
   }
-  /// BeamSearchOptions::clearance_m with room for the mesh's fp32; 0: none.
+  /// Returns BeamSearchOptions::clearance_m with room for the mesh's fp32; 0: none.
   double clearance_m() const { return clearance_m_; }
-  /// Room that a cover needs before and behind it if nothing else is known, metres: four times
+  /// Returns the room that a cover needs in front and behind if nothing else is known, metres: four times
   /// shared::visibility_tolerance.
   double room_m() const { return room_m_; }
   double rounding_m() const { return rounding_m_; }
-  /// How far behind a plane something must be to be hidden by what lies in it, metres. Planes that meet at an
-  /// angle need no room, for what they hide too much lies within the clearance of the edge that they meet in.
+  /// Returns how far behind a plane something must be before an obstacle in that plane hides it, metres.
+  /// Planes that meet at an angle need no room: the excess that they hide lies within the clearance of their
+  /// common edge.
   double room_between(const dvec3& normal, const dvec3& other) const;
 
  private:

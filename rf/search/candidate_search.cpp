@@ -13,8 +13,8 @@ namespace greatx::rf {
 
 namespace {
 
-/// Position along a Hilbert curve of 2^16 x 2^16 cells (J. Skilling, "Programming the Hilbert curve", 2004,
-/// in two dimensions).
+/// Returns the position along a Hilbert curve of 2^16 x 2^16 cells (J. Skilling, "Programming the Hilbert
+/// curve", 2004, in two dimensions).
 uint32_t hilbert_index(uint32_t x, uint32_t y) {
   uint32_t index = 0;
   for (uint32_t bit = 1u << 15; bit > 0; bit >>= 1) {
@@ -31,7 +31,8 @@ uint32_t hilbert_index(uint32_t x, uint32_t y) {
   return index;
 }
 
-/// Cell of a direction on the octahedron unfolded to a square (Z. Cigolle et al., JCGT 3(2), 2014).
+/// Returns the order of a direction: its cell on the octahedron, unfolded to a square (Z. Cigolle et al.,
+/// JCGT 3(2), 2014).
 uint32_t sphere_order(const dvec3& d) {
   const double norm = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
   double u = d.x / norm, v = d.y / norm;
@@ -46,15 +47,15 @@ uint32_t sphere_order(const dvec3& d) {
   return hilbert_index(cell(u), cell(v));
 }
 
-/// Length of the part of a key before rf_none.
+/// Returns the length of the part of a key before rf_none.
 uint32_t key_depth(const uint32_t* key, uint32_t max_depth) {
   uint32_t depth = 0;
   while (depth < max_depth && key[depth] != shared::rf_none) ++depth;
   return depth;
 }
 
-/// Indices of the keys, one of each, in lexicographic order. Neighbouring rays mostly share their key, which
-/// is what makes the first pass worth it.
+/// Returns the indices of the distinct keys in lexicographic order. Neighbouring rays mostly share their key,
+/// so that the first pass removes most duplicates.
 std::vector<uint32_t> distinct_keys(std::span<const uint32_t> keys, uint32_t max_depth) {
   const size_t rays = keys.size() / max_depth;
   const auto key = [&](size_t ray) { return keys.data() + ray * max_depth; };
@@ -102,8 +103,8 @@ CandidateSearchResult candidates_from_keys(std::span<const uint32_t> keys, uint3
   GREATX_CHECK(max_depth > 0 && keys.size() % max_depth == 0, "{} words of keys of {}", keys.size(),
                max_depth);
   const std::vector<uint32_t> order = distinct_keys(keys, max_depth);
-  // In lexicographic order the rays that share a prefix follow one another, so a prefix is new where it
-  // differs from the ray before; and the prefixes of one depth come out in order.
+  // In lexicographic order the rays that share a prefix are adjacent. Hence a prefix is new if it differs
+  // from that of the ray before, and the prefixes of one depth come out in order.
   CandidateSearchResult result;
   for (uint32_t depth = 1; depth <= max_depth; ++depth) {
     const uint32_t* before = nullptr;
@@ -171,7 +172,7 @@ std::vector<uint32_t> CandidateSearch::kinds_of(const FacetKinds& kinds) {
                facets);
   const auto any = [&](FacetKind kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
   foliage_ = any(FacetKind::foliage) || any(FacetKind::absent);
-  // To depth 1 there is nothing behind a wall to reflect at.
+  // At depth 1 no reflection can follow behind a wall.
   walls_ = any(FacetKind::wall) && options_.max_transmissions > 0 && options_.max_depth > 1;
   std::vector<uint32_t> words(facets, static_cast<uint32_t>(FacetKind::opaque));
   for (size_t i = 0; i < kinds.size(); ++i) words[i] = static_cast<uint32_t>(kinds[i]);
@@ -196,7 +197,7 @@ void CandidateSearch::record_part(gpu::Cmd& cmd, const dvec3& source, const Part
   constants.rays = part.rays;
   constants.max_depth = options_.max_depth;
   constants.slots = slots_;
-  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // the copy of the part before
+  cmd.barrier(gpu::sync::transfer_read, gpu::sync::compute_write);  // waits for the copy of the part before
   cmd.bind(pipeline_);
   std::vector<gpu::Descriptor> descriptors = scene_->descriptors();
   descriptors.push_back(gpu::Descriptor::buffer(shared::candidates_directions_binding, directions_));

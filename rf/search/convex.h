@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Convex polygons in the plane of slopes, cut by half-planes.
+// Cuts convex polygons in the plane of slopes by half-planes.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ struct SlopeRect {
   static SlopeRect none() { return {1e300, -1e300, 1e300, -1e300}; }
 };
 
-/// Inside: a x + b y + c >= 0.
+/// Describes the half-plane a x + b y + c >= 0.
 struct HalfPlane {
   double a = 0.0, b = 0.0, c = 1.0;
   double at(const dvec2& x) const { return a * x.x + b * x.y + c; }
-  /// Largest and least value on a rectangle.
+  /// most() and least() return the largest and the least value on a rectangle.
   double most(const SlopeRect& rect) const {
     return std::max(a * rect.min_a, a * rect.max_a) + std::max(b * rect.min_b, b * rect.max_b) + c;
   }
@@ -45,7 +45,7 @@ struct Convex {
 
   Convex() = default;
   Convex(const Convex& other) { *this = other; }
-  Convex& operator=(const Convex& other) {  // what is there, not all that there is room for
+  Convex& operator=(const Convex& other) {  // copies only the corners in use
     count = other.count;
     std::copy_n(other.at.begin(), count, at.begin());
     return *this;
@@ -62,9 +62,11 @@ struct Convex {
   }
 };
 
-/// Keeps what is inside; false: nothing of it is. A polygon that has no room for more corners stays as it is.
+/// Keeps the part inside. Returns false if nothing is left. A polygon without room for more corners stays
+/// unchanged.
 bool clip(Convex& shape, const HalfPlane& half);
-/// Both sides; either may come out empty. False: no room for more corners, nothing done.
+/// Splits a polygon into both sides, one of which may be empty. Returns false and does nothing if there is no
+/// room for more corners.
 bool split(const Convex& shape, const HalfPlane& half, Convex& inside, Convex& outside);
 
 }  // namespace greatx::rf

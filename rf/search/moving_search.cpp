@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t facets_a_lot = 16, beams_a_lot = 64;
 
-/// Those of facets that move; the others are left out.
+/// Returns kinds in which only the facets that move are present.
 FacetKinds moving_kinds(const FacetWorld& world, const FacetKinds& kinds) {
   FacetKinds chosen = kinds;
   for (uint32_t i = 0; i < world.facet_count(); ++i)
@@ -27,7 +27,7 @@ FacetKinds moving_kinds(const FacetWorld& world, const FacetKinds& kinds) {
 
 }  // namespace
 
-/// One search: what moves where it stands now, and the targets' images.
+/// Holds one search: the moving facets at their present poses, and the images of the targets.
 struct MovingSearch::Walk {
   Walk(const MovingSearch& of, std::span<const dvec3> targets, bool with_fixed)
       : search(of),
@@ -43,11 +43,11 @@ struct MovingSearch::Walk {
     }
   }
 
-  /// Sequences found, one after the other, each with its length before it.
+  /// Holds the sequences found, one after the other. Its length precedes each sequence.
   struct Found {
     std::vector<uint32_t> sequences;
-    std::vector<uint32_t> current;                ///< the world's facets, on the way
-    std::vector<std::vector<uint32_t>> gathered;  ///< [depth], of both scenes
+    std::vector<uint32_t> current;                ///< the sequence in progress, facets of the world
+    std::vector<std::vector<uint32_t>> gathered;  ///< [depth], buffers for facets of both scenes
     void add(uint32_t last) {
       sequences.push_back(static_cast<uint32_t>(current.size()) + 1);
       sequences.insert(sequences.end(), current.begin(), current.end());
@@ -64,7 +64,7 @@ struct MovingSearch::Walk {
       });
   }
 
-  /// The sequence goes on from its last facet to a facet of `scene`, and beyond.
+  /// Continues the current sequence from its last facet to the facets of `scene`, and beyond.
   void enter(const Pyramid& pyramid, const BeamScene& scene, Found& found) const {
     const size_t depth = found.current.size();
     if (found.gathered.size() <= depth) found.gathered.resize(depth + 1);
@@ -85,7 +85,7 @@ struct MovingSearch::Walk {
     go_on(*next, found);
     found.current.pop_back();
   }
-  /// From a sequence that has a moving facet.
+  /// Continues a sequence that has a moving facet.
   void go_on(const Pyramid& pyramid, Found& found) const {
     end_at(pyramid, fixed, fixed_images, found);
     end_at(pyramid, moving, moving_images, found);
@@ -94,7 +94,7 @@ struct MovingSearch::Walk {
     enter(pyramid, moving, found);
   }
 
-  /// What follows sequence `index` of the tree, which is at rest.
+  /// Finds the sequences that continue sequence `index` of the tree, whose facets are at rest.
   void after(size_t index, Found& found) const {
     const SequenceBeam& beam = search.beams_[index];
     if (beam.walls == SequenceBeam::none) return;
@@ -115,7 +115,7 @@ struct MovingSearch::Walk {
     end_at(pyramid, moving, moving_images, found);
     if (goes_on && !sequence.empty()) enter(pyramid, moving, found);
   }
-  /// What follows the moving facet `facet` as the first one.
+  /// Finds the sequences whose first facet is the moving facet `facet`.
   void first_at(uint32_t facet, Found& found) const {
     Pyramid everything;
     everything.apex = search.source_;
@@ -161,7 +161,7 @@ CandidateList MovingSearch::search(std::span<const dvec3> targets, bool fixed_to
   GREATX_CHECK(has_tree(), "{} targets, but no tree of the world at rest", targets.size());
   WorkStage stage("search");
   const Walk walk(*this, targets, fixed_too);
-  // In small lots, so that threads share the work and each lot's memory serves many.
+  // The lots are small, so that threads share the work and the memory of a lot serves many facets or beams.
   const size_t moving = options_.moving_bodies ? walk.moving.facet_count() : 0;
   const size_t moving_lots = (moving + facets_a_lot - 1) / facets_a_lot;
   std::vector<Walk::Found> found(moving_lots + (beams_.size() + beams_a_lot - 1) / beams_a_lot);

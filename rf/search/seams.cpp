@@ -8,7 +8,7 @@ namespace greatx::rf {
 namespace {
 
 constexpr double least_seam_sine = 0.1;
-/// Nearer than this, the facet is met at the point itself.
+/// At a smaller distance the facet is met at the point itself.
 constexpr double touching_m = 1e-7;
 constexpr uint32_t dark = 1u << 16;
 
@@ -21,14 +21,14 @@ void Seams::drop_behind(std::vector<GeometricPath>& paths, Source source, uint32
 bool Seams::is_behind(const GeometricPath& path, Source source, uint32_t source_body) const {
   const size_t count = path.interactions.size();
   uint32_t walls = 0;
-  // From the source outwards: vertices 0 to count + 1.
+  // Vertices are counted from the source outwards: 0 to count + 1.
   const auto vertex = [&](size_t i) -> const dvec3& {
     return path.vertices[source == Source::transmitter ? i : count + 1 - i];
   };
-  const auto facet = [&](size_t i) {  // at vertex i
+  const auto facet = [&](size_t i) {  // facet at vertex i
     return path.interactions[source == Source::transmitter ? i - 1 : count - i].element;
   };
-  for (size_t leg = 0; leg < count; ++leg) {  // from vertex `leg` to the next
+  for (size_t leg = 0; leg < count; ++leg) {  // from vertex `leg` to the next vertex
     const uint32_t ignored = leg == 0 ? source_body : 0;
     for (const BeamScene* scene : {fixed_.get(), &moving_})
       walls += passed(*scene, vertex(leg + 1), vertex(leg), facet(leg + 1), ignored);

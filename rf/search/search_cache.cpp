@@ -33,13 +33,13 @@ namespace {
 
 constexpr char magic[8] = {'g', 'r', 'x', 'b', 'e', 'a', 'm', '4'};
 constexpr size_t key_bytes = 64, checksum_bytes = 64;
-constexpr size_t chunk_bytes = 1u << 20;  ///< written and hashed between two checkpoints
+constexpr size_t chunk_bytes = 1u << 20;  ///< bytes written and hashed between two checkpoints
 constexpr const char* ending = ".beams";
 constexpr const char* draft_ending = ".tmp";
-/// A draft as old as this belongs to nobody any more.
+/// A draft of this age belongs to no running process.
 constexpr std::chrono::hours draft_life{1};
 
-/// A descriptor that is closed at the end.
+/// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -55,7 +55,7 @@ class Descriptor {
   int number_;
 };
 
-/// A file on its way to its place: gone, unless it got there.
+/// Holds a file before it gets its final name. The destructor removes the file if it was not placed.
 class Draft {
  public:
   explicit Draft(fs::path file)
@@ -95,7 +95,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   if (count > 0) bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
 }
 
-/// Reads what append() wrote; false at the first thing that does not fit.
+/// Reads the values that append() wrote. Its functions return false if the bytes do not fit.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -139,7 +139,7 @@ std::string body_of(const std::string& key, const BeamSearchResult& result) {
   append(bytes, result.list.windows);
   append(bytes, result.list.wedge_offsets);
   append(bytes, result.list.wedges);
-  // Number by number: the struct has a gap.
+  // The struct has padding, so that its numbers are written one by one.
   std::vector<double> rectangles;
   std::vector<uint32_t> walls;
   for (const SequenceBeam& beam : result.beams) {
@@ -161,7 +161,7 @@ bool all_below(const std::vector<uint32_t>& values, uint32_t end) {
   return std::all_of(values.begin(), values.end(), [&](uint32_t value) { return value < end; });
 }
 
-/// Whether its numbers fit each other and the scene, so that nothing that uses it has to ask.
+/// Tells whether the numbers of a result fit each other and the scene, so that users need not check them.
 bool fits(const BeamSearchResult& result, const SearchExtent& extent) {
   const CandidateList& list = result.list;
   return are_offsets(list.offsets, list.facets.size()) && all_below(list.facets, extent.facets) &&
@@ -200,10 +200,10 @@ std::optional<BeamSearchResult> result_of(std::string_view bytes, const std::str
   return result;
 }
 
-/// All of a file, or why not.
+/// Holds all bytes of a file, or the reason why it could not be read.
 struct Content {
   std::string bytes;
-  std::string fault;  ///< empty: none
+  std::string fault;  ///< empty if there is none
 };
 
 Content read_whole(const Descriptor& file, uint64_t most_bytes) {
@@ -227,7 +227,7 @@ Content read_whole(const Descriptor& file, uint64_t most_bytes) {
   return content;
 }
 
-/// A result or a draft: the folder may hold what is no business of the cache's.
+/// Tells whether a name is that of a result or a draft. The folder may hold files that are not the cache's.
 bool is_own(const std::string& name) {
   return name.size() > key_bytes && name[key_bytes] == '.' &&
          name.find_first_not_of("0123456789abcdef") == key_bytes;
@@ -269,7 +269,7 @@ SearchCache SearchCache::standard() {
 std::optional<BeamSearchResult> SearchCache::load(const std::string& key, const SearchExtent& extent) const {
   if (folder_.empty()) return std::nullopt;
   const fs::path name = folder_ / (key + ending);
-  // A pipe must not keep anybody waiting.
+  // O_NONBLOCK keeps a pipe from blocking the program.
   const Descriptor file(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
   Content content;
@@ -283,7 +283,7 @@ std::optional<BeamSearchResult> SearchCache::load(const std::string& key, const 
       const std::string_view body(bytes.data(), bytes.size() - checksum_bytes);
       if (std::string_view(bytes).substr(body.size()) == checksum(body))
         if (auto result = result_of(body, key, extent)) {
-          ::futimens(file.number(), nullptr);  // used now; where that is not allowed, it counts as older
+          ::futimens(file.number(), nullptr);  // marks the use; if that fails, the file counts as older
           return result;
         }
     }
@@ -305,7 +305,7 @@ void SearchCache::store(const std::string& key, const BeamSearchResult& result) 
   fs::create_directories(folder_, ignored);
   const fs::path target = folder_ / (key + ending);
   static std::atomic<uint32_t> number{0};
-  // Of several hosts or containers that share the folder, too: who comes second to a name takes none.
+  // The name is unique even if several hosts or containers share the folder: O_EXCL refuses an existing file.
   Draft draft(folder_ / fmt::format("{}.{}.{}.{:x}{}", key, ::getpid(), number++,
                                     std::chrono::steady_clock::now().time_since_epoch().count(),
                                     draft_ending));
@@ -322,8 +322,9 @@ void SearchCache::store(const std::string& key, const BeamSearchResult& result) 
   spdlog::warn("candidates are not kept: cannot write {}: {}", target.string(), std::strerror(error));
 }
 
-/// Removes what was not used for longest until the rest is within the limit, and drafts that nobody will
-/// finish. Others may do the same at the same time: what is gone is gone.
+/// Removes the least recently used results until the rest is within the limit, and drafts that nobody will
+/// finish. Other processes may do the same at the same time: errors for files that are already gone are
+/// ignored.
 void SearchCache::trim(const fs::path& newest) const {
   struct Kept {
     fs::file_time_type used;

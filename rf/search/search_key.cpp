@@ -11,10 +11,10 @@ namespace greatx::rf {
 
 namespace {
 
-/// Counts up when the search changes what it finds, so that old files are not met again.
+/// Must be increased when the search changes its results, so that old files are not used again.
 constexpr uint32_t search_version = 6;
 
-/// Numbers on their way into a hash, many at once.
+/// Collects numbers and adds many at a time to a hash.
 class Numbers {
  public:
   explicit Numbers(Sha256& hash) : hash_(hash) {}
@@ -37,8 +37,8 @@ class Numbers {
   std::vector<double> values_;
 };
 
-/// Every fact of a facet that beams, their windows and their rectangles are made of (BeamScene); numbers of
-/// 32 bits are exact in a double.
+/// Adds all properties of a facet that determine beams, their windows and their rectangles (BeamScene).
+/// Numbers of 32 bits are exact in a double.
 void add_facet(const FacetWorld& world, uint32_t index, FacetKind kind, Numbers& numbers) {
   const PosedFacet& facet = world.facet(index);
   numbers.add(index), numbers.add(static_cast<double>(kind)), numbers.add(facet.owner);
@@ -56,15 +56,15 @@ void add_facet(const FacetWorld& world, uint32_t index, FacetKind kind, Numbers&
 
 std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
                        const dvec3& source, const BeamSearchOptions& options) {
-  // By name, so that a new option is a compiler's error here until it is decided whether it changes the
-  // result.
+  // All options are named here, so that a new option causes a compiler error until somebody decides whether
+  // it changes the result.
   const auto& [max_depth, max_transmissions, capacity, threads, moving_bodies, source_body, clearance_m,
                stop_depth] = options;
   static_cast<void>(threads);
   GREATX_CHECK(!moving_bodies, "the key of a search says nothing of where bodies stand");
   GREATX_CHECK(kinds.size() == world.facet_count(), "kinds of {} facets, the world has {}", kinds.size(),
                world.facet_count());
-  // What BeamScene leaves out.
+  // Selects the facets that BeamScene keeps.
   const auto met = [&](uint32_t index) {
     return index != scene::no_facet && world.facet(index).body == 0 &&
            world.facet(index).triangle_count > 0 && kinds[index] != FacetKind::foliage &&
@@ -74,13 +74,13 @@ std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::sp
   hash.update_value(search_version);
   hash.update_value(max_depth).update_value(max_transmissions).update_value(capacity);
   hash.update_value(source_body).update_value(clearance_m).update_value(stop_depth);
-  hash.update_value(static_cast<uint8_t>(!wedges.empty()));  // whether any are looked for
+  hash.update_value(static_cast<uint8_t>(!wedges.empty()));  // whether the search looks for wedges
   {
     Numbers numbers(hash);
     numbers.add(source);
     for (uint32_t index = 0; index < world.facet_count(); ++index)
       if (met(index)) add_facet(world, index, kinds[index], numbers);
-    numbers.add(-1.0);  // no facet's number: wedges from here
+    numbers.add(-1.0);  // not the number of a facet: wedges begin here
     for (uint32_t index = 0; index < wedges.size(); ++index) {
       const scene::Wedge& wedge = wedges[index];
       if (!met(wedge.facet_0) && !met(wedge.facet_n)) continue;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The name under which the result of a search is kept.
+// Computes the name under which the result of a search is kept.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@
 
 namespace greatx::rf {
 
-/// Everything that decides the result of a search among what stands still, and nothing else, as one SHA-256:
-/// the facets of body 0 that waves meet (numbers, shapes, kinds), their wedges, the source's 64-bit
-/// coordinates, every option but the number of threads, and the version of the search itself. Bodies that
-/// move, the values of materials and the shapes of crowns are not in it. Not for searches among moving
-/// bodies.
+/// Returns a SHA-256 of everything that decides the result of a search in the static world, and of nothing
+/// else: the facets of body 0 that waves meet (numbers, shapes, kinds), their wedges, the 64-bit coordinates
+/// of the source, every option except the number of threads, and the version of the search. Moving bodies,
+/// the values of materials and the shapes of crowns are not included. The key is not valid for searches with
+/// moving bodies.
 std::string search_key(const FacetWorld& world, const FacetKinds& kinds, std::span<const scene::Wedge> wedges,
                        const dvec3& source, const BeamSearchOptions& options);
 

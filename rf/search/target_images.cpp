@@ -9,15 +9,15 @@
 namespace greatx::rf {
 namespace {
 
-/// Rooms for roundings, metres, and per metre of what is computed with. Far more than fp64 needs: what is let
-/// in for nothing costs one exact solve.
+/// Room for roundings, in metres and per metre of the numbers involved. It is far more than fp64 needs; an
+/// unnecessary candidate costs only one exact solve.
 constexpr double room_m = 1e-5, relative_room = 1e-12;
 constexpr double side_room_m = 1e-3, most_side_room_m = 1.0;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Along a line that crosses a plane at distances `a` and `b` of its two ends, the point that is in the
-/// plane, and how much roundings can move it.
+/// Holds the point in a plane of a line that crosses the plane, whose ends have the distances `a` and `b`
+/// from it, and how far roundings can move the point.
 struct Crossing {
   dvec3 point{0.0};
   double room = 0.0;
@@ -46,7 +46,7 @@ bool in_rectangle(const BeamFacet& facet, const Crossing& at) {
          b <= facet.max_b + room;
 }
 
-/// The plane through the apex and one side of the rectangle.
+/// Adds the plane through the apex and one side of the rectangle.
 void add_side(Pyramid& pyramid, const dvec3& from, const dvec3& to, double extent_m) {
   const dvec3 u = from - pyramid.apex, v = to - pyramid.apex;
   const double length_u = glm::length(u), length_v = glm::length(v);
@@ -57,8 +57,8 @@ void add_side(Pyramid& pyramid, const dvec3& from, const dvec3& to, double exten
   const double inside = glm::dot(normal, pyramid.center - pyramid.apex);
   if (std::abs(inside) <= 1e-9 * glm::length(pyramid.center - pyramid.apex)) return;
   if (inside < 0.0) normal = -normal;
-  // How far the plane may be turned, times how far away anything can be. Images of targets lie up to three
-  // times as far as the scene.
+  // The room is the possible turn of the plane times the largest distance of anything. Images of targets lie
+  // at up to three times the extent of the scene.
   const double coordinate = largest(pyramid.apex) + extent_m;
   const double turned =
       relative_room * coordinate * (length_u * length_v / length) / std::min(length_u, length_v);
@@ -79,7 +79,7 @@ std::optional<Pyramid> make_pyramid(const SequenceBeam& beam, const BeamFacet& m
   pyramid.offset = behind > 0.0 ? -mirror.offset : mirror.offset;
   pyramid.center = beam.center;
   const double room = room_m + 2.0 * mirror.tolerance_m;
-  // The rectangle's own axes, which its halves lie along unless they have no length.
+  // The rectangle's own axes, along which its halves lie unless they have no length.
   const bool given = glm::length(beam.half_a) > 0.0;
   const dvec3 axis_a = given ? glm::normalize(beam.half_a) : mirror.axis_a;
   const dvec3 axis_b = glm::cross(mirror.normal, axis_a);
@@ -96,7 +96,7 @@ std::optional<Pyramid> make_pyramid(const SequenceBeam& beam, const BeamFacet& m
 std::optional<SequenceBeam> cut_to(const Pyramid& pyramid, const BeamFacet& facet) {
   const double ahead = glm::dot(facet.normal, pyramid.apex) - facet.offset;
   if (std::abs(ahead) <= 0.5 * facet.tolerance_m) return std::nullopt;
-  // Corners of the facet's rectangle in its own axes, cut by one side after the other.
+  // The corners of the facet's rectangle along its own axes are cut by one side after the other.
   struct Corner {
     double a, b;
   };
@@ -144,7 +144,7 @@ TargetImages::TargetImages(const BeamScene& scene, const dvec3& target) : scene_
   for (uint32_t i = 0; i < scene.facet_count(); ++i) {
     const BeamFacet& facet = scene.facet(i);
     const double distance = glm::dot(facet.normal, target) - facet.offset;
-    if (std::abs(distance) <= 0.5 * facet.tolerance_m) continue;  // a target in a mirror's plane: no path
+    if (std::abs(distance) <= 0.5 * facet.tolerance_m) continue;  // no path: the target is in the plane
     images_.push_back({target - 2.0 * distance * facet.normal, i});
   }
   if (images_.empty()) return;
@@ -154,7 +154,7 @@ TargetImages::TargetImages(const BeamScene& scene, const dvec3& target) : scene_
 }
 
 void TargetImages::build(uint32_t index, uint32_t first, uint32_t count) {
-  // Halved three times along the longest side.
+  // The images are split in halves three times, along the longest side.
   uint32_t bounds[lanes + 1] = {first, first + count};
   uint32_t parts = 1;
   for (; count > lanes && parts < lanes; parts *= 2) {
@@ -198,7 +198,7 @@ TargetImages::Sides TargetImages::sides_of(const Pyramid& pyramid) const {
   sides.count = pyramid.side_count;
   for (uint32_t i = 0; i < sides.count; ++i) {
     const HalfSpace& side = pyramid.sides[i];
-    // Some twenty roundings of 2^-24 of the largest number in the sums.
+    // About twenty roundings of 2^-24 of the largest number in the sums.
     const double room = 0x1p-19 * (4.0 * extent_m_ + std::abs(side.offset));
     for (int axis = 0; axis < 3; ++axis) {
       sides.normal[i][axis] = static_cast<float>(side.normal[axis]);
@@ -210,7 +210,7 @@ TargetImages::Sides TargetImages::sides_of(const Pyramid& pyramid) const {
 }
 
 std::array<float, TargetImages::lanes> TargetImages::within(const Node& node, const Sides& sides) {
-  // Four at a time, said so that compilers do it; memcpy costs nothing.
+  // Vector types of four floats make all compilers use vector instructions; memcpy costs nothing.
   using Four = float __attribute__((vector_size(16)));
   std::array<float, lanes> least;
   for (uint32_t first = 0; first < lanes; first += 4) {
@@ -234,8 +234,8 @@ std::array<float, TargetImages::lanes> TargetImages::within(const Node& node, co
   return least;
 }
 
-/// Does the straight line from the apex to the target's image pass the pyramid's rectangle, and then the
-/// facet's?
+/// Tells whether the straight line from the apex to the target's image passes the pyramid's rectangle and
+/// then the facet's rectangle.
 bool TargetImages::joins(const Pyramid& pyramid, const Image& image) const {
   const BeamFacet& facet = scene_->facet(image.facet);
   const dvec3 along = image.position - pyramid.apex;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A target as every facet mirrors it, and the beams that ask for it.
+// Holds the mirror images of a target in every facet and finds those inside a beam.
 #pragma once
 
 #include <array>
@@ -15,34 +15,35 @@
 
 namespace greatx::rf {
 
-/// Everything that is reached on straight lines from `apex` through a rectangle in a mirror's plane, beyond
-/// it; or, without a mirror, everything.
+/// Describes everything that straight lines from `apex` reach through a rectangle in a mirror's plane, beyond
+/// the mirror. Without a mirror it describes everything.
 struct Pyramid {
   dvec3 apex{0.0};
   bool mirror = false;
-  dvec3 normal{0.0};  ///< of the mirror, towards the paths
+  dvec3 normal{0.0};  ///< normal of the mirror, towards the paths
   double offset = 0.0;
-  dvec3 center{0.0}, half_a{0.0}, half_b{0.0};  ///< of the rectangle, widened by what roundings can do
-  std::array<HalfSpace, 5> sides;  ///< that hold all of it; those that roundings could turn are left out
+  dvec3 center{0.0}, half_a{0.0}, half_b{0.0};  ///< the rectangle, widened by possible roundings
+  std::array<HalfSpace, 5> sides;  ///< contain the pyramid; sides that roundings could turn are left out
   uint32_t side_count = 0;
 
   std::span<const HalfSpace> region() const { return std::span(sides).first(side_count); }
 };
 
-/// `extent_m`: no coordinate of the scene is larger. None: the image lies in its mirror, nothing is
-/// reflected.
+/// Returns the pyramid of a beam that leaves `mirror`. `extent_m`: no coordinate of the scene is larger.
+/// Returns none if the image lies in the mirror's plane, so that nothing is reflected.
 std::optional<Pyramid> make_pyramid(const SequenceBeam& beam, const BeamFacet& mirror, double extent_m);
 
-/// What of a facet's rectangle lies in a pyramid, as the beam that goes on from there; none: nothing.
+/// Returns the part of a facet's rectangle that lies in a pyramid, as the beam that goes on from there; none
+/// if there is no such part.
 std::optional<SequenceBeam> cut_to(const Pyramid& pyramid, const BeamFacet& facet);
 
-/// The images of one target in the facets of a scene, in a tree of boxes.
+/// Holds the images of one target in the facets of a scene, in a tree of boxes.
 class TargetImages {
  public:
   TargetImages(const BeamScene& scene, const dvec3& target);
 
-  /// visit(facet) for every facet (BeamScene's) by which a path from the pyramid may reach the target, in an
-  /// order that depends on the scene and the target alone.
+  /// Calls visit(facet) for every facet of the BeamScene over which a path from the pyramid may reach the
+  /// target. The order depends on the scene and the target alone.
   template <typename Visit>
   void reached_from(const Pyramid& pyramid, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -68,20 +69,20 @@ class TargetImages {
     dvec3 position{0.0};
     uint32_t facet = 0;
   };
-  /// Boxes around up to eight children, or images: boxes without size. In fp32 and side by side, as most of
-  /// the time of a search is spent on them.
+  /// Holds boxes around up to eight children, or around images (boxes without size). They are in fp32 and
+  /// side by side, because a search spends most of its time on them.
   struct Node {
     float center[3][lanes] = {}, half[3][lanes] = {};
-    uint32_t first = 0, count = 0;  ///< children, or images of a leaf
+    uint32_t first = 0, count = 0;  ///< range of children, or of images in a leaf
     bool leaf = true;
   };
-  /// A pyramid's sides in fp32, with room for that.
+  /// Holds the sides of a pyramid in fp32, with room for its rounding.
   struct Sides {
     float normal[5][3], span[5][3], offset[5];  ///< span: |normal|
     uint32_t count = 0;
   };
   Sides sides_of(const Pyramid& pyramid) const;
-  /// By how much each child reaches into all half-spaces; < 0: it is outside of one.
+  /// Returns how far each child reaches into all half-spaces; < 0 if it is outside one of them.
   static std::array<float, lanes> within(const Node& node, const Sides& sides);
   bool joins(const Pyramid& pyramid, const Image& image) const;
   void build(uint32_t node, uint32_t first, uint32_t count);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Complex j{0.0, 1.0};
 
-/// e^z - 1 without cancellation near 0.
+/// Returns e^z - 1 without cancellation near 0.
 Complex expm1(Complex z) {
   const double half = std::sin(0.5 * z.imag());
   const double grown = std::exp(z.real());
@@ -26,9 +26,9 @@ void check(Complex eta, double cos_theta) {
                eta.imag());
 }
 
-/// One polarization through all layers: the ratios of P.2040-4 Attachment 1 in the variable p, which is A for
-/// TE (E along the face) and A/eta for TM (H along the face); vacuum: p = C. (sum, flow) are the tangential
-/// field and its partner, up to a common factor that `decay` keeps.
+/// Takes one polarization through all layers. The recursion uses the ratios of P.2040-4, Attachment 1, in the
+/// variable p. For TE (E along the face) p is A, for TM (H along the face) p is A/eta, and in vacuum p = C.
+/// `sum` and `flow` are the tangential field and its partner up to a common factor, which `decay` keeps.
 struct Ladder {
   Complex sum{1.0}, flow{0.0}, decay{1.0};
 
@@ -37,7 +37,7 @@ struct Ladder {
     const Complex lost = -expm1(-2.0 * j * phase);              // 1 - e^{-2jq}
     const Complex kept = 2.0 - lost;                            // 1 + e^{-2jq}
     const Complex p = p_over_a * a;
-    // (1 - e^{-2jq}) / p; A = 0 at the critical angle of a lossless layer.
+    // (1 - e^{-2jq}) / p. A = 0 at the critical angle of a lossless layer.
     const Complex lost_over_p =
         a == Complex(0.0) ? 2.0 * j * wave_number * layer.thickness_m / p_over_a : lost / p;
     const Complex next_sum = 0.5 * (kept * sum + lost_over_p * flow);
@@ -78,16 +78,16 @@ FresnelCoefficients slab(const DielectricLayer& layer, double wavelength_m, doub
   if (c == 0.0) return face;
   const Complex lost = -expm1(-2.0 * j * phase);  // 1 - e^{-2jq}
   const Complex twice = through * through;
-  // 1 - r^2 = 4CA/(C + A)^2 and 4 eta C A/(eta C + A)^2; the denominator 1 - r^2 e^{-2jq} as lost + (1 -
-  // r^2)e^{-2jq}: two terms with non-negative real parts, which do not cancel where r -> -1 meets e^{-2jq}
-  // -> 1.
+  // 1 - r^2 is 4CA/(C + A)^2 for TE and 4 eta C A/(eta C + A)^2 for TM. The denominator 1 - r^2 e^{-2jq} is
+  // written as lost + (1 - r^2)e^{-2jq}. Both terms have non-negative real parts, so they do not cancel where
+  // r -> -1 and e^{-2jq} -> 1 at once.
   const Complex te = c + a, tm = layer.eta * c + a;
   const Complex pass_te = 4.0 * c * (a / te) / te, pass_tm = 4.0 * c * (layer.eta / tm) * (a / tm);
   const auto ratio = [](Complex numerator, Complex denominator) {
     return numerator == Complex(0.0) ? Complex(0.0) : numerator / denominator;
   };
   const Complex den_te = lost + pass_te * twice, den_tm = lost + pass_tm * twice;
-  if (a == Complex(0.0)) {  // critical angle: the limit is what the layered form gives
+  if (a == Complex(0.0)) {  // the layered form gives the limit at the critical angle
     return multilayer(std::span(&layer, 1), wavelength_m, cos_theta);
   }
   return {ratio(face.r_te * lost, den_te), ratio(face.r_tm * lost, den_tm), ratio(pass_te * through, den_te),
@@ -99,7 +99,7 @@ FresnelCoefficients multilayer(std::span<const DielectricLayer> layers, double w
   GREATX_CHECK(!layers.empty() && wavelength_m > 0.0, "{} layers, wavelength {} m", layers.size(),
                wavelength_m);
   for (const DielectricLayer& layer : layers) check(layer.eta, cos_theta);
-  const bool backed = layers.back().thickness_m == 0.0;  // by a half-space
+  const bool backed = layers.back().thickness_m == 0.0;  // the last layer is a half-space
   if (backed && layers.size() == 1) return half_space(layers[0].eta, cos_theta);
   bool vacuum = true;
   for (const DielectricLayer& layer : layers) vacuum = vacuum && layer.eta == Complex(1.0);
@@ -124,9 +124,10 @@ FresnelCoefficients multilayer(std::span<const DielectricLayer> layers, double w
     tm.add(layers[i], a, 1.0 / layers[i].eta, wave_number);
   }
   if (vacuum) return {0.0, 0.0, te.decay, tm.decay};
-  // Outside: incident 1, reflected r; sum = 1 + r, flow = C(1 - r), both times a common factor.
+  // Outside, the incident field is 1 and the reflected field is r: sum = 1 + r and flow = C(1 - r), both
+  // times a common factor.
   const Complex den_te = c * te.sum + te.flow, den_tm = c * tm.sum + tm.flow;
-  // TM ran in H; E = H / sqrt(eta) in units of the vacuum's impedance.
+  // The TM recursion used H. E = H / sqrt(eta) in units of the impedance of vacuum.
   Complex root_eta = std::sqrt(behind_eta);
   if (root_eta.imag() > 0.0) root_eta = -root_eta;
   return {(c * te.sum - te.flow) / den_te, (c * tm.sum - tm.flow) / den_tm, 2.0 * c * te.decay / den_te,

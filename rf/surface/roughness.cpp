@@ -12,14 +12,14 @@ namespace greatx::rf {
 double scaled_bessel_i0(double x) {
   GREATX_CHECK(x >= 0.0, "{}", x);
   double sum = 1.0, term = 1.0;
-  if (x < 20.0) {  // sum of (x^2/4)^k / (k!)^2: positive terms, nothing cancels
+  if (x < 20.0) {  // sum of (x^2/4)^k / (k!)^2; the terms are positive, so nothing cancels
     for (int k = 1; term > 1e-17 * sum; ++k) {
       term *= 0.25 * x * x / (double(k) * k);
       sum += term;
     }
     return std::exp(-x) * sum;
   }
-  // Asymptotic: sum of ((2k - 1)!!)^2 / (k! (8x)^k), whose smallest term is e^{-2x} here.
+  // The asymptotic series is the sum of ((2k - 1)!!)^2 / (k! (8x)^k). Its smallest term is e^{-2x} here.
   for (int k = 1; k < 40 && term > 1e-17; ++k) {
     const double odd = 2.0 * k - 1.0;
     term *= odd * odd / (k * 8.0 * x);

@@ -13,7 +13,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Keeps these draws apart from every other use of the run's seed.
+/// Separates these draws from every other use of the seed of the run.
 constexpr uint64_t patch_phases = 0x7363617474657231ull;
 
 uint32_t whole_exponent(double value, const char* field, const std::string& material_name) {
@@ -30,7 +30,8 @@ double share(double value, const char* field, const std::string& material_name) 
   return value;
 }
 
-/// ((1 + cos psi)/2)^alpha between two unit vectors, by |a + b|^2/4, which does not cancel at psi = pi.
+/// Returns ((1 + cos psi)/2)^alpha, where psi is the angle between two unit vectors. The form |a + b|^2/4
+/// does not cancel at psi = pi.
 double lobe(const dvec3& a, const dvec3& b, uint32_t exponent) {
   const dvec3 sum = a + b;
   return std::pow(std::min(1.0, 0.25 * glm::dot(sum, sum)), exponent);
@@ -59,7 +60,7 @@ double lobe_normalisation(uint32_t exponent, double cos_incidence) {
   double sum = 0.0;
   for (uint32_t k = 0; k <= exponent; ++k) {
     double moment = 2.0 * pi / (k + 1.0);
-    if (k % 2 == 1) {  // one more w than the odd k before
+    if (k % 2 == 1) {  // the sum has one term more than that of the previous odd k
       series += term;
       const double w = (k - 1) / 2;
       term *= quarter_sine2 * 2.0 * (2.0 * w + 1.0) / (w + 1.0);

@@ -4,14 +4,15 @@
 
 usage: check_arrows.py ROOT [--write]
 
-A room is a folder with a `greatx_room(ROOM … ROOMS …)` in the CMakeLists.txt of its top folder; a program or
+A room is a folder with a `greatx_room(ROOM … ROOMS …)` in the CMakeLists.txt of its top folder. A program or
 a module has a `greatx_links(TARGET ROOM…)`. The ROOMS are the arrows. It is a fault if
 
 - a file includes a header of a room that its own room does not name,
-- a room names another one of which it includes nothing,
-- the arrows make a circle,
+- a room names another room and includes nothing of it,
+- the arrows form a circle,
 - a file with code is in no room, or a room's CMakeLists.txt does not name a source,
-- the drawing of the rooms in OVERVIEW.md is not the one that follows from them (--write puts it there).
+- the drawing of the rooms in OVERVIEW.md differs from the drawing that follows from the rooms (--write
+  mends it).
 """
 import pathlib
 import re
@@ -19,10 +20,10 @@ import sys
 import textwrap
 
 TOPS = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "draw", "assets", "apps", "python"]
-#: Leaves that every room may include: shaders/shared is read by C++ and GLSL alike, shaders/spirv.h finds
-#: what was compiled.
+#: Leaves that every room may include. C++ and GLSL both read shaders/shared. shaders/spirv.h finds compiled
+#: shaders.
 FREE = {"shaders", "shaders/shared"}
-#: Programs and modules: the folder of their files, by target.
+#: Folder of the files of each program or module, by target.
 PROGRAMS = {"greatx": "apps", "greatx_python": "python/src"}
 INCLUDE = re.compile(r'^\s*#include\s+"([^"]+)"', re.MULTILINE)
 ROOM = re.compile(r"((?:^#.*\n)*)^greatx_room\(([^\s)]+)([^)]*)\)", re.MULTILINE)
@@ -113,7 +114,7 @@ def arrow_faults(rooms):
 
 
 def drawing(rooms):
-    """The rooms from the bottom up; of the arrows those that do not follow from another arrow."""
+    """Draws the rooms from the bottom up. Leaves out arrows that follow from other arrows."""
 
     def below(name):
         found, todo = set(), [name]
@@ -169,7 +170,8 @@ def main(root, write):
                 overview.write_text(drawn)
             elif drawn != text:
                 faults.append(
-                    "OVERVIEW.md: its rooms are not those of the CMakeLists.txt: run tests/apps/check_arrows.py . --write"
+                    "OVERVIEW.md: its rooms are not those of the CMakeLists.txt: "
+                    "run tests/apps/check_arrows.py . --write"
                 )
     print(
         "\n".join(faults)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks every program and shared library below the folders, by readelf: no RPATH or RUNPATH has an entry
-that is empty or relative (the loader takes both for the current folder, from which anybody's library would be
-loaded). With --hardened also what cmake/GreatxTargets.cmake asks for.
+"""Checks every program and shared library below the folders by readelf: no RPATH or RUNPATH may have an empty
+or relative entry. The loader takes such an entry for the current folder, from which it would load anybody's
+library. With --hardened it also checks the flags that cmake/GreatxTargets.cmake sets.
 
 usage: check_binaries.py [--hardened] LEAST FOLDER...
-       LEAST: how many there are at least, so that the check cannot look elsewhere
+       LEAST: smallest number of files to be found, so that a check of the wrong folder fails
 """
 import os
 import pathlib
@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-#: Of the program and the Python module: what a build with these flags calls.
+#: Functions that the program and the Python module call if they are built with these flags.
 CALLED = {
     "stack protector": r"__stack_chk_fail\b",
     "_FORTIFY_SOURCE": r"__(?:mem|str|vsnprintf|snprintf|read|pread)\w*_chk\b",
@@ -27,14 +27,14 @@ def is_elf(path):
         return False
     with path.open("rb") as file:
         head = file.read(18)
-    # ET_EXEC and ET_DYN: object files have no dynamic section
+    # ET_EXEC and ET_DYN. Object files have no dynamic section.
     return head[:4] == b"\x7fELF" and len(head) == 18 and int.from_bytes(head[16:18], "little") in (2, 3)
 
 
 def binaries(folders):
     for folder in folders:
         for where, names, files in os.walk(folder):
-            names[:] = [name for name in names if name != "CMakeFiles"]  # compilers' own trials
+            names[:] = [name for name in names if name != "CMakeFiles"]  # CMake's trials of the compiler
             yield from (pathlib.Path(where) / name for name in files if is_elf(pathlib.Path(where) / name))
 
 

@@ -1,22 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""check_docs_commands.py PROGRAM SOURCE FILE...: the command lines of README.md, docs/ and other pages are
-the program's own.
+"""check_docs_commands.py PROGRAM SOURCE FILE...: checks that the command lines of README.md, docs/ and other
+pages are the program's own.
 
-Every `greatx ...`, between backticks or in a block, has subcommands, options and embedded scenarios that
---help knows. So has every option that stands alone between backticks.
+Every `greatx ...`, between backticks or in a block, must have subcommands, options and embedded scenarios
+that --help knows. So must every option that stands alone between backticks.
 
 A block that begins with `greatx` or `$ greatx` is run, line by line, in a folder of the page's own, and must
-succeed. Not run are blocks below the comment <!-- check: options -->: those with names to be filled in, or
-that take long. A block below <!-- file: NAME --> is that file, for the commands of its page.
+succeed. A block below the comment <!-- check: options --> is not run: it has names to be filled in, or takes
+long. A block below <!-- file: NAME --> is the content of this file, for the commands of its page.
 
-Below a line `$ greatx ...` stands what it prints: these lines, one after another, from wherever they begin.
-Numbers with a fraction or an exponent may differ by one and a half of their last digit, spaces by their
-number. `...` or `…` within a line stands for any text, alone in a line for any lines; what follows the last
-line is left out.
+The lines below `$ greatx ...` must be the output of the command, one after another from some line on. Numbers
+with a fraction or an exponent may differ by one and a half of their last digit. Spaces may differ in number.
+`...` or `…` within a line stands for any text, and alone in a line for any lines. Output after the last line
+is ignored.
 
-Three things more: docs/commands.md names every embedded scenario; in README.md the numbers of triangles in
-the table, and the paths of files below "sequence_0000/", whose numbers of frames are taken as 0.
+Three more checks: docs/commands.md names every embedded scenario. In README.md the numbers of triangles in
+the table are right, and so are the paths of files below "sequence_0000/", whose numbers of frames are taken
+as 0.
 """
 from __future__ import annotations
 
@@ -33,7 +34,7 @@ FENCE = re.compile(
     r"^(?P<comments>(?:<!-- [^\n]* -->\n)*)```(?P<language>\w*)\n(?P<body>.*?)^```$", re.DOTALL | re.MULTILINE
 )
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w])")
-OTHERS = {  # options of other programs, and of our own that are none of the program's
+OTHERS = {  # options of other programs, and options of greatx's scripts
     "--install",
     "--build",
     "--target",
@@ -87,7 +88,7 @@ class Program:
         return found
 
     def check(self, line: str) -> None:
-        """Names of subcommands, options and scenarios."""
+        """Checks the names of subcommands, options and scenarios."""
         try:
             words = shlex.split(line, comments=True)
         except ValueError:
@@ -115,7 +116,7 @@ class Program:
 
 
 def same(shown: str, printed: str) -> bool:
-    """One line of a page and one of the program."""
+    """Returns whether a line of a page agrees with a line of the program's output."""
     shown, printed = " ".join(shown.split()), " ".join(printed.split())
     wanted, pattern, last = [], "", 0
     for match in re.finditer(rf"…|\.\.\.|{NUMBER.pattern}", shown):
@@ -211,9 +212,8 @@ class Page:
                 raise Failure(f"{command}\n{failure}") from None
 
     def check(self) -> None:
-        about = re.search(
-            r"^# `greatx ([\w ]+)`$", self.text, re.MULTILINE
-        )  # a page about one command has its options alone
+        # A page about one command shows only the options of this command.
+        about = re.search(r"^# `greatx ([\w ]+)`$", self.text, re.MULTILINE)
         every = self.program.options(*about[1].split()) if about else self.program.every_option()
         inline = FENCE.sub(lambda match: "\n" * match[0].count("\n"), self.text)
         for span in re.finditer(r"`([^`]+)`", inline):
@@ -248,7 +248,7 @@ def check_embedded_scenarios(page: Page) -> None:
 
 
 def check_readme(readme: Page) -> None:
-    """The triangles of the default scenario, and which files a data set has."""
+    """Checks the triangles of the default scenario and the files of a data set."""
     triangles = re.search(r"^\| (\w+) \(default\) \| ([\d,]+) \|", readme.text, re.MULTILINE)
     printed = readme.run(f"greatx explain {triangles[1]}")[0]
     if f" {triangles[2].replace(',', '')} triangles" not in printed:

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """Checks that the documentation names exactly the effects that the program has, as `greatx explain --json`
-lists them: docs/scenario.md and docs/scenario.schema.json name those that can be switched, docs/effects.md
-all of them. --write makes docs/effects.md from the table in sim/plan/effect_list.h.
+lists them. docs/scenario.md and docs/scenario.schema.json must name the effects that can be switched,
+docs/effects.md all of them. --write makes docs/effects.md from the table in sim/plan/effect_list.h.
 
 usage: check_docs_effects.py [--write] PROGRAM SOURCE_FOLDER
 """
@@ -33,7 +33,7 @@ The others follow from its sensors.
 
 
 def table(header):
-    """[(group, [(name, switchable, documentation)])] from the rows of the header."""
+    """Returns [(group, [(name, switchable, documentation)])] from the rows of the header."""
     groups = []
     for group, body in re.findall(r"^#define GREATX_(\w+?)(?:_EFFECTS)?\(X\)((?:.*\\\n)+.*)", header, re.M):
         rows = re.findall(r'\bX\((\w+), (true|false), \w+, "([^"]+)"\)', body)
@@ -51,7 +51,7 @@ def page_of(groups):
 
 
 def documented(page):
-    """First column of the section's table, and every name in the paragraphs after it."""
+    """Returns the names in the first column of the section's table and in the paragraphs after the table."""
     section = re.search(r"^## `effects`\n(.*?)(?=^## |\Z)", page, re.M | re.S).group(1)
     lines = section.splitlines()
     rows = [index for index, line in enumerate(lines) if line.startswith("|")]

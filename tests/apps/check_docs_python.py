@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""check_docs_python.py PROGRAM DATASET_MD README_MD PACKAGE: runs the Python of two pages.
+"""check_docs_python.py PROGRAM DATASET_MD README_MD PACKAGE: runs the Python code of two pages.
 
-The block of docs/dataset.md runs on a data set made for the purpose, whose values are known. The block of
-README.md runs on the first ticks of the default scenario, with the built package; without a compiled module
+The block of docs/dataset.md runs on a data set with known values, which is made for the purpose. The block of
+README.md runs on the first ticks of the default scenario with the built package. Without a compiled module
 (PACKAGE is empty) it is left out. The listings of docs/tutorial.md are compared with the example that they
-explain. torch is not a package that the tests may need, so a stand-in with NumPy's semantics takes its place;
-everything else is the pages' own text.
+explain. The tests may not need the package torch, so a stand-in with NumPy's semantics takes its place.
+Everything else is the pages' own text.
 """
 import os
 import pathlib
@@ -28,7 +28,8 @@ nodes:
     trajectory: {type: static, position_m: [0, 0, 10]}
     sensors: [{name: panel, type: antenna, rows: 2, columns: 2}]
   - name: uav
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [50, 0, 20]}, {t_s: 1, position_m: [60, 0, 20]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [50, 0, 20]}, \
+{t_s: 1, position_m: [60, 0, 20]}]}
     sensors: [{name: antenna, type: antenna}]
 channels:
   - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 8, bandwidth_hz: 20e6}
@@ -60,7 +61,7 @@ def check_dataset_page(page: str, program: str) -> None:
     csi = scope["csi"]
     assert csi.shape == (3, 1, 1, 1, 4, 1, 8), csi.shape
     assert csi.dtype == numpy.complex64, csi.dtype
-    # Free space: |H| = lambda / (4 pi d), d from (0, 0, 10) to (50, 0, 20).
+    # Free space: |H| = lambda / (4 pi d), where d is the distance from (0, 0, 10) to (50, 0, 20).
     expected = 299792458.0 / 3.5e9 / (4 * numpy.pi * numpy.hypot(50.0, 10.0))
     assert numpy.allclose(numpy.abs(csi[0]), expected, rtol=1e-5), (numpy.abs(csi[0]).ravel()[:4], expected)
 
@@ -78,7 +79,8 @@ def check_readme(page: str, program: str, package: str) -> None:
 
 
 def check_tutorial(page: str) -> None:
-    """The listings of docs/tutorial.md stand in python/examples/tutorial.py, which the page tells to run."""
+    """Checks that python/examples/tutorial.py, which docs/tutorial.md tells to run, contains the page's
+    listings."""
     text = (pathlib.Path(page).parent / "../python/examples/tutorial.py").resolve().read_text()
     listings = [
         code

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""check_docs_scenarios.py PROGRAM FILE...: `greatx explain` takes every whole scenario that the documentation
-shows: the blocks of YAML that begin with the format's version. Fails on the first one that it refuses, and if
-there is none."""
+"""check_docs_scenarios.py PROGRAM FILE...: checks that `greatx explain` accepts every whole scenario in the
+documentation. A whole scenario is a block of YAML that begins with the format's version. The check fails on
+the first one that is refused, and if there is none."""
 import pathlib
 import re
 import subprocess

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# check_install.sh CMAKE BUILD_FOLDER PYTHON: installs into a scratch prefix, looks at what the loader would
-# find there, and runs the program, from another folder.
+# check_install.sh CMAKE BUILD_FOLDER PYTHON: installs into a temporary prefix, checks where the loader would
+# look for libraries, and runs the program from another folder.
 set -euo pipefail
 checks=$(cd "$(dirname "$0")" && pwd)
 prefix=$(mktemp -d)
@@ -12,5 +12,5 @@ trap 'rm -rf "$prefix"' EXIT
 "$3" "$checks/check_binaries.py" 1 "$prefix"
 cd "$prefix"
 bin/greatx --version
-bin/greatx explain city --ticks 1 > explained  # no pipe: grep -q would close it early
+bin/greatx explain city --ticks 1 > explained  # no pipe, because grep -q would close it early
 grep -q line_of_sight explained

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// greatx as a user runs it: exit codes, messages, data sets on disk, interruption, threads.
+// Runs greatx as a user does: exit codes, messages, data sets on disk, interruption, threads.
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -40,17 +40,21 @@ nodes:
     trajectory: {type: static, position_m: [3, 4, 30]}
     sensors: [{name: panel, type: antenna, polarization: slant, rows: 2, columns: 2}]
   - name: uav
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, {t_s: 1, position_m: [10, 5, 45]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-20, -15, 40]}, )"
+                                       R"({t_s: 1, position_m: [10, 5, 45]}]}
     model: {generate: {kind: quadrotor}}
     sensors:
-      - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, mount: {rotation_deg: [0, 40, 0]}}
-      - {name: lidar, type: lidar, rate_hz: 5, channels: 8, elevation_min_deg: -60, elevation_max_deg: -10, azimuth_steps: 64}
+      - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, )"
+                                       R"(mount: {rotation_deg: [0, 40, 0]}}
+      - {name: lidar, type: lidar, rate_hz: 5, channels: 8, elevation_min_deg: -60, )"
+                                       R"(elevation_max_deg: -10, azimuth_steps: 64}
       - {name: antenna, type: antenna}
 channels:
-  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2, rays: 20000}
+  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, )"
+                                       R"(bandwidth_hz: 20e6, max_depth: 2, rays: 20000}
 )";
 
-/// A folder of its own with the small scenario in it.
+/// Provides a folder with the small scenario.
 class Cli : public testing::Test {
  protected:
   void SetUp() override { write("small.yaml", small_scenario); }
@@ -59,7 +63,7 @@ class Cli : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  /// The small scenario with one piece of text replaced.
+  /// Writes the small scenario with one piece of text replaced, and returns the file's path.
   std::string changed(const std::string& from, const std::string& to) const {
     std::string text = small_scenario;
     const size_t at = text.find(from);
@@ -75,7 +79,7 @@ class Cli : public testing::Test {
   std::string manifest(const std::string& output) const {
     return read_file(folder_ / output / "manifest.json");
   }
-  /// Starts generating in the background; returns the process.
+  /// Starts `greatx generate` in the background. Returns the process id.
   pid_t start(const std::string& output, const std::string& more = "") const {
     const pid_t child = fork();
     if (child != 0) return child;
@@ -89,7 +93,7 @@ class Cli : public testing::Test {
     execv(GREATX_PROGRAM, raw.data());
     _exit(127);
   }
-  /// Waits until a few packets are committed.
+  /// Waits until a few packets are written.
   void await_packets(const std::string& output) const {
     const fs::path frame = folder_ / output / "sequence_0000/uav/camera/rgb/000004.png";
     for (int i = 0; i < 6000 && !fs::exists(frame); ++i)
@@ -256,7 +260,7 @@ TEST_F(Cli, SceneInfoSaysWhatMaterialsAre) {
   std::map<std::string, std::string> materials;
   for (std::string line, word, name; std::getline(lines, line);)
     if (std::istringstream words(line); words >> word >> name && word == "material") materials[name] = line;
-  // Its base colour is 1 times a picture of asphalt, which sends a tenth or two of the light back.
+  // The base colour is 1 times a picture of asphalt, which reflects a tenth or two of the light.
   const std::string asphalt = materials["asphalt"], said = "reflectance ";
   EXPECT_THAT(asphalt, HasSubstr("asphalt_concrete, half-space;"));
   EXPECT_THAT(asphalt, HasSubstr("905 nm, mean of the base colour's texture"));
@@ -294,9 +298,9 @@ TEST_F(Cli, FaultyScenarios) {
 }
 
 TEST_F(Cli, ATerminalObeysNoNameAndJsonHoldsNoOtherBytes) {
-  // Names of nodes, meshes and materials with escapes, in an error, in notes and in a table.
-  const std::string gltf =
-      R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "n\u001b[2J"}],
+  // Names of nodes, meshes and materials hold escapes, which come into an error, into notes and into a table.
+  const std::string gltf = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], )"
+                           R"("nodes": [{"mesh": 0, "name": "n\u001b[2J"}],
     "materials": [{"name": "@\u001b]0;x\u0007\u009b31m"}],
     "meshes": [{"name": "m\u001b[31m", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
@@ -319,7 +323,7 @@ TEST_F(Cli, ATerminalObeysNoNameAndJsonHoldsNoOtherBytes) {
     }
   EXPECT_THAT(good.out, HasSubstr("itu_concrete\\u001b]0;x\\u0007\\u009b31m"));
   EXPECT_THAT(bad.err, HasSubstr("m\\u001b[31m"));
-  // A folder's name that is not UTF-8.
+  // The name of this folder is not UTF-8.
   const Outcome set =
       greatx(fmt::format("generate {} --json -o {}", changed("seed: 3", "seed: 4"), path("s\xff")));
   ASSERT_EQ(set.code, 0) << set.err;
@@ -337,7 +341,7 @@ TEST_F(Cli, FaultySceneFiles) {
   ASSERT_EQ(greatx(fmt::format("scene mast -o {}", path("mast.glb"))).code, 0);
   fs::resize_file(folder_ / "mast.glb", fs::file_size(folder_ / "mast.glb") / 2);
   expect_user_error(with("mast.glb"), "mast.glb");
-  // A buffer outside the file's folder, and a material that radio does not know.
+  // The file refers to a buffer outside its folder, and has a material that radio does not know.
   const std::string gltf =
       R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "materials": [{"name": "unobtainium"}],
@@ -361,7 +365,7 @@ TEST_F(Cli, UnwritableOutput) {
   expect_user_error(generate("file/out", "-q"), "file/out");
 }
 
-/// A real disk that is full: 120 KiB of memory, mounted in a namespace of its own.
+/// Fills a real disk: 120 KiB of memory, mounted in a namespace of its own.
 TEST_F(Cli, AFullDiskIsAClearErrorAndResumable) {
   fs::create_directory(folder_ / "disk");
   write("run.sh",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the command line refuses and how; how a run that somebody or a limit stops ends.
+// Tests which command lines are refused and how, and how a run ends that a user or a limit stops.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -65,7 +65,7 @@ TEST(CommandLine, NumbersAreReadStrictly) {
   expect_refused("scene city --size 1e999", "--size: expected a finite number, found '1e999'");
 }
 
-/// No option of a number takes -2^64 + 1, which CLI11 would wrap to 1, nor a word.
+/// No option of a number accepts a word or -2^64 + 1, which CLI11 would wrap to 1.
 TEST(CommandLine, EveryUnsignedOptionRefusesWhatWraps) {
   size_t options = 0;
   for (const char* command : {"info", "generate x", "inspect x", "verify x", "scene city", "scene import x",
@@ -94,8 +94,7 @@ TEST(CommandLine, LeadingZerosAreDecimal) {
   EXPECT_EQ(read_file(path + "/+10.glb"), read_file(path + "/10.glb"));
 }
 
-// ------------------------------------------------------------------------------------------------ what stops
-// a run
+// ------------------------------------------------------------------------------------------- runs that stop
 
 constexpr const char* long_scenario = R"(greatx: 1
 name: long
@@ -104,11 +103,12 @@ tick_rate_hz: 10
 scene: {generate: {kind: room}}
 nodes:
   - name: uav
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [1, 1, 1]}, {t_s: 500, position_m: [2, 2, 2]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [1, 1, 1]}, )"
+                                      R"({t_s: 500, position_m: [2, 2, 2]}]}
     sensors: [{name: camera, type: camera, rate_hz: 10, width: 32, height: 24, fov_deg: 90}]
 )";
 
-/// 8 MiB of channel a tick.
+/// The channel has 8 MiB per tick.
 constexpr const char* wide_scenario = R"(greatx: 1
 name: wide
 ticks: 40
@@ -117,14 +117,16 @@ nodes:
   - {name: a, trajectory: {type: static, position_m: [0, 0, 0]}, sensors: [{name: antenna, type: antenna}]}
   - {name: b, trajectory: {type: static, position_m: [9, 0, 0]}, sensors: [{name: antenna, type: antenna}]}
 channels:
-  - {name: csi, tx: a/antenna, rx: [b/antenna], rate_hz: 10, subcarriers: 16384, subcarrier_spacing_hz: 15e3, max_depth: 0,
+  - {name: csi, tx: a/antenna, rx: [b/antenna], rate_hz: 10, subcarriers: 16384, )"
+                                      R"(subcarrier_spacing_hz: 15e3, max_depth: 0,
      time_samples: 64, outputs: [cfr]}
 )";
 
 class Stopped : public testing::Test {
  protected:
   void SetUp() override { std::ofstream(folder_ / "long.yaml") << long_scenario; }
-  /// Runs `arguments` in the background, waits for `file` of the folder, sends the signal, waits for the end.
+  /// Runs `arguments` in the background, waits for `file` in the folder, sends the signal and waits for the
+  /// end.
   int stop(std::vector<std::string> arguments, const std::string& file, int signal) const {
     arguments.insert(arguments.begin(), "greatx");
     const pid_t child = fork();
@@ -169,7 +171,7 @@ TEST_F(Stopped, ARunSaysHowToGoOnAndWhatThereIs) {
   EXPECT_GT(bytes, 1000u);
 }
 
-/// A limit of the shell's is met by a write, or by the device's memory, whichever comes first.
+/// Either a write or the device's memory meets the shell's limit first.
 TEST_F(Stopped, AFileSizeLimitIsAnErrorByName) {
   const std::string glb = (folder_ / "city.glb").string(), data = (folder_ / "data").string();
   if (nlohmann::json::parse(greatx("info --json").out)["devices"][0]["type"] == "cpu") {
@@ -181,7 +183,7 @@ TEST_F(Stopped, AFileSizeLimitIsAnErrorByName) {
   }
   std::ofstream(folder_ / "wide.yaml") << wide_scenario;
   const Outcome run = greatx(fmt::format("generate {} -o {} -q", (folder_ / "wide.yaml").string(), data),
-                             "ulimit -f 200000;");  // of 512 bytes
+                             "ulimit -f 200000;");  // in units of 512 bytes
   EXPECT_EQ(run.code, 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("cfr.npy"));
   EXPECT_THAT(run.err, HasSubstr("cannot be written: File too large"));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The consistency figures of a run, found again from its files; what was changed since is named by sensor and
-// tick.
+// Finds the consistency figures of a run again from its files. Values that were changed since are named by
+// sensor and tick.
 #include "apps/files/consistency_files.h"
 
 #include <cstring>
@@ -34,10 +34,12 @@ tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}}
 nodes:
   - name: van
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -20, 1.5]}, {t_s: 1, position_m: [-2, -15, 1.5]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -20, 1.5]}, )"
+                                 R"({t_s: 1, position_m: [-2, -15, 1.5]}]}
     sensors:
       - {name: camera, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 60, outputs: [depth, ids]}
-      - {name: lidar, type: lidar, rate_hz: 10, channels: 8, elevation_min_deg: -12, elevation_max_deg: 12, azimuth_steps: 256}
+      - {name: lidar, type: lidar, rate_hz: 10, channels: 8, elevation_min_deg: -12, )"
+                                 R"(elevation_max_deg: 12, azimuth_steps: 256}
       - name: radar
         type: radar
         rate_hz: 10
@@ -49,14 +51,16 @@ nodes:
         echoes: {tubes: 1000, max_bounces: 1, target_tube_m: 0.1, target_budget: 1500}
       - {name: antenna, type: antenna}
   - name: car
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -8, 0]}, {t_s: 1, position_m: [-2, -4, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -8, 0]}, )"
+                                 R"({t_s: 1, position_m: [-2, -4, 0]}]}
     model: {generate: {kind: car, variant: hatchback}}
     sensors: [{name: antenna, type: antenna, mount: {position_m: [0, 0, 2.5]}}]
 channels:
-  - {name: csi, tx: van/antenna, rx: [car/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 0}
+  - {name: csi, tx: van/antenna, rx: [car/antenna], rate_hz: 10, subcarriers: 16, )"
+                                 R"(bandwidth_hz: 20e6, max_depth: 0}
 )";
 
-/// One run for all tests; each has a copy.
+/// Makes one run for all tests. Each test works on a copy.
 class ConsistencyFiles : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -77,7 +81,7 @@ class ConsistencyFiles : public testing::Test {
     for (const io::Problem& problem : verify_consistency(folder()).problems) text += problem.str() + "\n";
     return text;
   }
-  /// The values behind a .npy file's header.
+  /// Edits the values behind the header of a .npy file.
   template <typename T>
   void change(const fs::path& file, const std::function<void(std::span<T>)>& edit) const {
     io::Bytes bytes = io::read_file(file);
@@ -129,7 +133,7 @@ TEST_F(ConsistencyFiles, ADelayAPoseAndARangeAreNamed) {
   change<double>(sequence() / "csi/paths/delay.npy",
                  [](std::span<double> delays) { delays[1] *= 1.0 + 1e-9; });
   EXPECT_THAT(problems(), testing::StartsWith("sequence_0000/csi, tick 1: line_of_sight_delay_vs_distance"));
-  // As far as a nanometre over a metre is seen, so is a centimetre of the van's place.
+  // The check finds a change by a nanometre in a metre, and so it finds a centimetre in the van's position.
   change<double>(sequence() / "poses/position.npy", [](std::span<double> values) { values[0] += 0.01; });
   EXPECT_THAT(problems(),
               HasSubstr("sequence_0000/csi, tick 0: line_of_sight_delay_vs_distance against poses"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Event cameras from the command line: threads, a run that is cut short, the files' check.
+// Tests event cameras from the command line: threads, a run that is cut short, and the check of the files.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -24,14 +24,16 @@ tick_rate_hz: 1000
 scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}
 nodes:
   - name: van
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -6, 0]}, {t_s: 0.2, position_m: [2, -4, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -6, 0]}, )"
+                                          R"({t_s: 0.2, position_m: [2, -4, 0]}]}
     model: {generate: {kind: car, variant: van}}
   - name: eye
     trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -16, 1.6], rotation_deg: [90, 0, 0]},
                                            {t_s: 0.1, position_m: [2, -16, 1.6], rotation_deg: [95, 0, 0]}]}
     sensors:
       - {name: dvs, type: event_camera, rate_hz: 30, width: 62, height: 46, fov_deg: 70,
-         threshold: {on: 0.15, off: 0.2, sigma: 0.03}, noise: {leak_rate_hz: 2, shot_rate_hz: 10}, cutoff_hz: 300,
+         threshold: {on: 0.15, off: 0.2, sigma: 0.03}, )"
+                                          R"(noise: {leak_rate_hz: 2, shot_rate_hz: 10}, cutoff_hz: 300,
          refractory_s: 0.0005, steps: {by: brightness, max_change: 1, most: 8},
          outputs: [events, instance, differences, hdf5, text]}
 )";
@@ -59,7 +61,7 @@ TEST_F(EventCli, HardCaseN63AnyNumberOfThreadsGivesTheSameBytes) {
 TEST_F(EventCli, AKilledRunIsFinishedToTheSameBytes) {
   const std::string longer = "--ticks 1500";
   ASSERT_EQ(generate("whole", longer).code, 0);
-  // Killed when the fifth of 45 difference images is there.
+  // The run is killed when the fifth of 45 difference images exists.
   const std::string command = fmt::format(
       "'{}' generate {} -o {} -q {} & run=$!; n=0; while [ ! -e "
       "{}/sequence_0000/eye/dvs/differences/000004.png ] && "

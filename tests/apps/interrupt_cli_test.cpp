@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A search for paths that would take minutes, from a terminal: it says how far it is and ends on Ctrl-C. No
-// time is asserted; a search that does not end runs into the test's own limit.
+// Starts a search for paths that would take minutes from a terminal. The search must show its progress and
+// end on Ctrl-C. No time is asserted: a search that does not end runs into the test's own limit.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -39,7 +39,8 @@ nodes:
     trajectory: {type: static, position_m: [2.4, 20, 1.5]}
     sensors: [{name: a, type: antenna}]
 channels:
-  - {name: csi, tx: bs/a, rx: [ue/a], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16, max_depth: 8, max_transmissions: 2}
+  - {name: csi, tx: bs/a, rx: [ue/a], rate_hz: 10, bandwidth_hz: 20e6, subcarriers: 16, )"
+                                 R"(max_depth: 8, max_transmissions: 2}
 )";
 
 class InterruptCli : public ::testing::Test {
@@ -49,8 +50,9 @@ class InterruptCli : public ::testing::Test {
     fs::create_directory(folder_ / "cache");
   }
 
-  /// Runs the program with a terminal for its stderr, presses Ctrl-C once it has shown a search underway; all
-  /// that it wrote. `code`: the exit code, or 128 + the signal that ended it.
+  /// Runs the program with a terminal as its stderr, and presses Ctrl-C once the program shows a search.
+  /// Returns all that the program wrote. Sets `code` to the exit code, or to 128 + the signal that ended the
+  /// program.
   std::string interrupt(std::vector<std::string> arguments, int& code) const {
     arguments.insert(arguments.begin(), "greatx");
     int terminal = -1;
@@ -99,7 +101,7 @@ TEST_F(InterruptCli, ASearchShowsProgressAndEndsOnCtrlC) {
     EXPECT_THAT(text, HasSubstr("about ")) << command[0];
     EXPECT_TRUE(fs::is_empty(folder_ / "cache")) << command[0] << ": nothing half done is kept";
   }
-  // What was not begun can be: a data set, a map.
+  // `greatx verify` reports the interrupted data set as unfinished.
   EXPECT_EQ(greatx(fmt::format("verify {}", (folder_ / "data").string())).code, 1);
   EXPECT_THAT(greatx(fmt::format("verify {}", (folder_ / "data").string())).out, HasSubstr("unfinished"));
 }
@@ -117,7 +119,7 @@ TEST_F(InterruptCli, WithoutATerminalNothingIsShown) {
   }
   while (read_file(err).find("searching") == std::string::npos && waitpid(child, nullptr, WNOHANG) == 0)
     usleep(5000);
-  usleep(1'500'000);  // longer than a search goes without a line on a terminal
+  usleep(1'500'000);  // longer than the time between two lines of a search on a terminal
   kill(child, SIGTERM);
   int status = 0;
   waitpid(child, &status, 0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx map` from the command line: two masts above flat ground.
+// Tests `greatx map` from the command line, with two masts above flat ground.
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -46,11 +46,12 @@ nodes:
     trajectory: {type: static, position_m: [0, 0, 1.5]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: [west/panel, east/panel], rx: [ue/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 1}
+  - {name: csi, tx: [west/panel, east/panel], rx: [ue/antenna], rate_hz: 10, subcarriers: 16, )"
+                                 R"(bandwidth_hz: 20e6, max_depth: 1}
 effects: {gas: off}
 )";
 
-/// 1408 cells, more than are solved at once.
+/// The map has 1408 cells, more than are solved at once.
 constexpr const char* area = "--min -110 -80 --max 110 80 --cell 5 --side 220";
 
 class MapCli : public testing::Test {
@@ -64,14 +65,14 @@ class MapCli : public testing::Test {
     return greatx(fmt::format("map {} -o {} {}", path("flat.yaml"), path(output), arguments),
                   "GREATX_CACHE=off " + before);
   }
-  /// Every file of a folder.
+  /// Returns the content of every file of a folder by its name.
   std::map<std::string, std::string> files(const std::string& name) const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_ / name))
       all[entry.path().filename().string()] = read_file(entry.path());
     return all;
   }
-  /// The numbers of an npy file, whose header takes 256 bytes.
+  /// Returns the numbers of a .npy file, whose header takes 256 bytes.
   template <typename T = double>
   std::vector<T> numbers(const std::string& file) const {
     const std::string bytes = read_file(folder_ / file);
@@ -109,7 +110,7 @@ TEST_F(MapCli, WritesArraysPicturesAndWhatTheyAre) {
   EXPECT_FALSE(fs::exists(path("out/links.part")));
   EXPECT_TRUE(fs::exists(path("out/sinr_tx1.png")));
 
-  // The middle of the map is the same from both; one is 3 dB stronger.
+  // The map is symmetric about its middle. One mast is 3 dB stronger.
   const auto gain = numbers("out/path_gain.npy"), rss = numbers("out/rss.npy");
   const auto best = numbers<int32_t>("out/best_server.npy");
   ASSERT_EQ(gain.size(), 2u * 1408u);
@@ -143,7 +144,7 @@ TEST_F(MapCli, ACellIsAReceiverOfGreatxPaths) {
 }
 
 TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
-  // 35,200 cells: there is time to stop it.
+  // 35,200 cells leave time to stop the run.
   const std::string large = "--min -110 -80 --max 110 80 --cell 1 --side 220 --quantities path_gain,sinr";
   const pid_t child = fork();
   if (child == 0) {
@@ -157,7 +158,7 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   std::error_code missing;
   for (int i = 0; i < 20000; ++i) {
     const auto size = fs::file_size(folder_ / "parts/links.part", missing);
-    if (!missing && size > 60000) break;  // a block at least
+    if (!missing && size > 60000) break;  // at least one block
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   kill(child, SIGINT);
@@ -171,7 +172,7 @@ TEST_F(MapCli, AStoppedMapGoesOnToTheSameBytes) {
   EXPECT_THAT(map("parts", large).err, HasSubstr("--resume finishes it"));
   EXPECT_THAT(map("parts", large + " --power 20 --resume").err,
               HasSubstr("/transmitters/0/power_dbm: asked for 20.0, the folder's has 30.0"));
-  // What was torn is dropped.
+  // A torn end of the file is dropped.
   { std::ofstream(folder_ / "parts/links.part", std::ios::app | std::ios::binary) << "torn"; }
   const Outcome resumed = map("parts", large + " --resume --json");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
@@ -200,7 +201,7 @@ TEST_F(MapCli, AnyNumberOfThreadsGivesTheSameBytes) {
   CPU_ZERO(&one);
   for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
-  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // inherited by the program
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // the program inherits the affinity
   const Outcome alone = map("one", area, "LP_NUM_THREADS=1");
   ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
   ASSERT_EQ(alone.code, 0) << alone.err;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio maps as pictures: that what a pixel shows is where it says.
+// Tests pictures of radio maps: a pixel shows the place that it stands for.
 #include <cmath>
 #include <limits>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// 30 x 20 cells of 2 m, away from the origin.
+/// A grid of 30 x 20 cells of 2 m, away from the origin.
 const sim::MapGrid grid = sim::make_map_grid({500, -120}, {560, -80}, 2.0, 1);
 
 sim::MapCells free_cells(double z) {
@@ -37,7 +37,7 @@ TEST(MapView, PixelsShowTheGridAndNothingElse) {
   EXPECT_EQ(pixels.at({500, -80}), dvec2(0, 0));  // north-western corner
   EXPECT_EQ(pixels.at({560, -120}), dvec2(300, 200));
   EXPECT_EQ(pixels.at(grid.center(0)), dvec2(5, 195));
-  EXPECT_EQ(map_pixels(grid, 299).width, 270u);  // whole pixels a cell
+  EXPECT_EQ(map_pixels(grid, 299).width, 270u);  // a cell has a whole number of pixels
   EXPECT_EQ(map_pixels(grid, 15).width, 15u);
   EXPECT_EQ(map_pixels(grid, 15).height, 10u);
 }
@@ -52,17 +52,17 @@ TEST(MapView, WhatStandsInTheSceneIsShownWithinTheBound) {
       for (double y = -120; y <= -80; y += 5)
         for (const double z : {-4.0, 1.5, 20.0, 60.0}) {
           const dvec3 seen = view.project(dvec3(x, y, z) - origin);
-          const dvec2 off = (dvec2(seen) - pixels.at({x, y})) / 15.0;  // metres: 30 pixels a cell of 2 m
+          const dvec2 off = (dvec2(seen) - pixels.at({x, y})) / 15.0;  // metres: a cell of 2 m has 30 pixels
           EXPECT_LE(glm::length(off), z == 1.5 ? 1e-8 : shift * (1.0 + 1e-9));
           most = std::max(most, glm::length(off));
           EXPECT_GT(seen.z, view.near_m);
         }
-    EXPECT_GT(most, 0.5 * shift);  // no higher than it takes
+    EXPECT_GT(most, 0.5 * shift);  // the camera is no higher than needed
   }
 }
 
-/// Heights of a box on the ground as the camera sees them, pixel by pixel: its outline is where the world has
-/// it.
+/// Compares the heights of a box on the ground, as the camera sees them pixel by pixel, with the outline of
+/// the box in the world.
 TEST(MapBackground, ABoxStandsWhereItIs) {
   scene::Material concrete;
   concrete.name = "concrete";
@@ -93,7 +93,7 @@ TEST(MapBackground, ABoxStandsWhereItIs) {
     for (uint32_t x = 0; x < 300; ++x) {
       const dvec2 at(500 + (x + 0.5) / 5.0, -80 - (y + 0.5) / 5.0);
       const double off = std::max({510 - at.x, at.x - 524, -110 - at.y, at.y + 96});
-      if (std::abs(off) < 0.5) continue;  // a quarter of a cell, which is the bound
+      if (std::abs(off) < 0.5) continue;  // the bound is a quarter of a cell
       EXPECT_NEAR(background.z_m[y * 300 + x], off < 0 ? 26.0 : 1.0, 0.01) << at.x << ", " << at.y;
     }
 }
@@ -116,7 +116,7 @@ TEST(MapScale, LeavesOutTheEndsOnlyWhereTheyWouldTakeTheColours) {
   EXPECT_LT(map_scale({}).scale.low, map_scale({}).scale.high);
 }
 
-/// The picture of one map area, whose top left corner draw_map() puts at (104, 66).
+/// Returns the colour of a pixel of the map area. draw_map() puts the area's top left corner at (104, 66).
 io::Color pixel_of(const Array& image, const dvec2& pixel) {
   const auto x = static_cast<int64_t>(pixel.x) + 104, y = static_cast<int64_t>(pixel.y) + 66;
   const uint8_t* c = &image.as<uint8_t>()[static_cast<size_t>(3 * (y * image.shape[1] + x))];
@@ -145,9 +145,9 @@ TEST(DrawMap, ACellHasItsColourWhereItIs) {
   }
   const io::Color inside = pixel_of(image, stage.background.pixels.at(grid.center(7))),
                   dark = pixel_of(image, stage.background.pixels.at(grid.center(40)));
-  EXPECT_GT(inside.g, 60);  // the scene itself
+  EXPECT_GT(inside.g, 60);  // the colour of the scene itself
   EXPECT_FALSE(same(inside, dark));
-  // A step of the scene's height is outlined, also across cells of one colour.
+  // A step in the height of the scene is outlined, also between cells of equal colour.
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 100; ++x) stage.background.z_m[static_cast<size_t>(300 * y + x)] = 9.0f;
   const Array outlined = draw_map(stage, layer);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every choice of outputs of every sensor makes a data set that holds them, verifies and can be looked at:
-// each alone, each two, and all. One run has a sensor for each choice.
+// Every choice of outputs of every sensor must make a data set that holds them, verifies and can be looked
+// at. The choices are each output alone, each pair, and all. One run has a sensor for each choice.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Files and folders that an output of that name makes.
+/// An output, and the files and folders that it makes.
 struct Output {
   std::string name;
   Names makes;
@@ -51,7 +51,7 @@ const std::vector<Output> channel{{"cfr", {"cfr.npy"}},
                                   {"cfr_parts", {"cfr_line_of_sight.npy", "cfr_others.npy"}},
                                   {"coherence", {"coherence_bandwidth.npy", "coherence_time.npy"}}};
 
-/// Each output alone, each two of them, and all.
+/// Returns each output alone, each pair of outputs, and all outputs.
 std::vector<std::vector<Output>> choices(const std::vector<Output>& outputs) {
   std::vector<std::vector<Output>> all;
   for (size_t i = 0; i < outputs.size(); ++i) {
@@ -74,7 +74,7 @@ bool holds(const std::vector<Output>& choice, const std::string& name) {
 
 class Outputs : public testing::Test {
  protected:
-  /// Writes the scenario; `rows`: sensors of the node `eye` or channels.
+  /// Writes a scenario with these sensors of the node `eye` and these channels. Returns the file's path.
   std::string scenario(const std::string& sensors, const std::string& channels = "") const {
     const std::string file = (folder_.path() / "outputs.yaml").string();
     std::ofstream(file) << "greatx: 1\nname: outputs\nticks: 2\ntick_rate_hz: 10\n"
@@ -90,7 +90,8 @@ class Outputs : public testing::Test {
                         << sensors << channels;
     return file;
   }
-  /// Runs every choice; `row`: of sensor number i with its outputs. `in`: folder above the sensors'.
+  /// Runs every choice. `row` returns the YAML of sensor number i with its outputs. `in` is the folder above
+  /// the folders of the sensors.
   template <typename Row>
   void sweep(const std::vector<std::vector<Output>>& all, const std::string& in, bool is_channel,
              const Row& row) {
@@ -126,7 +127,7 @@ TEST_F(Outputs, OfALidarMayBeChosenFreely) {
   });
 }
 
-/// The bare points are those of a LiDAR that delivers everything.
+/// The points of a LiDAR that delivers nothing else equal those of a LiDAR that delivers everything.
 TEST_F(Outputs, OfALidarDoNotChangeOneAnother) {
   std::string rows;
   const Names chosen{"points", "kitti", "points, ply, pcd, kitti"};
@@ -153,7 +154,7 @@ TEST_F(Outputs, OfACameraMayBeChosenFreely) {
   });
 }
 
-/// What is made from events needs them; that is refused by name.
+/// Outputs that are made from events need the events. A choice without them is refused by name.
 TEST_F(Outputs, OfAnEventCameraMayBeChosenFreelyBesideEvents) {
   std::vector<std::vector<Output>> good;
   const auto row = [](size_t i, const std::string& outputs) {
@@ -186,7 +187,7 @@ TEST_F(Outputs, OfARadarMayBeChosenFreely) {
 
 TEST_F(Outputs, OfAChannelMayBeChosenFreely) {
   std::vector<std::vector<Output>> all = choices(channel);
-  all.push_back({});  // what every link has
+  all.push_back({});  // only the arrays that every link has
   sweep(all, "", true, [](size_t i, const std::string& outputs) {
     return fmt::format(
         "  - {{name: s{}, tx: mast/antenna, rx: [eye/antenna], rate_hz: 10, carrier_hz: 3.5e9, subcarriers: "

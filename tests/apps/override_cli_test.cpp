@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// --seed, --ticks, --sequences: the data set's scenario says them, and a shorter run is the beginning of the
-// longer one.
+// Tests --seed, --ticks and --sequences. The scenario of the data set states them, and a shorter run is the
+// beginning of the longer one.
 #include <filesystem>
 #include <fstream>
 
@@ -65,7 +65,7 @@ TEST_F(Override, TheScenarioOfTheDataSetMakesItAgain) {
   EXPECT_FALSE(file("a/manifest.json").empty());
   EXPECT_EQ(file("a/manifest.json"), file("b/manifest.json"));
   EXPECT_EQ(file("b/scenario.yaml"), text);
-  // What is said anyway changes nothing.
+  // Options that repeat the scenario's values change nothing.
   generate("drawn.yaml", "plain");
   generate("drawn.yaml", "said", "--seed 1 --ticks 6 --sequences 1");
   EXPECT_EQ(file("plain/scenario.yaml"), override_scenario);

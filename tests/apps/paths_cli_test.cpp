@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx paths` from the command line, in a scene with closed forms: one mast above flat ground.
+// Tests `greatx paths` from the command line in a scene with closed forms: one mast above flat ground.
 #include <cmath>
 #include <complex>
 #include <cstring>
@@ -37,11 +37,14 @@ nodes:
     trajectory: {type: static, position_m: [0, 0, 20]}
     sensors: [{name: panel, type: antenna, polarization: vh}]
   - name: uav
-    trajectory: {type: waypoints, interpolation: linear, points: [{t_s: 0, position_m: [100, 0, 10]}, {t_s: 1, position_m: [110, 0, 10]}]}
+    trajectory: {type: waypoints, interpolation: linear, points: [)"
+                                 R"({t_s: 0, position_m: [100, 0, 10]}, {t_s: 1, position_m: [110, 0, 10]}]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2}
-  - {name: high, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, carrier_hz: 7e9}
+  - {name: csi, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, )"
+                                 R"(bandwidth_hz: 20e6, max_depth: 2}
+  - {name: high, tx: bs/panel, rx: [uav/antenna], rate_hz: 10, subcarriers: 16, )"
+                                 R"(bandwidth_hz: 20e6, carrier_hz: 7e9}
   - {name: down, tx: uav/antenna, rx: [bs/panel], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6}
 effects: {gas: off}
 )";
@@ -65,14 +68,14 @@ class PathsCli : public testing::Test {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(outcome.out);
   }
-  /// complex64 of an .npy of greatx's, whose header takes 256 bytes.
+  /// Returns the complex64 values of a .npy file of greatx, whose header takes 256 bytes.
   std::vector<std::complex<float>> responses(const std::string& file) const {
     const std::string bytes = read_file(file);
     std::vector<std::complex<float>> values((bytes.size() - 256) / 8);
     std::memcpy(values.data(), bytes.data() + 256, values.size() * 8);
     return values;
   }
-  /// A grid of receivers above the ground, more than are solved at once.
+  /// Writes a grid of receivers above the ground, more than are solved at once. Returns the file's path.
   std::string grid() const {
     std::string text = "x,y,z\n";
     for (int i = 0; i < 30; ++i)
@@ -95,7 +98,7 @@ TEST_F(PathsCli, TwoRaysAboveFlatGround) {
   EXPECT_TRUE(link["line_of_sight"]);
   ASSERT_EQ(link["paths"].size(), 2u);
   const json &sight = link["paths"][0], &echo = link["paths"][1];
-  // From (0, 0, 20) to (105, 0, 10).
+  // The path goes from (0, 0, 20) to (105, 0, 10).
   EXPECT_NEAR(sight["length_m"], std::hypot(105.0, 10.0), 1e-9);
   EXPECT_NEAR(echo["length_m"], std::hypot(105.0, 30.0), 1e-9);
   EXPECT_NEAR(echo["delay_s"], std::hypot(105.0, 30.0) / speed_of_light, 1e-18);
@@ -104,7 +107,7 @@ TEST_F(PathsCli, TwoRaysAboveFlatGround) {
   EXPECT_EQ(echo["interactions"][0]["materials"][0], "itu_medium_dry_ground");
   EXPECT_NEAR(echo["vertices_m"][1][0], 70.0, 1e-9);
   EXPECT_NEAR(echo["vertices_m"][1][2], 0.0, 1e-9);
-  // 10 m/s along x, away.
+  // The receiver moves away at 10 m/s along x.
   EXPECT_NEAR(sight["doppler_hz"], -10.0 * 105.0 / std::hypot(105.0, 10.0) * 3.5e9 / speed_of_light, 1e-6);
   EXPECT_NEAR(sight["gain_db"],
               20.0 * std::log10(speed_of_light / 3.5e9 / (4.0 * std::numbers::pi * std::hypot(105.0, 10.0))),
@@ -129,7 +132,7 @@ TEST_F(PathsCli, TheTableSaysTheSame) {
 
 TEST_F(PathsCli, ReceiversAreSolvedAloneAsAmongOthers) {
   grid();
-  for (const char* channel : {"csi", "down"}) {  // from a transmitter at rest, and from one that moves
+  for (const char* channel : {"csi", "down"}) {  // a transmitter at rest and a moving one
     const std::string arguments =
         fmt::format("--tick 3 --channel {} --receivers {}", channel, path("grid.csv"));
     const json batch = all(arguments);
@@ -153,7 +156,7 @@ TEST_F(PathsCli, AnyNumberOfThreadsGivesTheSameBytes) {
   CPU_ZERO(&first);
   for (int cpu = 0; CPU_COUNT(&first) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &first);
-  ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);  // inherited by the program
+  ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);  // the program inherits the affinity
   const Outcome one = paths(arguments, "LP_NUM_THREADS=1");
   ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
   const std::string picture = read_file(path("grid.png"));
@@ -195,10 +198,10 @@ TEST_F(PathsCli, PicturesAndExportsAreWritten) {
   EXPECT_THAT(outcome.out, HasSubstr("wrote " + path("p/a.png")));
   const std::string png = read_file(path("p/a.png"));
   ASSERT_GT(png.size(), 1000u);
-  // Width and height of the header chunk, big-endian.
+  // Width and height stand in the header chunk, big-endian.
   EXPECT_EQ(png.substr(16, 8), std::string("\0\0\2\200\0\0\1\340", 8));
   EXPECT_EQ(read_file(path("p/a.glb")).substr(0, 4), "glTF");
-  // greatx itself reads what it has written.
+  // greatx reads the file that it has written.
   const Outcome read = greatx(fmt::format("scene info --optical-only {}", path("p/a.glb")));
   EXPECT_EQ(read.code, 0) << read.err;
 }
@@ -247,7 +250,7 @@ TEST_F(PathsCli, AViewMayBeAnEventCameras) {
   };
   const Outcome seen = view("uav/dvs");
   ASSERT_EQ(seen.code, 0) << seen.err;
-  // Head and foot are the picture's own, 240 rows are the camera's.
+  // The picture adds a head and a foot to the 240 rows of the camera.
   const std::string png = read_file(path("view.png"));
   ASSERT_GT(png.size(), 1000u);
   EXPECT_EQ(png.substr(16, 8), std::string("\0\0\1\100\0\0\1\154", 8)) << "320 x 364";
@@ -266,7 +269,7 @@ TEST_F(PathsCli, ResponsesAreThoseOfARunAndOfNodesPutThere) {
   ASSERT_EQ(all.size(), 11 * own.size());
   EXPECT_EQ(std::memcmp(own.data(), all.data() + 5 * own.size(), own.size() * 8), 0);
 
-  // The receiver of tick 5, at rest, as the second of three points.
+  // The second of three points is the receiver's position at tick 5, at rest.
   write("points.csv", "x,y,z\n50,10,3\n105,0,10\n-40,20,8\n");
   ASSERT_EQ(paths("-q --tick 5 --receivers " + path("points.csv") + " --cfr " + path("points.npy")).code, 0);
   const auto points = responses(path("points.npy"));
@@ -304,7 +307,7 @@ TEST_F(PathsCli, ThePointsOfACallDecideWhatTheAirDoes) {
   EXPECT_EQ(json_of(near)["effects"]["gas"]["on"], false);
   EXPECT_EQ(points["effects"]["gas"]["on"], true);
   EXPECT_EQ(points["receivers"][1]["paths"], node["receivers"][0]["paths"]);
-  // One of the list is what it is in the list.
+  // A single receiver of a list has the same result as in the list.
   const json one = json_of(fmt::format("{} --receivers {} --receiver 0", near, path("points.csv")));
   EXPECT_EQ(one["receivers"][0], points["receivers"][0]);
   const Outcome map = greatx(

@@ -26,16 +26,16 @@ rf::Interaction at(InteractionType type, uint32_t element) { return {type, eleme
 
 TEST(PathFacts, GainOfALineOfSightIsFriis) {
   const rf::Path path = path_through({{0, 0, 0}, {100, 0, 0}}, {});
-  // 20 lg(d) + 20 lg(f) - 147.55 dB.
+  // Free-space loss: 20 lg(d) + 20 lg(f) - 147.55 dB.
   EXPECT_NEAR(gain_db(path_gain(path, carrier)), -(40.0 + 20.0 * std::log10(carrier) - 147.5522), 1e-3);
 }
 
 TEST(PathFacts, GainIsTheMeanOverThePolarizationSent) {
   rf::Path path = path_through({{0, 0, 0}, {100, 0, 0}}, {});
   const double friis = path_gain(path, carrier);
-  path.transfer[3] = 0.0;  // horizontal is lost: half of the mean power
+  path.transfer[3] = 0.0;  // the horizontal wave is lost, which is half of the mean power
   EXPECT_NEAR(path_gain(path, carrier) / friis, 0.5, 1e-15);
-  path.transfer[1] = path.transfer[0];  // and comes back in the other polarization
+  path.transfer[1] = path.transfer[0];  // half of the power comes back in the other polarization
   EXPECT_NEAR(path_gain(path, carrier) / friis, 1.0, 1e-15);
 }
 
@@ -119,8 +119,7 @@ TEST(PathFacts, PathsAreSortedByDelayThenCanonically) {
   EXPECT_EQ(paths[2].delay_s, 2.0);
 }
 
-// ------------------------------------------------------------------------------------------------ what is
-// printed
+// ---------------------------------------------------------------------------------------------- printed text
 
 TEST(PathText, TheTableHasUnitsAnglesAndNames) {
   const SampleScene sample;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Read back by tinygltf: counts, positions, names.
+// Reads files back by tinygltf and checks counts, positions and names.
 #include <cstring>
 
 #include <gmock/gmock.h>

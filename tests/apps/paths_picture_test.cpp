@@ -16,7 +16,7 @@ namespace {
 
 constexpr float sky = std::numeric_limits<float>::infinity();
 
-/// Looks along +y from (0, -100, 0), 200 x 100 pixels, 1 m at the origin is 1 pixel.
+/// Returns a view that looks along +y from (0, -100, 0) with 200 x 100 pixels. 1 m at the origin is 1 pixel.
 PictureView side_view() {
   PictureView view;
   view.width = 200;
@@ -39,7 +39,7 @@ TEST(PictureView, ProjectsLikeAPinhole) {
   EXPECT_NEAR(half.y, 22.5, 1e-12);
 }
 
-/// The side view through a barrel lens.
+/// Returns the side view through a barrel lens.
 PictureView barrel_view() {
   PictureView view = side_view();
   view.set_lens({.k1 = -0.08, .p1 = 0.004, .p2 = -0.006}, "eye");
@@ -48,17 +48,17 @@ PictureView barrel_view() {
 
 TEST(PictureView, ProjectsThroughItsLens) {
   const PictureView view = barrel_view();
-  // To the right by 0.3, up by 0.2 of the depth: r^2 = 0.13.
+  // The point lies to the right by 0.3 and up by 0.2 of the depth: r^2 = 0.13.
   const dvec3 p = view.project({30, 0, 20});
   const double x = 0.3, y = -0.2, radial = 1.0 - 0.08 * 0.13;
   EXPECT_NEAR(p.x, 100.0 + 100.0 * (x * radial + 0.008 * x * y - 0.006 * (0.13 + 2.0 * x * x)), 1e-9);
   EXPECT_NEAR(p.y, 50.0 + 100.0 * (y * radial + 0.004 * (0.13 + 2.0 * y * y) - 0.012 * x * y), 1e-9);
   EXPECT_NEAR(p.z, 100.0, 1e-12);
-  // As large again.
+  // The same point in a picture of twice the size.
   PictureView twice = side_view().scaled(400);
   twice.set_lens(view.distortion, "eye");
   EXPECT_NEAR(twice.project({30, 0, 20}).x, 2.0 * p.x, 1e-9);
-  // The radial part alone would fold a direction at 3.5 of the depth back to 7 pixels off the axis.
+  // The radial part alone would fold a direction at 3.5 times the depth back to 7 pixels off the axis.
   const dvec3 folded = view.project({350, 0, 0});
   EXPECT_LT(folded.z, 0.0);
   EXPECT_THROW(side_view().scaled(100).set_lens({.k1 = -0.5}, "eye"), UserError);
@@ -82,9 +82,9 @@ TEST(PictureView, FitsEveryPointAndTouchesTwoMargins) {
     }
     const double left = low.x - 80.0, right = 1560.0 - high.x, top = low.y - 30.0, bottom = 980.0 - high.y;
     for (const double room : {left, right, top, bottom}) EXPECT_GT(room, -1e-6);
-    // As near as it can be: no room is left in one of the directions.
+    // The camera is as near as possible: in one of the directions no room is left.
     EXPECT_NEAR(std::min(std::max(left, right), std::max(top, bottom)), 0.0, 1e-6);
-    // Above the points, on the side that was asked for.
+    // The camera is above the points, on the requested side.
     const dvec3 forward = view.local_from_sensor.rotate({1, 0, 0});
     EXPECT_NEAR(forward.z, -std::sin(elevation), 1e-12);
     EXPECT_NEAR(forward.x, -std::cos(azimuth) * std::cos(elevation), 1e-12);
@@ -107,7 +107,7 @@ TEST(PictureView, ChoosesASideThatIsFree) {
     return choose_view(links, sample.view(), 640, 400, [&](const PictureView& view) {
       const dvec3 forward = view.local_from_sensor.rotate({1, 0, 0});
       const dvec3 blocked(std::cos(blocked_azimuth), std::sin(blocked_azimuth), 0.0);
-      // A wall before the lens unless the camera stands far from the blocked side.
+      // A wall stands before the lens unless the camera is far from the blocked side.
       const bool free = glm::dot(-forward, blocked) < -0.3;
       return std::vector<float>(size_t{view.width} * view.height, free ? sky : 1.0f);
     });
@@ -136,8 +136,8 @@ TEST(Stretches, AWallHidesWhatIsBehindIt) {
 
 TEST(Stretches, DepthAlongASlantingStretchIsThatOfSpaceNotOfThePicture) {
   const PictureView view = side_view();
-  // From 10 m deep at x = 190 to 190 m deep at x = 110.5; a surface at 100 m hides the half beyond it, which
-  // begins in the middle of the stretch and not in the middle of the picture of it.
+  // The stretch goes from 10 m deep at x = 190 to 190 m deep at x = 110.5. A surface at 100 m hides the half
+  // beyond it. This half begins in the middle of the stretch, not in the middle of its picture.
   const std::vector<float> depth(200 * 100, 100.0f);
   const std::vector<Stretch> runs = stretches_of(view, depth, {9, -90, 0}, {20, 90, 0});
   ASSERT_EQ(runs.size(), 2u);
@@ -170,7 +170,7 @@ TEST(Stretches, WhatIsBehindTheCameraOrOutsideIsCutOff) {
 
 TEST(Stretches, ALensBendsThem) {
   const PictureView view = barrel_view();
-  // A surface at half the depth, over columns of the picture as the lens shows it.
+  // A surface at half the depth covers columns of the picture as the lens shows it.
   std::vector<float> depth(200 * 100, sky);
   for (size_t y = 0; y < 100; ++y)
     for (size_t x = 120; x < 140; ++x) depth[y * 200 + x] = 50.0f;
@@ -184,8 +184,8 @@ TEST(Stretches, ALensBendsThem) {
     }
     EXPECT_LE(glm::distance(c.a, c.b), 12.0);
     if (c.hidden) hidden_from = std::min(hidden_from, c.a.x), hidden_to = std::max(hidden_to, c.b.x);
-    // On the picture of the line: the row that the lens gives the point of space that it shows in this
-    // column.
+    // The point lies on the picture of the line: its row is the one to which the lens maps the point of the
+    // line that appears in this column.
     double low = -160.0, high = 160.0;
     for (int k = 0; k < 60; ++k) {
       const double middle = 0.5 * (low + high);
@@ -195,7 +195,7 @@ TEST(Stretches, ALensBendsThem) {
   }
   EXPECT_NEAR(hidden_from, 120.0, 1.5);
   EXPECT_NEAR(hidden_to, 140.0, 1.5);
-  // Right through the picture, and bent: lower at the sides, where the picture is smaller.
+  // The line crosses the whole picture and is bent: it is lower at the sides, where the picture is smaller.
   EXPECT_LT(chords.front().a.x, 1.0);
   EXPECT_GT(chords.back().b.x, 199.0);
   EXPECT_GT(chords.front().a.y, view.project({0, 0, 30}).y + 3.0);
@@ -219,7 +219,7 @@ TEST(ShapeCoverage, OverlapsAreNotDenser) {
 TEST(ShapeCoverage, ALineIsAsWideAsItSays) {
   io::Canvas canvas(60, 60, {0, 0, 0});
   ShapeCoverage coverage(60, 60);
-  coverage.line({10, 10}, {50, 40}, 3.0);  // 50 pixels long
+  coverage.line({10, 10}, {50, 40}, 3.0);  // the line is 50 pixels long
   coverage.paint(canvas, {0, 0}, {250, 250, 250}, 1.0);
   double area = 0.0;
   const Array image = canvas.image();
@@ -238,7 +238,7 @@ TEST(Markers, EveryShapeHoldsItsCentreAndEndsNearItsRadius) {
 }
 
 TEST(GainScale, CoversTheGainsInTensAndSaysWhatIsWeaker) {
-  PathLink link = sample_link();  // -75.4 dB and 10 dB and 1 dB less
+  PathLink link = sample_link();  // gains of -75.4 dB, and of 10 dB and 1 dB less
   GainScale scale = gain_scale(std::span(&link, 1), 3.5e9);
   EXPECT_EQ(scale.high_db, -70.0);
   EXPECT_EQ(scale.low_db, -90.0);
@@ -256,7 +256,7 @@ TEST(DrawPaths, LinesInSightAreStrongAndHiddenOnesFaint) {
   PathLink link = sample_link();
   link.paths.resize(1);
   PictureView view = side_view();
-  view.width = 640;  // wide enough for the head
+  view.width = 640;  // wide enough for the picture's head
   view.height = 300;
   view.cx = 320.0;
   view.cy = 150.0;
@@ -268,7 +268,7 @@ TEST(DrawPaths, LinesInSightAreStrongAndHiddenOnesFaint) {
   const Array image = draw_paths(view, grey, depth, std::span(&link, 1), sample.view(), PathColors::kind,
                                  {"sample", "tick 0", "bs/panel"});
   ASSERT_EQ(image.shape, (std::vector<int64_t>{300 + picture_head + picture_foot, 640, 3}));
-  // The line of sight lies at row 150 - 500 * 2 / 100.
+  // The line of sight lies in row 150 - 500 * 2 / 100.
   const auto pixel = [&](int x, int y) {
     const uint8_t* p = image.as<uint8_t>().data() +
                        (static_cast<size_t>(y + picture_head) * 640 + static_cast<size_t>(x)) * 3;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs the program as a user does.
+// Runs the program `greatx` as a user does, and returns its exit code and output.
 #pragma once
 
 #include <cstdlib>
@@ -30,10 +30,10 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs through the shell: `arguments` after the program's name, `before` in front of it (environment,
-/// ulimit).
+/// Runs the program through the shell. `arguments` follows the program's name, `before` stands in front of it
+/// (environment, ulimit).
 inline Outcome greatx(const std::string& arguments, const std::string& before = "") {
-  setenv("GREATX_CACHE", "off", 0);  // unless a test says otherwise
+  setenv("GREATX_CACHE", "off", 0);  // does not overwrite what a test has set
   const greatx::test::TemporaryFolder temporary;
   const std::string folder = temporary.path().string();
   const std::string command =

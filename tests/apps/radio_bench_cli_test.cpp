@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --radio`: its rows are there and add up; how long they take is nobody's business here.
+// Tests that the rows of `greatx bench --radio` exist and add up. The test does not judge how long they take.
 #include <set>
 #include <sstream>
 
@@ -37,10 +37,12 @@ nodes:
         - {t_s: 0, position_m: [2.4, -30, 0]}
         - {t_s: 10, position_m: [2.4, 20, 0]}
     sensors:
-      - {name: front, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, mount: {position_m: [1.2, 0, 1.4]}}
+      - {name: front, type: camera, rate_hz: 10, width: 64, height: 48, fov_deg: 90, )"
+                               R"(mount: {position_m: [1.2, 0, 1.4]}}
       - {name: antenna, type: antenna, mount: {position_m: [0, 0, 1.6]}}
 channels:
-  - {name: csi, tx: bs/panel, rx: [car/antenna], rate_hz: 10, carrier_hz: 3.5e9, bandwidth_hz: 20e6, subcarriers: 16,
+  - {name: csi, tx: bs/panel, rx: [car/antenna], rate_hz: 10, carrier_hz: 3.5e9, )"
+                               R"(bandwidth_hz: 20e6, subcarriers: 16,
      max_depth: 1, scattering_patch_m: 40}
 )";
 
@@ -109,7 +111,7 @@ TEST_F(RadioBench, PrintsATable) {
 }
 
 TEST_F(RadioBench, SaysWhatEveryRowFindsOnce) {
-  // An antenna that lies on the road: every row that solves the channel's own link would warn of it.
+  // The antenna lies on the road. Without care, every row that solves the channel's link would warn of it.
   std::string text = street;
   const std::string mount = "mount: {position_m: [0, 0, 1.6]}";
   text.replace(text.find(mount), mount.size(), "mount: {position_m: [0, 0, 0]}");

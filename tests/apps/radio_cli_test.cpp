@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faulty and doubtful input to radio as a user meets it, and what `greatx explain` says of a channel.
+// Tests faulty and doubtful input to radio as a user meets it, and the text of `greatx explain` about a
+// channel.
 #include <cstdint>
 
 #include <gmock/gmock.h>
@@ -20,7 +21,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A house of 10 x 10 x 10 m with a corner at (20, -5, 0); a base station beside it, a terminal in front.
+/// A house of 10 x 10 x 10 m with a corner at (20, -5, 0), a base station beside it and a terminal in front
+/// of it.
 constexpr const char* radio_scenario = R"(greatx: 1
 name: house
 ticks: 2
@@ -36,7 +38,8 @@ nodes:
     trajectory: {type: static, position_m: [10, 3, 1.5]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: bs/panel, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, bandwidth_hz: 20e6, max_depth: 2}
+  - {name: csi, tx: bs/panel, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, )"
+                                       R"(bandwidth_hz: 20e6, max_depth: 2}
 )";
 constexpr const char* radio = R"(materials:
   plaster:
@@ -57,14 +60,14 @@ class RadioCli : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  /// `text` with one piece replaced, as a file.
+  /// Writes `text` with one piece replaced to a file.
   void change(const std::string& name, std::string text, const std::string& from,
               const std::string& to) const {
     const size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     write(name, text.replace(at, from.size(), to));
   }
-  /// The unit cube in glTF's axes (y up), normals outwards.
+  /// Writes the unit cube in glTF's axes (y up) with its normals outwards.
   void write_box() const {
     std::string bytes;
     const auto put = [&](const auto& value) {
@@ -73,7 +76,7 @@ class RadioCli : public testing::Test {
     for (int corner = 0; corner < 8; ++corner)
       for (const int axis : {0, 2, 1}) {
         const float unit = static_cast<float>((corner >> axis) & 1);
-        put(axis == 1 ? -unit : unit);  // (x, y, z) of the world is (x, z, -y) there
+        put(axis == 1 ? -unit : unit);  // (x, y, z) of the world is (x, z, -y) in glTF
       }
     // clang-format off
     const uint16_t indices[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
@@ -83,7 +86,8 @@ class RadioCli : public testing::Test {
     write("box.bin", bytes);
     write("box.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
       "nodes": [{"mesh": 0, "name": "walls"}], "materials": [{"name": "plaster"}],
-      "meshes": [{"name": "walls", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+      "meshes": [{"name": "walls", )"
+                      R"("primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
                     {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}],
       "bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 72}],
@@ -159,7 +163,7 @@ TEST_F(RadioCli, EndsExactlyOnASurfaceAreNamed) {
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["counters"]["ends_inside_solids"], 0);
   EXPECT_TRUE(result["receivers"][0]["line_of_sight"]) << "its own surface does not hide it";
-  // Nor does it reflect: what is left goes through to the far wall and back.
+  // The surface does not reflect either. The remaining path goes through to the far wall and back.
   for (const json& found : result["receivers"][0]["paths"]) EXPECT_NE(found["chain"], "R");
   change("house.yaml", radio_scenario, "[10, 3, 1.5]", "[20, 3, 1.5]");
   EXPECT_THAT(run("paths").err, HasSubstr("ue/antenna lies on a surface of 'house"));
@@ -191,7 +195,7 @@ TEST_F(RadioCli, PathsBeyondTheBoundAreCountedAndSaid) {
   fails("no paths", {"house.yaml:", "channels[0].max_paths", "'0'"});
 }
 
-// Walls passed have a bound of their own, which a path that may be deeper does not break.
+// Transmissions have a bound of their own, which a path of greater depth keeps.
 TEST_F(RadioCli, TheDeepestPathsRun) {
   change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 16");
   const Outcome outcome = run("paths", "--json");
@@ -214,7 +218,7 @@ TEST_F(RadioCli, PatchesTooSmallToBeCutAreRefused) {
     with_patches_of(side);
     fails(side, {"house.yaml:", "channels[0].scattering_patch_m", "'" + side + "'"});
   }
-  with_patches_of("0.001");  // in the range, but not for so large a house
+  with_patches_of("0.001");  // within the range, but too small for a house of this size
   for (const std::string command : {"paths", "generate"}) {
     const Outcome outcome = run(command, command == "generate" ? "-o " + path("patches") : "");
     EXPECT_EQ(outcome.code, 1) << command;
@@ -257,7 +261,7 @@ TEST_F(RadioCli, ExplainSaysHowCandidatesAreFoundAndWhatThatGuarantees) {
     const Outcome outcome = run("explain", "--json");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const json notes = json::parse(outcome.out)["channels"]["csi"];
-    // The same in words.
+    // The text form says the same.
     const std::string words = run("explain").out;
     EXPECT_THAT(words, HasSubstr("channel 'csi', candidates:"));
     for (const auto& [name, text] : notes.items())
@@ -273,7 +277,7 @@ TEST_F(RadioCli, ExplainSaysHowCandidatesAreFoundAndWhatThatGuarantees) {
   EXPECT_THAT(rays["guarantee"].get<std::string>(),
               AllOf(HasSubstr("10000 rays"), HasSubstr("may be missed")));
   EXPECT_EQ(explained("max_depth: 0")["search"], "none");
-  // What the run says afterwards is what was said before.
+  // The run says afterwards what `explain` says before.
   change("house.yaml", radio_scenario, "max_depth: 2", "max_depth: 2");
   const json summary = json::parse(run("generate", "--json -o " + path("out")).out);
   EXPECT_EQ(summary["notes"]["csi.guarantee"], beams["guarantee"]);

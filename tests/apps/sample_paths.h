@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths made by hand in a scene of a wall and a roof.
+// Paths made by hand in a scene of a wall, a roof and a tree.
 #pragma once
 
 #include "core/units.h"
@@ -10,9 +10,10 @@
 
 namespace greatx::apps {
 
-/// Facet 0: the wall y = 10 (object "house", material "glass"); facet 1: the roof z = 20 (object "house",
-/// material "tile"); facet 2: a tree (object "tree", material "leaves"). One wedge between wall and roof.
-/// World = local + origin.
+/// Holds a scene of three facets and one wedge between facets 0 and 1, `origin` away from the world's origin:
+/// - facet 0: the wall y = 10 (object "house", material "glass"),
+/// - facet 1: the roof z = 20 (object "roof", material "tile"),
+/// - facet 2: a tree (object "tree", material "leaves").
 struct SampleScene {
   explicit SampleScene(const dvec3& origin = dvec3(0.0)) {
     test::TinyScene tiny;
@@ -36,7 +37,7 @@ struct SampleScene {
   std::vector<scene::Wedge> wedges;
 };
 
-/// A path through these vertices (local) with transfer gain * diag(1, -1) / length.
+/// Returns a path through `vertices` (local) with the transfer matrix gain * diag(1, -1) / length.
 inline rf::Path path_through(const std::vector<dvec3>& vertices, std::vector<rf::Interaction> interactions,
                              double gain = 1.0) {
   rf::Path path;
@@ -52,7 +53,8 @@ inline rf::Path path_through(const std::vector<dvec3>& vertices, std::vector<rf:
   return path;
 }
 
-/// From (0, 0, 2) to (40, 0, 2): the line of sight and a reflection at the wall, 10 dB down.
+/// Returns a link from (0, 0, 2) to (40, 0, 2) with two paths: the line of sight, and a reflection at the
+/// wall whose gain is 10 dB lower.
 inline PathLink sample_link(const dvec3& origin = dvec3(0.0)) {
   const dvec3 a(0, 0, 2), b(40, 0, 2);
   PathLink link;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --lidar`, `--radar`, `--rig` and the rows of the plain `greatx bench`: they are there and add
-// up; how long they take is nobody's business here.
+// Tests that the rows of `greatx bench --lidar`, `--radar`, `--rig` and of the plain `greatx bench` exist and
+// add up. The tests do not judge how long they take.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -27,7 +27,8 @@ scene:
   generate: {kind: room}
 nodes:
   - name: drone
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0.5, 0.3, 1.5]}, {t_s: 1, position_m: [1, 0.3, 1.5]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [0.5, 0.3, 1.5]}, )"
+                             R"({t_s: 1, position_m: [1, 0.3, 1.5]}]}
     sensors:
 )";
 constexpr const char* camera =
@@ -102,7 +103,7 @@ TEST_F(SensorBench, LidarHasARowForEachEffectThatTheSceneCallsFor) {
             nlohmann::json::array({"lidar_haze", "lidar_backscatter", "lidar_detection"}));
   EXPECT_EQ(of("as in the scenario")["shots"], 128);
   EXPECT_EQ(of("as in the scenario")["rays"], 7);
-  // Every row is measured or left out with a reason: nothing moves here.
+  // Every row is measured or left out with a reason. Nothing moves in this scenario.
   EXPECT_EQ(result["left_out"]["bodies at their times too"], "no mesh moves");
   EXPECT_EQ(result["rows"].size() + result["left_out"].size(), 16u);
 }

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Named attacks: inputs that someone has thought of, each of them once a fault or a near miss. They are made
-from the seeds, so they follow the formats. `exit` is what the program has to end with."""
+"""Makes named attacks from the seeds, so that they follow the formats. Somebody has thought of each of these
+inputs, and each was once a fault or a near miss. `exit` holds the exit codes that the program may end
+with."""
 from __future__ import annotations
 
 import copy
@@ -23,7 +24,7 @@ def set_at(tree: object, path: str, value: object) -> None:
 
 
 def changed(base: Case, name: str, exits: list[int], file: str, **values: object) -> Case:
-    """The base with other values at paths such as nodes__0__name."""
+    """Returns a copy of the base with other values at paths such as nodes__0__name."""
     case = base.copy()
     entry = case.files[file]
     entry.tree = copy.deepcopy(entry.tree)
@@ -41,7 +42,7 @@ def replaced(base: Case, name: str, exits: list[int], files: dict[str, Entry]) -
 
 
 def places_of(base: Case, name: str, files: list[str]) -> Iterator[Case]:
-    """Something else in the place of each of these files."""
+    """Puts something else in the place of each of these files."""
     for file in files:
         short = file.rsplit("/", 1)[-1]
         for other, entry in {
@@ -52,7 +53,7 @@ def places_of(base: Case, name: str, files: list[str]) -> Iterator[Case]:
             "a link to itself": Entry("link", short.encode()),
             "empty": Entry(),
         }.items():
-            # A run that was killed before its first line leaves an empty journal: it is gone on with.
+            # A run that was killed before its first line leaves an empty journal, which --resume accepts.
             may_go_on = (short, other) == ("journal.txt", "empty")
             yield replaced(base, f"{name}: {short} is {other}", [0, 1] if may_go_on else [1], {file: entry})
 
@@ -264,7 +265,10 @@ def picture(bases: list[Case]) -> Iterator[Case]:
 
 def mitsuba(bases: list[Case]) -> Iterator[Case]:
     base = bases[0]
-    shape = '<shape type="ply" id="mesh-x"><string name="filename" value="meshes/wall.ply"/><bsdf type="diffuse" id="{}"/></shape>'
+    shape = (
+        '<shape type="ply" id="mesh-x"><string name="filename" value="meshes/wall.ply"/>'
+        '<bsdf type="diffuse" id="{}"/></shape>'
+    )
 
     def xml(name: str, exits: list[int], text: str, encoding: str = "utf-8") -> Case:
         return replaced(
@@ -410,7 +414,7 @@ def dataset(bases: list[Case]) -> Iterator[Case]:
                 )
                 yield signed(case)
         yield from places_of(base, word, [*metadata, "data/sequence_0000/csi/cfr.npy"])
-        if word == "verify":  # a sheet shows some of the pictures only
+        if word == "verify":  # inspect reads only some of the pictures, for its sheet
             yield from places_of(base, word, ["data/sequence_0000/uav/cam/rgb/000000.png"])
         name = next(file for file in verify.files if file.endswith(".pcd"))
         cloud = verify.files[name].data

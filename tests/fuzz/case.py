@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A case: the files that one run of the program gets, and the command line. It can be laid out in a folder,
-and kept as one JSON file that --replay takes."""
+"""Defines a case: the files that one run of the program gets, and the command line. A case can be laid out in
+a folder, and kept as one JSON file that --replay takes."""
 from __future__ import annotations
 
 import base64
@@ -13,12 +13,12 @@ import pathlib
 import struct
 import zlib
 
-# Stands for the absolute path of the folder that no case may touch, in files and in command lines.
+# Stands in files and command lines for the absolute path of the folder that no case may touch.
 OUTSIDE = "@OUTSIDE@"
 
 
 class Raw:
-    """A value that is written as it stands, whatever the format around it would do."""
+    """A value that is written as it stands, whatever the surrounding format requires."""
 
     def __init__(self, text: str):
         self.text = text
@@ -28,7 +28,8 @@ class Raw:
 
 
 def to_bytes(text: str) -> bytes:
-    """Lone surrogates \\udc80 to \\udcff become the bytes 0x80 to 0xff: so does text that is no UTF-8 come about."""
+    """Encodes text. Lone surrogates \\udc80 to \\udcff become the bytes 0x80 to 0xff, which makes text that
+    is not UTF-8."""
     return text.encode(
         "utf-8", "surrogateescape" if all(not 0xD800 <= ord(c) < 0xDC80 for c in text) else "surrogatepass"
     )
@@ -54,8 +55,8 @@ def json_text(tree, indent=None) -> str:
 
 
 def yaml_text(tree, depth=0) -> str:
-    """Maps as blocks, one key a line, so that mutators of lines find something; lists of scalars in one
-    line."""
+    """Writes maps as blocks with one key on each line, so that mutators of lines have lines to change. Lists
+    of scalars take one line."""
     indent = "  " * depth
     if isinstance(tree, dict) and tree:
         lines = []
@@ -96,7 +97,7 @@ def glb_bytes(tree, binary: bytes) -> bytes:
 
 
 def journal_bytes(lines: list) -> bytes:
-    """A journal as the program writes it: each line with its CRC-32."""
+    """Returns a journal as the program writes it: each line has its CRC-32."""
     text = b""
     for line in lines:
         body = to_bytes(
@@ -116,18 +117,18 @@ PACKERS = {
 
 @dataclasses.dataclass
 class Entry:
-    """One file, or what stands in its place."""
+    """Describes a file, or what stands in its place."""
 
-    type: str = "file"  # file, folder, fifo, link (data: its target), sparse (data: its size in decimal)
+    type: str = "file"  # file, folder, fifo, link (data holds the target), sparse (data holds the size)
     data: bytes = b""
-    tree: object = None  # what the file says, as long as it is known; `pack` makes bytes of it
+    tree: object = None  # parsed content while it is known, from which `pack` makes bytes
     pack: str = ""
 
     def content(self) -> bytes:
         return PACKERS[self.pack](self) if self.pack else self.data
 
     def flatten(self) -> None:
-        """From here on bytes alone."""
+        """Replaces the tree by its bytes."""
         self.data, self.tree, self.pack = self.content(), None, ""
 
 
@@ -137,12 +138,12 @@ class Case:
     command: list[str]
     files: dict[str, Entry]
     name: str = ""
-    done: list[str] = dataclasses.field(default_factory=list)  # what was changed, in words
+    done: list[str] = dataclasses.field(default_factory=list)  # the changes in words
     env: dict[str, str] = dataclasses.field(default_factory=dict)
-    exit: list[int] = dataclasses.field(default_factory=lambda: [0, 1])  # what the program may end with
-    keeps_files: bool = True  # the command reads: none of the files may have changed afterwards
-    names_file: bool = True  # exit 1 has to name one of the files
-    secret: bool = True  # nothing of what lies outside may show in what is printed
+    exit: list[int] = dataclasses.field(default_factory=lambda: [0, 1])  # exit codes that are no fault
+    keeps_files: bool = True  # the command only reads, so none of the files may change
+    names_file: bool = True  # a message with exit code 1 must name one of the files
+    secret: bool = True  # no content from outside the folder may be printed
 
     def lay_out(self, folder: pathlib.Path, outside: pathlib.Path) -> None:
         for name, entry in self.files.items():
@@ -198,7 +199,7 @@ class Case:
         return Case(files=files, **fields)
 
     def copy(self) -> "Case":
-        """Trees are shared until a mutator replaces them: it copies first."""
+        """Returns a copy that shares its trees. A mutator therefore copies a tree before it changes it."""
         files = {name: dataclasses.replace(entry) for name, entry in self.files.items()}
         return dataclasses.replace(
             self, files=files, done=list(self.done), command=list(self.command), env=dict(self.env)
@@ -206,8 +207,8 @@ class Case:
 
 
 def sign_manifest(case: Case, root: str) -> bool:
-    """Gives every file that the manifest lists its real size and hash, so that `verify` looks further than
-    hashes."""
+    """Gives every file in the manifest its real size and hash, so that `verify` looks further than the
+    hashes. Returns whether the case has a manifest that could be signed."""
     entry = case.files.get(f"{root}/manifest.json")
     if entry is None or entry.type != "file":
         return False

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program on damaged inputs and judges how it ends; README.md beside this file says how and what
-for.
+"""Runs the program on damaged inputs and judges how it ends. README.md beside this file explains faults and
+options.
 
   fuzz.py --program build/release/greatx --kind all --seed 1 --count 1000 --time-limit 600 --keep found
   fuzz.py --program build/release/greatx --replay found/dataset-signal-....json
@@ -87,7 +87,8 @@ def limits_of(options: argparse.Namespace, sanitized: bool) -> judge.Limits:
 
 
 def check_seeds(program: str, kind: str, cases: list[Case], limits: judge.Limits, sanitized: bool) -> None:
-    """A mutator of an input that is refused as it is would find nothing."""
+    """Runs the seeds and raises RuntimeError if one fails, because mutations of a refused input find
+    nothing."""
     seen = set()
     for case in cases:
         key = (tuple(case.command), tuple((name, id(entry)) for name, entry in case.files.items()))
@@ -97,7 +98,8 @@ def check_seeds(program: str, kind: str, cases: list[Case], limits: judge.Limits
         verdict = judge.run(program, case, limits, sanitized)
         if verdict.fault or verdict.exit != 0:
             raise RuntimeError(
-                f"a seed of kind {kind} fails: {' '.join(case.command)}: {verdict.fault or verdict.exit}\n{verdict.printed}"
+                f"a seed of kind {kind} fails: {' '.join(case.command)}: "
+                f"{verdict.fault or verdict.exit}\n{verdict.printed}"
             )
 
 
@@ -105,8 +107,7 @@ def describe(case: Case) -> str:
     return f"{case.name}: {' '.join(case.command)}; " + "; ".join(done[:160] for done in case.done)
 
 
-# What one process works on: set by `prepare` in each of them, so that seeds are made once and not sent with
-# every case.
+# The state of one process, which `prepare` sets, so that seeds are made once and not sent with every case.
 STATE: dict = {}
 
 
@@ -115,7 +116,7 @@ def prepare(state: dict) -> None:
 
 
 def work(job: tuple) -> tuple[Case, judge.Verdict, bool]:
-    """One case; whether it failed the same way twice."""
+    """Runs one case. Returns the case, its verdict, and whether it failed twice."""
     kind, number = job
     if isinstance(number, int):
         case = mutate.mutate(kind, STATE["seed"], number, STATE["seeds"][kind])
@@ -131,7 +132,7 @@ def work(job: tuple) -> tuple[Case, judge.Verdict, bool]:
 
 
 def cause_of(fault: str) -> str:
-    """Faults that look alike but for names and numbers count as one."""
+    """Returns the fault without names and numbers, so that faults that differ only in these count as one."""
     fault = re.sub(r"( [io][nf] what is printed).*", r"\1", fault, flags=re.DOTALL)
     return re.sub(r"[0-9a-f]{6,}|\d+|'[^']*'|\"[^\"]*\"", "#", fault)[:100]
 
@@ -171,7 +172,8 @@ class Report:
         for (kind, cause), names in sorted(self.causes.items()):
             print(f"  {len(names):5} x {kind}: {cause}  [{', '.join(names[:3])}]")
         print(
-            f"slowest {self.slowest[0]:.1f} s ({self.slowest[1]}), largest {self.largest[0]:.0f} MiB ({self.largest[1]})"
+            f"slowest {self.slowest[0]:.1f} s ({self.slowest[1]}), "
+            f"largest {self.largest[0]:.0f} MiB ({self.largest[1]})"
         )
         faults = sum(map(len, self.causes.values()))
         print(f"{faults} faults in {sum(self.runs.values())} runs")
@@ -185,14 +187,15 @@ def replay(options: argparse.Namespace, program: str, limits: judge.Limits, sani
         verdict = judge.run(program, case, limits, sanitized, options.into)
         print(
             f"{file}: {describe(case)}\n{verdict.printed[:4000].rstrip()}\n"
-            f"exit {verdict.exit}, {verdict.seconds:.2f} s, {verdict.memory_mib:.0f} MiB: {verdict.fault or 'no fault'}"
+            f"exit {verdict.exit}, {verdict.seconds:.2f} s, {verdict.memory_mib:.0f} MiB: "
+            f"{verdict.fault or 'no fault'}"
         )
         faults += bool(verdict.fault)
     return 1 if faults else 0
 
 
 def jobs_of(options: argparse.Namespace, kinds: list[str], bases: dict[str, list[Case]]):
-    """Attacks, corpus, then the kinds in turns, so that a time limit is shared by all."""
+    """Yields the corpus, the attacks, and then the kinds in turns, so that all kinds share a time limit."""
     if options.corpus:
         for file in sorted(options.corpus.glob("*.json")):
             case = Case.from_json(file.read_text())

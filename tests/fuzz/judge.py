@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the program on a case, in a folder of its own and within limits, and judges how it ends."""
+"""Runs the program on a case, in a folder of its own and within limits, and judges how the program ends."""
 from __future__ import annotations
 
 import dataclasses
@@ -25,17 +25,17 @@ PRINTED_MOST = 4 << 20
 
 @dataclasses.dataclass
 class Limits:
-    memory_mib: int = 4096  # address space; 0: none
+    memory_mib: int = 4096  # address space; 0: unlimited
     cpu_s: int = 20
     wall_s: int = 60
-    idle_s: int = 8  # without any use of the processor
+    idle_s: int = 8  # longest time without use of the processor
     file_mib: int = 512
-    python: str = ""  # the folder of the package, for cases of kind `python`
+    python: str = ""  # folder of the Python package, for cases of kind `python`
 
 
 @dataclasses.dataclass
 class Verdict:
-    fault: str  # empty: none
+    fault: str  # empty if there is none
     exit: int
     printed: str
     seconds: float
@@ -47,8 +47,8 @@ def is_sanitized(program: str) -> bool:
 
 
 def environment(folder: pathlib.Path | None = None) -> dict[str, str]:
-    """The caller's, but for what greatx keeps between runs. The driver's cache of shaders stays: without it
-    every start compiles them anew."""
+    """Returns the caller's environment without the caches that greatx keeps between runs. The driver's shader
+    cache stays, because otherwise every start would compile the shaders again."""
     env = dict(
         os.environ,
         GREATX_CACHE="off",
@@ -77,7 +77,7 @@ def limiter(limits: Limits):
 
 
 def snapshot(folder: pathlib.Path) -> dict[str, tuple]:
-    """What stands below a folder; links are not followed. The size of a file, not its time of access."""
+    """Returns the kind, size and time of change of everything below a folder. Does not follow links."""
     found = {}
     for root, folders, files in os.walk(os.fsencode(folder)):
         for name in folders + files:
@@ -99,7 +99,8 @@ def difference(before: dict, after: dict) -> str:
 
 
 def build_outside(folder: pathlib.Path) -> None:
-    """What lies beside the working folder, and what an escape would reach: sound files of every kind."""
+    """Writes files beside the working folder that an escape would reach. They are sound files of several
+    kinds."""
     folder.mkdir()
     (folder / "secret.txt").write_text(SECRET + "\n")
     (folder / "secret.png").write_bytes(pictures.png(4, 4))
@@ -111,7 +112,10 @@ def unprintable(data: bytes) -> str:
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        return f"no UTF-8 at byte {error.start} of what is printed: {data[max(error.start - 20, 0):error.start + 10]!r}"
+        return (
+            f"no UTF-8 at byte {error.start} of what is printed: "
+            f"{data[max(error.start - 20, 0):error.start + 10]!r}"
+        )
     for at, c in enumerate(text):
         if (
             (ord(c) < 32 and c not in "\n\t")
@@ -126,14 +130,14 @@ def names_a_file(case: Case, printed: str) -> bool:
     names = [argument for argument in case.command if not argument.startswith("-")][1:]
     for name in case.files:
         names += [part for part in name.split("/") if part]
-    names = [name for name in names if len(name) > 2 and name != "data"]  # a word that messages have anyway
+    names = [name for name in names if len(name) > 2 and name != "data"]  # "data" occurs in messages anyway
     return any(name in printed for name in [*names, "data/", "data:"])
 
 
 def judge(
     case: Case, code: int, stdout: bytes, stderr: bytes, timed_out: bool, changes: str, sanitized: bool
 ) -> str:
-    """The first fault, as `cause: detail`; empty if there is none."""
+    """Returns the first fault as `cause: detail`, or an empty string if there is none."""
     printed = (stdout + stderr).decode("utf-8", "replace")
     if sanitized and (b"AddressSanitizer" in stderr or b"runtime error:" in stderr):
         lines = [
@@ -168,8 +172,10 @@ def judge(
 
 
 def wait(process: subprocess.Popen, limits: Limits) -> tuple[int, resource.struct_rusage, bool]:
-    """Exit code, usage, and whether it had to be killed: at the limit of time, or when it has done nothing
-    for so long that it must be waiting for what never comes (a FIFO)."""
+    """Waits for the process. Returns its exit code, its usage, and whether it had to be killed: at the limit
+    of time, or after so long without activity that it must be waiting for something that never comes (a
+    FIFO).
+    """
     begin = active = time.monotonic()
     ticks = ""
     while True:

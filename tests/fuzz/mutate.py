@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Mutators. Each takes a random.Random and nothing else that varies, so a case follows from (kind, seed,
-number)."""
+"""Mutates cases. The only varying argument of a mutator is a random.Random, so that a case follows from
+(kind, seed, number)."""
 from __future__ import annotations
 
 import copy
@@ -151,7 +151,7 @@ def nest(rng: random.Random) -> Raw:
 
 
 def places(tree: object) -> list[tuple]:
-    """Every (container, key) below the tree."""
+    """Returns every (container, key) below the tree."""
     found = []
     for key, value in (
         tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
@@ -162,7 +162,7 @@ def places(tree: object) -> list[tuple]:
 
 
 def tree(rng: random.Random, entry: Entry) -> str:
-    """One change to what a JSON or YAML file says; the rest of it stays well-formed."""
+    """Makes one change to the values of a JSON or YAML file. The rest of the file stays well-formed."""
     entry.tree = copy.deepcopy(entry.tree)
     found = places(entry.tree)
     if not found:
@@ -193,7 +193,7 @@ def tree(rng: random.Random, entry: Entry) -> str:
 
 
 def number(rng: random.Random, entry: Entry) -> str:
-    """A number in a text, or in the text that heads a binary file."""
+    """Changes a number in a text, or in the text that heads a binary file."""
     entry.flatten()
     found = list(NUMBER.finditer(entry.data, 0, 4000 if b"\0" in entry.data else len(entry.data)))
     if not found:
@@ -201,13 +201,13 @@ def number(rng: random.Random, entry: Entry) -> str:
     match = rng.choice(found)
     new = rng.choice(NUMBERS).encode()
     if b"\0" in entry.data and len(new) < len(match[0]) and rng.random() < 0.5:
-        new = new.rjust(len(match[0]))  # what follows stays where it is
+        new = new.rjust(len(match[0]))  # keeps the offset of the data behind the number
     entry.data = entry.data[: match.start()] + new + entry.data[match.end() :]
     return f"{match[0].decode()} -> {new.decode()} at byte {match.start()}"
 
 
 def line(rng: random.Random, entry: Entry) -> str:
-    """Lines deleted, repeated, moved, joined; of YAML also anchors, aliases, tags."""
+    """Deletes, repeats, moves or joins lines. For YAML it also adds anchors, aliases and tags."""
     entry.flatten()
     lines = entry.data.split(b"\n")
     i, j = rng.randrange(len(lines)), rng.randrange(len(lines))
@@ -248,7 +248,7 @@ def line(rng: random.Random, entry: Entry) -> str:
 
 
 def quoted(rng: random.Random, entry: Entry) -> str:
-    """What stands between quotes (XML, JSON) becomes another text."""
+    """Replaces a text between quotes (XML, JSON) by another."""
     entry.flatten()
     found = list(re.finditer(rb'"([^"\n]*)"', entry.data))
     if not found:
@@ -260,7 +260,7 @@ def quoted(rng: random.Random, entry: Entry) -> str:
 
 
 def element(rng: random.Random, entry: Entry) -> str:
-    """Elements of XML: deleted, repeated, nested; entities."""
+    """Deletes, repeats or nests elements of XML, and adds entities."""
     entry.flatten()
     found = list(re.finditer(rb"<(\w+)[^<>]*/>|<(\w+)[^<>]*>[^<>]*</\2>", entry.data))
     if not found:
@@ -283,14 +283,15 @@ def element(rng: random.Random, entry: Entry) -> str:
     entry.data = entry.data[: match.start()] + wrap + entry.data[match.end() :]
     if rng.random() < 0.1:
         entry.data = (
-            b'<!DOCTYPE x [<!ENTITY a "aaaaaaaa"><!ENTITY lol "&a;&a;&a;&a;"><!ENTITY s SYSTEM "../outside/secret.txt">]>'
-            + entry.data
+            b'<!DOCTYPE x [<!ENTITY a "aaaaaaaa"><!ENTITY lol "&a;&a;&a;&a;">'
+            b'<!ENTITY s SYSTEM "../outside/secret.txt">]>' + entry.data
         )
     return f"{match[0][:40]!r} {name} {depth}"
 
 
 def position(rng: random.Random, size: int) -> int:
-    """Half of the time within the head, where formats keep what steers their reader."""
+    """Returns a position. Half of them lie within the head, where formats keep the data that steers their
+    reader."""
     return rng.randrange(min(size, 300)) if rng.random() < 0.5 else rng.randrange(size)
 
 
@@ -311,7 +312,7 @@ def flip(rng: random.Random, entry: Entry) -> str:
 
 
 def word(rng: random.Random, entry: Entry) -> str:
-    """A whole binary number is overwritten by an extreme one."""
+    """Overwrites a whole binary number by an extreme one."""
     entry.flatten()
     width = rng.choice([2, 4, 4, 8])
     if len(entry.data) < width:
@@ -363,7 +364,7 @@ def splice(rng: random.Random, entry: Entry, other: Entry) -> str:
 
 
 def place(rng: random.Random, case: Case, name: str) -> str:
-    """Something else stands where a file is expected."""
+    """Puts something else in the place of a file."""
     roll = rng.randrange(10)
     if roll == 0:
         del case.files[name]
@@ -384,7 +385,8 @@ def place(rng: random.Random, case: Case, name: str) -> str:
 
 
 def weight(kind: str, name: str) -> float:
-    """How often a file is taken: what steers the readers more often than what they steer through."""
+    """Returns how often a file is chosen. Files that steer the readers are chosen more often than bulk
+    data."""
     base = name.rsplit("/", 1)[-1]
     suffix = base.rsplit(".", 1)[-1]
     by_kind = {
@@ -423,7 +425,7 @@ def text_mutators(name: str, entry: Entry) -> list[Callable]:
 
 
 def parse(name: str, entry: Entry) -> None:
-    """Sound JSON and sound journals are changed as trees."""
+    """Parses sound JSON and sound journals, so that they are changed as trees."""
     try:
         if name.endswith(".json"):
             entry.tree, entry.pack = json.loads(entry.data), "json"
@@ -435,7 +437,7 @@ def parse(name: str, entry: Entry) -> None:
 
 
 def mutate(kind: str, seed: int, index: int, seeds: list[Case]) -> Case:
-    """Case `index` of `seed`: a seed file and one to three changes."""
+    """Returns case `index` of `seed`: a seed file with one to three changes."""
     rng = random.Random(f"{kind}/{seed}/{index}")
     case = rng.choice(seeds).copy()
     case.name = f"{kind}-{seed}-{index}"
@@ -459,5 +461,5 @@ def mutate(kind: str, seed: int, index: int, seeds: list[Case]) -> Case:
     if kind in ("dataset", "python") and rng.random() < 0.7 and sign_manifest(case, "data"):
         case.done.append("manifest signed anew")
     if case.command[0] in ("explain", "paths", "generate") or "--radio-materials" in case.command:
-        case.secret = False  # a scenario may name any file of the person who runs it
+        case.secret = False  # a scenario may name any file of the user who runs it
     return case

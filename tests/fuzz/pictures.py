@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Small PNG and JPEG files: seeds of the mutators. JPEG: ITU-T T.81, baseline and progressive (spectral
-selection), with the typical Huffman tables of its annex K and quantisation by 1."""
+"""Makes small PNG and JPEG files as seeds of the mutators. JPEG is ITU-T T.81, baseline and progressive
+(spectral selection), with the typical Huffman tables of its annex K and quantisation by 1."""
 from __future__ import annotations
 
 import math
@@ -14,8 +14,8 @@ def png_chunk(name: bytes, data: bytes) -> bytes:
 
 
 def png(width: int, height: int, channels: int = 3, bits: int = 8, interlaced: bool = False) -> bytes:
-    """Grey (1), grey with alpha (2), colour (3) or colour with alpha (4); a pattern that no filter makes
-    trivial."""
+    """Returns a PNG file: grey (1 channel), grey with alpha (2), colour (3) or colour with alpha (4). No
+    filter makes its pattern trivial."""
     color = {1: 0, 2: 4, 3: 2, 4: 6}[channels]
 
     def rows(columns: range, lines: range) -> bytes:
@@ -63,7 +63,7 @@ def png_palette(width: int, height: int) -> bytes:
 
 
 def png_bomb(side: int, channels: int = 4) -> bytes:
-    """One colour: a few kilobytes of file, side * side * channels bytes of picture."""
+    """Returns a PNG of one colour: a few kilobytes of file, but side * side * channels bytes of picture."""
     color = {1: 0, 3: 2, 4: 6}[channels]
     line = zlib.compressobj(9)
     data = b"".join([line.compress(b"\0" * (1 + side * channels)) for _ in range(side)] + [line.flush()])
@@ -79,8 +79,10 @@ DC_COUNTS = [0, 1, 5, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0]
 AC_COUNTS = [0, 2, 1, 3, 3, 2, 4, 3, 5, 5, 4, 4, 0, 0, 1, 0x7D]
 AC_HEAD = bytes.fromhex(
     "0102030004110512213141061351610722711432 8191a1082342b1c11552d1f02433627282090a161718191a25262728292a"
-    "3435363738393a434445464748494a535455565758595a636465666768696a737475767778797a838485868788898a92939495969798999a"
-    "a2a3a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9dae1e2e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9fa"
+    "3435363738393a434445464748494a535455565758595a636465666768696a"
+    "737475767778797a838485868788898a92939495969798999a"
+    "a2a3a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9da"
+    "e1e2e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9fa"
 )
 
 
@@ -117,7 +119,7 @@ class Bits:
 
 
 def block(bx: int, by: int, component: int) -> list[int]:
-    """The coefficients of 8 x 8 samples, in zigzag order."""
+    """Returns the coefficients of 8 x 8 samples in zigzag order."""
     samples = [
         [(x * 9 + y * 5 + component * 40 + (x * y) % 7) % 200 - 100 for x in range(8 * bx, 8 * bx + 8)]
         for y in range(8 * by, 8 * by + 8)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 """read_dataset.py DIR [incomplete]: reads all of a data set through the Python package. Ends as the program
-does: 0, 1 where it is refused, and by a traceback if anything but a greatx.Error comes out."""
+does: with 0, with 1 if the data set is refused, and with a traceback if anything but a greatx.Error is
+raised."""
 import sys
 import warnings
 
@@ -10,7 +11,7 @@ import numpy
 
 
 def touch(value: object) -> int:
-    """Every byte of an array, of a ragged one's records, of dicts of arrays."""
+    """Reads every byte of an array, of the records of a ragged array, and of dicts of arrays."""
     if isinstance(value, numpy.ndarray):
         return int(numpy.asarray(value).tobytes()[-1:] != b"")
     if isinstance(value, dict):

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What mutators begin with: small, sound inputs of every kind. The program takes each of them as it is."""
+"""Makes the inputs that mutators begin with: small, sound inputs of every kind. The program accepts each of
+them."""
 from __future__ import annotations
 
 import base64
@@ -19,7 +20,7 @@ INFO = ["scene", "info", "scene.gltf"]
 
 
 class Buffer:
-    """Binary data of a glTF file, its views and accessors."""
+    """Collects the binary data of a glTF file with its views and accessors."""
 
     def __init__(self):
         self.data, self.views, self.accessors = b"", [], []
@@ -46,8 +47,8 @@ class Buffer:
 
 
 def gltf_tree(buffer: Buffer, images: list[dict], buffer_uri: str | None) -> dict:
-    """Two walls and a lamp: textured with a tangent-space normal map, radio properties by name and by
-    extension."""
+    """Returns two walls and a lamp, textured with a tangent-space normal map. Radio properties are given by
+    name and by extension."""
     positions = [0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 3, 0]
     corners = [0, 0, 1, 0, 1, 1, 0, 1]
     position = buffer.accessor("f", 5126, "VEC3", positions, min=[0, 0, 0], max=[4, 3, 0])
@@ -229,7 +230,8 @@ def picture() -> list[Case]:
 
 
 PLY_HEAD = (
-    "ply\nformat {} 1.0\ncomment a wall\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat {} 1.0\ncomment a wall\nelement vertex 4\n"
+    "property float x\nproperty float y\nproperty float z\n"
     "property float s\nproperty float t\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
 )
 
@@ -250,17 +252,24 @@ def plys() -> list[Entry]:
 XML = """<scene version="2.1.0">
 <default name="spp" value="16"/>
 <integrator type="path"><integer name="max_depth" value="12"/></integrator>
-<bsdf type="twosided" id="mat-itu_concrete"><bsdf type="diffuse"><rgb value="0.5 0.25 0.125" name="reflectance"/></bsdf></bsdf>
-<bsdf type="itu-radio-material" id="glass"><string name="type" value="glass"/><float name="thickness" value="0.02"/>
+<bsdf type="twosided" id="mat-itu_concrete">\
+<bsdf type="diffuse"><rgb value="0.5 0.25 0.125" name="reflectance"/></bsdf></bsdf>
+<bsdf type="itu-radio-material" id="glass">\
+<string name="type" value="glass"/><float name="thickness" value="0.02"/>
 <float name="scattering_coefficient" value="0.2"/><rgb name="color" value="0.3, 0.4, 0.5"/></bsdf>
-<bsdf type="radio-material" id="foam"><float name="relative_permittivity" value="1.2"/><float name="conductivity" value="1e-3"/></bsdf>
+<bsdf type="radio-material" id="foam">\
+<float name="relative_permittivity" value="1.2"/><float name="conductivity" value="1e-3"/></bsdf>
 <emitter type="constant" id="World"><rgb value="1 1 1" name="radiance"/></emitter>
-<shape type="ply" id="mesh-wall"><string name="filename" value="meshes/wall.ply"/><boolean name="face_normals" value="true"/>
+<shape type="ply" id="mesh-wall"><string name="filename" value="meshes/wall.ply"/>\
+<boolean name="face_normals" value="true"/>
 <ref id="mat-itu_concrete" name="bsdf"/>
-<transform name="to_world"><rotate z="1" angle="30"/><scale value="2"/><translate x="1" y="2" z="3"/></transform></shape>
-<shape type="merge"><shape type="ply" id="mesh-pane"><string name="filename" value="meshes/pane.ply"/><ref id="glass" name="bsdf"/>
+<transform name="to_world">\
+<rotate z="1" angle="30"/><scale value="2"/><translate x="1" y="2" z="3"/></transform></shape>
+<shape type="merge"><shape type="ply" id="mesh-pane">\
+<string name="filename" value="meshes/pane.ply"/><ref id="glass" name="bsdf"/>
 <transform name="to_world"><matrix value="1 0 0 1 0 1 0 2 0 0 1 3 0 0 0 1"/></transform></shape></shape>
-<shape type="ply" id="mesh-foam"><string name="filename" value="meshes/foam.ply"/><ref id="foam" name="bsdf"/></shape>
+<shape type="ply" id="mesh-foam">\
+<string name="filename" value="meshes/foam.ply"/><ref id="foam" name="bsdf"/></shape>
 </scene>
 """
 
@@ -294,9 +303,15 @@ def pattern(complex_: bool) -> str:
 
 
 def csv() -> list[Case]:
-    flight = "# a flight\nt_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,10,0,0,0\n0.5,5,0,12,0,-10,0\n1,10,2,12.5,5,-5,1\n"
+    flight = (
+        "# a flight\nt_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n"
+        "0,0,0,10,0,0,0\n0.5,5,0,12,0,-10,0\n1,10,2,12.5,5,-5,1\n"
+    )
     plain = "0,0,0,10\n0.5,5,0,12\n1.0,10,2,12.5\n"
-    shots = "t_s,azimuth_deg,elevation_deg,channel\n0,10,-5,0\n0,10,5,1\n# a turn\n0.001,9.5,-5,0\n0.001,9.5,5,1\n"
+    shots = (
+        "t_s,azimuth_deg,elevation_deg,channel\n"
+        "0,10,-5,0\n0,10,5,1\n# a turn\n0.001,9.5,-5,0\n0.001,9.5,5,1\n"
+    )
     points = "# street level\nx_m,y_m,z_m\n0,0,1.5\n-20,-4,1.5\n"
 
     def scenario(trajectory: str, pattern_: str, shots_: str) -> Entry:
@@ -368,7 +383,7 @@ def csv() -> list[Case]:
 
 
 def sensors() -> list[dict]:
-    """Each output of each sensor, as small as it gets."""
+    """Returns sensors as small as possible that have every output."""
     return [
         {
             "name": "cam",
@@ -466,7 +481,7 @@ def data_scenario(ticks: int) -> dict:
 
 
 def scene_with_bottom() -> dict[str, Entry]:
-    """The walls of gltf_files, which every sensor sees something of."""
+    """Returns the walls of gltf_files, of which every sensor sees a part."""
     return gltf_files([("color.png", pictures.png(8, 4))])
 
 
@@ -612,8 +627,8 @@ def read_folder(folder: pathlib.Path, name: str) -> dict[str, Entry]:
 
 
 def interrupt(program: str, folder: pathlib.Path, env: dict) -> None:
-    """Leaves `cut`: one sequence that has ended and the first packets of another, as after Ctrl-C. Where the
-    signal comes is chance; the journal is shortened to what is there always."""
+    """Leaves `cut`: one finished sequence and the first packets of another, as after Ctrl-C. The time of the
+    signal is random, so the journal is shortened to the part that always exists."""
     journal, whole, kept = folder / "cut/journal.txt", 12 + 1, 12 + 1 + 3
     process = subprocess.Popen(
         [program, "generate", "long.yaml", "-o", "cut", "-q"], cwd=folder, env=env, stderr=subprocess.DEVNULL
@@ -636,7 +651,7 @@ def interrupt(program: str, folder: pathlib.Path, env: dict) -> None:
 
 
 def dataset(program: str, folder: pathlib.Path, env: dict) -> list[Case]:
-    """A finished data set, and one that a file-size limit has ended: `--resume` can go on with it."""
+    """Returns cases of a finished data set and of an interrupted one, which `--resume` can continue."""
     Case(
         "",
         [],

@@ -21,11 +21,11 @@ using testing::HasSubstr;
 
 struct Decoded {
   WebPAnimInfo info{};
-  std::vector<int> end_ms;  ///< of each frame
+  std::vector<int> end_ms;  ///< end of each frame, ms
   std::vector<Array> rgb;
 };
 
-/// By libwebp's decoder of animations.
+/// Decodes an animation by libwebp's own decoder.
 Decoded decode(const Bytes& file) {
   const WebPData data{reinterpret_cast<const uint8_t*>(file.data()), file.size()};
   const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
@@ -61,7 +61,7 @@ std::string error_of(const std::function<void()>& action) {
   return "";
 }
 
-/// Flat colours survive lossy coding: where they are, when, and for ever.
+/// Flat colours survive lossy coding at their places and times, in an animation that repeats for ever.
 TEST(Webp, KeepsColoursAndTimes) {
   const uint8_t colors[3][3] = {{200, 40, 30}, {20, 160, 60}, {90, 90, 220}};
   WebpAnimator animator(32, 16);
@@ -106,7 +106,8 @@ class AnimationOfSample : public testing::Test {
   const std::filesystem::path set_ = folder_.path() / "set";
 };
 
-/// Camera at 30 Hz over 70 ms: three moments, all of them; four panels, so two by two.
+/// The camera at 30 Hz has three frames in 70 ms, and the animation shows all of them. Four panels form a
+/// square of two by two.
 TEST_F(AnimationOfSample, ShowsWhatThePanelsShow) {
   const DatasetReader reader(set_);
   const AnimationFile written = write_animation(reader, folder_.path() / "first.webp", 40, 1);

@@ -34,7 +34,8 @@ TEST(Canvas, DrawsInsideItsClipOnly) {
 
 TEST(Canvas, TextHasTheGlyphsDots) {
   Canvas canvas(20, 20, {0, 0, 0});
-  canvas.text(0, 0, "!", 2, {255, 255, 255});  // one column of seven rows, the sixth empty
+  canvas.text(0, 0, "!", 2,
+              {255, 255, 255});  // the glyph is one column of seven rows, of which the sixth is empty
   const Array image = canvas.image();
   int white = 0;
   for (size_t i = 0; i < image.bytes.size(); i += 3) white += image.as<uint8_t>()[i] == 255;
@@ -106,7 +107,7 @@ TEST(ContactSheet, WorksForAnySensorAlone) {
   }
 }
 
-/// One path of known delay and amplitude: a line at that delay, |a| in dB, in the picture of |h|.
+/// A path of known delay and amplitude is a line at this delay in the picture of |h|. Its value is |a| in dB.
 TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
   const test::TemporaryFolder folder;
   constexpr double spacing = 240e3, delay = 700e-9, amplitude = 1e-4;
@@ -137,7 +138,8 @@ TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
   ASSERT_EQ(panels.series.size(), 2u);
   Canvas canvas(600, 400, theme::page);
   panels.series[0]->draw(canvas, {0, 0, 600, 400});
-  // The axis ends one eighth behind the last cell within 45 dB of the peak; the brightest row is the path's.
+  // The axis ends one eighth behind the last cell within 45 dB of the peak. The brightest row is that of the
+  // path.
   const Array image = canvas.image();
   int brightest = -1, row = -1;
   const int top = 8 + theme::line_height, height = 400 - 16 - 4 * theme::line_height;
@@ -146,8 +148,8 @@ TEST(ContactSheet, ImpulseResponsePeaksAtTheDelay) {
     if (pixel[0] + pixel[1] > brightest) brightest = pixel[0] + pixel[1], row = y;
   }
   const double fraction = 1.0 - static_cast<double>(row - top) / height;
-  // Hann's main lobe is +-2 / (256 spacing) = 32.6 ns wide; -45 dB is inside it. 4 * 256 cells of 4.07 ns to
-  // 1/spacing.
+  // Hann's main lobe is +-2 / (256 spacing) = 32.6 ns wide, and the point at -45 dB lies inside it. 4 * 256
+  // cells of 4.07 ns cover 1/spacing.
   const double end = 1.125 * (delay + 30e-9);
   EXPECT_NEAR(fraction * end, delay, 25e-9);
 }
@@ -163,7 +165,7 @@ TEST(ContactSheet, SeveralSideBySide) {
   }
   const Array sheet = comparison_sheet(readers);
   EXPECT_EQ(sheet.shape[1], 2 * 28 + 3 * 400 + 2 * 14);
-  // The same data give the same columns.
+  // Equal data give equal columns.
   const size_t column = 3 * 414, width = 3 * static_cast<size_t>(sheet.shape[1]);
   for (int64_t y = 0; y < sheet.shape[0]; ++y) {
     const std::byte* const line = sheet.bytes.data() + static_cast<size_t>(y) * width + 3 * 28;
@@ -198,7 +200,7 @@ TEST(EventPanels, GreyRedBlueAndBoth) {
   EXPECT_THROW(event_picture(x, y, p, 2, 2), UserError);
 }
 
-/// Normals, flow, boxes, events and differences that a data set has, from its files alone.
+/// The sheet shows normals, flow, boxes, events and differences from the files of a data set alone.
 TEST(ContactSheet, ShowsTruthAndEvents) {
   const test::TemporaryFolder folder;
   DatasetInfo info;
@@ -269,7 +271,7 @@ TEST(ContactSheet, ShowsTruthAndEvents) {
   for (const auto& panel : panels.frames) titles.push_back(panel->title());
   EXPECT_THAT(titles, ElementsAre("uav/cam rgb", "uav/cam normals", "uav/cam flow", "uav/cam boxes",
                                   "uav/events: ON red, OFF blue", "uav/events differences"));
-  const auto corner = [&](size_t panel) {  // of the first column and row
+  const auto corner = [&](size_t panel) {  // colour of the first column and row
     Canvas canvas(60, 80, theme::page);
     panels.frames[panel]->draw(canvas, {0, 0, 60, 40}, {0, 50, 60, 20}, 0);
     const Array image = canvas.image();

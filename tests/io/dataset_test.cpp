@@ -62,7 +62,7 @@ TEST(Dataset, WhatIsWrittenIsReadBack) {
       }
       ++records;
     }
-    // 30 Hz: 0, 33, 67; 20 Hz: 0, 50; 100 Hz: 7; 1 kHz: 70.
+    // 30 Hz: ticks 0, 33, 67. 20 Hz: ticks 0, 50. 100 Hz: 7 records. 1 kHz: 70 records.
     EXPECT_EQ(records, 3u + 2u + 7u + 70u);
   }
 }

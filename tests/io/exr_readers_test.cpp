@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenEXR as other programs read it: by the names of channels that they ask the OpenEXR library for. What a
-// file does not have the library fills with a slice's fill value, without a word. The rules are those of
+// Reads OpenEXR files as other programs do. They ask the OpenEXR library for channels by name. Where a file
+// lacks a channel, the library silently fills in the slice's fill value. The rules are those of
 //   OpenCV 4     modules/imgcodecs/src/grfmt_exr.cpp: R, G, B if the file has one of them, else Y as grey;
 //   FreeImage 3  Source/FreeImage/PluginEXR.cpp (imageio's reader): R, G, B if all are there, else Y.
-// Both were tried on files that greatx wrote (OpenCV 4.10, imageio 2.38 with FreeImage 3.18), as were ffmpeg
-// (gray32 from Y alone) and OpenImageIO (every channel).
+// Both programs were tried on files that greatx wrote (OpenCV 4.10, imageio 2.38 with FreeImage 3.18), as
+// were ffmpeg (gray32 from Y alone) and OpenImageIO (every channel).
 #include <Imath/ImathBox.h>
 #include <limits>
 
@@ -24,7 +24,7 @@
 namespace greatx::io {
 namespace {
 
-/// Interleaved pixels of these channels; zeros for those that the file lacks.
+/// Returns the interleaved pixels of these channels, with zeros for channels that the file lacks.
 std::vector<float> read_channels(const std::filesystem::path& path, const std::vector<const char*>& names) {
   Imf::InputFile file(path.c_str());
   const Imath::Box2i window = file.header().dataWindow();
@@ -79,12 +79,13 @@ TEST_F(ExrReaders, OfPicturesFindDepth) {
   int channels = 0;
   Imf::InputFile file(file_.c_str());
   for (auto at = file.header().channels().begin(); at != file.header().channels().end(); ++at) ++channels;
-  EXPECT_EQ(channels, 1);  // ffmpeg takes Y as grey only if it is alone
+  EXPECT_EQ(channels, 1);  // ffmpeg takes Y as grey only if Y is alone
 }
 
 TEST_F(ExrReaders, OfPicturesFindColours) { expect_same(written({16, 9, 3})); }
 
-/// Planes were called Z once: the bytes of such a file differ in that letter alone.
+/// Old data sets name the channel of a plane Z. The bytes of such a file differ from others in this letter
+/// alone.
 TEST_F(ExrReaders, OfGreatxReadOldDataSets) {
   const Array image = written({31, 45});
   Bytes file = encode_exr(image);
@@ -97,7 +98,8 @@ TEST_F(ExrReaders, OfGreatxReadOldDataSets) {
   const Array back = read_exr(file_);
   EXPECT_EQ(back.shape, image.shape);
   EXPECT_EQ(back.bytes, image.bytes);
-  EXPECT_THAT(as_opencv_reads(file_), testing::Each(0.0f));  // which is why it is no longer
+  EXPECT_THAT(as_opencv_reads(file_),
+              testing::Each(0.0f));  // other programs do not find Z, so greatx writes Y
 }
 
 }  // namespace

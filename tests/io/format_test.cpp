@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every encoder against a decoder, an independent one where there is one (stb for PNG, NumPy in
+// Tests every encoder against a decoder, which is an independent one where one exists (stb for PNG, NumPy in
 // numpy_test.cpp).
 #include <array>
 #include <cstdlib>
@@ -37,7 +37,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A picture with flat areas, gradients and noise.
+/// Returns a picture with flat areas, gradients and noise.
 template <typename T>
 Array test_picture(std::vector<int64_t> shape) {
   Array image(DTypeOf<T>::value, std::move(shape));
@@ -99,7 +99,7 @@ TEST(Png, OwnDecoderGivesTheInputBack) {
   }
 }
 
-/// u8 [height, width, 3] of `color(i)`, the pixels counted line by line.
+/// Returns a picture u8 [height, width, 3]. `color(i)` is the colour of pixel i, counted line by line.
 template <typename ColorOf>
 Array rgb_picture(int64_t height, int64_t width, ColorOf&& color) {
   Array image(DType::u8, {height, width, 3});
@@ -109,10 +109,10 @@ Array rgb_picture(int64_t height, int64_t width, ColorOf&& color) {
   return image;
 }
 
-constexpr size_t color_type_at = 25;  // in IHDR
+constexpr size_t color_type_at = 25;  // offset of the colour type in IHDR
 constexpr std::byte palette_type{3}, rgb_type{2};
 
-/// The pixels as stb reads them.
+/// Returns the pixels as stb reads them.
 std::vector<uint8_t> pixels_by_stb(const Bytes& file) {
   int width = 0, height = 0, channels = 0;
   stbi_uc* pixels =
@@ -130,7 +130,7 @@ TEST(Png, SmallIsAPaletteWhereItSuffices) {
     EXPECT_EQ(file[color_type_at], palette_type);
     EXPECT_THAT(pixels_by_stb(file), testing::ElementsAreArray(few.as<uint8_t>()));
   }
-  // More than 256 colours at any quantisation down to 5 bits: RGB, and exact.
+  // A picture with more than 256 colours at any quantisation down to 5 bits stays RGB and exact.
   const Array many = rgb_picture(64, 64, [](int i) {
     return std::array{i % 32 * 8, i / 32 % 32 * 8, i / 1024 * 60};
   });
@@ -140,7 +140,7 @@ TEST(Png, SmallIsAPaletteWhereItSuffices) {
 }
 
 TEST(Png, SmallInexactDropsAsFewBitsAsItTakes) {
-  // 512 greys and near-greys; without the lowest bit 256 at most.
+  // 512 greys and near-greys are at most 256 colours without the lowest bit.
   const Array image = rgb_picture(16, 32, [](int i) {
     return std::array{i / 2, i / 2, (i / 2 & ~1) + i % 2};
   });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files are read back by tinygltf, which shares no code with the writer.
+// Reads files back by tinygltf, which shares no code with the writer.
 #include "io/formats/glb_writer.h"
 
 #include <cmath>
@@ -85,7 +85,7 @@ TEST(GlbWriter, LinesComeBackWithYUp) {
 TEST(GlbWriter, PosesAndParentsComeBackWithYUp) {
   GlbWriter writer;
   const int root = writer.add_node({.name = "root"});
-  // A quarter turn to the left about z is one about glTF's y.
+  // A quarter turn to the left about z is a quarter turn about glTF's y.
   writer.add_node({.name = "child",
                    .parent = root,
                    .pose = {{10, 20, 30}, orientation_from_yaw_pitch_roll(0.5 * pi, 0, 0)}});
@@ -94,7 +94,8 @@ TEST(GlbWriter, PosesAndParentsComeBackWithYUp) {
   EXPECT_THAT(model.nodes.at(0).children, ElementsAre(1));
   EXPECT_THAT(model.nodes.at(1).translation, ElementsAre(10, 30, -20));
   const std::vector<double>& q = model.nodes.at(1).rotation;
-  const dvec3 turned = dquat(q[3], q[0], q[1], q[2]) * dvec3(1, 0, 0);  // x, which is to become y: glTF's -z
+  // The turn maps x to y, which is glTF's -z.
+  const dvec3 turned = dquat(q[3], q[0], q[1], q[2]) * dvec3(1, 0, 0);
   EXPECT_NEAR(glm::distance(turned, dvec3(0, 0, -1)), 0.0, 1e-15);
 }
 
@@ -118,7 +119,7 @@ GlbPrimitive a_triangle() {
   return triangle;
 }
 
-/// glTF's reading of where a light looks: -z, turned.
+/// Returns the direction of a light by glTF's rule: the node's rotation of -z.
 dvec3 aim_of(const tinygltf::Node& node) {
   const std::vector<double>& q = node.rotation;
   return dquat(q.at(3), q.at(0), q.at(1), q.at(2)) * dvec3(0, 0, -1);
@@ -135,7 +136,7 @@ TEST(GlbWriter, TexturesComeBackWithTheirMaterial) {
   triangle.material = 0;
   const int mesh = writer.add_mesh("m");
   writer.add_primitive(mesh, triangle);
-  // A texture of an odd number of bytes may not shift what lies behind it.
+  // A texture with an odd number of bytes must not shift the data behind it.
   const int color = writer.add_texture("color", png), glow = writer.add_texture("glow", png);
   GlbMaterial material;
   material.name = "lit";
@@ -161,7 +162,7 @@ TEST(GlbWriter, TexturesComeBackWithTheirMaterial) {
   EXPECT_EQ(model.samplers.size(), 1u);
   const tinygltf::Image& picture = model.images.at(static_cast<size_t>(model.textures[0].source));
   EXPECT_EQ(picture.name, "color");
-  ASSERT_EQ(picture.component, 4);  // tinygltf adds an alpha
+  ASSERT_EQ(picture.component, 4);  // tinygltf adds an alpha channel
   EXPECT_THAT(picture.image, ElementsAre(250, 128, 3, 255, 0, 64, 255, 255));
 
   const std::vector<tinygltf::Primitive>& primitives = model.meshes.at(0).primitives;
@@ -193,7 +194,7 @@ TEST(GlbWriter, LightsComeBackAndLookWhereTheyAim) {
   EXPECT_NEAR(glm::distance(aim_of(model.nodes.at(1)), dvec3(-0.6, 0, -0.8)), 0.0, 1e-6);
   EXPECT_TRUE(model.nodes.at(2).rotation.empty());
   EXPECT_EQ(model.nodes[2].extensions.at("KHR_lights_punctual").Get("light").GetNumberAsInt(), point);
-  // Straight back there is no shortest way: -y is glTF's +z.
+  // Straight back there is no shortest rotation: -y is glTF's +z.
   EXPECT_THROW(writer.add_node({.name = "back", .light = spot, .aim = {0, -1, 0}}), ContractError);
 }
 
@@ -211,14 +212,14 @@ TEST(GlbWriter, CompactFilesHoldTheSame) {
   EXPECT_EQ(primitives[0].mode, TINYGLTF_MODE_TRIANGLES);
   EXPECT_EQ(primitives[1].mode, TINYGLTF_MODE_LINE);
   EXPECT_THAT(values_of<uint16_t>(model, primitives[0].indices), ElementsAre(0, 1, 2));
-  // Rotations are rounded to float: sine and cosine of an eighth of a radian.
+  // Rotations are rounded to float: here the sine and cosine of an eighth of a radian.
   const Pose turned{{}, dquat(std::cos(0.125), 0.0, 0.0, std::sin(0.125))};
   for (GlbWriter* const writer : {&plain, &compact}) writer->add_node({.name = "turned", .pose = turned});
   EXPECT_THAT(read_back(compact.finish("s")).nodes.at(0).rotation,
               ElementsAre(0.0, double{0.12467473f}, 0.0, double{0.99219767f}));
   EXPECT_THAT(read_back(plain.finish("s")).nodes.at(0).rotation,
               ElementsAre(0.0, std::sin(0.125), 0.0, std::cos(0.125)));
-  // 65535 stands for a restart: a mesh that needs it has indices of 32 bits.
+  // The index 65535 stands for a restart, so that a mesh that needs it has indices of 32 bits.
   for (const uint32_t count : {65534u, 65535u}) {
     GlbPrimitive large_one = a_triangle();
     large_one.positions.resize(count, vec3(0, 0, 1));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Data sets that lie about themselves, and files that others take away: each is a UserError that names the
-// file.
+// Data sets that contradict their own metadata, and files that others take away. Each must end in a UserError
+// that names the file.
 #include <functional>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ class HostileDataset : public testing::Test {
   }
   fs::path set() const { return temporary_.path() / "set"; }
   fs::path cut() const { return temporary_.path() / "cut"; }
-  /// A data set whose writer went away behind `packets` packets.
+  /// Makes a data set whose writer stopped after `packets` packets.
   void leave(int64_t packets) const {
     DatasetWriter writer(cut(), info_);
     write_sample_run(writer, info_, packets);
@@ -50,7 +50,8 @@ class HostileDataset : public testing::Test {
     ASSERT_NE(at, text.npos) << what;
     write_file_atomically(file, text.replace(at, what.size(), with));
   }
-  /// What verify, the reader and the contact sheet say: a message of each UserError, the problems found.
+  /// Returns the messages of verify, the reader and the contact sheet: those of UserErrors, and the problems
+  /// found.
   std::string said(const fs::path& folder) const {
     std::string text;
     const auto run = [&](const std::function<void()>& action) {
@@ -362,7 +363,7 @@ TEST(HostileFiles, TheWayInside) {
 
 TEST(HostileFiles, RatesAndTicksGiveExactNumbersWithoutLoops) {
   const SampleClock extreme("1/1000000000000", "1000000000000");
-  EXPECT_THROW(extreme.samples_before(most_ticks), UserError);  // 10^36
+  EXPECT_THROW(extreme.samples_before(most_ticks), UserError);  // 10^36 samples
   EXPECT_THROW(extreme.time_ns(most_ticks), UserError);
   for (const char* rate :
        {"9223372036854775807", "1/9223372036854775807", "1000000000001", "1/0", "0", "-1", "1e9"})

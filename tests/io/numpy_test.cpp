@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// NumPy reads what we write: the README's lines for a sequence's CSI, memory-mapped, and every other .npy of
-// a set.
+// Checks that NumPy reads the files of a data set: a sequence's CSI, memory-mapped by the lines of the
+// README, and every other .npy file.
 #include <gtest/gtest.h>
 
 #include "io/files/file.h"
@@ -24,10 +24,11 @@ TEST(NumPy, MemoryMapsTheStackedCsi) {
     DatasetWriter writer(folder.path() / "set", sample_info());
     ASSERT_TRUE(write_sample_run(writer, sample_info()));
   }
-  // sample_cfr: element i of record k in sequence s is s + k - 1j i.
+  // By sample_cfr() element i of record k in sequence s is s + k - 1j i.
   EXPECT_EQ(python(folder.path(), R"(
 import numpy
-csi = numpy.load("set/sequence_0001/bs/csi/cfr.npy", mmap_mode="c")  # [batch, rx, rx_ant, tx, tx_ant, time, subcarrier]
+csi = numpy.load("set/sequence_0001/bs/csi/cfr.npy", mmap_mode="c")  # )"
+                                  R"([batch, rx, rx_ant, tx, tx_ant, time, subcarrier]
 assert isinstance(csi, numpy.memmap)
 assert csi.shape == (7, 1, 2, 1, 4, 1, 8), csi.shape
 assert csi.dtype == numpy.complex64 and csi.flags.c_contiguous and csi.offset == 256
@@ -49,7 +50,8 @@ import glob, numpy
 for f in glob.glob("set/**/*.npy", recursive=True):
     numpy.load(f, mmap_mode="r" if numpy.load(f).size else None)
 index = numpy.load("set/sequence_0000/index.npy")
-table = numpy.genfromtxt("set/sequence_0000/index.csv", delimiter=",", skip_header=1, usecols=range(5), dtype=numpy.int64)
+table = numpy.genfromtxt("set/sequence_0000/index.csv", delimiter=",", skip_header=1, )"
+                                  R"(usecols=range(5), dtype=numpy.int64)
 assert numpy.array_equal(index, table)
 camera = index[index[:, 2] == 0]
 assert camera[:, 0].tolist() == [0, 33, 67] and camera[:, 3].tolist() == [0, 1, 2]
@@ -81,13 +83,15 @@ def pcd(path):
 def ply(path):
     head, _, data = open(path, "rb").read().partition(b"end_header\n")
     kinds = {"float": "<f4", "ushort": "<u2"}
-    return numpy.frombuffer(data, [(w[2], kinds[w[1]]) for w in (line.split() for line in head.decode().splitlines())
+    return numpy.frombuffer(data, [(w[2], kinds[w[1]]) for w in )"
+                                  R"((line.split() for line in head.decode().splitlines())
                                    if w[0] == "property"])
 files = sorted(glob.glob("set/sequence_*/uav/lidar/pcd/*.pcd"))
 total = 0
 for path in files:
     points, cloud = pcd(path), ply(path.replace("/pcd/", "/cloud/").replace(".pcd", ".ply"))
-    kitti = numpy.fromfile(path.replace("/pcd/", "/velodyne/").replace(".pcd", ".bin"), numpy.float32).reshape(-1, 4)
+    kitti = numpy.fromfile(path.replace("/pcd/", "/velodyne/").replace(".pcd", ".bin"), )"
+                                  R"(numpy.float32).reshape(-1, 4)
     assert points.dtype.names == ("x", "y", "z", "intensity", "ring", "time") == cloud.dtype.names
     for name in points.dtype.names:
         assert numpy.array_equal(points[name], cloud[name]), name

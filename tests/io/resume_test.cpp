@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs that end badly: killed at any point, torn journal, full disk. Each is resumed and must give the bytes
-// of a run that was never interrupted.
+// Runs that end badly: killed at any point, with a torn journal or on a full disk. Each is resumed and must
+// give the bytes of a run without interruption.
 #include <csignal>
 #include <functional>
 #include <memory>
@@ -24,7 +24,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Runs `action` in a child process that ends without any clean-up; returns the child's exit code.
+/// Runs `action` in a child process that ends without any clean-up. Returns the child's exit code.
 int in_child(const std::function<int()>& action) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -43,7 +43,7 @@ int in_child(const std::function<int()>& action) {
 
 class Resume : public testing::Test {
  protected:
-  /// The run that was never interrupted, written once.
+  /// Writes the run without interruption once for all tests.
   static void SetUpTestSuite() {
     whole_folder = std::make_unique<test::TemporaryFolder>();
     DatasetWriter writer(whole(), sample_info());
@@ -53,7 +53,7 @@ class Resume : public testing::Test {
   static std::filesystem::path whole() { return whole_folder->path() / "whole"; }
   std::filesystem::path cut() const { return folder_.path() / "cut"; }
 
-  /// A run killed after `packets` packets, the last of them perhaps on their way.
+  /// Kills a run after `packets` packets. Unless `flush`, the last packets may not be written yet.
   void kill_after(int64_t packets, bool flush) {
     ASSERT_EQ(in_child([&] {
                 DatasetWriter writer(cut(), info_, {.threads = 2});
@@ -105,7 +105,7 @@ TEST_F(Resume, TheNextTickIsTheOneAfterTheLastCommit) {
 }
 
 TEST_F(Resume, KilledBySignal) {
-  // No packet is promised here: the kill comes whenever it comes.
+  // The kill comes at an arbitrary time, so the test expects no particular packet.
   const pid_t child = ::fork();
   if (child == 0) {
     DatasetWriter writer(cut(), info_, {.threads = 2});
@@ -150,7 +150,7 @@ TEST_F(Resume, APacketWhoseFilesAreTornIsDropped) {
 
 TEST_F(Resume, CutShortWhileASequenceIsClosed) {
   kill_after(70, true);
-  // As if publish() had renamed two of the stacks and the index was half written.
+  // The state is as if publish() had renamed two of the stacks and the index was half written.
   for (const char* stack : {"sequence_0000/bs/csi/cfr.npy", "sequence_0000/poses/position.npy"})
     std::filesystem::rename(part_name(cut() / stack), cut() / stack);
   std::filesystem::copy_file(whole() / stack_path(0, info_.sensors[3], info_.sensors[3].outputs[0]),
@@ -188,7 +188,8 @@ TEST_F(Resume, AClosedSequenceThatLostAFileIsNotResumed) {
   EXPECT_THROW(DatasetWriter(cut(), info_, {.resume = true}), UserError);
 }
 
-/// The size of a file is limited instead of the disk: the same path through the code, without a disk to fill.
+/// Limits the size of a file instead of the disk. The code takes the same path, and no disk needs to be
+/// filled.
 TEST_F(Resume, AFullDiskIsAUserErrorAndResumable) {
   for (const rlim_t limit : {400, 1000, 2500, 5000, 9000, 12000}) {
     SCOPED_TRACE(limit);

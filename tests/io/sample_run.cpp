@@ -82,7 +82,7 @@ std::vector<Array> camera_arrays(RandomStream random) {
 }
 
 std::vector<Array> lidar_arrays(RandomStream random) {
-  const int64_t count = random.below(40);  // sometimes none
+  const int64_t count = random.below(40);  // may be 0
   Array points(DType::f32, {count, 4}), ring(DType::u16, {count}), time(DType::f32, {count});
   for (float& value : points.as<float>()) value = static_cast<float>(random.uniform(-50.0, 50.0));
   for (uint16_t& value : ring.as<uint16_t>()) value = static_cast<uint16_t>(random.below(64));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every kind of damage is found and named. Damage that the hashes would find anyway is given a matching
-// manifest, so that the check behind them is seen to work.
+// Every kind of damage must be found and named. For damage that the hashes would find first, the tests
+// correct the manifest, so that the check behind the hashes is tested.
 #include "io/dataset/verify.h"
 
 #include <functional>
@@ -41,7 +41,7 @@ class Verify : public testing::Test {
     bytes.at(at) ^= std::byte{1};
     write_file_atomically(folder() / path, bytes);
   }
-  /// Replaces a file and corrects the manifest.
+  /// Replaces a file and corrects the manifest to match.
   void forge(const std::string& path, std::span<const std::byte> bytes) const {
     const Bytes old = read_file(folder() / path);
     write_file_atomically(folder() / path, bytes);
@@ -91,7 +91,7 @@ TEST_F(Verify, AMissingIndexOrScenario) {
 
 TEST_F(Verify, AnExtraFile) {
   write_file_atomically(folder() / "sequence_0000/uav/cam/rgb/000003.png", std::string_view("x"));
-  write_file_atomically(folder() / "contact_sheet.png", std::string_view("x"));  // a known companion
+  write_file_atomically(folder() / "contact_sheet.png", std::string_view("x"));  // a known extra file
   EXPECT_EQ(
       problems(),
       "sequence_0000/uav/cam/rgb/000003.png: does not belong to the data set: expected no such file, found a "

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recomputes a data set's channels from its paths and its paths' fields from their vertices; prints the
-largest differences and fails if one is beyond its bound. Usage: check_channel.py DATASET [CHANNEL]"""
+"""Recomputes a data set's channels from its paths, and the fields of its paths from their vertices. Prints
+the largest differences and fails if one exceeds its bound. Usage: check_channel.py DATASET [CHANNEL]"""
 import sys
 
 import numpy as np
@@ -11,7 +11,7 @@ from dataset import C, Channel
 
 
 class Worst:
-    """The largest of each named difference, its bound and where it was."""
+    """Keeps the largest value of each named difference, its bound and where it occurred."""
 
     def __init__(self):
         self.rows = {}
@@ -19,7 +19,7 @@ class Worst:
     def add(self, name, value, bound, where):
         value = float(np.max(value, initial=0.0))
         count, worst, least, at = self.rows.get(name, (0, -1.0, bound, ""))
-        # Bounds may differ from one comparison to the next: the one nearest to its bound (or over it) is
+        # Bounds may differ between comparisons. The value nearest to its bound, or farthest beyond it, is
         # shown.
         nearer = not value * least <= worst * bound if bound > 0 else not value <= worst
         self.rows[name] = (count + 1, *((value, bound, where) if nearer else (worst, least, at)))
@@ -30,7 +30,8 @@ class Worst:
             wrong = not worst <= bound
             bad += wrong
             print(
-                f"{'FAIL' if wrong else 'ok':4} {name:48} {worst:9.2e} <= {bound:.0e}  ({count} compared; {at})"
+                f"{'FAIL' if wrong else 'ok':4} {name:48} "
+                f"{worst:9.2e} <= {bound:.0e}  ({count} compared; {at})"
             )
         return bad
 
@@ -62,7 +63,8 @@ def points_of(p, i, tx, rx):
 
 
 def known_normals(channel):
-    """Of every facet that some path is reflected at: where others pass through it, that is its normal."""
+    """Returns the normal of every facet that reflects some path. Paths that pass through the facet need
+    it."""
     normals = {}
     for record in range(len(channel)):
         p = channel.paths(record)
@@ -82,7 +84,7 @@ def known_normals(channel):
 
 
 def check_identity(p, worst, known, where):
-    """An id is a sequence of interactions and a sequence of interactions is an id, whatever the tick."""
+    """Checks that ids and sequences of interactions correspond one to one, at all ticks."""
     for i in range(len(p["rx"])):
         sequence = tuple(tuple(p[name][i]) for name in ("interaction", "facet", "element"))
         by_id = known.setdefault(int(p["id"][i]), sequence)
@@ -107,10 +109,10 @@ def check_foliage(channel, p, i, length, worst, where):
 
 
 def check_transfer(channel, p, i, points, normals, worst, where):
-    """Reflections and walls passed, where the data set says enough: not with rough or scattering walls (what
-    they take is not in it), nor through a wall that no path of the data set is reflected at. What gas, fog
-    and leaves take is the same for all polarizations: then the strength is fitted, and must not be above
-    1."""
+    """Checks the transfer matrix of a path of reflections and transmissions if the data set says enough. It
+    does not for rough or scattering walls, whose losses it lacks, nor for a wall that reflects no path of the
+    data set. Gas, fog and leaves attenuate all polarizations alike. With one of them a factor is fitted,
+    which must not exceed 1."""
     types = types_of(p, i)
     effects = channel.effects
     if not np.isin(types, (model.REFLECTION, model.TRANSMISSION)).all() or effects["rain"]:
@@ -162,7 +164,7 @@ def check_path(channel, p, i, tx, rx, normals, worst, where):
         )
     check_foliage(channel, p, i, length, worst, where)
     if np.linalg.norm(segments, axis=1).min() < 1e-3:
-        return  # both reflections of a corner: directions between them are rounding
+        return  # two reflections in a corner: the direction between them is rounding error
     for name, d in (("departure", segments[0]), ("arrival", -segments[-1])):
         error = np.linalg.norm(model.direction(p[name][i]) - model.unit(d))
         worst.add(f"{name} over the vertices, rad", error, 1e-9 * max(1, 100 / np.linalg.norm(d)), where)
@@ -181,15 +183,16 @@ def check_record(channel, record, worst, normals, known):
             q = {name: array[mine] for name, array in p.items()}
             where = f"tick {tick}, {tx['name']} to {rx['name']}"
             worst.add("path_count", abs(channel.path_count[row, r, t] - len(mine)), 0, where)
-            # The paths are of the arrays' origins: where every element has its own, they do not make H.
+            # Paths lead between the origins of the arrays. If every element has its own paths, H is not their
+            # sum.
             same = not meta["dispersion"] and not channel.every_element[row, r, t]
             link = channel.path_gain[row, r, t], channel.line_of_sight[row, r, t], same
             check_link(channel, record, tx, rx, q, stored[r][:, t], link, normals, worst, where)
 
 
 def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
-    """Of one transmitter and receiver: their paths q, H [rx_ant, tx_ant, time, subcarrier], (path_gain,
-    line_of_sight, whether H is made of q)."""
+    """Checks the link of one transmitter and one receiver. `q` holds its paths, `stored` is H [rx_ant,
+    tx_ant, time, subcarrier], `link` is (path_gain, line_of_sight, whether H is the sum of the paths)."""
     meta = channel.meta
     tx_place, tx_turn = channel.end(record, tx)
     rx_place, rx_turn = channel.end(record, rx)
@@ -223,9 +226,11 @@ def check_link(channel, record, tx, rx, q, stored, link, normals, worst, where):
 
 
 def check_doppler(channel, worst):
-    """Doppler against differences of the delay (fourth order), paths matched by their ids. Bound: 1 mHz, four
-    times what central differences of second order say otherwise, and the jump between the one-sided ones
-    (way-points, where a lever turns with the velocity, have one)."""
+    """Compares Doppler shifts with differences of the delay (fourth order). Ids match the paths of different
+    ticks. The bound is 1 mHz, plus four times the deviation from central differences of second order, plus
+    the jump between the one-sided differences. This jump occurs at way-points, where a lever turns with the
+    velocity.
+    """
     tables = []
     for record in range(len(channel)):
         p = channel.paths(record)

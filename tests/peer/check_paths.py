@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the paths of data sets (first record, receivers by position) with a list of all paths that exist.
-Usage: check_paths.py REFERENCE DATASET...   Prints one row a data set: found, missing, extra, doubled,
-differences.
+"""Compares the paths of data sets (first record, receivers matched by position) with a list of all paths that
+exist. Prints one row for each data set: found, missing, extra and doubled paths, and differences.
+Usage: check_paths.py REFERENCE DATASET...
 
 REFERENCE has lines `receiver i x y z` and `path i depth length x y z ...` (vertices from the transmitter)."""
 import sys
@@ -40,8 +40,8 @@ def main():
             place, _ = channel.end(0, description)
             i = min(receivers, key=lambda k: np.linalg.norm(receivers[k] - place))
             assert np.linalg.norm(receivers[i] - place) < 1e-6
-            # The list is of reflections: paths with a wall passed, an edge or a patch are none of its
-            # business.
+            # The list holds reflections only, so paths with transmissions, diffractions or scatterings are
+            # left out.
             mine = [k for k in np.flatnonzero(p["rx"] == r) if (p["interaction"][k] <= 1).all()]
             ours = [
                 (p["delay"][k] * C, p["vertex"][k][: np.count_nonzero(p["interaction"][k])]) for k in mine
@@ -64,7 +64,8 @@ def main():
                 f"  extra: receiver {i}, depth {len(v)}, {l:.6f} m {np.round(v, 4).tolist()}" for l, v in left
             ]
         print(
-            f"{folder}: {channel.meta['candidates'].get('guarantee', 'no search')}; {found} of {total} found, {extra} extra, {doubled} doubled; "
+            f"{folder}: {channel.meta['candidates'].get('guarantee', 'no search')}; "
+            f"{found} of {total} found, {extra} extra, {doubled} doubled; "
             f"largest difference: length {length_difference:.1e} m, vertex {vertex_difference:.1e} m"
         )
         print("\n".join(notes), end="\n" if notes else "")

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Reads what the channel checks need of a data set, by docs/dataset.md alone: NumPy and JSON, nothing of
-greatx."""
+"""Reads the parts of a data set that the channel checks need, by docs/dataset.md alone. Uses NumPy and JSON
+and nothing of greatx."""
 import json
 import pathlib
 
@@ -11,7 +11,7 @@ C = 299792458.0
 
 
 def rotation(q):
-    """3x3 matrix of the unit quaternion w, x, y, z."""
+    """Returns the 3x3 matrix of the unit quaternion w, x, y, z."""
     w, x, y, z = np.asarray(q, float) / np.linalg.norm(q)
     return np.array(
         [
@@ -23,7 +23,7 @@ def rotation(q):
 
 
 class Channel:
-    """One channel sensor of one sequence."""
+    """Reads one channel sensor of one sequence."""
 
     def __init__(self, folder, name=None, sequence=0):
         self.folder = pathlib.Path(folder)
@@ -57,7 +57,7 @@ class Channel:
         return len(self.records)
 
     def paths(self, record):
-        """Arrays of the paths of the record-th record of the channel, by name."""
+        """Returns the arrays of the paths in the channel's record number `record`, by name."""
         row = self.records[record][1]
         out = {}
         for name, array in self.arrays.items():
@@ -70,7 +70,7 @@ class Channel:
         return np.array(self.cfr[self.records[record][1]])
 
     def end(self, record, description):
-        """World position and world_from_antenna matrix of an antenna at a record."""
+        """Returns the world position and the world_from_antenna matrix of an antenna at a record."""
         node = self.nodes.index(description["name"].split("/")[0])
         row = self.records[record][2]
         turn = rotation(self.orientation[row, node])

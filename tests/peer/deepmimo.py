@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Does DeepMIMO's own loader read what `greatx.convert deepmimo` writes, and does it compute our channel from
-it?
+"""Checks that DeepMIMO's own loader reads the files of `greatx.convert deepmimo` and computes greatx's
+channel from them.
 
     python3 tests/peer/deepmimo.py [PROGRAM]
 
-makes an environment with DeepMIMO 4.0.5 below build/peer/ (the first time), runs a scenario of its own with
-PROGRAM (build/release/greatx), converts it both ways, loads it with `deepmimo.load` and holds against the
-data set: positions, delays, angles, interactions, the time convention, and the channel that DeepMIMO computes
-between single isotropic antennas. Prints the largest difference of each kind beside its bound; exits with 1
-beyond one.
+The first run makes an environment with DeepMIMO 4.0.5 below build/peer/. The script runs a scenario of its
+own with PROGRAM (build/release/greatx), converts it both ways and loads it with `deepmimo.load`. It then
+compares with the data set: positions, delays, angles, interactions, the time convention, and the channel that
+DeepMIMO computes between single isotropic antennas. It prints the largest difference of each kind beside its
+bound, and exits with 1 if one exceeds its bound.
 """
 import contextlib
 import io
@@ -33,19 +33,22 @@ nodes:
     trajectory: {type: static, position_m: [6.3, -21.7, 9.4], rotation_deg: [90, 0, 0]}
     sensors: [{name: antenna, type: antenna}]
   - name: near
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 1.6]}, {t_s: 1, position_m: [2.4, -20, 1.6]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 1.6]}, \
+{t_s: 1, position_m: [2.4, -20, 1.6]}]}
     sensors: [{name: antenna, type: antenna}]
   - name: far
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2.4, 30, 1.6]}, {t_s: 1, position_m: [-2.4, 45, 1.6]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2.4, 30, 1.6]}, \
+{t_s: 1, position_m: [-2.4, 45, 1.6]}]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: bs/antenna, rx: [near/antenna, far/antenna], rate_hz: 20, carrier_hz: 28e9, bandwidth_hz: 400e6,
+  - {name: csi, tx: bs/antenna, rx: [near/antenna, far/antenna], rate_hz: 20, carrier_hz: 28e9, \
+bandwidth_hz: 400e6,
      subcarriers: 512, time_samples: 2, time_spacing_s: 1e-4, max_depth: 3}
 """
 
 
 def set_up(program):
-    """Runs this script again inside an environment that has DeepMIMO."""
+    """Runs this script again inside an environment that has DeepMIMO. Returns its exit code."""
     python = ENVIRONMENT / "bin/python"
     stamp = ENVIRONMENT / f"deepmimo-{VERSION}"
     if not stamp.is_file():
@@ -71,7 +74,7 @@ def set_up(program):
 
 
 class Worst:
-    """The largest of each named difference and its bound."""
+    """Keeps the largest value of each named difference and its bound."""
 
     def __init__(self):
         self.rows = {}
@@ -88,13 +91,14 @@ class Worst:
         for name, (count, worst, bound) in self.rows.items():
             bad += not worst <= bound
             print(
-                f"{'ok' if worst <= bound else 'FAIL':4} {name:58} {worst:9.2e} <= {bound:.0e}  ({count} compared)"
+                f"{'ok' if worst <= bound else 'FAIL':4} {name:58} "
+                f"{worst:9.2e} <= {bound:.0e}  ({count} compared)"
             )
         return bad
 
 
 def check_link(theirs, user, record, rx, worst):
-    """One receiver of a deepmimo.Dataset against one of a record."""
+    """Compares one receiver of a deepmimo.Dataset with one receiver of a record."""
     import numpy as np
     from greatx.links import antenna_pose, receivers, transmitters
 
@@ -139,7 +143,7 @@ def check_link(theirs, user, record, rx, worst):
         1e-5,
     )
 
-    # Their grid begins at the carrier: their subcarrier k is our k + N/2.
+    # DeepMIMO's grid begins at the carrier: its subcarrier k is greatx's k + N/2.
     half = meta["subcarriers"] // 2
     h = theirs.channel[user, 0, 0].T * np.sqrt(meta["subcarriers"])
     want = record["cfr"][rx, 0, 0, 0, :, half:]
@@ -158,7 +162,7 @@ def check_link(theirs, user, record, rx, worst):
 
 
 def compute(theirs, folder, meta):
-    """Their channel of single antennas: [user, 1, 1, subcarrier, time]."""
+    """Computes DeepMIMO's channel of single antennas: [user, 1, 1, subcarrier, time]."""
     import deepmimo as dm
     import numpy as np
 
@@ -213,6 +217,6 @@ def check(program):
 
 if __name__ == "__main__":
     if "--inside" in sys.argv:
-        sys.path.pop(0)  # this folder, whose deepmimo.py is this file
+        sys.path.pop(0)  # this folder holds this file, which would hide the package deepmimo
         sys.exit(check(sys.argv[2]))
     sys.exit(set_up(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/greatx"))

@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A channel model of its own: from ITU-R P.2040-4, TR 38.901 section 7 and docs/channel.md, not from rf/."""
+"""An independent channel model, from ITU-R P.2040-4, TR 38.901 section 7 and docs/channel.md, not from
+rf/."""
 import numpy as np
 
 from dataset import C
 
 EPSILON_0 = 8.8541878128e-12
-# P.2040-4, Table 3: (a, b, c, d, from GHz, to GHz), rows that hold below 100 GHz.
+# P.2040-4, Table 3: (a, b, c, d, from GHz, to GHz). Only the rows that hold below 100 GHz.
 ITU = {
     "concrete": (5.24, 0, 0.0462, 0.7822, 1, 100),
     "brick": (3.91, 0, 0.0238, 0.16, 1, 40),
@@ -42,7 +43,8 @@ def direction(zenith_azimuth):
 
 
 def basis(d):
-    """theta-hat and phi-hat at a direction [3]; at the poles phi = 0, whatever the sign of its zeros."""
+    """Returns theta-hat and phi-hat at a direction [3]. At the poles phi is 0, whatever the sign of the
+    zeros."""
     d = np.where(np.abs(d) < 1e-15, 0.0, d)
     t, p = np.arctan2(np.hypot(d[0], d[1]), d[2]), np.arctan2(d[1], d[0])
     return (
@@ -52,14 +54,15 @@ def basis(d):
 
 
 def fresnel(wall, cosine, wavelength):
-    """(r_TE, r_TM) of a wall: [(eta, thickness), ...], by the impedance of a chain of lines (Pozar, 2.5): a
-    way of its own, neither eq. 43 of P.2040 nor its recursion. Thickness 0 in the last layer: half-space,
-    else vacuum behind."""
+    """Returns (r_TE, r_TM) of a wall [(eta, thickness), ...] by the impedance of a chain of lines (Pozar,
+    2.5). This is independent of eq. 43 of P.2040 and of its recursion. If the last layer has thickness 0, it
+    is a half-space. Otherwise vacuum lies behind it."""
 
     def admittances(eta):
         n = np.sqrt(complex(eta) - 1 + cosine**2)
         n = -n if n.imag > 0 else n
-        return n, n, eta / n if n != 0 else 0j  # normal component; TE and TM admittance over that of vacuum
+        # The normal component, and the TE and TM admittances relative to vacuum.
+        return n, n, eta / n if n != 0 else 0j
 
     layers = [(complex(e), t) for e, t in wall]
     if layers[-1][1] > 0:
@@ -70,13 +73,13 @@ def fresnel(wall, cosine, wavelength):
         tan = np.tan(2 * np.pi / wavelength * n * thickness)
         y_te = line_te * (y_te + 1j * line_te * tan) / (line_te + 1j * y_te * tan)
         y_tm = line_tm * (y_tm + 1j * line_tm * tan) / (line_tm + 1j * y_tm * tan)
-    # TM as P.2040 has it: the sign of the reflected field on k x s, which is that of H.
+    # TM by the convention of P.2040: the reflected field has the sign on k x s, which is that of H.
     return (cosine - y_te) / (cosine + y_te), -(1 / cosine - y_tm) / (1 / cosine + y_tm)
 
 
 def passed(wall, cosine, wavelength):
-    """(t_TE, t_TM) of a wall as a sheet, by chain (ABCD) matrices of its layers; the way that the wave would
-    have gone in vacuum is taken off, since the path's length has it."""
+    """Returns (t_TE, t_TM) of a wall as a sheet, by the chain (ABCD) matrices of its layers. The phase of the
+    same way in vacuum is taken off, because the path's length contains it."""
     te = np.eye(2, dtype=complex)
     tm = np.eye(2, dtype=complex)
     for eta, thickness in wall:
@@ -98,9 +101,9 @@ REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = 1, 2, 3, 4
 
 
 def bisectors(points, types):
-    """The normals of the facets that a path is reflected at, by interaction; NaN where it is not."""
+    """Returns the normals of the facets that reflect a path, by interaction. Other interactions have NaN."""
     turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
-    k = unit(np.diff(points[turning], axis=0))  # walls passed do not bend
+    k = unit(np.diff(points[turning], axis=0))  # transmissions do not bend the path
     normals = np.full((len(types), 3), np.nan)
     for i, at in enumerate(np.flatnonzero(turning)[1:-1] - 1):
         if types[at] == REFLECTION:
@@ -109,9 +112,9 @@ def bisectors(points, types):
 
 
 def transfer(points, types, walls, normals, wavelength):
-    """2x2 transfer of a path through points [n + 2, 3] with n interactions (reflections, walls passed), world
-    basis of departure and arrival. Normals of reflections are the bisectors: nothing of the scene is needed
-    but those of the walls passed, given in `normals` [n, 3]."""
+    """Returns the 2x2 transfer matrix of a path through points [n + 2, 3] with n interactions (reflections
+    and transmissions), in the world basis of departure and arrival. The normals of reflections are the
+    bisectors. `normals` [n, 3] gives those of the walls passed, and nothing else of the scene is needed."""
     own = bisectors(points, types)
     turning = np.concatenate([[True], np.asarray(types) != TRANSMISSION, [True]])
     k = unit(np.diff(points[turning], axis=0))
@@ -134,7 +137,7 @@ def transfer(points, types, walls, normals, wavelength):
 
 
 def table_field(table, zenith, azimuth):
-    """(F_theta, F_phi) of an imported pattern, bilinear in zenith and azimuth."""
+    """Returns (F_theta, F_phi) of an imported pattern, bilinear in zenith and azimuth."""
     rows, columns = table["zeniths"], table["azimuths"]
     part = (
         lambda name: np.array(table[name].split(), float).reshape(rows, columns)
@@ -153,7 +156,7 @@ def table_field(table, zenith, azimuth):
 
 
 def element_field(antenna, tables, zenith, azimuth):
-    """(F_theta, F_phi) without slant, antenna frame (docs/scenario.md)."""
+    """Returns (F_theta, F_phi) without slant in the antenna frame (docs/scenario.md)."""
     shape = antenna["pattern"]
     if shape == "isotropic":
         return 1.0, 0.0
@@ -170,10 +173,10 @@ def element_field(antenna, tables, zenith, azimuth):
 
 
 def element_positions(antenna):
-    """[elements, 3], array frame."""
+    """Returns the positions of the elements, [elements, 3], in the array frame."""
     if "elements_m" in antenna:
         return np.array(antenna["elements_m"], float)
-    along = [np.eye(3)["xyz".index(axis)] for axis in antenna["plane"]]  # of columns, of rows
+    along = [np.eye(3)["xyz".index(axis)] for axis in antenna["plane"]]  # direction of columns, of rows
     offset = lambda n, spacing: (np.arange(n) - (n - 1) / 2) * spacing
     across, up = offset(antenna["columns"], antenna["column_spacing_m"]), offset(
         antenna["rows"], antenna["row_spacing_m"]
@@ -182,8 +185,8 @@ def element_positions(antenna):
 
 
 def array_response(antenna, tables, turn, d, wavelength):
-    """[ports, 2]: field pattern on the world's (theta, phi) at the world direction d, with the element's
-    phase."""
+    """Returns [ports, 2]: the field pattern on the world's (theta, phi) at the world direction d, with the
+    element's phase."""
     own = turn.T @ d
     own_theta, own_phi = basis(own)
     zenith, azimuth = np.arctan2(np.hypot(own[0], own[1]), own[2]), np.arctan2(own[1], own[0])
@@ -193,7 +196,7 @@ def array_response(antenna, tables, turn, d, wavelength):
     for slant in np.radians(antenna["slants_deg"]):
         if antenna["polarization_model"] == 2:
             lead = np.cos(slant) * own_theta + np.sin(slant) * own_phi
-        else:  # eq. 7.3-3: theta-hat of an axis rolled by the slant
+        else:  # eq. 7.3-3: theta-hat of an axis that is rolled by the slant
             axis = np.array([0, -np.sin(slant), np.cos(slant)])
             lead = (axis @ own) * own - axis
             lead = unit(lead) if np.linalg.norm(lead) > 1e-12 else own_theta
@@ -203,14 +206,14 @@ def array_response(antenna, tables, turn, d, wavelength):
 
 
 def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, delays):
-    """[paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}; `tx`, `rx`: descriptions of the
-    ends."""
+    """Returns the amplitudes [paths, rx_ant, tx_ant] at the carrier, with e^{-j 2 pi f_c tau}. `tx` and `rx`
+    are the descriptions of the ends."""
     wavelength = C / meta["carrier_hz"]
     tables = meta["pattern_tables"]
     out = []
     for t, d, a, tau in zip(transfers, departures, arrivals, delays):
         from_tx = array_response(tx, tables, tx_turn, direction(d), wavelength)
-        # C_R^H: by reciprocity a port receives with the pattern that it radiates with, transposed, not
+        # C_R^H: by reciprocity a port receives with the pattern with which it radiates, transposed and not
         # conjugated.
         at_rx = array_response(rx, tables, rx_turn, direction(a), wavelength)
         out.append(
@@ -223,7 +226,7 @@ def amplitudes(meta, tx, tx_turn, rx, rx_turn, transfers, departures, arrivals, 
 
 
 def response(meta, amplitude, delays, dopplers):
-    """[rx_ant, tx_ant, time, subcarrier]."""
+    """Returns H [rx_ant, tx_ant, time, subcarrier]."""
     f = (np.arange(meta["subcarriers"]) + meta["first_subcarrier"]) * meta["subcarrier_spacing_hz"]
     t = np.arange(meta["time_samples"]) * (meta["time_spacing_s"] if meta["doppler_in_time_samples"] else 0)
     over_f = np.exp(-2j * np.pi * np.outer(delays, f))

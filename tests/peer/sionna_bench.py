@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""One row of the table for Sionna RT, in a process of its own: sionna_bench.py ROW JSON prints one JSON
-object. Times are wall clock up to the amplitudes and delays being in NumPy arrays; everything before the
-first one is said apart."""
+"""Measures one row of the table for Sionna RT in a process of its own: `sionna_bench.py ROW JSON` prints one
+JSON object. A time is the wall clock time until amplitudes and delays are in NumPy arrays. The time before
+the first solve is stated separately."""
 import time
 
 BEGIN = time.perf_counter()
@@ -19,7 +19,7 @@ from sionna_paths import case_called  # noqa: E402
 
 
 def arrays(paths):
-    """What a user takes away; reading them makes Dr.Jit finish."""
+    """Returns the arrays that a user takes away. Reading them makes Dr.Jit finish."""
     return [
         np.array(x)
         for x in (
@@ -43,8 +43,8 @@ def timed(call):
 
 
 def first(sionna, receivers, settings):
-    """The first solve, kernels compiled or fetched from Dr.Jit's own cache, then `repeat` more at other
-    places."""
+    """Times the first solve, whose kernels are compiled or come from Dr.Jit's own cache, and then `repeat`
+    more at other places."""
     import mitsuba as mi
 
     sionna.place(receivers[:1])
@@ -64,7 +64,7 @@ def first(sionna, receivers, settings):
 
 
 def many(sionna, receivers, settings):
-    """All receivers in one call, or one at a time; once to warm up, then once."""
+    """Times all receivers in one call, or one at a time: once to warm up, then once more."""
     sionna.place(receivers)
     call = lambda: arrays(sionna.solve(**settings["solve"]))  # noqa: E731
     cold_ms, _ = timed(call)
@@ -74,8 +74,8 @@ def many(sionna, receivers, settings):
 
 
 def digest(sionna, receivers, settings):
-    """Of the arrays as they come, and of the paths put in order (sets of paths may be equal where bytes are
-    not)."""
+    """Returns hashes of the arrays as they come and of the sorted paths. Sets of paths may be equal where the
+    bytes differ."""
     sionna.place(receivers)
     out = arrays(sionna.solve(**settings["solve"]))
     whole = hashlib.sha256(b"".join(a.tobytes() for a in out)).hexdigest()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Frequency responses beside each other, with antennas, and what their difference comes from."""
+"""Compares frequency responses, with several antennas, and finds the cause of differences."""
 import dataclasses
 
 import mitsuba as mi
@@ -14,7 +14,7 @@ FREQUENCIES = (np.arange(SUBCARRIERS) - SUBCARRIERS // 2) * BANDWIDTH / SUBCARRI
 
 
 def sionna_response(sionna, receivers, samples, normalize_delays=False, **options):
-    """paths.cfr() of each receiver alone: [rx, rx_ant, tx_ant, subcarrier]."""
+    """Returns paths.cfr() of each receiver alone: [rx, rx_ant, tx_ant, subcarrier]."""
     out = []
     for position in receivers:
         sionna.place([position])
@@ -27,7 +27,7 @@ def sionna_response(sionna, receivers, samples, normalize_delays=False, **option
 
 
 def slabs_put_right(case, referee, paths):
-    """The paths with the way through walls counted once."""
+    """Returns the paths with the phase of the way through walls counted once."""
     out = []
     for path in paths:
         verdict = referee.judge(path) if "T" in path.kinds else {"exists": False}
@@ -37,7 +37,7 @@ def slabs_put_right(case, referee, paths):
 
 
 def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, report):
-    """Isotropic, V and H at both ends."""
+    """Compares H of isotropic antennas with polarizations V and H at both ends."""
     few = receivers[:10]
     theirs = [p for p in theirs if p.receiver < len(few)]
     reference = response([p for p in ours if p.receiver < len(few)], case, FREQUENCIES, len(few))
@@ -64,13 +64,14 @@ def compare(case, greatx, sionna, referee, ours, theirs, receivers, result, repo
         report(f"    {name:62s} {median:10.1f} {worst:9.1f}")
     largest = max((p.delay for p in theirs), default=0.0)
     report(
-        f"    (fp32 phase: 2 pi f tau of up to {2 * np.pi * case.carrier_hz * largest:.0f} rad has a last bit of "
+        f"    (fp32 phase: 2 pi f tau of up to {2 * np.pi * case.carrier_hz * largest:.0f} rad "
+        f"has a last bit of "
         f"{2 * np.pi * case.carrier_hz * largest * 2**-24:.1e} rad; {C * largest:.0f} m)"
     )
 
 
-# Sionna RT's pattern, polarization; greatx's fields; rows, columns, their spacing in wavelengths;
-# synthetic_array
+# Columns: name; Sionna RT's pattern and polarization; greatx's fields; rows, columns and their spacing in
+# wavelengths; synthetic_array.
 ANTENNAS = [
     ("isotropic, V", "iso", "V", "pattern: isotropic, polarization: v", (1, 1, 0.5, 0.5), True),
     (
@@ -117,9 +118,9 @@ ANTENNAS = [
 
 
 def port_order(array, rows, columns, vertical, horizontal, polarizations):
-    """For each of greatx's ports ((row * columns + column) * polarizations + polarization, rows upwards,
-    columns to +y, +45 deg before -45) the number of Sionna RT's (patterns outermost, rows downwards, -45 deg
-    first)."""
+    """Returns the number of Sionna RT's port for each of greatx's ports. greatx numbers its ports by (row *
+    columns + column) * polarizations + polarization, with rows upwards, columns towards +y and +45 deg before
+    -45 deg. In Sionna RT patterns are outermost, rows go downwards and -45 deg comes first."""
     y, z = np.array(array.normalized_positions.y), np.array(array.normalized_positions.z)
     column = np.round(y / horizontal + (columns - 1) / 2).astype(int)
     row = np.round(z / vertical + (rows - 1) / 2).astype(int)
@@ -130,7 +131,8 @@ def port_order(array, rows, columns, vertical, horizontal, polarizations):
 
 
 def arrays(case, greatx, sionna, receivers, result, report):
-    """Antennas at the transmitter, V and H isotropic at the receivers, no walls passed: H port by port."""
+    """Compares H port by port: antennas at the transmitter, isotropic V and H at the receivers, opaque
+    walls."""
     case = dataclasses.replace(case, name=case.name + "_arrays", walls=0)
     sionna.case = case
     few = receivers[:6]
@@ -140,7 +142,10 @@ def arrays(case, greatx, sionna, receivers, result, report):
         sionna.antennas(pattern, polarization, rows, columns, vertical, horizontal)
         theirs = sionna_response(sionna, few, 1e6, synthetic_array=synthetic)
         order = port_order(sionna.scene.tx_array, rows, columns, vertical, horizontal, polarization)
-        text = f", {fields}, rows: {rows}, columns: {columns}, row_spacing_wl: {vertical}, column_spacing_wl: {horizontal}"
+        text = (
+            f", {fields}, rows: {rows}, columns: {columns}, "
+            f"row_spacing_wl: {vertical}, column_spacing_wl: {horizontal}"
+        )
         ours = greatx.response(
             case, few, text, ", polarization: vh", f", every_element: {'off' if synthetic else 'on'}"
         )

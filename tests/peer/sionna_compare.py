@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The comparison: pairs, and for whatever is no pair the reason, with a referee that is neither tool."""
+"""Pairs the paths of both tools. For each path without a partner a referee independent of both finds the
+reason."""
 import collections
 import json
 
@@ -15,7 +16,7 @@ from sionna_paths import CASES, case_called
 from sionna_referee import Referee
 from sionna_side import Sionna, scene_file
 
-# Where to look for a path that Sionna RT did not find: what finds it says why it was not.
+# Searches for a path that Sionna RT did not find. The settings that find the path explain why it was missing.
 SEARCHES = [
     ("another seed", {"seed": 7}),
     ("10 x the rays", {"samples": 1e7}),
@@ -28,7 +29,7 @@ def report(text=""):
 
 
 def why_missing(sionna, case, receivers, missing, options):
-    """The first of SEARCHES that finds each path, by the path's position in the list."""
+    """Returns, by position in `missing`, the first of SEARCHES that finds each path."""
     reasons = {}
     for name, settings in SEARCHES:
         left = [i for i in range(len(missing)) if i not in reasons]
@@ -74,7 +75,7 @@ def table_of(counter):
 
 
 def sets(case, referee, sionna, options, ours, theirs, receivers, result):
-    """Who has what, and who is right about it."""
+    """Reports which tool has which paths, and which tool is right about them."""
     pairs, missing, extra, doubled = pair(ours, theirs)
     report(f"  greatx {len(ours)}, Sionna RT {len(theirs)}; pairs {len(pairs)}")
     reasons = (
@@ -107,7 +108,8 @@ def sets(case, referee, sionna, options, ours, theirs, receivers, result):
             report(line)
     for title, path, what, verdict in examples[:12]:
         report(
-            f"      e.g. {title}: rx{path.receiver} {path.kinds or 'LoS'} {path.length:.4f} m {path.gain_db:.1f} dB {what} "
+            f"      e.g. {title}: rx{path.receiver} {path.kinds or 'LoS'} "
+            f"{path.length:.4f} m {path.gain_db:.1f} dB {what} "
             f"{verdict.get('why', '')} {'edge %.3f mm' % verdict['edge_mm'] if 'edge_mm' in verdict else ''}"
         )
     result |= {
@@ -122,8 +124,8 @@ def sets(case, referee, sionna, options, ours, theirs, receivers, result):
 
 
 def fields(case, referee, pairs, result):
-    """Delays, angles and transfers of the pairs; where transfers differ, whether a slab's phase is why, and
-    whom the peers' own model of slabs agrees with."""
+    """Compares delays, angles and transfer matrices of the pairs. Where transfers differ, it tests whether
+    the phase of a slab is the cause, and with which tool the peer checks' own model of slabs agrees."""
     if not pairs:
         return
     d = differences(pairs)
@@ -163,7 +165,8 @@ def fields(case, referee, pairs, result):
         else:
             groups[kind].append((d[i, 3], own, np.nan, corrected))
     report(
-        "  transfer, relative (median / worst)     between the two     greatx - model    Sionna - model    Sionna, slab's phase put right"
+        "  transfer, relative (median / worst)     between the two     "
+        "greatx - model    Sionna - model    Sionna, slab's phase put right"
     )
     result["transfer"] = {}
     for kind, rows in sorted(groups.items()):
@@ -180,7 +183,7 @@ def fields(case, referee, pairs, result):
 
 
 def recall(case, greatx, receivers, result):
-    """greatx's own exhaustive reference on the imported scene."""
+    """Runs greatx's own exhaustive reference on the imported scene."""
     if case.diffraction or not case.recall:
         return
     answer = greatx.recall(case, receivers)
@@ -193,8 +196,10 @@ def recall(case, greatx, receivers, result):
 
 def compare(case, options, program):
     report(
-        f"\n{case.name}: {case.scene}, transmitter {case.transmitter}, {case.count} receivers, depth {case.depth}, "
-        f"{case.walls} walls at most{', diffraction' if case.diffraction else ''}, {case.carrier_hz / 1e9:g} GHz, "
+        f"\n{case.name}: {case.scene}, transmitter {case.transmitter}, "
+        f"{case.count} receivers, depth {case.depth}, "
+        f"{case.walls} walls at most{', diffraction' if case.diffraction else ''}, "
+        f"{case.carrier_hz / 1e9:g} GHz, "
         f"{options.samples:.0e} rays, one receiver a call"
     )
     xml = scene_file(case, options.work)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""greatx's answer, by its commands."""
+"""Asks greatx for its paths and channels by its commands."""
 import json
 import shutil
 import subprocess
@@ -113,7 +113,7 @@ class Greatx:
         return out
 
     def response(self, case, receivers, tx_antenna="", rx_antenna="", more=""):
-        """H [rx, rx_ant, tx_ant, subcarrier] of a generated data set."""
+        """Returns H [rx, rx_ant, tx_ant, subcarrier] of a generated data set."""
         folder = self.work / f"dataset_{case.name}"
         shutil.rmtree(folder, ignore_errors=True)
         self.run(
@@ -127,8 +127,8 @@ class Greatx:
         return np.load(folder / "sequence_0000" / "csi" / "cfr.npy")[0, :, :, 0, :, 0, :]
 
     def recall(self, case, receivers):
-        """What greatx bench --recall says: found, missing, doubled, extra, held against its exhaustive
-        reference."""
+        """Returns the figures of `greatx bench --recall`: found, missing, doubled and extra paths, compared
+        with greatx's exhaustive reference."""
         return json.loads(
             self.run(
                 "bench",

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Radio maps beside each other: 300 x 300 cells of 1 m, depth 3, one transmitter, isotropic and vertical at
-both ends."""
+"""Compares radio maps: 300 x 300 cells of 1 m, depth 3, one transmitter, isotropic and vertical at both
+ends."""
 import json
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ CENTER, SIZE, HEIGHT = (60.0, -80.0), 300.0, 1.5
 
 
 def greatx_map(table):
-    """(process figures, gain in dB [rows, columns]) of `greatx map`, or None where there is no such
+    """Returns (process figures, gain in dB [rows, columns]) of `greatx map`, or None if there is no such
     command."""
     from sionna_table import process
 
@@ -56,13 +56,15 @@ def rows(table):
     table.say(f"Radio map, {cells} x {cells} cells of 1 m at {HEIGHT} m, etoile, depth 3, opaque walls:")
     table.say()
     table.say(
-        "| | whole process | in a warm process | CPU | cells with power | beside greatx: median, 95 % of abs(dB) |"
+        "| | whole process | in a warm process | CPU | cells with power "
+        "| beside greatx: median, 95 % of abs(dB) |"
     )
     table.say("|---|---|---|---|---|---|---|")
     if ours:
         lit = int(np.isfinite(ours[1]).sum())
         table.say(
-            f"| greatx map (each cell's centre, exact paths) | {ours[0]['wall_s']:.1f} s | – | {ours[0]['cpu_s']:.0f} s | "
+            f"| greatx map (each cell's centre, exact paths) | {ours[0]['wall_s']:.1f} s | – "
+            f"| {ours[0]['cpu_s']:.0f} s | "
             f"{lit} | – |"
         )
     else:
@@ -87,11 +89,13 @@ def rows(table):
                 (~(theirs > 0) & np.isfinite(ours[1])).sum()
             )
             beside = (
-                f"{np.median(difference):.2f}, {np.percentile(difference, 95):.1f}; power in {only[0]} cells that have none "
+                f"{np.median(difference):.2f}, {np.percentile(difference, 95):.1f}; "
+                f"power in {only[0]} cells that have none "
                 f"here, none in {only[1]} that have"
             )
         table.say(
-            f"| Sionna RT, {samples:.0e} rays (mean over a cell) | {got['wall_s']:.1f} s | {got['steady_ms'] / 1e3:.2f} s | "
+            f"| Sionna RT, {samples:.0e} rays (mean over a cell) | {got['wall_s']:.1f} s "
+            f"| {got['steady_ms'] / 1e3:.2f} s | "
             f"{got['cpu_s']:.0f} s | {got['lit']} | {beside} |"
         )
         table.results.setdefault("map", {})[f"{samples:.0e}"] = got

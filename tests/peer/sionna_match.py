@@ -3,9 +3,9 @@
 """Pairs the paths of two answers one to one, and measures how far the pairs are apart."""
 import numpy as np
 
-POINT_M = (
-    0.25  #: the same point: fp32 moves points of grazing reflections by some 30 mm at some hundred metres
-)
+#: Largest distance of equal points, m. fp32 moves points of grazing reflections by some 30 mm at some hundred
+#: metres.
+POINT_M = 0.25
 LENGTH_M = 2e-3
 
 
@@ -19,7 +19,8 @@ def same_polyline(a, b):
 
 
 def pair(greatx, sionna):
-    """(pairs, missing in Sionna RT, left over in Sionna RT, doubled in Sionna RT [(path, its first)])."""
+    """Returns (pairs, paths missing in Sionna RT, paths of Sionna RT left over, paths doubled in Sionna RT).
+    The last list holds (path, the first path that equals it)."""
     by_receiver = {}
     for path in greatx:
         by_receiver.setdefault((path.receiver, path.kinds), []).append(path)
@@ -44,7 +45,7 @@ def pair(greatx, sionna):
 
 
 def doubled_within(paths):
-    """Paths of one answer that say the same as another of it."""
+    """Returns the number of paths that equal an earlier path of the same answer."""
     groups = {}
     for p in paths:
         groups.setdefault((p.receiver, p.kinds), []).append(p)
@@ -54,7 +55,7 @@ def doubled_within(paths):
 
 
 def angle_between(a, b):
-    """rad, between two directions given by zenith and azimuth."""
+    """Returns the angle in rad between two directions given by zenith and azimuth."""
     u, v = (np.array([np.sin(z) * np.cos(p), np.sin(z) * np.sin(p), np.cos(z)]) for z, p in (a, b))
     return np.arctan2(np.linalg.norm(np.cross(u, v)), u @ v)
 
@@ -65,7 +66,8 @@ def relative(found, expected):
 
 
 def differences(pairs):
-    """Per pair: delay (s), angles of both ends (rad), transfer (relative), vertices (m)."""
+    """Returns for each pair the differences of delay (s), both angles (rad), transfer (relative) and points
+    (m)."""
     out = []
     for ours, theirs in pairs:
         out.append(
@@ -81,7 +83,8 @@ def differences(pairs):
 
 
 def response(paths, case, frequencies, count):
-    """H [count of receivers, 2, 2, k] of a list of paths with fp64 phases; frequencies about the carrier."""
+    """Returns H [count of receivers, 2, 2, k] of a list of paths with fp64 phases. Frequencies are relative
+    to the carrier."""
     out = np.zeros((count, 2, 2, len(frequencies)), complex)
     for p in paths:
         phase = np.exp(-2j * np.pi * (((case.carrier_hz + frequencies) * p.delay) % 1.0))
@@ -90,7 +93,8 @@ def response(paths, case, frequencies, count):
 
 
 def nmse_db(found, expected):
-    """Over everything of a receiver; the median and the worst of the receivers with any power, dB."""
+    """Returns the median and the largest NMSE in dB over the receivers with any power. The NMSE of a receiver
+    covers all its values."""
     values = []
     for a, b in zip(found, expected):
         power = np.sum(np.abs(b) ** 2)

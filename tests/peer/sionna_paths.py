@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the two tools' answers are turned into, and the cases that they are asked."""
+"""Defines the form to which the answers of both tools are converted, and the cases for which they are
+asked."""
 import dataclasses
 
 import numpy as np
@@ -10,16 +11,18 @@ C = 299792458.0
 
 @dataclasses.dataclass
 class Path:
-    """One path, transmitter to receiver."""
+    """One path from the transmitter to the receiver."""
 
     receiver: int
-    kinds: str  #: a letter an interaction: R reflection, T wall passed, D diffraction; "" line of sight
+    #: A letter for each interaction: R reflection, T transmission, D diffraction. "" is a line of sight.
+    kinds: str
     points: np.ndarray  #: [n + 2, 3] m: transmitter, interactions, receiver
     delay: float  #: s
     departure: np.ndarray  #: zenith, azimuth, rad
-    arrival: np.ndarray  #: the same, from the receiver back along the path
-    transfer: np.ndarray  #: [2, 2] (lambda / 4 pi) T: (theta, phi) at the receiver by (theta, phi) at the transmitter
-    materials: list = dataclasses.field(default_factory=list)  #: of greatx: one name an interaction
+    arrival: np.ndarray  #: zenith, azimuth from the receiver back along the path, rad
+    #: [2, 2]: (lambda / 4 pi) T, which maps (theta, phi) at the transmitter to (theta, phi) at the receiver.
+    transfer: np.ndarray
+    materials: list = dataclasses.field(default_factory=list)  #: greatx only: a name for each interaction
     label: str = ""
 
     @property
@@ -34,25 +37,24 @@ class Path:
 
 @dataclasses.dataclass
 class Case:
-    """What both tools are asked."""
+    """A case that both tools solve."""
 
     name: str
-    scene: str  #: of sionna.rt.scene
+    scene: str  #: name in sionna.rt.scene
     transmitter: tuple
-    count: int  #: receivers
-    low: tuple  #: of the box that they are drawn from
-    high: tuple
+    count: int  #: number of receivers
+    low: tuple  #: lower corner of the box from which receivers are drawn, m
+    high: tuple  #: upper corner of the box, m
     carrier_hz: float = 3.5e9
     depth: int = 3
-    walls: int = 3  #: walls passed at most; 0: opaque in both tools
+    walls: int = 3  #: largest number of transmissions; 0: walls are opaque in both tools
     reflection: bool = True
     diffraction: bool = False
     seed: int = 1
     arrays: bool = False  #: compare antennas as well
-    recall: bool = (
-        True  #: run greatx's exhaustive reference, which large scenes with walls passed take hours for
-    )
-    material: str = ""  #: of P.2040: instead of all materials of the scene
+    #: Whether to run greatx's exhaustive reference, which takes hours for large scenes with transmissions.
+    recall: bool = True
+    material: str = ""  #: a material of P.2040 that replaces all materials of the scene
 
     @property
     def wavelength(self):

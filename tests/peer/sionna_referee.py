@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Decides whether a specular path exists: the image method and all triangles of the scene's own PLY files in
-fp64. Shares nothing with greatx (not even the imported file) nor with Sionna RT."""
+"""Decides whether a specular path exists, by the image method and all triangles of the scene's own PLY files
+in fp64. It shares nothing with greatx, not even the imported file, nor with Sionna RT."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 
@@ -22,8 +22,8 @@ TYPES = {
 
 
 def read_ply(file):
-    """Corners of the triangles [n, 3, 3] of a binary little-endian PLY file, which all of Sionna RT's scenes
-    are."""
+    """Returns the corners of the triangles [n, 3, 3] of a binary little-endian PLY file. All scenes of Sionna
+    RT have this form."""
     data = pathlib.Path(file).read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     header = data[:end].decode().split("\n")
@@ -44,7 +44,8 @@ def read_ply(file):
 
 
 class Referee:
-    tolerance = 5e-3  #: m: how far off a claimed point may be from the surface that it names (fp32 at some hundred metres)
+    #: Largest distance of a claimed point from the surface that it names, m (fp32 at some hundred metres).
+    tolerance = 5e-3
 
     def __init__(self, xml):
         xml = pathlib.Path(xml)
@@ -76,7 +77,7 @@ class Referee:
         self.edges = self._outlines()
 
     def _outlines(self):
-        """Edges [m, 2, 3] that are not between two triangles of one plane."""
+        """Returns the edges [m, 2, 3] that do not lie between two triangles of one plane."""
         edges = {}
         for t, corners in enumerate(self.triangles):
             keys = [tuple(np.round(corner, 4)) for corner in corners]
@@ -91,7 +92,8 @@ class Referee:
         return np.array(out)
 
     def distance_to_triangles(self, point):
-        """m, to each triangle's plane, and how far outside of it (0: inside)."""
+        """Returns the distance in m to each triangle's plane, and how far outside the triangle the point lies
+        (0: inside)."""
         height = self.normals @ point - self.offsets
         foot = point - height[:, None] * self.normals
         outside = np.zeros(len(height))
@@ -103,7 +105,7 @@ class Referee:
         return np.abs(height), outside
 
     def crossings(self, a, b):
-        """(t, triangle) of all triangles that the segment crosses, 0 < t < 1, in order."""
+        """Returns (t, triangle) of all triangles that the segment crosses, 0 < t < 1, in order."""
         d = b - a
         slope = self.normals @ d
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -118,7 +120,7 @@ class Referee:
         return sorted(zip(t[hit], hit))
 
     def edge_distance(self, a, b):
-        """m, from the segment to the nearest outline."""
+        """Returns the distance in m from the segment to the nearest outline."""
         p, q = self.edges[:, 0], self.edges[:, 1]
         u, v, w = b - a, q - p, a - p
         uu, uv, vv = u @ u, v @ u, np.einsum("ij,ij->i", v, v)
@@ -131,7 +133,8 @@ class Referee:
         return np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1).min()
 
     def planes_at(self, point, before, after):
-        """The triangle that reflects at a claimed point: near it, and across the bisector."""
+        """Returns the triangle that reflects at a claimed point: it is near the point and across the
+        bisector."""
         height, outside = self.distance_to_triangles(point)
         near = np.flatnonzero((height < self.tolerance) & (outside < 0.1))
         if len(near) == 0:
@@ -143,8 +146,8 @@ class Referee:
         return near[best][np.argmin(outside[near[best]])]
 
     def judge(self, path):
-        """A dictionary: exists, why, edge_mm (how near the exact path comes to an outline), length
-        (exact)."""
+        """Returns a dictionary: exists, why, edge_mm (distance of the exact path from the nearest outline),
+        length (exact)."""
         turning = [i for i, k in enumerate(path.kinds) if k != "T"]
         if any(path.kinds[i] != "R" for i in turning):
             return {"exists": None, "why": "not specular"}
@@ -198,8 +201,8 @@ class Referee:
         return answer | {"exists": True, "why": "", "walls": walls, "corners": corners, "faces": faces}
 
     def distinct(self, p, q, own):
-        """Surfaces crossed; triangles that meet on the seam are one, those of the mirrors at the ends
-        none."""
+        """Returns the surfaces crossed. Triangles that meet at a seam count as one, and those of the mirrors
+        at the ends do not count."""
         length = np.linalg.norm(q - p)
         out = []
         for t, face in self.crossings(p, q):
@@ -217,12 +220,13 @@ class Referee:
         return out
 
     def _seam(self, a, b):
-        """Two triangles share an edge (and so are one surface where a ray passes it)."""
+        """Returns whether two triangles share an edge, and so are one surface for a ray that passes there."""
         shared = sum(any(np.abs(p - q).max() < 1e-6 for q in self.triangles[b]) for p in self.triangles[a])
         return shared == 2
 
     def field(self, path, verdict, case):
-        """(lambda / 4 pi) T [2, 2] of a path that exists, by the peers' model of P.2040 slabs."""
+        """Returns (lambda / 4 pi) T [2, 2] of a path that exists, by the peer checks' model of P.2040
+        slabs."""
         points, walls, types, normals = [verdict["corners"][0]], [], [], []
         crossed = list(verdict["walls"])
         mirrors = list(verdict["faces"])
@@ -245,8 +249,8 @@ class Referee:
         return case.wavelength / (4 * np.pi) * t
 
     def slab_phase(self, path, verdict, case):
-        """rad: k d cos(theta) summed over the walls passed: the way through them, which a path's length has
-        already."""
+        """Returns k d cos(theta) in rad, summed over the walls passed. This is the way through the walls,
+        which the path's length already contains."""
         total, at = 0.0, 0
         segments = np.diff(verdict["corners"], axis=0)
         crossed = list(verdict["walls"])
@@ -264,14 +268,14 @@ class Referee:
         return a + d0 / (d0 - d1) * (b - a)
 
     def draw_receivers(self, case):
-        """Positions in the case's box with nothing but sky above and something below (or anywhere in a closed
-        scene)."""
+        """Draws positions in the case's box that have nothing above them. In a closed scene any position will
+        do."""
         random = np.random.default_rng(case.seed)
         out = []
         for _ in range(100000):
             if len(out) == case.count:
                 break
-            # Whole millimetres that a float holds exactly, so that both tools have the same ones.
+            # Both tools get the same positions: whole millimetres, rounded to float.
             p = np.float32(np.round(random.uniform(case.low, case.high), 3)).astype(float)
             if case.scene in ("box", "simple_wedge") or not self.crossings(p, p + [0, 0, 500.0]):
                 out.append(p)

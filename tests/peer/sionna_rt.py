@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""greatx beside Sionna RT 2.2.0: same scenes, same nodes, path by path, and what each costs (docs/sionna.md).
+"""Compares greatx with Sionna RT 2.2.0 on the same scenes and nodes, path by path and by cost
+(docs/sionna.md).
 
     python3 tests/peer/sionna_rt.py                  compare on all cases (minutes)
     python3 tests/peer/sionna_rt.py --case etoile    one of them (--list names them)
-    python3 tests/peer/sionna_rt.py --table          time and memory, in Markdown: wants a quiet machine
+    python3 tests/peer/sionna_rt.py --table          time and memory, in Markdown: needs a quiet machine
 
-Sets up an environment of its own (a venv with sionna-rt, some 600 MB) below the build folder at the first
-call. Needs Debian's libllvm19 (apt-get install libllvm19), python3-venv and a built greatx. Not part of
-./test.sh."""
+The first call sets up an environment of its own (a venv with sionna-rt, some 600 MB) below the build folder.
+The script needs Debian's libllvm19 (apt-get install libllvm19), python3-venv and a built greatx. It is not
+part of ./test.sh."""
 import argparse
 import pathlib
 import sys
@@ -44,7 +45,7 @@ def arguments():
 
 def main():
     options = arguments()
-    sionna_setup.enter(options.work)  # comes back inside the environment
+    sionna_setup.enter(options.work)  # returns inside the environment
     if options.table:
         import sionna_table
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The environment that Sionna RT runs in. Standard library alone: this runs before there is one."""
+"""Sets up the environment of Sionna RT. Uses the standard library alone, because it runs before there is
+one."""
 import ctypes.util
 import glob
 import os
@@ -13,7 +14,8 @@ PACKAGE = "sionna-rt==2.2.0"
 
 
 def find_llvm():
-    """Dr.Jit compiles its kernels with LLVM; libllvm15 fails on Sionna RT's, 19 does them."""
+    """Returns the LLVM library for Dr.Jit's kernels, or None. libllvm15 fails on Sionna RT's kernels, 19 does
+    not."""
     found = sorted(
         glob.glob("/usr/lib/*/libLLVM.so.19*")
         + glob.glob("/usr/lib/*/libLLVM-19.so*")
@@ -23,7 +25,7 @@ def find_llvm():
 
 
 def enter(work):
-    """Comes back only in a process whose Python has sionna.rt; makes the venv if it is missing."""
+    """Returns only in a process whose Python has sionna.rt. Makes the venv if it is missing."""
     if "DRJIT_LIBLLVM_PATH" not in os.environ:
         library = find_llvm()
         if library is None:
@@ -44,7 +46,7 @@ def enter(work):
 
 
 def program(options):
-    """The greatx to run."""
+    """Returns the path of the greatx to run."""
     for path in (
         [options.greatx]
         if options.greatx

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sionna RT's answer."""
+"""Asks Sionna RT for its paths."""
 import pathlib
 import re
 import shutil
@@ -15,7 +15,7 @@ LETTERS = {0: "", 1: "R", 2: "S", 4: "T", 8: "D"}
 
 
 def scene_file(case, work):
-    """The scene's XML file; with another material, that of a copy."""
+    """Returns the scene's XML file. If the case names a material, returns a copy with this material."""
     file = pathlib.Path(getattr(rt.scene, case.scene))
     if not case.material:
         return file
@@ -31,7 +31,7 @@ def scene_file(case, work):
 
 
 class Sionna:
-    """A scene with one transmitter and as many receivers as asked for."""
+    """Holds a scene with one transmitter and any number of receivers."""
 
     def __init__(self, case, work):
         self.case = case
@@ -43,7 +43,7 @@ class Sionna:
     def antennas(
         self, pattern, polarization, rows, columns, vertical=0.5, horizontal=0.5, receiver=("iso", "VH")
     ):
-        """The transmitter's array; the receivers have one element."""
+        """Sets the transmitter's array. The receivers have one element."""
         self.scene.tx_array = rt.PlanarArray(
             num_rows=rows,
             num_cols=columns,
@@ -78,12 +78,13 @@ class Sionna:
         )
 
     def paths(self, receivers, first=0, **options):
-        """Path objects of all receivers, solved in one call; their numbers begin at `first`."""
+        """Returns the Path objects of all receivers, solved in one call. Receivers are numbered from `first`
+        on."""
         self.place(receivers)
         return self.extract(self.solve(**options), receivers, first)
 
     def each_alone(self, receivers, **options):
-        """The same, one receiver a call: its best setting."""
+        """Returns the same, solved with one receiver in each call, which is Sionna RT's best setting."""
         out = []
         self.place(receivers[:1])
         device = self.scene.receivers["rx0"]

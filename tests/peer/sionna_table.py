@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The table of docs/sionna.md: time, memory, completeness, determinism of both tools on etoile, in Markdown.
-Each row runs in a process of its own; its wall time, CPU time and peak memory are those of that process."""
+"""Prints the table of docs/sionna.md in Markdown: time, memory, completeness and determinism of both tools on
+etoile. Each row runs in a process of its own. Wall time, CPU time and peak memory are those of this
+process."""
 import dataclasses
 import hashlib
 import importlib.metadata
@@ -24,8 +25,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def process(words, environment=None):
-    """(stdout, wall s, CPU s, peak MiB) of a program. The peak is at least this process's own, which the fork
-    starts from: right for Sionna RT's, which are larger; greatx states its own."""
+    """Returns (stdout, wall s, CPU s, peak MiB) of a program. The peak is at least that of this process, from
+    which the child is forked. This is right for Sionna RT, which needs more memory. greatx states its own
+    peak."""
     begin = time.perf_counter()
     with tempfile.TemporaryFile() as errors:
         child = subprocess.Popen(
@@ -81,7 +83,8 @@ class Table:
         return json.loads(output) | {"wall_s": wall, "cpu_s": cpu, "peak_mib": peak}
 
     def greatx_paths(self, count, cache, change=None, form="--brief"):
-        """The whole process: load, search, solve, print one line a receiver (or, --json, all there is)."""
+        """Runs a whole process: load, search, solve, print one line for each receiver (or everything with
+        --json)."""
         case = dataclasses.replace(self.case, **(change or {}))
         words = [
             self.program,
@@ -117,7 +120,8 @@ class Table:
         return json.loads(output)
 
     def moving(self, case):
-        """The scenario with its receiver on its way, a new place every tick."""
+        """Writes the scenario with a moving receiver, which has a new place at every tick. Returns the
+        file."""
         text = (
             self.greatx.scenario(case, self.receivers[:1]).read_text().replace("ticks: 1\n", "ticks: 100\n")
         )
@@ -144,9 +148,12 @@ class Table:
         about = self.greatx_radio(1)
         self.results["about"] = {k: about[k] for k in ("device", "driver", "facets")}
         self.say(
-            f"{os.cpu_count()} cores, {cpu}; load before: {os.getloadavg()[0]:.2f}. greatx: {about['device']}, "
-            f"{about['driver']}. Sionna RT {importlib.metadata.version('sionna-rt')}, Mitsuba {mitsuba.__version__}, "
-            f"Dr.Jit {drjit.__version__}, {os.environ['DRJIT_LIBLLVM_PATH'].split('/')[-1]}, Python {platform.python_version()}."
+            f"{os.cpu_count()} cores, {cpu}; load before: {os.getloadavg()[0]:.2f}. "
+            f"greatx: {about['device']}, "
+            f"{about['driver']}. Sionna RT {importlib.metadata.version('sionna-rt')}, "
+            f"Mitsuba {mitsuba.__version__}, "
+            f"Dr.Jit {drjit.__version__}, {os.environ['DRJIT_LIBLLVM_PATH'].split('/')[-1]}, "
+            f"Python {platform.python_version()}."
         )
         self.say()
         return about
@@ -164,18 +171,21 @@ class Table:
         cold, warm = self.greatx_paths(1, False), self.greatx_paths(1, True)
         warm = self.greatx_paths(1, True)
         self.say(
-            f"| process start to first answer, nothing cached but Sionna RT's kernels | {cold['wall_s']:.2f} s | "
+            f"| process start to first answer, nothing cached but Sionna RT's kernels "
+            f"| {cold['wall_s']:.2f} s | "
             + " | ".join(f"{s['to_first_ms'] / 1e3:.2f} s" for s in solves)
             + " |"
         )
         self.say(f"| the same, greatx's search cached | {warm['wall_s']:.2f} s | – | – |")
         self.say(
-            f"| one position after another, median | {one['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms | "
+            f"| one position after another, median "
+            f"| {one['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms | "
             + " | ".join(f"{s['steady_ms']:.0f} ms" for s in solves)
             + " |"
         )
         self.say(
-            f"| peak memory of that | {one['ticks']['reflection_transmission']['peak_rss_bytes'] / 2**20:.0f} MiB | "
+            f"| peak memory of that "
+            f"| {one['ticks']['reflection_transmission']['peak_rss_bytes'] / 2**20:.0f} MiB | "
             + " | ".join(f"{s['peak_mib']:.0f} MiB" for s in solves)
             + " |"
         )
@@ -188,13 +198,16 @@ class Table:
                 for s in ((1e6,) if self.options.quick or count > 100 else (1e6, 1e7))
             ]
             cells = " | ".join(
-                f"{s['steady_ms'] / 1e3:.2f} s (process {s['to_first_ms'] / 1e3:.1f} s), {s['peak_mib']:.0f} MiB, "
+                f"{s['steady_ms'] / 1e3:.2f} s (process {s['to_first_ms'] / 1e3:.1f} s), "
+                f"{s['peak_mib']:.0f} MiB, "
                 f"{s['cpu_s']:.0f} s CPU"
                 for s in theirs
             )
             self.say(
-                f"| {count} receivers in one call | {inside['ms'] / 1e3:.3f} s (process {ours['wall_s']:.2f} s), "
-                f"{inside['peak_rss_bytes'] / 2**20:.0f} MiB, {ours['cpu_s']:.1f} s CPU | {cells} |{' – |' if len(theirs) < 2 else ''}"
+                f"| {count} receivers in one call | {inside['ms'] / 1e3:.3f} s "
+                f"(process {ours['wall_s']:.2f} s), "
+                f"{inside['peak_rss_bytes'] / 2**20:.0f} MiB, {ours['cpu_s']:.1f} s CPU "
+                f"| {cells} |{' – |' if len(theirs) < 2 else ''}"
             )
             self.results[f"many_{count}"] = {"greatx": ours, "inside": inside, "sionna": theirs}
         ours = self.greatx_radio(1, walls)
@@ -202,7 +215,8 @@ class Table:
             "first", self.receivers[: repeat + 1], walls, solve={"samples": 1e6}, repeat=repeat
         )
         self.say(
-            f"| one position, walls of 0.1 m passed as well | {ours['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms"
+            f"| one position, walls of 0.1 m passed as well "
+            f"| {ours['ticks']['reflection_transmission']['tick_ms']['median']:.2f} ms"
             f" | {theirs['steady_ms']:.0f} ms | – |"
         )
         for name, change, key in (("diffraction as well", {"walls": 3, "diffraction": True}, "diffraction"),):
@@ -223,7 +237,8 @@ class Table:
         recall = self.greatx.recall(case, receivers)
         found = recall[0] if isinstance(recall, list) else recall
         self.say(
-            f"Completeness, {len(receivers)} receivers: greatx has {len(ours)} paths; its exhaustive reference says "
+            f"Completeness, {len(receivers)} receivers: greatx has {len(ours)} paths; "
+            f"its exhaustive reference says "
             f"{json.dumps(found['beams']['all'])}; doubled among its own: {doubled_within(ours)}."
         )
         self.say()
@@ -301,7 +316,8 @@ def main(options):
     table.maps()
     table.results["load"].append(os.getloadavg()[0])
     table.say(
-        f"Load of the machine before and after: {table.results['load'][0]:.2f}, {table.results['load'][1]:.2f}; "
+        f"Load of the machine before and after: {table.results['load'][0]:.2f}, "
+        f"{table.results['load'][1]:.2f}; "
         f"{(time.perf_counter() - begin) / 60:.0f} minutes for all of it."
     )
     if options.json:

@@ -1,23 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The exact field of a point source by an infinite, perfectly conducting wedge, and both tools' diffraction
-beside it.
+"""Computes the exact field of a point source near an infinite, perfectly conducting wedge, and compares the
+diffraction of both tools with it.
 
 J. J. Bowman, T. B. A. Senior, P. L. E. Uslenghi, Electromagnetic and Acoustic Scattering by Simple Shapes,
-ch. 6: the part that is not geometrical optics is, for an exterior angle n pi,
+ch. 6: for an exterior angle n pi the part that is not geometrical optics is
 
     u_d = -1/(4 pi n) sum over psi of (+1 for phi - phi0, -+1 for phi + phi0) and both signs of
           int e^{-jkR(y)}/R(y) sin((pi +- psi)/n) / (cosh(y/n) - cos((pi +- psi)/n)) dy,
     R(y)^2 = r^2 + r0^2 + 2 r r0 cosh y + (z - z0)^2,
 
-upper sign for E along the edge (Dirichlet), lower for E across it (Neumann). Taken along y = t e^{-j pi/4},
-where the integrand falls off like a Gaussian."""
+where the upper sign holds for E along the edge (Dirichlet) and the lower for E across it (Neumann). The
+integral is taken along y = t e^{-j pi/4}, where the integrand decays like a Gaussian."""
 import numpy as np
 import scipy.special
 
 
 def diffracted(k, n, source, receiver, sign):
-    """u_d for source and receiver (r, phi, z), phi from the lit face; sign -1: Dirichlet, +1: Neumann."""
+    """Returns u_d for source and receiver (r, phi, z), with phi from the lit face. sign -1: Dirichlet, +1:
+    Neumann."""
     (r0, phi0, z0), (r, phi, z) = source, receiver
     reach = np.sqrt(60 * (r + r0) / (k * r * r0))
     t = np.linspace(-reach, reach, 200001)
@@ -32,13 +33,13 @@ def diffracted(k, n, source, receiver, sign):
 
 
 def cylindrical(p):
-    """About the edge of Sionna RT's simple_wedge: the z axis, solid at x > 0, y < 0; phi from the face at y =
-    0."""
+    """Returns (r, phi, z) about the edge of Sionna RT's simple_wedge, which is the z axis. The solid is at x
+    > 0, y < 0, and phi counts from the face at y = 0."""
     return np.hypot(p[0], p[1]), np.arctan2(p[1], p[0]) % (2 * np.pi), p[2]
 
 
 def exact_transfer(path, case):
-    """(lambda/4 pi) diag(T_theta theta, T_phi phi) of a path over the edge of simple_wedge."""
+    """Returns (lambda/4 pi) diag(T_theta theta, T_phi phi) of a path over the edge of simple_wedge."""
     k = 2 * np.pi / case.wavelength
     source, receiver = cylindrical(path.points[0]), cylindrical(path.points[-1])
     turn = np.exp(1j * k * np.hypot(source[0] + receiver[0], receiver[2] - source[2]))
@@ -47,14 +48,15 @@ def exact_transfer(path, case):
 
 
 def transition(x):
-    """F of UTD (R. G. Kouyoumjian, P. H. Pathak, Proc. IEEE 62(11), 1974, eq. 26)."""
+    """Returns F of UTD (R. G. Kouyoumjian, P. H. Pathak, Proc. IEEE 62(11), 1974, eq. 26)."""
     s, c = scipy.special.fresnel(np.sqrt(2 * x / np.pi))
     return 2j * np.sqrt(x) * np.exp(1j * x) * np.sqrt(np.pi / 2) * ((0.5 - c) - 1j * (0.5 - s))
 
 
 def utd_terms(path, case, n=1.5):
-    """(lambda/4 pi) times the four terms of eq. 25, spreading included: (+, -) of phi - phi0, (+, -) of phi +
-    phi0. For a conductor E along the edge is (1, 1, -1, -1) of them and E across it (1, 1, 1, 1)."""
+    """Returns (lambda/4 pi) times the four terms of eq. 25 with spreading: (+, -) of phi - phi0, (+, -) of
+    phi + phi0. For a conductor E along the edge adds them with (1, 1, -1, -1), and E across it with (1, 1, 1,
+    1)."""
     (r0, phi0, z0), (r, phi, z) = cylindrical(path.points[0]), cylindrical(path.points[-1])
     k, sine = 2 * np.pi / case.wavelength, (r + r0) / np.hypot(r + r0, z - z0)
     s0, s = r0 / sine, r / sine
@@ -70,7 +72,7 @@ def utd_terms(path, case, n=1.5):
 
 
 def fit(paths, case, end, sign):
-    """With which factors a tool adds the four terms, and the relative rest."""
+    """Returns the factors with which a tool adds the four terms, and the relative rest."""
     terms = np.array([utd_terms(p, case) for p in paths])
     values = np.array([sign * p.transfer[end, end] for p in paths])
     weight = 1 / np.abs(terms).max(axis=1)
@@ -97,20 +99,24 @@ def compare(case, pairs, result, report):
         return
     rows = np.array(rows)
     report(
-        f"  {len(rows)} paths over the edge beside the exact field of a conducting wedge (UTD is asymptotic: some 1/kL):"
+        f"  {len(rows)} paths over the edge beside the exact field of a conducting wedge "
+        f"(UTD is asymptotic: some 1/kL):"
     )
     for name, error, soft, hard in (
         ("greatx", rows[:, 0], rows[:, 2], rows[:, 3]),
         ("Sionna RT", rows[:, 1], rows[:, 4], rows[:, 5]),
     ):
         report(
-            f"    {name:10s} relative: median {np.median(error):.1e}, worst {error.max():.1e};  median |dB|: E along the edge "
-            f"{np.median(np.abs(soft)):.2f} (worst {np.abs(soft).max():.2f}), across {np.median(np.abs(hard)):.2f} "
+            f"    {name:10s} relative: median {np.median(error):.1e}, worst {error.max():.1e};  "
+            f"median |dB|: E along the edge "
+            f"{np.median(np.abs(soft)):.2f} (worst {np.abs(soft).max():.2f}), "
+            f"across {np.median(np.abs(hard)):.2f} "
             f"(worst {np.abs(hard).max():.2f})"
         )
         result[f"wedge_{name}"] = [float(np.median(error)), float(error.max())]
     report(
-        "    factors of UTD's four terms that fit best (a conductor: 1 1 -1 -1 along the edge, 1 1 1 1 across), and the rest:"
+        "    factors of UTD's four terms that fit best "
+        "(a conductor: 1 1 -1 -1 along the edge, 1 1 1 1 across), and the rest:"
     )
     for name, which in (("greatx", 0), ("Sionna RT", 1)):
         paths = [pair[which] for pair in pairs if pair[0].kinds == "D"]

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The formulas of rf/channel/seed_formulas.h, left column, by code of their own; numbers are those of the
-// primer named there.
+// Compares greatx with the formulas of the left column of docs/formulas.md, which this file computes with
+// code of its own. Numbers in parentheses are equation numbers of the primer that the page names.
 #include <array>
 #include <cmath>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bézier trajectories, given and drawn; hard case 60: those without a direction.
+// Tests Bezier trajectories with given and with drawn control points. Hard case 60: curves without a
+// direction.
 #include <array>
 #include <cmath>
 
@@ -67,7 +68,7 @@ TEST(BezierPath, SpeedIsTheLimitOfDistanceOverTime) {
   for (const double dt : {0.1, 0.01, 0.001}) {
     const double error = glm::distance((path->at(4 + dt).pose.position - path->at(4).pose.position) / dt,
                                        path->at(4).velocity);
-    EXPECT_LT(error, 0.11 * previous);  // first order
+    EXPECT_LT(error, 0.11 * previous);  // the error is of first order in dt
     previous = error;
   }
 }
@@ -92,7 +93,8 @@ TEST(BezierPath, EndsKeepToBoxAndDistanceForThousandSeeds) {
       ASSERT_TRUE(glm::all(glm::greaterThanEqual(p, bezier.min_m - 1e-9)));
       ASSERT_TRUE(glm::all(glm::lessThanEqual(p, bezier.max_m + 1e-9)));
     }
-    // B'(0) = 3 (P1 - P0) / T: the offset at the middle is within its limits, and not always the same.
+    // B'(0) = 3 (P1 - P0) / T gives the offsets of P1 and P2 from the chord: both are within their limits,
+    // and they differ.
     const dvec3 offset1 = paths[0]->at(0).velocity * (10.0 / 3.0) - (ends[1] - ends[0]) / 3.0;
     const dvec3 offset2 = (ends[1] - ends[0]) / 3.0 - paths[0]->at(10).velocity * (10.0 / 3.0);
     for (const dvec3& offset : {offset1, offset2})
@@ -102,7 +104,7 @@ TEST(BezierPath, EndsKeepToBoxAndDistanceForThousandSeeds) {
 }
 
 TEST(BezierPath, EndsAreUniformInTheBox) {
-  // Mean of n uniform numbers: z-test at 4.5 sigma (7e-6) a coordinate.
+  // z-test of the mean of n uniform numbers, at 4.5 sigma (probability 7e-6) for each coordinate.
   const int n = 4000;
   dvec3 sum{0};
   for (uint64_t seed = 0; seed < n; ++seed) sum += course_of(drawn_bezier(), seed)->at(0).pose.position;
@@ -200,7 +202,7 @@ TEST(HardCase, N60_CoincidentControlPointsAtTheStart) {
   expect_finite(start);
   EXPECT_EQ(start.velocity, dvec3(0));
   expect_near(forward(start), {0, 1, 0}, 1e-12);  // B'' = 6 (P2 - P0)
-  // The limit from after, in attitude and in its rate.
+  // The attitude and its rate are the limits from after the start.
   expect_near(forward(path->at(1e-5)), forward(start), 1e-5);
   expect_near(path->at(1e-5).angular_velocity, start.angular_velocity, 1e-4);
   expect_near(forward(path->at(1e-11)), forward(start), 1e-8);
@@ -212,7 +214,7 @@ TEST(HardCase, N60_CoincidentControlPointsAtTheEnd) {
   const Motion end = path->at(10);
   expect_finite(end);
   EXPECT_EQ(end.velocity, dvec3(0));
-  expect_near(forward(end), {1, 0, 0}, 1e-9);  // from before: -B'' = 6 (P3 - P1)
+  expect_near(forward(end), {1, 0, 0}, 1e-9);  // the limit from before: -B'' = 6 (P3 - P1)
   expect_near(forward(path->at(10 - 1e-5)), forward(end), 1e-5);
 }
 
@@ -229,7 +231,7 @@ TEST(HardCase, N60_ThreeCoincidentControlPoints) {
 }
 
 TEST(HardCase, N60_CuspInTheMiddleKeepsTheAttitudeBefore) {
-  // B' = 0 at u = 1/2, then straight back.
+  // B' = 0 at u = 1/2. After it the curve goes straight back.
   const auto path = course_of(bezier_of({dvec3(0), dvec3(2, 0, 0), dvec3(2, 0, 0), dvec3(0)}));
   expect_near(forward(path->at(4.9)), {1, 0, 0}, 1e-12);
   expect_near(forward(path->at(5.0)), {1, 0, 0}, 1e-12);

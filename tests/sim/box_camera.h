@@ -8,8 +8,9 @@
 
 namespace greatx::test {
 
-/// A pinhole camera of `width` x `height` pixels without pictures. Its focal lengths differ, and its principal
-/// point lies between pixels, so that a swap of axes or a shift by half a pixel changes the results.
+/// Returns a pinhole camera of `width` x `height` pixels without pictures. Its focal lengths differ, and its
+/// principal point lies between pixels, so that a swap of axes or a shift by half a pixel changes the
+/// results.
 inline render::CameraDesc box_camera(uint32_t width = 96, uint32_t height = 64) {
   render::CameraDesc desc;
   desc.width = width;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes against projected vertices, dense samples and rays in fp64; how much of an object is seen in closed
-// form and against counting.
+// Compares boxes with projected vertices, with dense samples of edges and with rays in fp64. Compares how
+// much of an object is visible with closed forms and with counted pixels.
 #include "sim/sensors/camera/boxes.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ dvec3 projected(const CameraDesc& desc, const Pose& camera, const dvec3& point) 
   return {desc.cx - desc.fx * p.y / p.x, desc.cy - desc.fy * p.z / p.x, p.x};
 }
 
-/// Whether a ray meets a triangle beyond `near` times the ray (Moeller and Trumbore), fp64.
+/// Returns whether a ray meets a triangle at `near` times the ray or beyond (Moeller and Trumbore), in fp64.
 bool meets(const dvec3& eye, const dvec3& ray, const dvec3& a, const dvec3& b, const dvec3& c, double near) {
   const dvec3 e1 = b - a, e2 = c - a, across = glm::cross(ray, e2);
   const double det = glm::dot(e1, across);
@@ -73,7 +73,7 @@ uint32_t rays_that_meet(const Boxes::Object& object, const Pose& local_from_body
   return count;
 }
 
-/// Boxes in all directions and sizes around the origin, one a body, and where the bodies are.
+/// Holds boxes of all sizes and attitudes around the origin, one for each body, and the poses of the bodies.
 struct Crowd {
   TinyScene tiny;
   std::vector<Pose> bodies{Pose{}};
@@ -126,7 +126,7 @@ TEST(Boxes, AreTheBoundsOfProjectedVertices) {
     EXPECT_FALSE(box.crosses_near);
     EXPECT_EQ(box.visible, 0u);
     EXPECT_EQ(box.visibility(), 0.0);
-    // The 3-D box's corners are the vertices.
+    // The corners of the 3-D box are the vertices.
     const Pose local_from_box = box.world_from_box;
     for (const dvec3& vertex : object.vertices) {
       const dvec3 in_box = local_from_box.inverse().apply(around.bodies[object.body].apply(vertex));
@@ -181,7 +181,7 @@ void check_lens(const render::Distortion& distortion) {
     EXPECT_EQ(found[at].alone, expected) << i;
     const ObjectBox& box = found[at++];
     if (box.crosses_near) continue;
-    // Points along the edges, through the lens, reach the sides of the rectangle and not beyond.
+    // Points along the edges, seen through the lens, reach the sides of the rectangle but not beyond them.
     dvec4 bounds(1e300, 1e300, -1e300, -1e300);
     for (size_t t = 0; t < object.indices.size(); ++t) {
       const dvec3 &a = object.vertices[object.indices[t]],
@@ -208,7 +208,7 @@ TEST(Boxes, BehindALensThatDistorts) {
   check_lens({0.25, 0.02, -0.004, 0.002, 0.01});
 }
 
-/// What is as long as a street, and what the eye stands on, beside what is near and far.
+/// Returns objects as long as a street and objects below the camera, beside others near and far.
 Crowd crowd_of_long_things() {
   Crowd around = crowd(40, 2, 30);
   const auto add = [&](const char* name, const dvec3& low, const dvec3& high) {
@@ -225,7 +225,8 @@ Crowd crowd_of_long_things() {
   return around;
 }
 
-/// Pixels whose rays meet an object: first and last column and row. Empty: none does.
+/// Returns the first column and row and the last column and row of the pixels whose rays meet the object, or
+/// nothing if no ray does.
 std::optional<std::array<uint32_t, 4>> mask_by_rays(const Boxes::Object& object, const Pose& local_from_body,
                                                     const CameraDesc& desc, const Pose& camera,
                                                     const std::vector<dvec2>& undistorted) {
@@ -268,19 +269,19 @@ TEST(Boxes, BehindALensHoldTheirMasks) {
       EXPECT_TRUE(is_found || !mask) << i;
       if (!is_found) continue;
       const ObjectBox& box = found[at++];
-      // Alone: every pixel's centre, and no side a whole pixel beyond the last one (corners reach between
-      // centres).
+      // The box of the object alone holds every pixel's centre. No side lies far beyond the last centre,
+      // though corners reach between centres.
       constexpr double small = 1.0 / 128, nearest = 0.75;
       for (size_t side = 0; mask && side < 4; ++side) {
         const double center = (*mask)[side] + 0.5, edge = box.amodal[static_cast<int>(side)],
                      out = side < 2 ? center - edge : edge - center;
         EXPECT_GE(out, -small) << scene.instances[object.first_instance].name << ", side " << side;
-        // Of what lies within the picture: no side far from its pixels (a corner reaches between centres).
+        // If the object lies within the picture, no side is far from its pixels.
         if (box.unclipped == box.amodal && (*mask)[2] - (*mask)[0] > 8 && (*mask)[3] - (*mask)[1] > 8) {
           EXPECT_LT(out, 3.0) << scene.instances[object.first_instance].name << ", side " << side;
         }
       }
-      // In the picture: faces less than a pixel across go by the nearest sample.
+      // The rasteriser takes the nearest sample for faces that are less than a pixel across.
       if (box.visible == 0) continue;
       ++seen;
       EXPECT_GE(box.modal[0] + 0.5, box.amodal.x - nearest) << i;
@@ -297,7 +298,7 @@ TEST(Boxes, OfWhatCrossesTheNearPlaneReachToIt) {
   CameraDesc desc = box_camera();
   desc.near_m = 0.25;
   TinyScene tiny;
-  // A plank under the eye, from behind it to ahead.
+  // A plank below the camera that reaches from behind the camera to ahead of it.
   tiny.object("plank").quad({-5, -0.5, -1.5}, {8, -0.5, -1.5}, {8, 0.5, -1.5}, {-5, 0.5, -1.5});
   const scene::Scene scene = labelled(tiny);
   Boxes boxes(scene, desc, {});
@@ -344,7 +345,7 @@ TEST(Boxes, ASquareHalfHiddenIsHalfVisible) {
   CameraDesc desc = box_camera(64, 64);
   desc.fx = desc.fy = desc.cx = desc.cy = 32.0;
   TinyScene tiny;
-  // 16 x 16 pixels at 8 m, the left half behind a board at 4 m.
+  // The square covers 16 x 16 pixels at 8 m. A board at 4 m hides its left half.
   tiny.object("square").quad({8, 2, -2}, {8, -2, -2}, {8, -2, 2}, {8, 2, 2});
   tiny.object("board").quad({4, 2, -2}, {4, 0, -2}, {4, 0, 2}, {4, 2, 2});
   scene::Scene scene = labelled(tiny);
@@ -362,7 +363,7 @@ TEST(Boxes, ASquareHalfHiddenIsHalfVisible) {
   EXPECT_EQ(found[1].alone, 16u * 32u);
 }
 
-/// Each object's pixels in the picture, and in a picture of its own by the same rasteriser.
+/// Compares each object's pixels in the picture with a picture of the object alone by the same rasteriser.
 TEST(Boxes, VisibilityAgainstPicturesOfEachObjectAlone) {
   const CameraDesc desc = box_camera();
   const Crowd around = crowd(30, 4, 25);
@@ -383,7 +384,7 @@ TEST(Boxes, VisibilityAgainstPicturesOfEachObjectAlone) {
     const std::vector<uint32_t> picture = rig.shoot(camera, alone).instance;
     const auto count = [&](const std::vector<uint32_t>& ids) { return std::ranges::count(ids, id); };
     EXPECT_EQ(box.visible, count(all.instance));
-    // The rasteriser snaps vertices to 1/256 pixel: a pixel at the rim may fall to either side.
+    // The rasteriser snaps vertices to 1/256 pixel, so that a pixel at the rim may fall to either side.
     EXPECT_NEAR(box.alone, static_cast<double>(count(picture)), 2.0);
     EXPECT_GE(box.alone, box.visible);
     EXPECT_GE(box.visibility(), 0.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is said of cameras before anything is built.
+// Tests errors about cameras that planning finds before anything is built.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace greatx::sim {
 namespace {
 
-/// What planning a scenario with this sensor, in line 8, comes to.
+/// Returns the message of the error when a scenario with this sensor in line 8 is planned, or "accepted".
 std::string message_of(const std::string& sensor) {
   const std::string text =
       "greatx: 1\nname: x\nticks: 5\nnodes:\n  - name: car\n"
@@ -29,8 +29,8 @@ std::string message_of(const std::string& sensor) {
 
 TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
   using ::testing::StartsWith;
-  // 640x480 behind fx 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, where the
-  // picture shows r' = 0.6086: 194.7 px.
+  // 640x480 with fx = 320: the corner is 400 px from the middle. k1 = -0.4 folds at r = 0.9129, which the
+  // picture shows at r' = 0.6086, that is at 194.7 px.
   const std::string message =
       "s.yaml:8: camera car/front: distortion: expected a model that does not fold within the picture, found "
       "one that holds up to a radius of 0.9129 (194.7 pixels from the principal point)";
@@ -39,7 +39,7 @@ TEST(CameraPlan, ADistortionThatFoldsThePictureIsNamedWithFileAndLine) {
   EXPECT_THAT(message_of("type: event_camera, " + folds), StartsWith(message));
   EXPECT_THAT(message_of("type: camera, rate_hz: 30, fov_deg: 90, distortion: {p1: 0.5}"),
               StartsWith("s.yaml:8: camera car/front: distortion: expected a model that does not fold"));
-  // The same lens before a narrow picture does not fold within it.
+  // The same lens does not fold within a narrow picture.
   EXPECT_EQ(message_of("type: camera, rate_hz: 30, fov_deg: 35, distortion: {k1: -0.4}"), "accepted");
 }
 

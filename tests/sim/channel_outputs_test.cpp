@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes on request, against the paths that it writes beside it.
+// Compares the optional outputs of a channel with the paths that it writes beside them.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -31,7 +31,7 @@ scene::Scene street() {
   return tiny.build();
 }
 
-/// A base station and a terminal 50 m along x from it, at its height.
+/// Returns a scenario with a base station and a terminal of the same height, 50 m apart along x.
 std::string scenario(const std::string& outputs, int depth = 2, const std::string& more = "") {
   return fmt::format(
       "greatx: 1\nname: test\nticks: 2\ntick_rate_hz: 10\nnodes:\n"
@@ -108,12 +108,12 @@ TEST(ChannelOutputs, PowerFieldAndVoltageOfALineOfSight) {
   const RadioRun r =
       run(scenario(", power_dbm: 30, resistance_ohm: 73", 0, "effects: {gas: off}\n"), street());
   const double lambda = speed_of_light / carrier_hz, a = lambda / (4.0 * pi * distance_m);
-  // Four co-polar pairs of eight: half of Friis on the average.
+  // Four of the eight pairs of ports are co-polar, so that the mean power is half of Friis' power.
   EXPECT_NEAR(r.values<double>(0, "received_power")[0], 30.0 + 20.0 * std::log10(a) - 10.0 * std::log10(2.0),
               1e-6);
   const auto field = r.values<std::complex<float>>(0, "field");
   ASSERT_EQ(r.array(0, "field").shape, (std::vector<int64_t>{1, 4, 2}));
-  // sqrt(30 P G)/d within 0.003 dB (Rec. ITU-R P.525): port 0 is vertical, port 1 horizontal.
+  // The field is sqrt(30 P G)/d within 0.003 dB (Rec. ITU-R P.525). Port 0 is vertical, port 1 horizontal.
   const double expected = std::sqrt(30.0) / distance_m;
   EXPECT_NEAR(std::abs(field[0]), expected, 5e-4 * expected);
   EXPECT_NEAR(std::abs(field[3]), expected, 5e-4 * expected);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A channel over time: what its paths keep from tick to tick, and what must not matter to a byte.
+// Tests a channel over time: what its paths keep from tick to tick, and which settings must not change a
+// byte.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -33,7 +34,7 @@ using test::TinyScene;
 constexpr double channel_carrier_hz = 3.5e9, tick_s = 0.01;
 constexpr int ticks = 25;
 
-/// A street with gaps and thin walls, some of which scatter.
+/// Returns a street with gaps and thin walls, some of which scatter.
 scene::Scene channel_street() {
   TinyScene tiny;
   const uint32_t ground = tiny.material_as(radio_material("medium_dry_ground"));
@@ -48,7 +49,7 @@ scene::Scene channel_street() {
   return tiny.build();
 }
 
-/// Terminals that go along x at 20 m/s, from places of their own.
+/// A terminal that moves along x from its own place.
 struct Terminal {
   dvec3 from;
   double speed_m_s = 20.0;
@@ -82,10 +83,10 @@ std::string channel_scenario(const std::vector<uint32_t>& receivers, const std::
          more;
 }
 
-/// All that makes paths.
+/// Switches on every effect that makes paths.
 const std::string everything = "effects: {diffraction: on, scattering: on}\n";
 
-/// A path of a tick, as far as its identity goes.
+/// A path of one tick: its interactions, which decide its id, and its values.
 struct Known {
   std::vector<uint8_t> types;
   std::vector<uint32_t> facets, elements;
@@ -93,7 +94,7 @@ struct Known {
   std::complex<float> transfer[4];
 };
 
-/// [receiver][id] of a packet.
+/// Returns the paths of a packet as [receiver][id].
 std::vector<std::map<uint64_t, Known>> paths_of(const RadioRun& run, size_t packet, size_t receivers) {
   std::vector<std::map<uint64_t, Known>> paths(receivers);
   const auto rx = run.values<int32_t>(packet, "rx");
@@ -126,8 +127,7 @@ TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
     for (size_t link = 0; link < now.size(); ++link) {
       all += now[link].size();
       for (const auto& [id, path] : now[link]) {
-        // An id is a sequence of interactions and a sequence of interactions is an id, at whatever tick and
-        // link.
+        // Ids and sequences of interactions correspond one to one, in every tick and every link.
         const auto known = ever.emplace(id, path).first;
         EXPECT_TRUE(known->second.types == path.types && known->second.facets == path.facets &&
                     known->second.elements == path.elements)
@@ -153,8 +153,8 @@ TEST(ChannelOverTime, IdsStayWhileAPathLivesAndBirthsAndDeathsAreCounted) {
 }
 
 TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
-  // Of reflections and walls. What an edge adds turns by half where the wave that it belongs to begins or
-  // ends: that is what keeps their sum continuous (rf_diffraction).
+  // This holds for reflections and walls. The contribution of an edge changes by half a turn where the wave
+  // that it belongs to begins or ends, which keeps the sum continuous (tests in rf_diffraction).
   const RadioRun r = run(channel_scenario({0, 2, 3}), channel_street());
   size_t compared = 0;
   double largest = 0.0;
@@ -164,7 +164,7 @@ TEST(ChannelOverTime, PhasesTurnByWhatDopplerSaysAndNoMore) {
       for (const auto& [id, path] : now[link]) {
         const auto there = next[link].find(id);
         if (there == next[link].end()) continue;
-        // The strongest entry of the transfer: others may go through 0.
+        // Uses the strongest entry of the transfer matrix, because others may go through 0.
         const auto* entry =
             std::max_element(path.transfer, path.transfer + 4,
                              [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
@@ -244,7 +244,7 @@ TEST_F(SearchKept, GivesTheSameBytesAsOneThatWasMade) {
   expect_same_bytes(none, first, "first");
   expect_same_bytes(none, second, "second");
   EXPECT_EQ(none.counter("candidates"), second.counter("candidates"));
-  // A damaged file is searched again.
+  // If the file is damaged, the search is made again.
   for (const auto& entry : fs::directory_iterator(folder_))
     fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
   const RadioRun third = with(folder_, yaml);
@@ -253,7 +253,7 @@ TEST_F(SearchKept, GivesTheSameBytesAsOneThatWasMade) {
 }
 
 TEST_F(SearchKept, IsForTheEffectsThatItWasMadeWith) {
-  // Free edges and walls change what is to be found; the cache must tell them apart.
+  // Free edges and walls change which candidates exist, so the cache must tell these effects apart.
   for (const std::string effects :
        {"diffraction: on", "diffraction: on, free_edges: on", "transmission: off", "diffraction: off"}) {
     const std::string yaml = channel_scenario({0, 1}, "", "effects: {" + effects + "}\n");
@@ -272,7 +272,7 @@ TEST(ChannelHardCase, N63_OneAndTwoThreadsGiveTheSameBytes) {
   CPU_ZERO(&first);
   for (int cpu = 0; CPU_COUNT(&first) == 0; ++cpu)
     if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &first);
-  // parallel_for takes as many threads as there are cores for the process.
+  // parallel_for uses as many threads as the process has cores.
   ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);
   EXPECT_EQ(usable_cores(), 1u);
   const RadioRun one = run(yaml, channel_street());

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks docs/scenario.schema.json: it accepts the good scenarios, and of the bad ones refuses exactly those
-that bad_scenarios.json says a schema can find (the others need more than one field, or files, to be seen).
+"""Checks docs/scenario.schema.json. The schema must accept the good scenarios. Of the bad ones it must refuse
+exactly those that bad_scenarios.json says a schema can find. The others show only in several fields together
+or in files.
 
 usage: check_schema.py SCHEMA FOLDER
 """
@@ -16,7 +17,7 @@ import yaml
 
 
 class Core(yaml.SafeLoader):
-    """YAML 1.2's core schema, as the program reads it: `on` is a text and 28e9 a number."""
+    """Loads YAML by the core schema of YAML 1.2, as the program does: `on` is a text and 28e9 a number."""
 
 
 Core.yaml_implicit_resolvers = {}
@@ -43,7 +44,7 @@ def main():
     validator = jsonschema.Draft202012Validator(schema)
     faults = []
 
-    # JSON Schema ignores keywords that it does not know: a misspelt one would accept anything.
+    # JSON Schema ignores keywords that it does not know, so a misspelt keyword would accept anything.
     known = set(jsonschema.Draft202012Validator.VALIDATORS) | {
         "$schema",
         "$defs",

@@ -27,7 +27,7 @@ TEST(HardCase, N59_ThirtyHertzOnMillisecondTicks) {
   const int64_t first[] = {0, 33, 67, 100, 133, 167, 200};
   for (int64_t k = 0; k < 7; ++k) EXPECT_EQ(times.tick_of(k), first[k]);
   EXPECT_EQ(times.tick_of(108'000), 3'600'000);
-  // Tick by tick: 108 000 intervals, that is one sample more, and every one in turn.
+  // 108 000 intervals have 108 001 samples, which come one after the other.
   int64_t fired = 0;
   for (int64_t tick = 0; tick <= 3'600'000; ++tick) {
     const int64_t sample = times.sample_at(tick);

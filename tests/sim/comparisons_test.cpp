@@ -11,7 +11,8 @@
 namespace greatx::sim {
 namespace {
 
-/// A wall at 5 m before a camera, and two returns of a LiDAR beside it: one off by a tenth.
+/// Provides a wall at 5 m before a camera, and a LiDAR beside the camera with two returns, of which one is
+/// wrong by a tenth.
 class Comparisons : public testing::Test {
  protected:
   Comparisons() {

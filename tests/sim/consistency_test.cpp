@@ -22,7 +22,7 @@ render::CameraDesc camera() {
   return desc;
 }
 
-/// Planar depth of the plane n . p = d (sensor frame) at each pixel's centre.
+/// Returns the planar depth of the plane n . p = d (sensor frame) at each pixel's centre.
 render::CameraImages picture_of_plane(const dvec3& normal, double d) {
   const render::CameraDesc desc = camera();
   render::CameraImages images;
@@ -66,7 +66,7 @@ TEST(LidarAgainstDepth, BetweenPixelCentresThePlaneIsExact) {
   const auto error = lidar_against_depth(camera(), images, {point, 1, 3});
   ASSERT_TRUE(error);
   EXPECT_LT(*error, 1e-6);
-  // A return 1 cm behind the surface is seen as such.
+  // The error of a return 1 cm behind the surface is 1 cm.
   const auto wrong = lidar_against_depth(camera(), images, {point * (1.0 + 0.01 / point.x), 1, 3});
   ASSERT_TRUE(wrong);
   EXPECT_NEAR(*wrong, 0.01 / point.x, 1e-4);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The upright box around points, and the pixels that triangles cover, in closed form.
+// Tests the upright box around points and the pixels that triangles cover, in closed form.
 #include "sim/sensors/camera/coverage.h"
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(Coverage, NeighboursShareNoPixelAndLeaveNone) {
   const CameraDesc desc = box_camera(130, 40);
   const Projection projection(desc);
   Coverage one(projection), sum(projection);
-  // A fan around a point that may be a pixel's centre, over the whole picture.
+  // A fan of triangles covers the whole picture. Its centre may be a pixel's centre.
   for (const dvec2& center : {dvec2(64.5, 20.5), dvec2(31.337, 7.25)}) {
     const std::vector<dvec2> rim{{-1, -1},  {70.5, -1}, {131, -1}, {131, 20.5},
                                  {131, 41}, {10, 41},   {-1, 41},  {-1, 8}};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of effects: each row is a member, a name, a rule about switching, and a struct that has the
-// switch.
+// Tests the table of effects. Each row is a member of the plan, and has a name, a rule about switching, and
+// the struct that holds the switch.
 #include <set>
 
 #include <fmt/format.h>

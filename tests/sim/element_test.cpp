@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Arrays in their near field: every two elements apart against closed forms, and what a plane wave costs.
+// Tests arrays in their near field: each pair of elements against closed forms, and the error of a plane
+// wave.
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -27,7 +28,8 @@ using test::TinyScene;
 constexpr int subcarriers = 16;
 constexpr double element_carrier_hz = 28e9, bandwidth_hz = 100e6;
 
-/// A 4 x 8 panel that looks along +x at the origin, and one antenna at each distance from it.
+/// Returns a scenario with a 4 x 8 panel at the origin that looks along +x, and one antenna on the x axis at
+/// each distance.
 std::string element_scenario(const std::vector<double>& distances_m, const std::string& effects,
                              const std::string& panel = "rows: 4, columns: 8",
                              const std::string& channel = "") {
@@ -51,14 +53,14 @@ std::string element_scenario(const std::vector<double>& distances_m, const std::
 }
 
 scene::Scene nothing() {
-  // One triangle far below: a scene without any is another test's.
+  // One triangle far below. Another test covers a scene without triangles.
   TinyScene tiny;
   tiny.object("far", 0, tiny.material_as(radio_material("concrete")))
       .triangle({0, 0, -9e3}, {1, 0, -9e3}, {0, 1, -9e3});
   return tiny.build();
 }
 
-/// sum |a - b|^2 / sum |a|^2 over receiver `r`, dB.
+/// Returns sum |a - b|^2 / sum |a|^2 over receiver `r`, in dB.
 double nmse_db(const std::vector<std::complex<float>>& a, const std::vector<std::complex<float>>& b, size_t r,
                size_t receivers) {
   const size_t count = a.size() / receivers;
@@ -73,7 +75,7 @@ double nmse_db(const std::vector<std::complex<float>>& a, const std::vector<std:
 constexpr const char* forced = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: on}\n";
 constexpr const char* plane = "effects: {line_of_sight: on, reflection: off, gas: off, every_element: off}\n";
 
-/// The one rule that runs, `greatx paths --cfr` and Python go by.
+/// The simulator, `greatx paths --cfr` and Python use the same rule.
 TEST(EveryElement, OneRuleSaysWhichLinksAreSolvedElementByElement) {
   const auto within = [](const std::string& effects, const std::string& channel, const char* from) {
     const Scenario parsed =
@@ -136,7 +138,7 @@ TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
   const auto h = exact.values<std::complex<float>>(0, "cfr"), p = wave.values<std::complex<float>>(0, "cfr");
   const double wavelength = speed_of_light / element_carrier_hz;
   for (size_t r = 0; r < distances.size(); ++r) {
-    // The phase k y^2/(2 d) that a plane wave does not have; amplitudes agree to (y/d)^2.
+    // A plane wave lacks the phase k y^2/(2 d). The amplitudes agree to (y/d)^2.
     double expected = 0.0;
     for (int i = 0; i < 32; ++i) {
       const double y = (i - 15.5) * 0.5 * wavelength;
@@ -145,7 +147,7 @@ TEST(EveryElement, APlaneWaveCostsWhatTheDistanceSays) {
     }
     EXPECT_NEAR(nmse_db(h, p, r, distances.size()), 10.0 * std::log10(expected), 0.02) << distances[r];
   }
-  // Figures of record: a line of 32 elements at 28 GHz.
+  // Reference values for a line of 32 elements at 28 GHz.
   EXPECT_NEAR(nmse_db(h, p, 0, distances.size()), -14.4, 0.1);
   EXPECT_NEAR(nmse_db(h, p, 4, distances.size()), -40.3, 0.1);
 }
@@ -165,7 +167,7 @@ TEST(EveryElement, IsChosenWithinTheFarFieldDistanceAlone) {
 }
 
 TEST(EveryElement, AnEdgeMayHideSomeElementsAndNotOthers) {
-  // A half plane z < 0 before the panel: rows below the axis are hidden from a receiver on the axis.
+  // A half plane z < 0 before the panel hides the rows below the axis from a receiver on the axis.
   TinyScene tiny;
   tiny.object("screen", 0, tiny.material_as(radio_material("metal")))
       .quad({2, -50, -50}, {2, 50, -50}, {2, 50, -1e-4}, {2, -50, -1e-4});
@@ -179,7 +181,7 @@ TEST(EveryElement, AnEdgeMayHideSomeElementsAndNotOthers) {
 }
 
 TEST(EveryElement, PortsKeepTheirPlacesAtBothEnds) {
-  // Two cross-polarized panels, far: every element and the plane wave agree, port by port.
+  // For two distant cross-polarized panels the sum over elements and the plane wave agree port by port.
   const std::string panel = "rows: 2, columns: 3, polarization: slant, pattern: tr38901";
   std::string yaml[2];
   for (int i = 0; i < 2; ++i) {
@@ -213,7 +215,8 @@ TEST(EveryElement, HardCaseN63ThreadsChangeNoByte) {
 }
 
 TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
-  // Comes into the near field at tick 2, where its elements are searched from for the first time.
+  // The receiver comes into the near field at tick 3. There the search runs from the single elements for the
+  // first time.
   std::string yaml = element_scenario({0.25}, "effects: {line_of_sight: on, reflection: on}\n");
   const std::string still = "trajectory: {type: static, position_m: [0.25, 0, 0]}";
   yaml.replace(
@@ -237,13 +240,13 @@ TEST(EveryElement, AResumeInTheNearFieldGivesTheSameBytes) {
 }
 
 TEST(EveryElement, MoreElementsThanATickHasTimestampsFor) {
-  // 17 x 16 elements: as many crossings to record in one tick.
+  // 17 x 16 elements make as many crossings to record in one tick.
   const RadioRun r = run(element_scenario({0.5}, forced, "rows: 17, columns: 16"), nothing());
   EXPECT_EQ(r.counter("every_element_paths"), 272u);
 }
 
 TEST(EveryElement, AnElementOffTheOriginHasItsOwnDistance) {
-  // One element 0.4 m before the mount: paths of the mount would be 0.4 m too long.
+  // One element lies 0.4 m before the mount. A path from the mount would be 0.4 m too long.
   const double offset_wl = 0.4 * element_carrier_hz / speed_of_light;
   const RadioRun r =
       run(element_scenario({2.0}, forced, fmt::format("elements_wl: [[{}, 0, 0]]", offset_wl)), nothing());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors that are raised while the tick after is in flight: the simulator goes down with the device at work,
-// under validation, and says nothing but the error.
+// Tests errors that are raised while the next tick is in flight. The simulator is destroyed while the device
+// still works, under validation, and reports nothing but the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// What stands beside the radar, or in its place.
+/// Describes what stands beside the radar, or in its place.
 struct Beside {
   const char* name;
-  const char* sensors;   ///< of the node
-  const char* channels;  ///< after the nodes
+  const char* sensors;   ///< YAML of the node's sensors
+  const char* channels;  ///< YAML after the nodes
 };
 
 const char* const camera =
@@ -48,8 +48,8 @@ std::vector<Beside> kinds() {
           {"none", "", ""}};
 }
 
-/// A node that drives towards a wall at x = 10 m and is 1 cm before it at tick 3; `radar_first`: in the order
-/// of the sensors.
+/// Returns a scenario in which a node drives towards a wall at x = 10 m and is 1 cm before it at tick 3.
+/// `radar_first` says whether the radar stands before the other sensors.
 std::string yaml(const Beside& beside, bool radar, bool radar_first) {
   const std::string radar_yaml =
       "{name: radar, type: radar, rate_hz: 10, waveform: {chirps: 16, samples: 64}, echoes: {tubes: 500}}";
@@ -76,7 +76,7 @@ scene::Scene scene_of_a_wall() {
   return scene;
 }
 
-/// Runs until something throws. Returns how many packets were handed over before.
+/// Runs until something throws. Returns the number of packets that were written before the error.
 template <typename Error>
 size_t packets_until(const std::string& yaml, size_t most_packets, const char* message) {
   const Experiment experiment = testing::experiment_in(yaml, scene_of_a_wall());

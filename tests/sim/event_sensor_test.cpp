@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Event cameras in whole runs: instants between ticks, memory, resuming, other sensors beside them.
+// Tests event cameras in whole runs: instants between ticks, memory, resuming, and other sensors beside them.
 #include "sim/sensors/event/event_sensor.h"
 
 #include <numeric>
@@ -23,7 +23,7 @@ const std::string head =
     "greatx: 1\nname: test\nseed: 5\nticks: 201\ntick_rate_hz: 1000\n"
     "scene: {generate: {kind: canyon, seed: 3, size_m: 60}, optical_only: true}\nnodes:\n";
 
-/// A car that drives through the view, if it is to.
+/// Returns a node with a van in the view. It drives through the view if `moves`.
 std::string van(bool moves) {
   return "  - name: van\n    trajectory: " +
          std::string(
@@ -33,7 +33,7 @@ std::string van(bool moves) {
          "\n    model: {generate: {kind: car, variant: van}}\n";
 }
 
-/// An event camera that looks along the street, turning by `turn_deg` within 0.2 s.
+/// Returns a node that looks along the street and turns by `turn_deg` within 0.2 s.
 std::string eye(double turn_deg, const std::string& sensors) {
   return fmt::format(
       "  - name: eye\n    trajectory: {{type: waypoints, interpolation: linear, points: [{{t_s: 0, "
@@ -89,7 +89,8 @@ TEST(EventSensor, NothingMovesNothingFires) {
 }
 
 TEST(EventSensor, SubStepsAreThePicturesOfShorterIntervals) {
-  // Camera, mesh and shadow stand where they do at that time: four steps of 25 ms in one tick, or four ticks.
+  // Camera, mesh and shadow stand where they do at each instant, for four steps of 25 ms in one tick as for
+  // four ticks.
   const KeptRun steps = keep_run(head + van(true) + eye(10.0, dvs(", steps: 4", "10")));
   const KeptRun ticks = keep_run(head + van(true) + eye(10.0, dvs(", steps: 1", "40")));
   EXPECT_GT(steps.joined<int64_t>("eye/dvs", "t").size(), 1000u);
@@ -107,7 +108,7 @@ TEST(EventSensor, WhatMovesFiresUnderItsOwnName) {
     all += count;
     if (instance > 0 && world.scene.instances[instance - 1].body != 0) of_van += count;
   }
-  // Else: the ground and the walls that it leaves free, and its shadow.
+  // The other events come from the van's shadow and from ground and walls that it uncovers.
   EXPECT_GT(of_van, 100u);
   EXPECT_GT(double(of_van), 0.3 * double(all));
 }
@@ -137,7 +138,7 @@ TEST(EventSensor, OtherSensorsChangeNothingAndAreNotChanged) {
 }
 
 TEST(EventSensor, PixelsOfACameraFireAsTheirOwn) {
-  // The same view, once rendered for events alone and once taken from the camera at the samples.
+  // The same view is once rendered for events alone and once taken from the camera at its samples.
   const std::string front =
       "      - {name: front, type: camera, rate_hz: 20, width: 62, height: 46, fov_deg: 70}\n";
   for (const std::string& more : {std::string(", steps: 1"), noisy + ", steps: {by: flow, most: 8}"}) {
@@ -167,8 +168,8 @@ TEST(EventSensor, SequencesDifferInNoiseAlone) {
 }
 
 TEST(EventSensor, FlowStepsFollowTheTurning) {
-  // 62 pixels of 70 degrees: fx = 44.3; at the picture's rim the flow is fx w (1 + tan^2 35 deg), more in the
-  // corners.
+  // 62 pixels see 70 degrees, so fx = 44.3. At the picture's rim the flow is fx w (1 + tan^2 35 deg). It is
+  // larger in the corners.
   const auto pictures = [](double turn_deg) {
     const KeptRun r =
         keep_run(head + van(false) + eye(turn_deg, dvs(", steps: {by: flow, max_px: 0.5, most: 32}", "10")));
@@ -179,7 +180,7 @@ TEST(EventSensor, FlowStepsFollowTheTurning) {
   const double fx = 31.0 / std::tan(radians(35.0));
   for (const double turn : {5.0, 10.0, 20.0}) {
     const double x = 30.5 / fx, y = 22.5 / fx, rate = radians(turn) / 0.2;
-    // Of a turn about the vertical: (1 + x^2, x y).
+    // Flow of a turn about the vertical: (1 + x^2, x y).
     const double px = 0.1 * fx * rate * std::hypot(1 + x * x, x * y);
     const double step = std::floor(0.5 / px * 32);  // whole instants of the grid
     EXPECT_EQ(pictures(turn), std::ceil(32 / step)) << turn << ": " << px;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// LiDARs of whole runs: targets at the shot's time, effects of the plan, draws.
+// Tests LiDARs in whole runs: targets at the time of each shot, effects of the plan, and random draws.
 #include <cmath>
 #include <map>
 
@@ -19,9 +19,9 @@ namespace {
 using test::keep_run;
 using test::KeptRun;
 
-constexpr double speed = 20.0;  ///< m/s, of the car, north
+constexpr double speed = 20.0;  ///< speed of the car towards north, m/s
 
-/// A street along y, a LiDAR that stands in it and sees the car go by in the middle of its sweep.
+/// Returns a street along y and a LiDAR at rest in it. The car passes in the middle of the LiDAR's sweep.
 std::string street(const std::string& lidar, const std::string& more = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 2\ntick_rate_hz: 10\n"
          "scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}\n"
@@ -38,7 +38,8 @@ std::string street(const std::string& lidar, const std::string& more = "") {
          more;
 }
 
-/// How far the returns of the car lie outside of its bounds, put back by its pose at each return's own time.
+/// Counts the returns of the car and says how far they lie outside its bounds, after the car's pose at each
+/// return's own time is undone.
 struct CarReturns {
   size_t count = 0;
   double outside_m = 0.0;
@@ -72,7 +73,8 @@ TEST(LidarRun, ACarThatDrivesIsMetWhereItIsAtEachShot) {
     const CarReturns exact = car_returns(moving, packet), stale = car_returns(frozen, packet);
     EXPECT_GT(exact.count, 100u);
     EXPECT_LT(exact.outside_m, 1e-4);
-    // It is seen about a twentieth of a second after the tick, its front first: most of a metre behind.
+    // The LiDAR sees the car about a twentieth of a second after the tick, its front first. Returns with the
+    // pose of the tick lie most of a metre off.
     EXPECT_GT(stale.outside_m, 0.5);
     EXPECT_LT(stale.outside_m, 0.1 * speed);
   }
@@ -110,12 +112,12 @@ TEST(LidarRun, DrawsAreTheTicksAndTheSensorsAlone) {
   const KeptRun run = keep_run(street(instrument)), again = keep_run(street(instrument));
   EXPECT_TRUE(run.plan.lidar_divergence.on && run.plan.lidar_detection.on && run.plan.lidar_range_noise.on);
   expect_same(run, again);
-  // Another sensor, and starting at the second tick, change nothing.
+  // Neither another sensor nor a start at the second tick changes anything.
   const KeptRun beside = keep_run(
       street(instrument + "}\n      - {name: camera, type: camera, rate_hz: 10, width: 8, height: 8, "
                           "fov_deg: 90"));
   expect_same(run, beside);
-  // The same shot at two ticks has two draws: walls do not move, their ranges do.
+  // The same shot has two different draws at two ticks: the walls do not move, but their ranges change.
   const auto first = run.array<float>(0, "mast/lidar", "range"),
              second = run.array<float>(1, "mast/lidar", "range");
   const size_t count = std::min(first.size(), second.size());
@@ -123,7 +125,7 @@ TEST(LidarRun, DrawsAreTheTicksAndTheSensorsAlone) {
   EXPECT_FALSE(std::equal(first.begin(), first.begin() + 100, second.begin()));
 }
 
-/// Returns of surfaces by what they have in common in every air: channel and direction.
+/// The return of a surface. surfaces_of() finds it by channel and direction, which do not depend on the air.
 struct Shot {
   double range_m = 0.0, intensity = 0.0, power = 0.0;
 };
@@ -143,8 +145,8 @@ std::map<std::pair<uint16_t, int>, Shot> surfaces_of(const KeptRun& run) {
   return shots;
 }
 
-/// The embedded city in fog: the same LiDAR loses returns that it has in clear air, and what is left is
-/// weaker by what the air takes there and back.
+/// In the fog of the embedded city the LiDAR loses returns that it has in clear air. The air's extinction on
+/// the way there and back weakens the others.
 TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
   const auto embedded = std::ranges::find(embedded_scenarios(), "city_fog", &EmbeddedScenario::name);
   Scenario fog = parse_scenario(std::string(embedded->text), "city_fog.yaml", ".");
@@ -157,7 +159,7 @@ TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
     });
   Scenario clear = fog;
   clear.environment.fog_g_m3 = 0.0;
-  Scenario blind = fog;  // to its own noise
+  Scenario blind = fog;  // detects every return
   blind.effects["lidar_detection"] = blind.effects["lidar_backscatter"] = Switch::off;
   const auto world = std::make_shared<const World>(load_world(fog));
   const KeptRun in_fog = keep_run(make_experiment(fog, world)),
@@ -170,7 +172,7 @@ TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
   EXPECT_LT(count, 0.8 * static_cast<double>(without.size()));
   EXPECT_GT(count, 0.2 * static_cast<double>(without.size()));
   EXPECT_LT(without.size(), whatever.size());
-  // A few shots are answered by the fog itself.
+  // The fog itself answers a few shots.
   const size_t returns = in_fog.array<float>(0, "uav/lidar", "range").size();
   EXPECT_GT(returns, with.size());
   EXPECT_LT(static_cast<double>(returns), 1.2 * count);
@@ -190,13 +192,13 @@ TEST(LidarRun, FogWeakensTheEmbeddedCityInFog) {
     EXPECT_NEAR(foggy.intensity, clear_return.intensity * left, 1e-6);
     EXPECT_NEAR(foggy.power, clear_return.power * left, 1e-6 * clear_return.power);
   }
-  EXPECT_GT(static_cast<double>(both), 0.95 * count);  // others were lucky
+  EXPECT_GT(static_cast<double>(both), 0.95 * count);  // noise lifts a few others above the threshold
   EXPECT_LT(farthest_with, farthest_without);
 }
 
 TEST(LidarRun, ThePlanSaysWhatTheSceneCallsFor) {
   const KeptRun plain = keep_run(street(""));
-  EXPECT_TRUE(plain.plan.lidar_glass.on);  // of the car
+  EXPECT_TRUE(plain.plan.lidar_glass.on);  // the car has glass
   EXPECT_THAT(plain.plan.lidar_glass.reason, ::testing::HasSubstr("lets light through"));
   for (const Effect* effect :
        {&plain.plan.lidar_divergence, &plain.plan.lidar_detection, &plain.plan.lidar_range_noise,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// LiDARs as written in scenarios, and tables of shots.
+// Tests LiDARs as written in scenarios, and tables of shots.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(LidarScenario, EveryFieldIsRead) {
   EXPECT_EQ(raster.receiver.rise_m, 0.3);
   ASSERT_TRUE(raster.receiver.detection);
   EXPECT_EQ(raster.receiver.detection->threshold, 4.0);
-  // 100 m, 20 %, detected with 80 %.
+  // A target of 20 % reflectance at 100 m is detected with a probability of 80 %.
   EXPECT_NEAR(
       render::normal_cdf(0.2 * 9e-4 * 0.8 / 4e4 / raster.receiver.detection->noise_equivalent_power - 4.0),
       0.8, 1e-12);

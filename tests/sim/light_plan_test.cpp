@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a scenario's environment comes to: defaults, day and night, clouds and fog.
+// Tests how a scenario's environment becomes light: defaults, day and night, clouds and fog.
 #include "sim/plan/light_plan.h"
 
 #include <cmath>
@@ -52,15 +52,15 @@ TEST(LightPlan, BelowTheHorizonTheSkyIsThatOfTwilight) {
 }
 
 TEST(LightPlan, PlaceAndTimeGiveDayAndNight) {
-  // Paris, June solstice, close to local noon: 64.6 degrees high in the south; the level as published, within
-  // the earth's 3.3 % from the sun.
+  // Paris at the June solstice, close to local noon: the sun stands 64.6 degrees high in the south. The
+  // earth's distance from the sun divides the published illuminance by 1.033.
   const ResolvedLight noon = resolve(paris("2026-06-21T13:53:00+02:00"));
   EXPECT_NEAR(degrees(noon.sun_elevation), 90.0 - 48.8738 + 23.43, 0.05);
   EXPECT_LT(noon.key.direction.y, -0.4);
   EXPECT_NEAR(noon.ground_lux() / render::sunlight_lux(noon.sun_elevation), 1.0 / (1.0163 * 1.0163), 3e-3);
   EXPECT_GT(noon.lighting.sun_illuminance_lux, 80000.0);
   EXPECT_GT(noon.lighting.sky_illuminance_lux, 8000.0);
-  // The same place near the full moon of 2026-11-24, late in the evening: the moon is the key light.
+  // The same place late in the evening, near the full moon of 2026-11-24: the moon is the key light.
   const ResolvedLight night = resolve(paris("2026-11-24T22:30:00+01:00"));
   EXPECT_EQ(night.key.body, render::KeyLight::Body::moon);
   EXPECT_GT(night.moon_elevation, radians(40.0));
@@ -68,7 +68,7 @@ TEST(LightPlan, PlaceAndTimeGiveDayAndNight) {
   EXPECT_GT(night.key.lux, 0.05);
   EXPECT_LT(night.key.lux, 0.35);
   EXPECT_TRUE(night.night_sky);
-  // A fortnight later it is new: neither sun nor moon.
+  // A fortnight later the moon is new, and neither sun nor moon is up.
   const ResolvedLight dark = resolve(paris("2026-12-09T22:30:00+01:00"));
   EXPECT_EQ(dark.key.body, render::KeyLight::Body::none);
   EXPECT_NEAR(dark.lighting.sky_illuminance_lux, render::natural_night_lux, 1e-12);
@@ -78,7 +78,8 @@ TEST(LightPlan, LightIsContinuousThroughSunset) {
   Environment e = paris("2026-03-20T18:30:00+01:00");
   const double start = e.place->unix_s;
   double before = 0.0, before_direct = 0.0;
-  for (int step = 0; step < 60; ++step) {  // an hour, a minute at a time: 0.16 degrees
+  for (int step = 0; step < 60;
+       ++step) {  // an hour in steps of a minute, in which the sun sinks 0.16 degrees
     e.place->unix_s = start + 60.0 * step;
     const ResolvedLight light = resolve(e);
     const double direct = light.lighting.sun_illuminance_lux;
@@ -100,7 +101,7 @@ TEST(LightPlan, RainBringsCloudsAndFogTakesTheShadows) {
   EXPECT_EQ(rain.lighting.sky_model, render::SkyModel::overcast);
   EXPECT_EQ(rain.key.lux, 0.0);
   EXPECT_NEAR(rain.lighting.sky_illuminance_lux, 300.0 + 21000.0 * std::sqrt(0.5), 1e-6);
-  e.sun_illuminance_lux = 50000.0;  // a shower in the sun
+  e.sun_illuminance_lux = 50000.0;  // a shower while the sun shines
   EXPECT_EQ(resolve(e).lighting.sky_model, render::SkyModel::clear);
   Environment fog;
   fog.fog_g_m3 = 0.5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where bodies are at the tick and at any other time.
+// Tests where bodies are at the tick and at any other time.
 #include "sim/world/moment.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 namespace greatx::sim {
 namespace {
 
-/// A node without a mesh before, between and behind those with one: bodies and nodes are numbered apart.
+/// Nodes without a mesh stand before and between those with one, so that bodies and nodes have different
+/// numbers.
 constexpr const char* three_nodes = R"(greatx: 1
 name: test
 seed: 5
@@ -21,7 +22,8 @@ scene: {generate: {kind: room}, origin_m: [100, -20, 3]}
 nodes:
   - {name: bare, trajectory: {type: static, position_m: [1, 2, 1]}}
   - name: car
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -15, 0]}, {t_s: 1, position_m: [9, 2, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [-2, -15, 0]}, )"
+                                    R"({t_s: 1, position_m: [9, 2, 0]}]}
     model: {generate: {kind: car, variant: hatchback}, position_m: [0, 0, 0.5]}
   - {name: post, trajectory: {type: static, position_m: [1, 2, 1]}, model: {generate: {kind: mast}}}
   - name: uav
@@ -43,7 +45,7 @@ TEST(Moment, BodiesAtTheTicksOwnTimeAreThoseOfTheTickToTheBit) {
     const Moment moment = moment_at(world, courses, clock, tick), other = moment_at(world, courses, clock, 3);
     for (uint32_t body = 0; body < world.scene.bodies.size(); ++body) {
       EXPECT_TRUE(same_bits(moment.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
-      // Whatever tick asks.
+      // The result does not depend on the tick that asks.
       EXPECT_TRUE(same_bits(other.context.body_pose_at(body, clock.seconds(tick)), moment.bodies[body]));
     }
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channels that keep their search between ticks, among meshes that move, against the same with a whole search
-// at every tick.
+// Compares channels that keep their search between ticks, among moving meshes, with channels that repeat the
+// whole search at every tick.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using test::KeptRun;
 const std::string antenna =
     "    sensors: [{name: antenna, type: antenna, mount: {position_m: [0, 0, 2.2]}}]\n";
 
-/// A street with a mast, a car and a drone, all with antennas.
+/// Returns a street with a mast, a car and a drone, all with antennas.
 std::string street(const std::string& channel, const std::string& effects) {
   return "greatx: 1\nname: test\nseed: 5\nticks: 5\ntick_rate_hz: 2\n"
          "scene: {generate: {kind: canyon, seed: 3, size_m: 80}}\n"
@@ -48,7 +48,7 @@ TEST(MovingChannel, AStaticTransmitterKeepsItsSearch) {
   EXPECT_THAT(kept.note("csi.search"), ::testing::HasSubstr("every tick for what moves"));
   EXPECT_THAT(kept.note("csi.guarantee_moving"), ::testing::HasSubstr("with a moving facet"));
   expect_same_bytes(kept, whole);
-  // What moves does reflect.
+  // The moving bodies do reflect.
   std::string still = street(link, "");
   still.replace(still.find("moving_reflectors: on"), 21, "moving_reflectors: off");
   EXPECT_NE(keep_run(still).counter("csi.paths"), kept.counter("csi.paths"));
@@ -58,7 +58,8 @@ TEST(MovingChannel, StaticReceiversKeepTheirs) {
   const std::string link = "tx: uav/antenna, rx: [bs/antenna]";
   const KeptRun kept = keep_run(street(link, ", transmission: off"));
   EXPECT_THAT(kept.note("csi.search"), ::testing::StartsWith("once, from each receiver"));
-  // From the other end, the same sequences the other way round: compared with the whole search from there.
+  // A search from the other end finds the same sequences in reverse order. Compares their numbers with those
+  // of the whole search at every tick.
   const KeptRun whole = keep_run(street(link + ", search: every_tick", ", transmission: off"));
   EXPECT_EQ(kept.counter("csi.paths"), whole.counter("csi.paths"));
   EXPECT_EQ(kept.counter("csi.path_births"), whole.counter("csi.path_births"));
@@ -76,7 +77,8 @@ TEST(MovingChannel, BothEndsMove) {
   }
 }
 
-/// The tick after it is recorded before a tick's fields are worked out, which need the facets as they stood.
+/// The simulator records the next tick before it computes the fields of a tick. The fields need the facets as
+/// they stood at their own tick.
 TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
   for (const std::string reflect : {"on", "off"}) {
     std::string yaml = street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", "");
@@ -94,7 +96,7 @@ TEST(MovingChannel, ATickKnowsNothingOfTheTickAfterIt) {
   }
 }
 
-/// Results that outlive a tick have its facets, whatever is solved after it.
+/// Results that outlive a tick keep its facets, whatever is solved afterwards.
 TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
   const Experiment experiment = make_experiment(
       parse_scenario(street("tx: bs/antenna, rx: [uav/antenna, car/antenna]", ""), "test.yaml", "."));
@@ -112,7 +114,7 @@ TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
   const auto spectra_of = [&](const ChannelSnapshot::Link& link) {
     return dispersion.spectra(link.paths, *link.world);
   };
-  // One of a body that moves: these come last.
+  // The last facet belongs to a moving body, because facets of moving bodies come last.
   const uint32_t facet = snapshot.model().facets.facet_count() - 1;
   const std::vector<ChannelSnapshot::Link> before = solve();
   ASSERT_EQ(before.size(), 2u);
@@ -125,7 +127,7 @@ TEST(MovingChannel, ASnapshotThatMovesOnLeavesEarlierResultsAsTheyAre) {
   EXPECT_EQ(before[0].world->facet(facet).centroid, stood);
   EXPECT_NE(after[0].world->facet(facet).centroid, stood);
   EXPECT_TRUE(spectra_of(before[0]) == spectra);
-  // Facets that nobody holds any more are posed anew, not copied anew.
+  // Facets that nobody holds any more are moved in place instead of copied.
   const rf::FacetWorld* const released = after[0].world.get();
   after.clear();
   snapshot.move(0, 4);

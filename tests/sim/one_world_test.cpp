@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One world: a corner reflector comes towards a node that carries every sensor, and all of them say the same
-// of it.
+// A corner reflector approaches a node that carries every sensor. All sensors must report the same world.
 //
-// The corner is a triangular trihedral of metal whose apex is its node's origin and whose axis looks at the
-// sensors. Both nodes go along one line, so that the distance of apex and sensors is known at any time:
+// The corner is a triangular trihedral of metal. Its apex is the origin of its node, and its axis points at
+// the sensors. Both nodes move along one line, so that the distance of apex and sensors is known at any time:
 //   R(t) = first_m - closing_m_s t.
-// - Radar: three reflections at three perpendicular planes are a reflection at the apex, so every way back to
-//   a point of it is
-//   2 R long, whatever facets it takes first: all of the trihedral's main echo has the delay 2 R/c.
+// - Radar: three reflections at three perpendicular planes equal one reflection at the apex. Every way back
+//   to a point of it is therefore 2 R long, whichever facets it takes first, and the whole main echo of the
+//   trihedral has the delay 2 R/c.
 // - Radio: for the same reason a path of three reflections from an antenna at d beside the sensors to one at
-//   -d is
-//   |(s + d) + (s - d)| = 2 R long (s from the apex): exactly, not nearly.
+//   -d is exactly |(s + d) + (s - d)| = 2 R long, where s is the sensors' position from the apex.
 // - LiDAR and camera: the shot and the pixel along the axis meet the apex.
 #include <cmath>
 
@@ -44,8 +42,8 @@ scene::Material metal() {
   return material;
 }
 
-/// Static: a wall behind, askew to the line, so that it sends nothing back. Body 1: the corner, open towards
-/// its x.
+/// Returns a static wall behind the corner, askew to the line so that it reflects nothing back, and the
+/// corner as body 1, open towards its x axis.
 scene::Scene corner_scene() {
   test::TinyScene scene;
   const uint32_t metallic = scene.material_as(metal());
@@ -64,7 +62,7 @@ scene::Scene corner_scene() {
   return built;
 }
 
-/// The line is 30 degrees north of east: nothing lies along an axis of the world.
+/// The line runs 30 degrees north of east, so that nothing lies along an axis of the world.
 std::string at(double along_m) {
   return fmt::format("[{}, {}, 1.5]", along_m * std::cos(radians(30.0)), along_m * std::sin(radians(30.0)));
 }
@@ -76,8 +74,8 @@ std::string along(double from_m, double to_m) {
 struct Rates {
   std::string tick = "10", camera = "10", lidar = "10", radar = "10", events = "10", channel = "10";
   int64_t ticks = 3;
-  std::string sweep = "";   ///< of the LiDAR
-  std::string echoes = "";  ///< of the radar, more
+  std::string sweep = "";   ///< additional YAML of the LiDAR
+  std::string echoes = "";  ///< additional YAML of the radar's echoes
 };
 
 std::string scenario(const Rates& rates) {
@@ -128,37 +126,36 @@ double seconds(const Packet& packet) { return 1e-9 * static_cast<double>(packet.
 
 constexpr size_t middle_pixel = 32 * 65 + 32, middle_shot = 10 * 21 + 10;
 
-/// Depth along the ray of the middle pixel, whose centre looks at the apex.
-/// Bound: the rasterizer puts corners to 1/256 of a pixel (2 tan 5 deg R/65 = 0.032 m wide), and next to the
-/// apex the faces go back by sqrt(2) of what one looks beside it: 0.032 m/512 x 1.42 < 1e-4 m; fp32 adds 1e-6
-/// m.
+/// Checks the depth along the ray of the middle pixel, whose centre looks at the apex. Bound: the rasteriser
+/// snaps corners to 1/256 of a pixel, which is 2 tan 5 deg R/65 = 0.032 m wide. Next to the apex the depth of
+/// the faces grows by sqrt(2) of the distance from the axis: 0.032 m/512 x 1.42 < 1e-4 m. fp32 adds 1e-6 m.
 void expect_depth(const KeptRun& r, size_t packet) {
   EXPECT_NEAR(r.array<float>(packet, "rig/camera", "depth_ray")[middle_pixel],
               distance_at(seconds(r.packets[packet])), 1e-4);
   EXPECT_EQ(r.array<uint16_t>(packet, "rig/camera", "instance")[middle_pixel], id_of(r, "corner"));
 }
 
-/// The shot along the axis, at its own time. Bound: coordinates up to 12 m in fp32, 1e-6 m, rotated and added
-/// a few times, and the slope of the faces: 1e-5 m.
+/// Checks the shot along the axis at its own time. Bound: coordinates up to 12 m in fp32 are exact to 1e-6 m.
+/// A few rotations and additions and the slope of the faces make this 1e-5 m.
 void expect_lidar(const KeptRun& r, size_t packet, double sweep_s) {
   const auto range = r.array<float>(packet, "rig/lidar", "range"),
              time = r.array<float>(packet, "rig/lidar", "time_offset");
-  ASSERT_EQ(range.size(), 441u);  // all shots meet something, or the middle one would be another
+  ASSERT_EQ(range.size(), 441u);  // every shot must meet something, or middle_shot would be another shot
   EXPECT_NEAR(time[middle_shot], sweep_s * 0.5, sweep_s / 400.0);
   EXPECT_NEAR(range[middle_shot], distance_at(seconds(r.packets[packet]) + time[middle_shot]), 1e-5);
   EXPECT_EQ(r.array<uint32_t>(packet, "rig/lidar", "instance")[middle_shot], id_of(r, "corner"));
 }
 
-/// The corner's detection, at the frame's middle. Bounds:
-/// - the corner sends back what meets a hexagon of half-width rho = edge sqrt(2)/3 about the axis, and what
-///   goes by a point rho
-///   beside the axis goes 2 sqrt(R^2 + rho^2): farther by up to rho^2/2R, 1.7 mm. Never nearer;
-/// - noise, 48 dB below the cell: sqrt(6/SNR)/2 pi bins at best (D. C. Rife, R. R. Boorstyn, IEEE Trans. Inf.
-///   Theory 20(5), 1974),
-///   0.0016, a third more under a Hann window. Five times that: 0.01 bins, of range and of velocity. What
-/// faces and edges
-///   send back by themselves is below that;
-/// - what passes as range for velocity (f_c/S = 3 ms) is taken off before: of 0.01 velocity bins, 0.02 mm.
+/// Checks the corner's detection at the middle of the frame. Bounds:
+/// - The corner reflects the rays that meet a hexagon of half-width rho = edge sqrt(2)/3 about the axis. A
+///   ray through a point rho beside the axis travels 2 sqrt(R^2 + rho^2). Its range is farther by up to
+///   rho^2/(2 R), 1.7 mm, and never nearer.
+/// - The noise is 48 dB below the cell. The error is at best sqrt(6/SNR)/(2 pi) = 0.0016 bins (D. C. Rife, R.
+///   R. Boorstyn, IEEE Trans. Inf. Theory 20(5), 1974), and a third more under a Hann window. The test allows
+///   five times that, 0.01 bins, in range and in velocity. Reflections of single faces and edges are below
+///   that.
+/// - The range offset by velocity (f_c/S = 3 ms) is removed beforehand. An error of 0.01 velocity bins leaves
+///   0.02 mm.
 void expect_radar(const KeptRun& r, size_t packet) {
   const nlohmann::json about = nlohmann::json::parse(r.spec("rig/radar").metadata_json);
   const double bin_m = about["range_bin_m"], velocity_bin = about["velocity_bin_m_s"];
@@ -174,13 +171,13 @@ void expect_radar(const KeptRun& r, size_t packet) {
   EXPECT_LT(range[0], expected_m + 0.5 * rho_m * rho_m / expected_m + 0.01 * bin_m);
   EXPECT_NEAR(velocity[0], -closing_m_s, 0.01 * velocity_bin);
   EXPECT_EQ(r.array<uint32_t>(packet, "rig/radar", "instance")[0], id_of(r, "corner"));
-  // In front, but for the angle's noise: half a wavelength between two elements, 0.3 rad of phase at the very
-  // most.
+  // The detection lies straight ahead except for the noise of the angle, which is at most 0.3 rad of phase at
+  // two elements half a wavelength apart.
   const auto point = r.array<float>(packet, "rig/radar", "detections");
   EXPECT_NEAR(point[0], range[0], 0.01 * range[0]);
 }
 
-/// Exact in fp64: 1e-9 m, 1e-9 m/s.
+/// The paths are exact in fp64: 1e-9 m, 1e-9 m/s.
 void expect_paths(const KeptRun& r, size_t packet) {
   const auto delay = r.array<double>(packet, "csi", "delay"),
              doppler = r.array<double>(packet, "csi", "doppler");
@@ -218,7 +215,7 @@ TEST(OneWorld, TheSameRangeVelocityAndInstanceInEverySensor) {
     expect_radar(r, packet);
     expect_paths(r, packet);
   }
-  // Events come from the corner's growing outline, where the pictures before and after have it, and say so.
+  // Events of the corner come from its growing outline, where the pictures before and after show the corner.
   size_t of_corner = 0;
   for (size_t packet = 1; packet < 3; ++packet) {
     const auto instance = r.array<uint32_t>(packet, "rig/events", "instance");
@@ -228,7 +225,7 @@ TEST(OneWorld, TheSameRangeVelocityAndInstanceInEverySensor) {
     for (size_t i = 0; i < instance.size(); ++i) {
       if (instance[i] != id_of(r, "corner")) continue;
       ++of_corner;
-      // The corner only grows, so what it covered at an event it covers still at the tick.
+      // The corner only grows, so that pixels that it covers at an event are still covered at the tick.
       EXPECT_EQ(ids[size_t{y[i]} * 65 + x[i]], instance[i]);
     }
   }
@@ -236,7 +233,7 @@ TEST(OneWorld, TheSameRangeVelocityAndInstanceInEverySensor) {
 }
 
 TEST(OneWorld, SweepsSubStepsAndRadarUpdatesAtTheirOwnRates) {
-  // 100 Hz ticks; rates that divide them, and one that does not.
+  // Ticks at 100 Hz. One of the sensors' rates does not divide this rate.
   Rates rates{"100", "20", "10", "30", "50", "100"};
   rates.ticks = 12;
   rates.sweep = ", sweep_s: 0.05";
@@ -251,7 +248,7 @@ TEST(OneWorld, SweepsSubStepsAndRadarUpdatesAtTheirOwnRates) {
   for (size_t packet = 0; packet < 12; ++packet) {
     const int64_t tick = r.packets[packet].tick;
     EXPECT_EQ(tick, static_cast<int64_t>(packet));
-    // Complete: what is due is there with all its arrays, in order, and nothing else.
+    // The packet is complete: it has the due records with all their arrays, in order, and nothing else.
     std::vector<std::string> expected{"poses"}, found;
     for (const SensorSpec& spec : r.sensors)
       if (due.contains(spec.name) && std::ranges::count(due.at(spec.name), tick) > 0)

@@ -17,7 +17,7 @@ const std::string curve =
     "nodes:\n  - {name: a, trajectory: {type: bezier, control_points_m: [[0, 0, 0], [1, 0, 0], [2, 1, 0], "
     "[3, 1, 0]]}}\n";
 
-/// The text's values are those of the scenario, and the same again.
+/// Expects that parsing the scenario's text gives the scenario's values, and that the text states them.
 void expect_said(const Scenario& scenario) {
   const Scenario again = parse(scenario.text);
   EXPECT_EQ(again.seed, scenario.seed) << scenario.text;
@@ -65,7 +65,7 @@ TEST(Override, FlowMapsIndentsCarriageReturnsAndWideLetters) {
   overridden("---\n# \xE2\x82\xAC\ngreatx: 1\nname: x\nticks: 5\n...\n", {3, 2, 9});
 }
 
-/// Anchors and quotes cannot be replaced in place: what is an alias elsewhere keeps its value.
+/// Values with anchors or quotes are not replaced in place. An alias elsewhere keeps the value of its anchor.
 TEST(Override, AnchorsAliasesAndQuotes) {
   const std::string scene = "scene: {generate: {kind: canyon, seed: *s, size_m: 60}}\n";
   const Scenario s = overridden("greatx: 1\nname: x\nseed: &s 5\nticks: 4\n" + scene, {8, {}, {}});
@@ -87,7 +87,7 @@ TEST(Override, CurvesKeepTheirCourse) {
     EXPECT_EQ(at(shorter, time_s).pose.position, at(whole, time_s).pose.position);
     EXPECT_EQ(at(longer, time_s).velocity, at(whole, time_s).velocity);
   }
-  // Beyond its end it goes straight with B'(1) = 3 (P3 - P2) a second.
+  // Beyond its end the curve continues straight with B'(1) = 3 (P3 - P2) per second.
   EXPECT_EQ(at(longer, 2.0).pose.position, dvec3(6, 1, 0));
 }
 

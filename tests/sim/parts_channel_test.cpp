@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What turns on a node, in the channel: its surfaces shift what they reflect by Doppler, and block what they
-// come in front of.
+// Tests the channel with parts that turn on a node. Their surfaces give reflected paths a Doppler shift, and
+// block the paths that they cross.
 #include <cmath>
 #include <fstream>
 
@@ -24,7 +24,7 @@ using test::KeptRun;
 constexpr double vane_carrier_hz = 5e9, rate_hz = 3.0, face_m = 0.32;
 const dvec3 axle(4, -3, 5);
 
-/// A mill with one upright vane whose outer face is `face_m` off the axle, 4 m wide and 2 m high.
+/// Writes a mill with one upright vane, 4 m wide and 2 m high, whose outer face is `face_m` from the axle.
 std::filesystem::path write_mill(const std::filesystem::path& folder) {
   using namespace scene::generator;
   SceneWriter writer;
@@ -59,7 +59,7 @@ std::string mill(const std::filesystem::path& file, const dvec3& tx, const dvec3
       vane_carrier_hz, channel);
 }
 
-/// The path off the vane's outer face when it has turned by `angle`.
+/// Describes the path reflected at the vane's outer face after the vane has turned by `angle`.
 struct Closed {
   Closed(dvec3 tx, dvec3 rx, double angle) : normal(std::cos(angle), std::sin(angle), 0.0) {
     tx -= axle, rx -= axle;
@@ -69,7 +69,7 @@ struct Closed {
     point = image + (rx - image) * (a / (a + b));
     cosine = (a + b) / length_m;
   }
-  dvec3 normal, point;  ///< where it is reflected, from the axle
+  dvec3 normal, point;  ///< normal of the face; point of reflection, from the axle
   double length_m = 0.0, cosine = 0.0;
 };
 
@@ -84,8 +84,8 @@ TEST(PartsChannel, DopplerOffAVaneIsThatOfTheClosedForm) {
     for (size_t tick = 0; tick < 5; ++tick) {
       const double angle = radians(-8.0) + omega * 1e-3 * static_cast<double>(tick), step = 1e-6;
       const Closed now(tx, rx, angle);
-      // By the path's length over time, and by the speed of the point that reflects: 2 v cos(incidence) /
-      // lambda.
+      // The Doppler shift follows from the path's length over time. It also follows from the speed v of the
+      // reflecting point: 2 v cos(incidence) / lambda.
       const double slope =
           (Closed(tx, rx, angle + omega * step).length_m - Closed(tx, rx, angle - omega * step).length_m) /
           (2.0 * step);
@@ -117,7 +117,7 @@ TEST(PartsChannel, AVaneBlocksWhatItComesInFrontOf) {
   EXPECT_EQ(line_of_sight(180.0), 0);
 }
 
-/// An antenna on the mill sees through the mill's own vane, wherever that is.
+/// An antenna on the mill sees through the mill's own vane at any angle.
 TEST(PartsChannel, APartHidesNothingFromItsOwnNode) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = write_mill(folder.path());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rotors that turn, through the whole simulator: every sensor sees the blades where they are, none those of
-// its own node.
+// Tests turning rotors in the whole simulator. Every sensor sees the blades where they are, and no sensor
+// sees those of its own node.
 #include <cmath>
 #include <set>
 
@@ -40,7 +40,7 @@ std::string scans_down(const std::string& name, double up, const std::string& mo
       name, up, more);
 }
 
-/// A drone under a watcher at rest, and what both carry.
+/// Returns a scenario with a drone under a watcher at rest, and the sensors that both carry.
 std::string hover(const std::string& watching, const std::string& carried = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 4\ntick_rate_hz: 10\nscene: {optical_only: true}\nnodes:\n"
          "  - name: watcher\n    trajectory: {type: static, position_m: [0, 0, 10]}\n" +
@@ -70,8 +70,8 @@ struct Ran {
   KeptRun run;
 };
 
-/// The point of a pixel's centre in local coordinates; the cameras above look straight down with their top to
-/// +x.
+/// Returns the point at a pixel's centre in local coordinates. The cameras above look straight down with the
+/// top of the picture towards +x.
 dvec3 point_at(size_t pixel, double depth, const dvec3& eye) {
   const double right = (static_cast<double>(pixel % width) + 0.5 - 0.5 * width) / focal,
                down = (static_cast<double>(pixel / width) + 0.5 - 0.5 * height) / focal;
@@ -82,7 +82,8 @@ dvec2 pixel_of(const dvec3& point, const dvec3& eye) {
   return {0.5 * width + focal * d.y / d.z, 0.5 * height + focal * d.x / d.z};
 }
 
-/// Blades and hubs reach 0.66 m from their axis and lie within 4 cm (scene/generator/objects/quadrotor.cpp).
+/// Blades and hubs reach 0.66 m from their axis and are at most 4 cm high
+/// (scene/generator/objects/quadrotor.cpp).
 void expect_on_rotor(const dvec3& in_rotor, double slack) {
   EXPECT_LE(std::hypot(in_rotor.x, in_rotor.y), 0.66 + slack);
   EXPECT_GE(in_rotor.z, -0.022 - slack);
@@ -131,8 +132,7 @@ TEST(PartsRun, ASensorSeesNoPartOfItsOwnNode) {
   EXPECT_EQ(hits(hidden, "uav/camera"), 0u);
   EXPECT_GT(hits(seen, "uav/camera"), 100u);
   for (const uint16_t id : hidden.run.array<uint16_t>(1, "uav/camera", "instance")) EXPECT_EQ(id, 0);
-  // The sweep, through its comparison with the depth pictures: points where there is a surface, and nothing
-  // else.
+  // The comparison with the depth pictures shows that the sweep has points only where a surface is visible.
   EXPECT_EQ(hidden.run.statistics.consistency.at(lidar_figure).count(), 0u);
   EXPECT_GT(seen.run.statistics.consistency.at(lidar_figure).count(), 10u);
   EXPECT_LT(seen.run.statistics.consistency.at(lidar_figure).max(), 1e-4);
@@ -148,9 +148,9 @@ TEST(PartsRun, TheBoxHoldsThePartsAndKeepsItsSize) {
     EXPECT_EQ(r.run.array<uint32_t>(tick, "watcher/camera", "box_instance_count")[0], 5u);
     const auto size = r.run.array<float>(tick, "watcher/camera", "box_size");
     for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(size[axis], first[axis]);
-    // 2 (1.1 cos 45 deg + 0.66) m across.
+    // The box is 2 (1.1 cos 45 deg + 0.66) m wide.
     EXPECT_NEAR(size[0], 2.0 * (1.1 * std::sqrt(0.5) + 0.66), 0.01);
-    // Its rectangle is that of hull and blades as they stand.
+    // The box's rectangle encloses hull and blades as they stand.
     const auto ids = r.run.array<uint16_t>(tick, "watcher/camera", "instance");
     const auto modal = r.run.array<int32_t>(tick, "watcher/camera", "box_modal");
     int32_t left = width, right = 0;
@@ -179,7 +179,7 @@ TEST(PartsRun, GoesOnAfterAResumeWithTheSameBytes) {
   ASSERT_EQ(all.packets.size(), 4u);
   ASSERT_EQ(rest.packets.size(), 2u);
   for (size_t i = 0; i < 2; ++i) expect_same_bytes(all.sensors, all.packets[2 + i], rest.packets[i]);
-  // The blades have turned in between: pictures differ.
+  // The blades turn between the ticks, so the pictures differ.
   EXPECT_FALSE(all.array(2, "watcher/camera", "instance").bytes ==
                all.array(3, "watcher/camera", "instance").bytes);
   EXPECT_GT(all.counter("watcher/events.events"), 100u);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rotors and wheels: parts of a node's model that turn on it. No device.
+// Tests rotors and wheels: parts of a node's model that turn on the node. The tests need no device.
 #include <cmath>
 #include <fstream>
 
@@ -21,7 +21,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A drone that banks along a curve, its model turned, shifted and scaled on it, by the name of its parts.
+/// Returns a scenario with a drone that banks along a curve. Its model is turned, shifted and scaled on the
+/// node, and has the given parts.
 std::string flying(const std::string& parts, const std::string& trajectory = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 40\ntick_rate_hz: 400\nscene: {origin_m: [10, 20, "
          "30]}\nnodes:\n"
@@ -52,7 +53,7 @@ struct Flight {
   Courses courses;
 };
 
-/// Corners of an instance's triangles, in its body's frame.
+/// Returns the corners of an instance's triangles in its body's frame.
 std::vector<dvec3> corners_of(const scene::Scene& scene, const std::string& instance) {
   std::vector<dvec3> corners;
   for (const scene::Primitive& primitive : scene.primitives)
@@ -62,7 +63,7 @@ std::vector<dvec3> corners_of(const scene::Scene& scene, const std::string& inst
   return corners;
 }
 
-/// Rodrigues' formula.
+/// Turns `v` about `axis` by Rodrigues' formula.
 dvec3 turned(const dvec3& v, const dvec3& axis, double angle) {
   return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
          axis * glm::dot(axis, v) * (1.0 - std::cos(angle));
@@ -73,7 +74,7 @@ TEST(Parts, EveryCornerOfABladeIsWhereTheClosedFormHasIt) {
   ASSERT_EQ(whole.world.scene.bodies.size(), 2u);
   ASSERT_EQ(parts.world.scene.bodies.size(), 6u);
   const uint32_t uav = whole.body("uav");
-  // The model's z axis on the node, mirrored by the scale.
+  // The model's z axis on the node. The scale mirrors it.
   const dvec3 axis =
       orientation_from_yaw_pitch_roll(radians(30.0), radians(10.0), radians(5.0)) * dvec3(0, 0, -1);
   for (int rotor = 0; rotor < 4; ++rotor) {
@@ -82,7 +83,7 @@ TEST(Parts, EveryCornerOfABladeIsWhereTheClosedFormHasIt) {
                              own = corners_of(parts.world.scene, name);
     ASSERT_GT(rest.size(), 50u);
     ASSERT_EQ(own.size(), rest.size());
-    // The hub: two blades, alike but for half a turn.
+    // Neighbouring rotors turn in opposite senses.
     const double side = rotor % 2 == 0 ? 1.0 : -1.0;
     const scene::Joint& joint = *parts.world.scene.bodies[parts.body(name)].joint;
     EXPECT_LT(glm::length(joint.axis - axis), 1e-15);
@@ -101,8 +102,8 @@ TEST(Parts, EveryCornerOfABladeIsWhereTheClosedFormHasIt) {
 
 TEST(Parts, TurnAboutTheirOwnHub) {
   const Flight f(flying(four_rotors));
-  // scene/generator/objects/quadrotor.cpp: on a circle of half the diagonal, 2.2 m, front left first; the
-  // model's mount on top.
+  // By scene/generator/objects/quadrotor.cpp the hubs lie on a circle of half the diagonal of 2.2 m, the
+  // front left hub first. The model's mount comes on top.
   const Pose mount{dvec3(0.1, 0.2, -0.3),
                    orientation_from_yaw_pitch_roll(radians(30.0), radians(10.0), radians(5.0))};
   for (int rotor = 0; rotor < 4; ++rotor) {
@@ -138,7 +139,7 @@ TEST(Parts, OppositeRotorsCancelEachOthersTurn) {
                 carrier = f.motion("uav", time_s).angular_velocity;
     EXPECT_LT(glm::length(left + right - 2.0 * carrier), 1e-9);
     EXPECT_NEAR(glm::length(left - carrier), 2.0 * pi * 90.0, 1e-9);
-    // From the same start by opposite angles: the carrier's pose lies half way.
+    // Both rotors start alike and turn in the same sense, so their poses agree in rotation.
     const Pose a = f.motion("uav/rotor_0", time_s).pose, b = f.motion("uav/rotor_2", time_s).pose;
     EXPECT_LT(glm::length(a.rotate(dvec3(1, 0, 0)) - b.rotate(dvec3(1, 0, 0))), 1e-12) << "the same sense";
   }
@@ -168,7 +169,7 @@ TEST(Parts, StartsAreDrawnForEachOnItsOwn) {
     for (const double before : starts) EXPECT_NE(start, before);
     starts.push_back(start);
   }
-  // Another list of parts changes nothing for those that it shares.
+  // Another list of parts does not change the parts that both lists contain.
   const Flight two(flying("{nodes: [rotor_3, rotor_1], rate_hz: 30}"));
   EXPECT_EQ(two.world.parts[0].name, "uav/rotor_1");
   EXPECT_EQ(two.courses.rotations[0].turns(0.0), starts[1]);
@@ -187,7 +188,7 @@ TEST(Parts, ReachHoldsEveryPlaceThatABladeComesTo) {
     for (const dvec3& corner : corners_of(f.world.scene, name))
       for (int i = 0; i < 720; ++i) found.add(joint.pose(2.0 * pi * i / 720).apply(corner));
   }
-  // A turn in steps of half a degree misses the outermost by r (1 - cos(0.25 deg)).
+  // A turn in steps of half a degree misses the outermost point by r (1 - cos(0.25 deg)).
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_LE(reach.min[axis], found.min[axis] + 1e-12);
     EXPECT_GE(reach.max[axis], found.max[axis] - 1e-12);
@@ -203,7 +204,7 @@ TEST(Parts, WithoutAnyTheSceneIsWhatItWas) {
     EXPECT_EQ(without.world.scene.instances[i].name, parts.world.scene.instances[i].name);
   EXPECT_EQ(without.world.scene.facets.size(), parts.world.scene.facets.size());
   EXPECT_NE(without.world.scene.hash, parts.world.scene.hash);
-  // Another axis is another scene, another rate is not.
+  // Another axis makes another scene, but another rate does not.
   EXPECT_NE(Flight(flying("{nodes: rotor_0, rate_hz: 9}")).world.scene.hash,
             Flight(flying("{nodes: rotor_0, rate_hz: 9, axis: [0, 1, 9]}")).world.scene.hash);
   EXPECT_EQ(Flight(flying("{nodes: rotor_0, rate_hz: 9}")).world.scene.hash,
@@ -244,7 +245,7 @@ TEST(Parts, WhatTheModelDoesNotHaveIsSaid) {
               HasSubstr("expected parts apart from each other, found 'rotor_2' on 'quadrotor'"));
 }
 
-/// What hangs on a node turns with it; nodes without meshes are parts as well; equal names get numbers.
+/// The branch below a part turns with it, nodes without meshes may be parts, and equal names get numbers.
 TEST(Parts, AreWholeBranchesOfTheModel) {
   using namespace scene::generator;
   SceneWriter writer;
@@ -275,7 +276,7 @@ TEST(Parts, AreWholeBranchesOfTheModel) {
   ASSERT_EQ(scene.instances.size(), 5u);
   EXPECT_EQ(scene.instances[0].body, 1u);
   for (uint32_t i = 1; i < 5; ++i) EXPECT_EQ(scene.instances[i].body, i < 3 ? 2u : 3u);
-  // A quarter turn about y takes x to -z: the wheel's front spoke goes down.
+  // A quarter turn about y maps x to -z, so the wheel's front spoke points down.
   const dvec3 spoke = scene.instances[3].bounds.center();
   EXPECT_NEAR(spoke.x, 0.5, 1e-6);
   const dvec3 there = f.motion("cart/wheel_2", 0.25).pose.apply(spoke) + scene.origin;

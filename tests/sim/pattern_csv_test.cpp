@@ -32,7 +32,7 @@ std::string refusal_of(const std::string& text) {
 constexpr const char* gain_header = "theta_deg,phi_deg,gain_dbi";
 constexpr const char* field_header = "theta_deg,phi_deg,f_theta_re,f_theta_im,f_phi_re,f_phi_im";
 
-/// Lines of a grid in steps of 45 degrees, the first at line 2.
+/// Returns the lines of a grid in steps of 45 degrees. The first one is line 2 of the file.
 std::vector<std::string> lines(const std::function<std::string(double, double)>& value, double first = 0.0,
                                double last = 315.0) {
   std::vector<std::string> out;
@@ -49,8 +49,8 @@ std::string file(const std::string& header, const std::vector<std::string>& rows
 }
 
 std::string flat(double, double) { return "3"; }
-/// A different complex number for every direction, the same at both ends of the circle, 0.5 strong at the
-/// poles.
+/// Returns a different complex number for every direction, the same at both ends of the circle. Its magnitude
+/// at the poles is 0.5.
 std::string field_at(double theta, double phi) {
   const bool pole = theta == 0.0 || theta == 180.0;
   const double turn = std::fmod(phi + 360.0, 360.0);
@@ -70,7 +70,8 @@ TEST(PatternCsv, GainsAreVerticalAmplitudes) {
 }
 
 TEST(PatternCsv, FieldsInAnyOrderFromAnyMeridian) {
-  // The same sphere from 0, from -180 and from -180 with the meridian at +180 once more, its lines shuffled.
+  // The same sphere starts at 0, at -180, and at -180 with the meridian repeated at +180. Its lines are
+  // shuffled.
   std::vector<rf::PatternTable> tables;
   for (const auto& [first, last] :
        {std::pair(0.0, 315.0), std::pair(-180.0, 135.0), std::pair(-180.0, 180.0)}) {
@@ -120,7 +121,7 @@ TEST(PatternCsv, Tr38901IsAcceptedThoughItsPolesDependOnAzimuth) {
 }
 
 TEST(PatternCsv, FaultsNameLineColumnAndField) {
-  std::vector<std::string> rows = lines(flat);  // line 2 + 8 i + j: theta 45 i, phi 45 j
+  std::vector<std::string> rows = lines(flat);  // line 2 + 8 i + j holds theta = 45 i, phi = 45 j
   const auto with = [&](size_t row, const std::string& text) {
     std::vector<std::string> changed = rows;
     changed[row] = text;
@@ -168,7 +169,7 @@ TEST(PatternCsv, LessThanTheWholeSphereIsRefused) {
   EXPECT_EQ(refusal_of(file(gain_header, {"0,0,0", "0,90,0", "0,180,0", "0,270,0", "180,0,0", "180,90,0",
                                           "180,180,0", "180,270,0"})),
             "p.csv:1: theta_deg: expected 3 zeniths or more, found 2");
-  // The meridian that is there twice must be one.
+  // The two copies of a meridian must have equal values.
   std::vector<std::string> seam = lines(flat, -180.0, 180.0);
   seam[17] = "45,180,4";
   EXPECT_EQ(
@@ -189,7 +190,7 @@ TEST(PatternCsv, HeadersAndEmptyFiles) {
 }
 
 TEST(PatternCsv, LinesThatEachHaveTheirOwnAnglesMakeNoSquareOfThem) {
-  // A line for each of 30,001 zeniths, each at an azimuth of its own: 900 million places for 30,001 lines.
+  // A line for each of 30,001 zeniths, each at its own azimuth, would make a table of 900 million places.
   std::string text = std::string(gain_header) + "\n";
   for (int i = 0; i <= 30000; ++i)
     text += fmt::format("{:.6f},{:.6f},0\n", i * (180.0 / 30000.0), i * (360.0 / 30001.0));

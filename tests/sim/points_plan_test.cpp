@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Effects that distance decides follow every end that there is: points given from outside, mounts and
-// elements far from their node, what moves and reflects.
+// Effects that depend on distance must follow every possible end: points given from outside, mounts and
+// elements far from their node, and moving reflectors.
 #include <cmath>
 #include <complex>
 
@@ -23,7 +23,7 @@ using sim::testing::RadioRun;
 using sim::testing::run;
 using test::TinyScene;
 
-/// A mast and a terminal beside it in an empty world; all that matters is farther away.
+/// Returns a mast and a terminal beside it in an empty world. The tested ends are farther away.
 std::string scenario(double carrier_hz, const std::string& weather,
                      const std::string& position_m = "[0.1, 0, 20]", const std::string& antenna = "") {
   return fmt::format(
@@ -38,7 +38,7 @@ std::string scenario(double carrier_hz, const std::string& weather,
       weather, position_m, antenna, carrier_hz);
 }
 
-/// The paths of `asked`, of a call that has `all` points.
+/// Returns the paths to `asked` in a call that has the points `all`.
 std::vector<rf::Path> paths_to(const std::string& yaml, const dvec3& asked, const std::vector<dvec3>& all) {
   scene::Bounds points;
   for (const dvec3& point : all) points.add(point);
@@ -71,7 +71,7 @@ TEST(PointsPlan, APlaceHasTheSamePathsAsANodeAndAsAPoint) {
     for (size_t i = 0; i < 4; ++i)
       EXPECT_EQ(transfer[i], std::complex<float>(point[0].transfer[i])) << air.carrier_hz;
     EXPECT_EQ(node.values<double>(0, "delay")[0], point[0].delay_s);
-    // And it is what the air takes: no effect of it at a terminal beside the mast.
+    // The air does attenuate this path. At a terminal beside the mast the plan leaves its effects out.
     const double without = decibels_of(
         paths_to(scenario(air.carrier_hz, air.weather) + "effects: {gas: off, rain: off}\n", far, {far})[0]);
     const Scenario parsed = parse_scenario(yaml, "test.yaml", ".");
@@ -80,7 +80,7 @@ TEST(PointsPlan, APlaceHasTheSamePathsAsANodeAndAsAPoint) {
     EXPECT_GT(taken_db, 3.0) << air.carrier_hz;
     const double most_db =
         rf::most_gas_db(weather, air.carrier_hz, 1000.0) + rf::most_rain_db(weather, air.carrier_hz, 1000.0);
-    EXPECT_LE(taken_db, most_db + 1e-9)  // two logarithms' roundings
+    EXPECT_LE(taken_db, most_db + 1e-9)  // rounding of two logarithms
         << air.carrier_hz;
   }
 }
@@ -101,7 +101,7 @@ EffectPlan plan_of(const std::string& yaml, const scene::Scene& scene = TinyScen
 TEST(PointsPlan, MountsAndElementsFarFromTheirNodeCount) {
   EXPECT_FALSE(plan_of(scenario(60e9, "")).gas.on);
   EXPECT_TRUE(plan_of(scenario(60e9, "", "[0.1, 0, 20]", ", mount: {position_m: [0, 900, 0]}")).gas.on);
-  // 100,000 wavelengths of 5 mm.
+  // 100,000 wavelengths of 5 mm are 500 m.
   EXPECT_TRUE(plan_of(scenario(60e9, "", "[0.1, 0, 20]", ", elements_wl: [[0, 0, 0], [0, 1e5, 0]]")).gas.on);
 }
 
@@ -129,7 +129,7 @@ TEST(PointsPlan, CellsOfAMapCount) {
   EXPECT_TRUE(plan.gas.on);
   EXPECT_FALSE(same_effects(plan, make_effect_plan(parsed, scene)));
   EXPECT_TRUE(same_effects(plan, plan));
-  // Draped: wherever the ground is, so much above it.
+  // A draped map follows the ground at a constant height above it.
   TinyScene hill;
   hill.object("ground").quad({0, 0, 3}, {10, 0, 3}, {10, 10, 30}, {0, 10, 30});
   const scene::Bounds draped = bounds_of_cells(grid, {std::nullopt, 1.5, MapOver::ground}, hill.build());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radars as written in scenarios.
+// Tests radars as written in scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace greatx::sim {
 namespace {
 
-/// A radar from line 12 on, after an antenna.
+/// Returns a scenario with an antenna and a radar whose fields begin in line 12.
 Scenario scenario_with(const std::string& fields) {
   return parse_scenario(R"(greatx: 1
 name: radars
@@ -26,7 +26,8 @@ nodes:
       - {name: horn, type: antenna, pattern: tr38901, columns: 2}
       - {name: crossed, type: antenna, polarization: vh}
       - {name: eye, type: camera, rate_hz: 1, width: 4, height: 4, fov_deg: 60}
-  - {name: car, trajectory: {type: static, position_m: [0, 0, 0]}, sensors: [{name: radar, type: radar, rate_hz: 10)" +
+  - {name: car, trajectory: {type: static, position_m: [0, 0, 0]}, )"
+                        R"(sensors: [{name: radar, type: radar, rate_hz: 10)" +
                             fields + "}]}\n",
                         "radars.yaml", ".");
 }
@@ -42,7 +43,7 @@ TEST(RadarScenario, NeedsNothingButARate) {
   EXPECT_EQ(radar.signal.arrays.receive_m.size(), 4u);
   EXPECT_FALSE(radar.signal.bistatic || radar.outputs.cube || radar.see_own_body);
   EXPECT_TRUE(radar.outputs.range_doppler && radar.outputs.range_azimuth && radar.outputs.detections);
-  // Sixteen virtual antennas in a row, half a wavelength apart.
+  // Sixteen virtual antennas stand in a row, half a wavelength apart.
   std::vector<double> row;
   for (const dvec3& t : radar.signal.arrays.transmit_m)
     for (const dvec3& r : radar.signal.arrays.receive_m) row.push_back(t.y + r.y);
@@ -57,11 +58,14 @@ TEST(RadarScenario, EveryFieldIsRead) {
                  sample_rate_hz: 10e6, samples: 128, chirps: 32},
       transmit: {pattern: tr38901, columns: 2, column_spacing_wl: 2}, receive: {columns: 3, slant_deg: 45},
       power_dbm: 10, field_of_view: {azimuth_deg: [-20, 40], elevation_deg: [-5, 10]},
-      echoes: {tubes: 500, max_bounces: 2, target_tube_m: 0.2, target_budget: 10, mirror_budget: 20, targets: [wall], updates: 4,
+      echoes: {tubes: 500, max_bounces: 2, target_tube_m: 0.2, target_budget: 10, )"
+                                       R"(mirror_budget: 20, targets: [wall], updates: 4,
                diffuse_patch_m: 0.5, antenna_radius_m: 0.1, merge_share: 0.25, max_echoes: 77},
-      receiver: {noise_figure_db: 12, phase_noise: {level_dbc_hz: -95, pole_hz: 2e6}, adc: {bits: 10, full_scale_dbm: -20}},
+      receiver: {noise_figure_db: 12, phase_noise: {level_dbc_hz: -95, pole_hz: 2e6}, )"
+                                       R"(adc: {bits: 10, full_scale_dbm: -20}},
       processing: {range_window: taylor, doppler_window: blackman, azimuths: 91, azimuth_limit_deg: 60,
-                   cfar: {kind: ordered_statistic, false_alarm: 1e-4, guard: [1, 0], train: [5, 3], rank: 0.5}},
+                   cfar: {kind: ordered_statistic, false_alarm: 1e-4, )"
+                                       R"(guard: [1, 0], train: [5, 3], rank: 0.5}},
       outputs: [cube, detections], see_own_body: true)");
   const rf::RadarSignalConfig& s = radar.signal;
   EXPECT_NEAR(s.waveform.bandwidth_hz(), 1e9, 1e-3);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio maps: where cells are, what lies beneath them, and that a cell is a receiver put there.
+// Tests radio maps: where cells are, what lies below them, and that a cell equals a receiver at its place.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -28,7 +28,7 @@ using ::testing::ThrowsMessage;
 
 constexpr double carrier_hz = 3.5e9, inf = std::numeric_limits<double>::infinity();
 
-/// A street of slabs, away from the origin of the world.
+/// Returns a street of slabs, away from the origin of the world.
 scene::Scene street() {
   TinyScene tiny;
   const uint32_t ground = tiny.material_as(radio_material("medium_dry_ground")),
@@ -43,7 +43,7 @@ scene::Scene street() {
   return scene;
 }
 
-/// Two base stations, and terminals at the middles of these cells.
+/// Returns a scenario with two base stations, and terminals at `terminals`.
 std::string two_stations(const std::vector<dvec3>& terminals) {
   std::string nodes, names;
   for (size_t i = 0; i < terminals.size(); ++i) {
@@ -66,7 +66,7 @@ std::string two_stations(const std::vector<dvec3>& terminals) {
       nodes, names, carrier_hz);
 }
 
-/// A channel of a scenario, ready for maps.
+/// Holds a channel of a scenario, ready for maps.
 class Site {
  public:
   Site(const std::string& yaml, const scene::Scene& scene)
@@ -94,7 +94,7 @@ class Site {
   ChannelSnapshot snapshot_;
 };
 
-/// NaN is NaN, and all else the same bits.
+/// Expects the same bits, where any NaN equals any other.
 void expect_same(const std::vector<rf::LinkStatistics>& a, const std::vector<rf::LinkStatistics>& b) {
   ASSERT_EQ(a.size(), b.size());
   const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
@@ -111,7 +111,7 @@ void expect_same(const std::vector<rf::LinkStatistics>& a, const std::vector<rf:
 
 TEST(RadioMapGrid, CellsCoverTheRectangleFromTheSouthWest) {
   const MapGrid grid = make_map_grid({-3.0, 10.0}, {4.5, 12.0}, 1.0, 2);
-  EXPECT_EQ(grid.columns, 8u);  // the last one sticks out
+  EXPECT_EQ(grid.columns, 8u);  // the last column extends beyond the rectangle
   EXPECT_EQ(grid.rows, 2u);
   EXPECT_EQ(grid.max_m(), dvec2(5.0, 12.0));
   EXPECT_EQ(grid.center(0), dvec2(-2.5, 10.5));
@@ -164,7 +164,7 @@ TEST(RadioMapGround, IsTheHighestOfItsClassOrTheLowestThatFacesUp) {
   EXPECT_NEAR(*roofs.at(at + dvec2(10, 8)), 56.0, 1e-12);
   EXPECT_NEAR(*roofs.at(at + dvec2(2, 2)), 50.2, 1e-12);  // under the tree
   EXPECT_FALSE(ground.at(at + dvec2(-0.5, 2)));
-  // On corners, edges and a quad's diagonal, too.
+  // The height is also right on corners, on edges and on the diagonal of a quad.
   for (const dvec2& p : {dvec2(0, 0), dvec2(20, 0), dvec2(10, 0), dvec2(4, 2), dvec2(20, 10)})
     EXPECT_NEAR(ground.at(at + p).value_or(-1.0), 50.0 + 0.1 * p.x, 1e-9);
   classes({});
@@ -190,7 +190,7 @@ TEST(RadioMap, CellsKnowWhereTheyStand) {
     EXPECT_EQ(std::isnan(cells.z_m[cell]) ? 1.5 : cells.z_m[cell], 1.5);
     EXPECT_EQ(std::isnan(cells.z_m[cell]), p.x < 60);
   }
-  // A plane over two of the houses, and one in the ground's plane.
+  // One plane lies above two of the houses, the other in the plane of the ground.
   const MapCells high = site.cells(grid, {8.0, 1.5, MapOver::ground});
   EXPECT_EQ(high.placement[25 * 90 + 60], CellPlacement::free);   // (110.5, 10.5)
   EXPECT_EQ(high.placement[25 * 90 + 40], CellPlacement::solid);  // (90.5, 10.5)
@@ -257,7 +257,7 @@ TEST(RadioMap, ACellIsAReceiverPutThereToTheBit) {
     with_several += links[2 * cell].paths > 2;
     in_shadow += links[2 * cell].paths > 0 && !links[2 * cell].line_of_sight;
   }
-  EXPECT_GT(with_several, 5u);  // else the test says nothing
+  EXPECT_GT(with_several, 5u);  // otherwise the test proves nothing
   EXPECT_GT(in_shadow, 2u);
 }
 
@@ -319,7 +319,7 @@ TEST(RadioMap, AnyPartAndAnyNumberOfThreadsGivesTheSameBits) {
   const MapCells cells = site.cells(grid, {{}, 1.5, MapOver::ground});
   const std::vector<rf::LinkStatistics> whole = site.solve(cells);
   ASSERT_EQ(whole.size(), 2 * grid.cells());
-  // Stopped, and gone on with where it was.
+  // The solution is stopped, and continued from where it was.
   std::vector<rf::LinkStatistics> parts = site.solve(cells, 0, 100);
   EXPECT_LT(parts.size(), whole.size());
   const auto rest = site.solve(cells, parts.size() / 2);
@@ -351,7 +351,7 @@ TEST(RadioMap, CellsInsideSolidsHaveValuesOnRequest) {
 }
 
 TEST(RadioMap, FreeSpaceIsFriis) {
-  // Above the roofs, without reflections.
+  // The cells lie above the roofs, and reflections are switched off.
   std::string yaml = two_stations({{100, 0, 1.5}});
   yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
   Site site(yaml, street());
@@ -366,8 +366,9 @@ TEST(RadioMap, FreeSpaceIsFriis) {
       if (link.paths == 0) continue;
       const double d = glm::distance(stations[t], cells.point(cell));
       const double gain = std::pow(speed_of_light / carrier_hz / (4.0 * pi * d), 2);
-      // Panels of +-45 degrees seen by a vertical element: half of the power each, mean over ports.
-      EXPECT_NEAR(link.path_gain / gain, 0.5, t == 1 ? 1e-9 : 0.02);  // the other panel leans
+      // The panels have elements at +-45 degrees. A vertical element receives half of the power of each,
+      // averaged over the ports.
+      EXPECT_NEAR(link.path_gain / gain, 0.5, t == 1 ? 1e-9 : 0.02);  // the first panel leans
       EXPECT_NEAR(link.mean_delay_s, d / speed_of_light, 1e-18);
       EXPECT_EQ(link.delay_spread_s, 0.0);
       EXPECT_EQ(link.k_factor, inf);
@@ -376,7 +377,7 @@ TEST(RadioMap, FreeSpaceIsFriis) {
   EXPECT_GT(seen, 30u);
 }
 
-/// Cells of 1 m in a row, with these gains of each transmitter; the last cell is inside a solid.
+/// Holds a row of cells of 1 m with the given gains of each transmitter. The last cell is inside a solid.
 struct Table {
   MapCells cells;
   std::vector<rf::LinkStatistics> links;
@@ -414,7 +415,7 @@ TEST(RadioMapValues, PowerInterferenceAndServers) {
   const auto sinr = table.values("sinr", power);
   EXPECT_NEAR(sinr[0], 10.0 * std::log10(1e-9 / (1e-9 + noise)), 1e-12);
   EXPECT_NEAR(sinr[1], 10.0 * std::log10(1e-10 / (1e-9 + noise)), 1e-12);
-  EXPECT_NEAR(sinr[7], 10.0 * std::log10(1e-10 / noise), 1e-12);  // nobody else is there
+  EXPECT_NEAR(sinr[7], 10.0 * std::log10(1e-10 / noise), 1e-12);  // no other transmitter is heard
   EXPECT_EQ(sinr[3], -inf);
   const auto gain = table.values("path_gain", power);
   EXPECT_EQ(gain[1], 1e-9);

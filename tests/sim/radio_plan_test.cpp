@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which radio effects a scenario calls for, why, and that what is left out is as small as the plan says.
+// Tests which radio effects a scenario needs and why, and that omitted effects are as small as the plan says.
 #include "sim/plan/radio_plan.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ using test::TinyScene;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A base station and a terminal 30 m apart above the ground, one channel.
+/// Returns a scenario with one channel, and a base station and a terminal 30 m apart above the ground.
 std::string planned_scenario(const std::string& channel = "", const std::string& more = "") {
   return "greatx: 1\nname: test\nseed: 5\nticks: 1\ntick_rate_hz: 10\n"
          "nodes:\n"
@@ -39,7 +39,7 @@ std::string planned_scenario(const std::string& channel = "", const std::string&
          channel + "}\n" + more;
 }
 
-/// A ground and a wall of these materials.
+/// Returns a ground and walls of these materials.
 scene::Scene planned_street(scene::Material ground, scene::Material wall) {
   TinyScene tiny;
   const uint32_t g = tiny.material_as(ground), w = tiny.material_as(wall);
@@ -131,7 +131,7 @@ TEST(RadioPlan, TheAirComesWithDistanceAndFrequency) {
 }
 
 TEST(RadioPlan, TheAirIsBoundedForTheChannelThatItTakesMostFrom) {
-  // The oxygen band at 60 GHz takes ten times what 80 GHz loses.
+  // The oxygen band at 60 GHz attenuates ten times more than the air at 80 GHz.
   const std::string two =
       planned_scenario(", carrier_hz: 60e9") +
       "  - {name: second, tx: bs/antenna, rx: [ue/antenna], rate_hz: 10, subcarriers: 16, "
@@ -163,7 +163,8 @@ TEST(RadioPlan, RoughnessComesWithHeightsThatMatterOverAllReflections) {
   expect(plan(planned_scenario(), rough(0.0)).roughness, false, "no material has one");
   expect(plan(planned_scenario(), rough(1e-4)).roughness, false, "within", "over 2 reflections");
   expect(plan(planned_scenario(), rough(1e-2)).roughness, true, "more than the tolerance");
-  // 0.3 mm: 0.0084 dB a reflection, within the tolerance of 0.01 dB once and beyond it twice.
+  // 0.3 mm cost 0.0084 dB per reflection. One reflection is within the tolerance of 0.01 dB, two are beyond
+  // it.
   std::string once = planned_scenario();
   once.replace(once.find("max_depth: 2"), 12, "max_depth: 1");
   EXPECT_FALSE(plan(once, rough(3e-4)).roughness.on);
@@ -191,7 +192,7 @@ TEST(RadioPlan, WhatIsAskedForByName) {
   expect(asked.diffraction_lit_region, true, "continuous");
   expect(asked.free_edges, true, "switched on (");
   expect(asked.dispersion, true, "switched on (");
-  // Nothing to act on: off, and the reason does not say on.
+  // An effect without anything to act on is off, and the reason does not say "on".
   expect(plan(planned_scenario("", switches("scattering: on")), planned_street()).scattering, false,
          "nothing to act on (no material has");
   expect(plan(planned_scenario("", switches("diffraction: on")), TinyScene().build()).diffraction, false,
@@ -236,10 +237,9 @@ TEST(RadioPlan, WeatherThatIsNoneIsAnErrorByField) {
   }
 }
 
-// ------------------------------------------------------------------------------------------- what is left
-// out
+// ---------------------------------------------------------------------------------------- effects left out
 
-/// The number of dB in "at most 0.00123 dB ...".
+/// Returns the number of dB in a bound of the form "at most 0.00123 dB ...".
 double bound_db(const Effect& effect) {
   const std::string before = "at most ";
   const size_t at = effect.bound.find(before);
@@ -252,7 +252,7 @@ double bound_db(const Effect& effect) {
   return decibels;
 }
 
-/// No H(f) may change by more than this many dB change every path's amplitude.
+/// Expects that no H(f) changes by more than if every path's amplitude changed by `most_db`.
 void expect_within(const RadioRun& plain, const RadioRun& forced, double most_db, const std::string& name) {
   double amplitudes = 0.0;
   for (const std::complex<float>& a : plain.values<std::complex<float>>(0, "amplitude"))
@@ -301,8 +301,8 @@ TEST(RadioPlan, ForcedWhereThereIsNothingItChangesNoByte) {
 }
 
 TEST(RadioPlan, WallsThatAreDarkAreOpaqueAmongOthers) {
-  // 2 mm of metal take thousands of dB: as a half-space, to the last byte, even beside panes that let waves
-  // pass.
+  // 2 mm of metal attenuate by thousands of dB. They give the same bytes as a half-space, even beside panes
+  // that transmit waves.
   const scene::Material pane = radio_material("glass", 0.01);
   for (const scene::Material& ground : {radio_material("medium_dry_ground"), pane}) {
     const RadioRun thick = run(planned_scenario("", switches("transmission: on")),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs of one channel, "csi", in scenes that the test makes by hand.
+// Runs of one channel, "csi", in scenes that a test makes by hand.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace greatx::sim::testing {
 
 struct RadioRun : test::KeptRun {
   using KeptRun::array;
-  /// Of the channel, in a packet.
+  /// Returns an array of the channel in `packet`.
   const Array& array(size_t packet, const std::string& name) const { return array(packet, "csi", name); }
   template <typename T>
   std::vector<T> values(size_t packet, const std::string& name) const {
@@ -28,7 +28,8 @@ struct RadioRun : test::KeptRun {
   uint64_t counter(const std::string& name) const { return KeptRun::counter("csi." + name); }
 };
 
-/// The scenario's nodes move nothing of the scene. `points` is make_experiment()'s.
+/// Returns an experiment in which no node of the scenario moves a body of `scene`. `points` is passed to
+/// make_experiment().
 inline Experiment experiment_in(const std::string& yaml, const scene::Scene& scene,
                                 const scene::Bounds& points = {}) {
   Scenario scenario = parse_scenario(yaml, "test.yaml", ".");
@@ -37,14 +38,14 @@ inline Experiment experiment_in(const std::string& yaml, const scene::Scene& sce
   return make_experiment(std::move(scenario), std::make_shared<const World>(std::move(world)), points);
 }
 
-/// Ticks before `first` are left out, as by a resume.
+/// Runs the scenario from tick `first` on. Earlier ticks are left out, as by a resume.
 inline RadioRun run(const std::string& yaml, const scene::Scene& scene, int64_t first = 0) {
   return {test::keep_run(experiment_in(yaml, scene), 0, first)};
 }
 
 using test::expect_same_bytes;
 
-/// An ITU medium, half-space (thickness 0) or slab.
+/// Returns a material with an ITU medium: a half-space if the thickness is 0, else a slab.
 inline scene::Material radio_material(const std::string& itu, double thickness_m = 0.0) {
   scene::Material material;
   material.name = itu + (thickness_m > 0.0 ? " wall" : "");

@@ -65,7 +65,7 @@ TEST(Rational, WritesWhatItReads) {
 }
 
 TEST(Rational, ComparesExactly) {
-  // Both are 1.0 in fp64.
+  // Both values are 1.0 in fp64.
   const Rational below{largest - 1, largest}, one{1, 1};
   EXPECT_EQ(below.value(), one.value());
   EXPECT_TRUE(less(below, one));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tables of kinds of sensors agree: parser, makers, panels.
+// The tables of sensor kinds must agree: parser, makers and panels.
 #include "sim/sensors/registry/registry.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,8 @@ nodes:
   - name: b
     trajectory: {type: static, position_m: [2, 1, 1.5]}
     sensors:
-      - {name: lidar, type: lidar, rate_hz: 5, channels: 2, elevation_min_deg: -5, elevation_max_deg: 5, azimuth_steps: 16}
+      - {name: lidar, type: lidar, rate_hz: 5, channels: 2, elevation_min_deg: -5, )"
+                              R"(elevation_max_deg: 5, azimuth_steps: 16}
       - {name: eye, type: camera, rate_hz: 10, width: 16, height: 12, fov_deg: 70}
       - {name: dvs, type: event_camera, rate_hz: 10, camera: eye}
       - {name: antenna, type: antenna}

@@ -10,8 +10,8 @@ namespace greatx::sim {
 namespace {
 
 TEST(HardCase, N58_RotorsDoNotDriftInAnHour) {
-  // 90 turns a second on millisecond ticks: 9/100 of a turn a tick. The same hundred shares for ever, to the
-  // bit.
+  // 90 turns per second on millisecond ticks are 9/100 of a turn per tick. The same hundred angles repeat for
+  // ever, exact to the bit.
   const Rational tick_rate{1000, 1};
   const Clock clock(tick_rate);
   const Rotation rotor(tick_rate, {{90, 1}, false}, 0.0);
@@ -22,8 +22,8 @@ TEST(HardCase, N58_RotorsDoNotDriftInAnHour) {
     ASSERT_EQ(rotor.turns(clock.seconds(hour + tick)), expected) << tick;
     ASSERT_EQ(rotor.turns(clock.seconds(100'000 * hour + tick)), expected) << tick;  // eleven years
   }
-  // A rate that no binary fraction is, on ticks of broadcast video: 1000/7 * 1001/30000 = 143/30 turns a
-  // tick.
+  // The rate is no binary fraction, and the ticks are those of broadcast video: 1000/7 * 1001/30000 = 143/30
+  // turns per tick.
   const Rational video{30000, 1001};
   const Rotation odd(video, {{1000, 7}, false}, 0.0);
   for (const int64_t tick : {0, 1, 29, 30, 107'892'107, 107'892'120})
@@ -38,7 +38,7 @@ TEST(Rotation, GoesOnEvenlyBetweenTicks) {
     const double turns = 0.125 + 30.0 * time_s;
     EXPECT_NEAR(rotor.turns(time_s), turns - std::floor(turns), 1e-13) << time_s;
   }
-  // Over the middle between two ticks, where another one is the nearest.
+  // The angle is continuous across the middle between two ticks, where the nearest tick changes.
   const double before = rotor.turns(std::nextafter(3600.05, 0.0)),
                after = rotor.turns(std::nextafter(3600.05, 1e9));
   EXPECT_NEAR(after - before, 0.0, 1e-10);

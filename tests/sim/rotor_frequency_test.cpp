@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A rotor of two blades before a radar and two ends of a channel: both hear the same blade frequency, at the
-// same instants.
+// A rotor of two blades turns before a radar and before the two ends of a channel. Both must measure the same
+// blade frequency and flashes at the same instants.
 //
-// The rotor is a bar through its axle, upright faces, seen edge-on from its own height. Each of its two broad
-// faces flashes once a turn, when its normal n(t) = (cos, sin)(wt + p) points at the sensors: at
-//   f = blades * rpm / 60,   t_k = (pi - p + k pi) / w      (the sensors are at -x of the axle).
-// The mirror point is D sin(angle off the flash) from the bar's middle, so that a flash lasts while that is
-// less than half the bar's length, and the way over it is shortest, its Doppler zero, at t_k.
+// The rotor is a bar with upright faces through its axle, seen edge-on from its own height. Each of its two
+// broad faces flashes once a turn, when its normal n(t) = (cos, sin)(wt + p) points at the sensors, which lie
+// at -x of the axle:
+//   f = blades * rpm / 60,   t_k = (pi - p + k pi) / w.
+// The mirror point is D sin(angle off the flash) from the middle of the bar. A flash lasts while this is less
+// than half the bar's length. At t_k the path is shortest and its Doppler shift is zero.
 //
-// A tick is a chirp of the radar's one frame: both are sampled at the same 1/interval_s over the same T =
-// chirps interval_s.
+// A tick is a chirp of the radar's one frame. Both sensors therefore sample at 1/interval_s over the same
+// time T = chirps interval_s.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -36,8 +37,8 @@ constexpr double rpm = 1433.0, phase_deg = 40.0, sample_hz = 1600.0, distance_m 
 constexpr uint32_t blades = 2, samples = 256;
 constexpr double blade_hz = blades * rpm / 60.0, span_s = samples / sample_hz;
 
-/// The bar's faces are +-y of itself, so that its phase is that of its length; the pole that carries it is
-/// out of sight.
+/// Writes the rotor. The bar's faces look along its own +-y, so that its phase is that of its length. The
+/// pole that carries it is out of sight.
 std::filesystem::path write_rotor(const std::filesystem::path& folder) {
   using namespace scene::generator;
   SceneWriter writer;
@@ -52,7 +53,7 @@ std::filesystem::path write_rotor(const std::filesystem::path& folder) {
   return folder / "drive.glb";
 }
 
-/// The two ends of the channel stand on both sides of the radar.
+/// Returns the scenario. The two ends of the channel stand on both sides of the radar.
 std::string scenario(const std::filesystem::path& model) {
   return fmt::format(
       "greatx: 1\nname: test\nseed: 5\nticks: {}\ntick_rate_hz: {}\nnodes:\n"
@@ -75,17 +76,17 @@ std::string scenario(const std::filesystem::path& model) {
       sample_hz);
 }
 
-/// Instants at which a turning normal points at the sensors, within the span.
+/// Returns the instants within the span at which a turning normal points at the sensors.
 std::vector<double> expected_flashes() {
-  // A face's normal stands 90 degrees ahead of the bar, so that it first points at -x after 90 degrees less
-  // the phase.
+  // A face's normal is 90 degrees ahead of the bar, so that it first points at -x after 90 degrees less the
+  // phase.
   std::vector<double> instants;
   for (double t = (90.0 - phase_deg) / 360.0 / (rpm / 60.0); t < span_s; t += 1.0 / blade_hz)
     instants.push_back(t);
   return instants;
 }
 
-/// Runs of ticks at which `seen` is true: first and last of each.
+/// Returns the first and the last tick of each run of ticks for which `seen` is true.
 std::vector<std::pair<uint32_t, uint32_t>> runs_of(const std::vector<bool>& seen) {
   std::vector<std::pair<uint32_t, uint32_t>> runs;
   for (uint32_t i = 0; i < seen.size(); ++i) {
@@ -96,7 +97,8 @@ std::vector<std::pair<uint32_t, uint32_t>> runs_of(const std::vector<bool>& seen
   return runs;
 }
 
-/// Where the Doppler of the path over the rotor changes its sign, linearly between ticks.
+/// Returns the instants at which the Doppler shift of the path over the rotor changes its sign, interpolated
+/// linearly between ticks.
 std::vector<double> flashes_of_doppler(const KeptRun& run) {
   std::vector<bool> seen(samples);
   std::vector<double> doppler(samples);
@@ -114,7 +116,7 @@ std::vector<double> flashes_of_doppler(const KeptRun& run) {
   return instants;
 }
 
-/// Over all range bins, by Parseval, of each chirp of the one frame.
+/// Returns the power of each chirp of the one frame, summed over all range bins by Parseval's theorem.
 std::vector<double> power_of_chirps(const KeptRun& run) {
   const auto cube = run.array<std::complex<float>>(0, "post/radar", "cube");
   std::vector<double> power(samples);
@@ -122,7 +124,7 @@ std::vector<double> power_of_chirps(const KeptRun& run) {
   return power;
 }
 
-/// Mean over subcarriers of |H|^2.
+/// Returns the power |H|^2 of each tick, summed over the subcarriers.
 std::vector<double> power_of_channel(const KeptRun& run) {
   std::vector<double> power(samples);
   for (uint32_t tick = 0; tick < samples; ++tick)
@@ -131,7 +133,7 @@ std::vector<double> power_of_channel(const KeptRun& run) {
   return power;
 }
 
-/// Middles of what exceeds a quarter of the greatest power.
+/// Returns the middle of each run whose power exceeds a quarter of the greatest power.
 std::vector<double> flashes_of_power(const std::vector<double>& power) {
   const double least = 0.25 * *std::ranges::max_element(power);
   std::vector<bool> seen;
@@ -145,8 +147,8 @@ double frequency_of(const std::vector<double>& instants) {
   return static_cast<double>(instants.size() - 1) / (instants.back() - instants.front());
 }
 
-/// The strongest line between 2/T and a quarter of the sample rate of a series under a Hann window, its mean
-/// taken away.
+/// Returns the frequency of the strongest spectral line between 2/T and a quarter of the sample rate. The
+/// series is freed of its mean and weighted by a Hann window.
 double strongest_line(const std::vector<double>& series) {
   std::vector<double> window(samples), value(samples);
   double mean = 0.0;
@@ -179,23 +181,18 @@ void expect_instants(const std::vector<double>& found, double bound_s) {
 }
 
 /// Bounds:
-/// - the Doppler's zero: the mirror point's distance from the middle is odd about a flash, D (x - a x^3), a <
-///   1, x the angle.
-///   Between samples h = w/sample_hz = 0.094 rad apart the straight line misses its zero by at most a h^3/9
-/// sqrt(3) = 5.3e-5 rad,
-///   0.36 us;
-/// - instants by power: the first and the last sample of what is symmetric about a flash are each less than a
-///   sample from its
-///   ends, so their middle is less than half a sample from the flash;
-/// - a frequency by n instants: twice the bound of one, over the time from the first to the last;
-/// - lines: T resolves 1/T = 6.25 Hz, but lines f = 7.6/T apart are kept apart by the window: one pulls
-///   another by the slope of the
-///   Hann window's response there over its curvature at the top, (1/(7.6 (7.6^2 - 1)))/1.29 = 0.0018/T. Those
-/// that sampling folds
-///   back lie halfway between (1600 Hz are 33.5 f), 3.8/T away: 0.015/T times their strength, some 4 % (of
-/// pulses of four
-///   samples, near the fourth null of their spectrum). With one of each on both sides: 0.005/T; asked for:
-/// 0.01/T.
+/// - Zero of the Doppler shift: the mirror point's distance from the middle is odd about a flash, D (x - a
+///   x^3) with a < 1 and the angle x. Between samples h = w/sample_hz = 0.094 rad apart the straight line
+///   misses the zero by at most a h^3/(9 sqrt(3)) = 5.3e-5 rad, which is 0.36 us.
+/// - Instants by power: a flash is symmetric. Its first and its last sample are each less than a sample from
+///   its ends, so that their middle is less than half a sample from the flash.
+/// - Frequency by n instants: twice the bound of one instant, divided by the time from the first to the last.
+/// - Spectral lines: T resolves 1/T = 6.25 Hz. The window separates lines that are f = 7.6/T apart. One line
+///   moves another by the slope of the Hann window's response at this distance over its curvature at the top,
+///   (1/(7.6 (7.6^2 - 1)))/1.29 = 0.0018/T. Lines that sampling folds back lie halfway between (1600 Hz are
+///   33.5 f), 3.8/T away. They move a line by 0.015/T times their strength, which is some 4 % (for pulses of
+///   four samples, near the fourth null of their spectrum). One of each kind on both sides gives 0.005/T. The
+///   test allows 0.01/T.
 TEST(RotorBladeFrequency, IsTheSameInRadarAndChannel) {
   const test::TemporaryFolder folder;
   const KeptRun run = keep_run(scenario(write_rotor(folder.path())));

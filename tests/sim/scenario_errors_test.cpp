@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every bad scenario of scenarios/bad_scenarios.json (a change to everything.yaml or to `base`, or a text of
-// its own) gives exactly the message it should, at the right line.
+// Every bad scenario of scenarios/bad_scenarios.json must give exactly its message at the right line. A bad
+// scenario is a change to everything.yaml or to the file `base`, or a text of its own.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -57,7 +57,7 @@ TEST(BadScenarios, EachGivesItsMessageAndLine) {
     if (message.find("{folder}") != std::string::npos)
       message = replaced(message, "{folder}", bad_folder.string());
     message = fmt::format("s.yaml:{}: {}", bad["line"].get<int>(), message);
-    if (bad.value("prefix", false))  // goes on in yaml-cpp's own words
+    if (bad.value("prefix", false))  // the rest of the message is yaml-cpp's
       EXPECT_THAT(scenario_refusal(text), ::testing::StartsWith(message));
     else
       EXPECT_EQ(scenario_refusal(text), message);
@@ -81,7 +81,7 @@ TEST(BadScenarios, HostileBytesAreRefusedWithoutCrash) {
   EXPECT_THROW(parse_scenario(std::string("\0\xff\xfe greatx", 10), "s.yaml", bad_folder), UserError);
   EXPECT_THROW(parse_scenario(std::string(100000, '['), "s.yaml", bad_folder), UserError);
   EXPECT_THROW(parse_scenario("greatx: 1\nname: &a [*a]\nticks: 1\n", "s.yaml", bad_folder), UserError);
-  // Cut anywhere, it is read or refused by a UserError.
+  // A scenario that is cut anywhere is either read or refused by a UserError.
   for (size_t length = 0; length < base.size(); length += 7) {
     try {
       parse_scenario(base.substr(0, length), "s.yaml", bad_folder);

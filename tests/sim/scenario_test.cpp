@@ -227,7 +227,7 @@ TEST(Scenario, DurationCountsTicksInIt) {
   };
   EXPECT_EQ(ticks("duration_s: 10\n"), 10000);
   EXPECT_EQ(ticks("duration_s: 0.0001\n"), 1);
-  EXPECT_EQ(ticks("duration_s: 0.1\n"), 100);  // 0.1 is not exact in fp64; the text is
+  EXPECT_EQ(ticks("duration_s: 0.1\n"), 100);  // 0.1 is not exact in fp64, but the text is
   EXPECT_EQ(ticks("duration_s: 0.1001\n"), 101);
   EXPECT_EQ(ticks("duration_s: 1001\ntick_rate_hz: 30000/1001\n"), 30000);
   EXPECT_EQ(load_scenario(good_folder / "broadcast_rates.yaml").ticks, 90);  // 89.91

@@ -8,7 +8,7 @@
 namespace greatx::sim {
 namespace {
 
-/// The definition, tick by tick.
+/// Returns the due ticks by the definition, tick by tick.
 std::vector<int64_t> ticks_with_something_due(const Schedule& schedule, int64_t end) {
   std::vector<int64_t> ticks;
   for (int64_t tick = 0; tick < end; ++tick)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole tick on small generated scenes, under validation.
+// Tests whole ticks on small generated scenes, under validation.
 #include "sim/run/simulator.h"
 
 #include <cstring>
@@ -24,7 +24,7 @@ void expect_same(const Array& a, const Array& b, const std::string& what) {
   EXPECT_TRUE(a.bytes == b.bytes) << what;
 }
 
-/// Every record of `sensor` that both runs have.
+/// Compares every record of `sensor` that both runs have.
 void expect_same_sensor(const KeptRun& a, const KeptRun& b, const std::string& sensor) {
   ASSERT_EQ(a.packets.size(), b.packets.size());
   const auto spec =
@@ -109,7 +109,7 @@ TEST(Consistency, ModalitiesSeeOneWorld) {
   EXPECT_GT(c.at(depth_figure).count(), 100u);
   EXPECT_LT(c.at(depth_figure).max(), 1e-4);
   EXPECT_GT(c.at(lidar_figure).count(), 20u);
-  // The largest may be a beam that meets something smaller than a pixel.
+  // The largest error may be that of a beam that meets something smaller than a pixel.
   EXPECT_LT(c.at(lidar_figure).quantile(0.99), 1e-4);
   EXPECT_GT(c.at(sight_figure).count(), 0u);
   EXPECT_LT(c.at(sight_figure).max(), 1e-12);
@@ -160,7 +160,7 @@ TEST(Plan, ForcingWhatIsNotNeededChangesNothingBeyondItsBound) {
   EXPECT_TRUE(forced.plan.normal_maps.on);
   expect_same_sensor(automatic, forced, "uav/camera");
 
-  // Lamps by day: within 1 % of the light, that is one step of 8 bits or two.
+  // By day lamps add less than 1 % of the light, which is at most two steps of 8 bits.
   const KeptRun lamps = keep_run(base + "effects: {punctual_lights: on}\n");
   EXPECT_FALSE(automatic.plan.punctual_lights.on);
   expect_same(automatic.array(0, "uav/camera", "depth"), lamps.array(0, "uav/camera", "depth"), "depth");
@@ -208,7 +208,7 @@ TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   const KeptRun down = keep_run(yaml);
   yaml.replace(yaml.find("tx: bs/panel, rx: [uav/antenna]"), 31, "tx: uav/antenna, rx: [bs/panel]");
   const KeptRun up = keep_run(yaml);
-  // The same source, the same candidates: the same paths the other way round.
+  // Source and candidates are the same, so the paths are the same in reverse.
   for (size_t i = 0; i < 3; ++i) {
     auto delays_down = down.array(i, "csi", "delay").as<double>(),
          delays_up = up.array(i, "csi", "delay").as<double>();
@@ -220,8 +220,8 @@ TEST(Search, FromTheReceiverWhenOnlyThatStandsStill) {
   }
 }
 
-// |H| = lambda / (4 pi d) for isotropic antennas of one polarization, at every subcarrier. The flight is
-// level: a nose that points up would tilt the receiver's polarization.
+// |H| = lambda / (4 pi d) at every subcarrier for isotropic antennas of one polarization. The flight is
+// level, because a nose that points up would tilt the receiver's polarization.
 TEST(Channel, FreeSpaceIsFriis) {
   const std::string yaml =
       head + "nodes:\n" + bs_isotropic +
@@ -317,7 +317,7 @@ TEST(HardCase, N25_AReceiverAloneIsTheSameAmongAHundred) {
 }
 
 TEST(HardCase, N64_NoPathIsZeroAndFinite) {
-  // The receiver is under the ground, and only the direct path is asked for.
+  // The receiver is below the ground, and only the direct path is asked for.
   std::string yaml = head + city + "nodes:\n" + bs + uav(antenna) + channel();
   yaml.replace(yaml.find("max_depth: 2"), 12, "max_depth: 0");
   yaml.replace(yaml.find("[-20, -15, 40]"), 14, "[-20, -15, -40]");

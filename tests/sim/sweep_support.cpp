@@ -14,10 +14,10 @@
 namespace greatx::sim::test {
 namespace {
 
-/// What tells the kinds of a map apart, in texts and in the schema.
+/// Keys that tell the kinds of a map apart, in texts and in the schema.
 constexpr std::array discriminators = {"type", "kind", "by"};
 
-/// Generated models are the same wherever they stand.
+/// Cuts off the path before "generate:", because generated models have the same fields wherever they stand.
 std::string name_of(const std::string& path) {
   const size_t at = path.find("generate:");
   return at == std::string::npos ? path : path.substr(at);

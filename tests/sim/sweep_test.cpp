@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every number of a scenario at its ends and beyond: an error that names file and line, or a run; never a
-// broken contract, a crash, an allocation without end. What is swept are the numbers of
-// scenarios/sweep/*.yaml, which have everything that the schema knows.
+// Tries every number of a scenario at the ends of its range and beyond. The result must be a run or an error
+// that names file and line, never a broken contract, a crash or an endless allocation. The numbers are those
+// of scenarios/sweep/*.yaml, which together contain everything that the schema knows.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -53,14 +53,15 @@ std::string with(std::string text, const Number& number, const std::string& valu
   return text.replace(number.at, number.length, value);
 }
 
-/// Says what is wrong with how a text was refused; empty: a UserError with file and line.
+/// Returns what is wrong with the error that refused a text. An empty string means a UserError with file and
+/// line.
 std::string fault_of(const std::exception& error) {
   static const std::regex located(R"(sweep\.yaml:[0-9]+: [^]*)");
   if (dynamic_cast<const UserError*>(&error) == nullptr) return std::string("no UserError: ") + error.what();
   return std::regex_match(error.what(), located) ? "" : std::string("no file and line: ") + error.what();
 }
 
-/// A runaway allocation ends in bad_alloc, not with the machine.
+/// Limits the address space, so that a runaway allocation throws bad_alloc and does not exhaust the machine.
 void limit_memory() {
 #if !defined(__SANITIZE_ADDRESS__)
   const struct rlimit limit { rlim_t{16} << 30, rlim_t{16} << 30 };
@@ -78,7 +79,7 @@ Experiment planned(const std::string& text) {
   return make_experiment(parse_scenario(text, "sweep.yaml", folder));
 }
 
-/// Whether an alternative of the schema has the value; true if it is no number.
+/// Returns whether an alternative of the schema holds the value, and true if the value is no number.
 bool schema_holds(const std::vector<test::Range>& ranges, const std::string& value) {
   size_t end = 0;
   double number = 0.0;
@@ -118,7 +119,7 @@ TEST_P(Sweep, EveryEndIsAnErrorByNameOrAPlan) {
   }
 }
 
-/// Checks values as a data set's writer does.
+/// Checks values as the writer of a data set does.
 struct Check : RecordSink {
   std::vector<SensorSpec> sensors;
   void write(Packet packet) override {
@@ -141,12 +142,13 @@ void run_a_tick(gpu::Device& device, Experiment experiment) {
   }
 }
 
-/// Integers are counts: their upper ends cost time and memory by what they mean, and bound themselves.
+/// Returns whether a number is an integer. Integers are counts: the time and memory of their upper ends
+/// follow from their meaning, which has bounds of its own.
 bool is_count(const std::vector<test::Range>& ranges) {
   return std::any_of(ranges.begin(), ranges.end(), [](const test::Range& range) { return range.integer; });
 }
 
-/// The least and the greatest value that give a plan.
+/// Returns the least and the greatest value that give a plan.
 std::vector<std::string> accepted_ends(const std::string& text, const Number& number) {
   const std::vector<test::Range>& ranges = schema().at(number.name);
   std::map<double, std::string> accepted;
@@ -170,8 +172,8 @@ std::vector<std::string> accepted_ends(const std::string& text, const Number& nu
   return ends;
 }
 
-/// Each run builds a simulator of its own, three minutes for all: every fourth number, unless
-/// GREATX_SWEEP=all.
+/// Returns whether a number is tried: every fourth one, or each if GREATX_SWEEP=all. Each run builds its own
+/// simulator, which takes three minutes for all numbers.
 bool chosen(size_t index) {
   const char* const sweep = std::getenv("GREATX_SWEEP");
   return (sweep != nullptr && std::string(sweep) == "all") || index % 4 == 0;
@@ -180,7 +182,7 @@ bool chosen(size_t index) {
 TEST_P(Sweep, AcceptedEndsRunATick) {
   gpu::Device device(gpu::DeviceOptions{});
   ASSERT_NO_THROW(run_a_tick(device, planned(text_)));
-  std::set<std::string> done;  // of a list's items the first
+  std::set<std::string> done;  // only the first item of a list is tried
   for (const Number& number : test::numbers_of(text_)) {
     if (!done.insert(number.name).second || !chosen(done.size())) continue;
     for (const std::string& value : accepted_ends(text_, number)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Trajectories of one node, and what their tests hold them against.
+// Trajectories of one node, and checks of their motion.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace greatx::sim::testing {
 
-/// One node "a" for 10 s, unless told otherwise.
+/// Returns a scenario of one node "a" that follows `trajectory` for 10 s.
 inline Scenario scenario_of(Trajectory trajectory, uint64_t seed = 1) {
   Scenario scenario;
   scenario.seed = seed;
@@ -53,7 +53,8 @@ inline void expect_finite(const Motion& m) {
   EXPECT_NEAR(glm::length(q), 1.0, 1e-12);
 }
 
-/// Velocity, acceleration and angular velocity against central differences of the pose.
+/// Compares velocity, acceleration and angular velocity with central differences of position, velocity and
+/// orientation.
 inline void expect_derivatives(const Course& path, double time_s, double scale) {
   SCOPED_TRACE(time_s);
   const double h = 1e-5;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Trajectories at rest, through way-points and in corridors; attitudes.
+// Tests trajectories at rest, through way-points and in corridors, and their attitudes.
 #include "sim/scenario/trajectory.h"
 
 #include <cmath>
@@ -36,8 +36,8 @@ TEST(Attitude, ClimbIsNegativePitchAndVerticalFlightKeepsYaw) {
                                          false));
   expect_near(forward(path->at(0.5)), {0, h, h}, 1e-12);
   expect_near(forward(path->at(1.5)), {0, 0, 1}, 1e-12);
-  expect_near(path->at(1.5).pose.rotate({0, 1, 0}), {-1, 0, 0}, 1e-12);  // left stays west: yaw is kept
-  expect_near(forward(path->at(2.5)), {0, 0, 1}, 1e-12);                 // hover keeps the pose before
+  expect_near(path->at(1.5).pose.rotate({0, 1, 0}), {-1, 0, 0}, 1e-12);  // left stays west: the yaw is kept
+  expect_near(forward(path->at(2.5)), {0, 0, 1}, 1e-12);                 // a hover keeps the previous pose
   expect_near(path->at(2.5).pose.rotate({0, 1, 0}), {-1, 0, 0}, 1e-12);
   expect_near(forward(path->at(3.5)), {0, 0, -1}, 1e-12);
   expect_near(path->at(3.5).pose.rotate({0, 1, 0}), {-1, 0, 0}, 1e-12);
@@ -60,8 +60,8 @@ TEST(Attitude, WhollyVerticalFlightIsFinite) {
 }
 
 TEST(Attitude, SmoothDwellLooksWhereItCameFrom) {
-  // Rests exactly at t = 1 .. 2: the Hermite tangents there are not zero, so give the dwell room on both
-  // sides.
+  // The node rests exactly from t = 1 to 2. The Hermite tangents there are not zero, so the dwell needs room
+  // on both sides.
   const auto path = course_of(way_points({{0, {0, 0, 0}, {}},
                                           {1, {0, 4, 0}, {}},
                                           {2, {0, 4, 0}, {}},
@@ -81,8 +81,8 @@ TEST(Attitude, GivenAttitudesAreSlerped) {
       course_of(way_points({{0, {0, 0, 0}, q(0)}, {2, {1, 0, 0}, q(pi / 2)}, {3, {2, 0, 0}, -q(pi)}}));
   expect_near(forward(path->at(1)), {std::sqrt(0.5), std::sqrt(0.5), 0}, 1e-12);
   expect_near(path->at(1).angular_velocity, {0, 0, pi / 4}, 1e-12);
-  expect_near(path->at(2.5).angular_velocity, {0, 0, pi / 2},
-              1e-12);  // the short way, though the sign differs
+  // The rotation takes the short way, although the signs of the quaternions differ.
+  expect_near(path->at(2.5).angular_velocity, {0, 0, pi / 2}, 1e-12);
   expect_near(forward(path->at(3)), {-1, 0, 0}, 1e-12);
   expect_derivatives(*path, 0.7, 1.0);
   expect_derivatives(*path, 2.3, 1.0);
@@ -153,7 +153,7 @@ CorridorTrajectory corridor_of(int legs) {
   return trajectory;
 }
 
-/// Distance of `p` from the segment's axis across and up, if its foot lies on the segment.
+/// Returns whether the distances of `p` from the segment's axis, across and up, are within the half sizes.
 bool within(const dvec3& p, const dvec3& a, const dvec3& b, double half_width, double half_height) {
   const dvec3 along = glm::normalize(b - a), across = glm::normalize(dvec3(-along.y, along.x, 0));
   const dvec3 up = glm::cross(along, across), d = p - a;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras' ground truth through the whole simulator: several cameras in one submission, each with the bytes
-// that it has alone; flow to the camera's own next sample; boxes that stand where the poses say.
+// Tests the cameras' ground truth in the whole simulator. Several cameras in one submission give the same
+// bytes as each alone, flow leads to the camera's own next sample, and boxes stand where the poses say.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -76,11 +76,11 @@ TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
   for (int row = 0; row < 32; ++row)
     for (int column = 0; column < 48; ++column) {
       const float z = depth_left[row * 48 + column];
-      const double u = column + 0.5 - 24.0 * 0.6 / z;  // fx b / z
+      const double u = column + 0.5 - 24.0 * 0.6 / z;  // disparity fx b / z
       if (!std::isfinite(z) || u < 0.0) continue;
       const auto there = static_cast<size_t>(row * 48 + static_cast<int>(u));
       ++compared;
-      // The same surface, up to half a pixel along it.
+      // The other camera sees the same surface, up to half a pixel along it.
       same += ids_right[there] == ids_left[row * 48 + column] && std::abs(depth_right[there] - z) < 0.1 * z
                   ? 1
                   : 0;
@@ -91,9 +91,10 @@ TEST(Cameras, OfAStereoPairDifferByTheirBaseline) {
 
 TEST(Flow, IsToTheCamerasOwnNextSample) {
   const KeptRun outcome = keep_run(scenario(left + side));
-  // 5 m/s along y; the side camera looks to -x, what never moves goes to its left or right by fx v dt / z.
+  // The van moves at 5 m/s along y and the side camera looks to -x. Static points move sideways by fx v dt /
+  // z.
   int compared = 0;
-  for (const size_t packet : {size_t{0}, size_t{2}}) {  // its last one too: the trajectory goes on
+  for (const size_t packet : {size_t{0}, size_t{2}}) {  // also the last sample: the trajectory continues
     const auto flow = outcome.array<float>(packet, "van/side", "flow");
     const auto depth = outcome.array<float>(packet, "van/side", "depth");
     const auto ids = outcome.array<uint16_t>(packet, "van/side", "instance");
@@ -106,7 +107,7 @@ TEST(Flow, IsToTheCamerasOwnNextSample) {
   }
   EXPECT_GT(compared, 1000);
   EXPECT_EQ(outcome.find(1, "van/side", "flow"), nullptr);
-  // The front camera, 10 Hz: towards what is ahead, away from the point at infinity by dz / (z - dz).
+  // The front camera samples at 10 Hz. Points ahead move away from the vanishing point by dz / (z - dz).
   for (size_t packet = 0; packet < 4; ++packet) {
     const auto flow = outcome.array<float>(packet, "van/left", "flow");
     const auto depth = outcome.array<float>(packet, "van/left", "depth");
@@ -141,7 +142,7 @@ TEST(Boxes, OfARunStandWhereThePosesSay) {
       EXPECT_NE(node[i], 0);  // the camera's own van
       EXPECT_EQ(visible[i], std::ranges::count(ids, instance[i]));
       if (visible[i] > 0) {
-        // The visible part lies within the projected vertices, but for a pixel's rim.
+        // The visible part lies within the projected vertices, except for a pixel at the rim.
         EXPECT_GE(modal[4 * i], amodal[4 * i] - 1.0f);
         EXPECT_GE(modal[4 * i + 1], amodal[4 * i + 1] - 1.0f);
         EXPECT_LE(modal[4 * i + 2], amodal[4 * i + 2] + 1.0f);

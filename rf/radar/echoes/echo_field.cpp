@@ -14,7 +14,7 @@ namespace {
 
 constexpr Complex j{0.0, 1.0};
 
-/// s = k x n / |k x n|; at normal incidence any will do, since r_TE = -r_TM there.
+/// Returns s = k x n / |k x n|. At normal incidence any vector across k serves, since r_TE = -r_TM there.
 dvec3 across(const dvec3& k, const dvec3& normal) {
   const dvec3 product = glm::cross(k, normal);
   const double sine = glm::length(product);
@@ -28,9 +28,9 @@ FieldVector crossed(const dvec3& a, const FieldVector& b) {
 
 FieldVector sum(const FieldVector& a, const FieldVector& b) { return {a.re + b.re, a.im + b.im}; }
 
-/// A wave that meets a surface: the side it comes from, the wave that leaves.
+/// Holds the reflection of a wave by a surface: the lit side and the wave that leaves.
 struct Bounce {
-  dvec3 normal{0.0}, out{0.0};  ///< normal on the lit side
+  dvec3 normal{0.0}, out{0.0};  ///< the normal points to the lit side
   double cosine = 0.0;
   FieldVector reflected;
 };
@@ -51,7 +51,8 @@ Bounce bounce(const RadioSurfaces& surfaces, const PosedFacet& facet, const Fiel
 
 void scale(FieldVector& field, double by) { field.re *= by, field.im *= by; }
 
-/// Patches are counted on the facet's own plane coordinates.
+/// Returns the number of the patch that contains a point. Patches are counted along the plane coordinates of
+/// the facet.
 uint32_t patch_of(const PosedFacet& facet, const dvec3& point, double side_m) {
   const dvec2 p = glm::floor(facet.plane_coordinates(point) / side_m);
   return (static_cast<uint32_t>(static_cast<int64_t>(p.x)) & 0xffffu) |
@@ -124,8 +125,8 @@ Complex EchoField::density(const EchoPoint& point) const {
   if (cos_out <= 0.0 || at.cosine <= 0.0) return 0.0;
   const FieldVector electric = sum(field, at.reflected);
   const FieldVector magnetic = sum(crossed(in, field), crossed(at.out, at.reflected));  // eta H
-  // eta J - r x M, J = n x H, M = -n x E; what lies along r is dropped by `received`, whose axes are across
-  // it.
+  // eta J - r x M with J = n x H and M = -n x E. The axes of `received` are transverse to r, so that it drops
+  // the part along r.
   const FieldVector source = sum(crossed(at.normal, magnetic), crossed(out, crossed(at.normal, electric)));
   const double kept = coherent_share(facet.material, at.cosine, cos_out);
   const double wavelength = surfaces_.wavelength_m();

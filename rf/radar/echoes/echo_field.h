@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The field that a tube carries, and what the currents that it excites on the last surface send to the
-// receiver.
+// Computes the field that a tube carries to its last surface, and the field that the currents on this surface
+// send to the receiver.
 #pragma once
 
 #include <cstdint>
@@ -16,38 +16,39 @@
 
 namespace greatx::rf {
 
-/// One point of a path: transmitter, the facets that reflect, the last one with the point on it, receiver; or
-/// from there over one more facet to the receiver.
+/// Describes a path from the transmitter over the facets that reflect to a point on the last facet, and from
+/// there to the receiver, either directly or over one more facet.
 struct EchoPoint {
-  dvec3 departure{1, 0, 0};         ///< unit, at the transmitter
-  double length_m = 0.0;            ///< from the transmitter to the point, unfolded
-  dvec3 point{0.0};                 ///< on the last facet
-  std::span<const uint32_t> chain;  ///< facets met, that of the point included
+  dvec3 departure{1, 0, 0};         ///< unit vector at the transmitter
+  double length_m = 0.0;            ///< unfolded length from the transmitter to the point
+  dvec3 point{0.0};                 ///< point on the last facet
+  std::span<const uint32_t> chain;  ///< facets met, including that of the point
   static constexpr uint32_t none = ~0u;
-  uint32_t mirror = none;  ///< facet that the way to the receiver is reflected at
+  uint32_t mirror = none;  ///< facet that reflects the way to the receiver
 };
 
-/// Time convention e^{+j omega t}. Currents of physical optics on the lit side, J = n x (H_i + H_r) and
-/// M = (E_i + E_r) x n with E_r by the material's Fresnel coefficients at the local angle of incidence (C. A.
-/// Balanis, "Advanced Engineering Electromagnetics", 2nd ed., 7.10; for a perfect conductor J = 2 n x H_i, M
-/// = 0), and what they radiate (ibid., 6.8): E_s = -jk/(4 pi r2) e^{-jk r2} integral of [eta J - r x M]
-/// across r.
+/// Computes fields by physical optics, with the time convention e^{+j omega t}. The currents on the lit side
+/// are J = n x (H_i + H_r) and M = (E_i + E_r) x n, where E_r follows from the Fresnel coefficients of the
+/// material at the local angle of incidence (C. A. Balanis, "Advanced Engineering Electromagnetics", 2nd ed.,
+/// 7.10; a perfect conductor has J = 2 n x H_i, M = 0). The radiated field is the part transverse to r of
+///   E_s = -jk/(4 pi r2) e^{-jk r2} integral of [eta J - r x M]   (ibid., 6.8).
 class EchoField {
  public:
   EchoField(const FacetWorld& world, const RadioSurfaces& surfaces, const EchoOptions& options,
             const TurnedElement& transmitter, const TurnedElement& receiver, const dvec3& receiver_at);
 
-  /// Received over transmitted amplitude for 1 m^2 of the surface around the point, without the phase of the
-  /// path; 0 where the receiver is behind the surface.
+  /// Returns the ratio of received to transmitted amplitude for 1 m^2 of the surface around the point,
+  /// without the phase of the path. Returns 0 if the receiver is behind the surface.
   Complex density(const EchoPoint& point) const;
-  /// The same for a patch of `area_m2` that scatters diffusely (rf/surface/scattering.h), first surface only:
-  /// the patch's phases are those of its place on the facet, so they go with the surface.
+  /// Returns the same ratio for a patch of `area_m2` that scatters diffusely (rf/surface/scattering.h). The
+  /// point lies on the first surface of the path. The random phases of a patch depend on its place on the
+  /// facet, so that they move with the surface.
   Complex diffuse(const EchoPoint& point, double area_m2) const;
-  /// Line of sight: lambda/(4 pi d) F_r . F_t.
+  /// Returns the ratio for the line of sight: lambda/(4 pi d) F_r . F_t.
   Complex direct(const dvec3& transmitter_at) const;
 
   const dvec3& receiver_at() const { return receiver_at_; }
-  /// The receiver's image in a facet's plane.
+  /// Returns the image of the receiver in the plane of a facet.
   dvec3 mirrored_receiver(uint32_t facet) const;
   double wavenumber() const { return wavenumber_; }
   bool reflects(uint32_t facet) const {

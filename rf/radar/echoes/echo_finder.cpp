@@ -16,8 +16,8 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double track_error = 1e-3;  ///< of a wavelength
-constexpr double rate_step_s = 1e-6;  ///< over which rates are taken
+constexpr double track_error = 1e-3;  ///< fraction of a wavelength
+constexpr double rate_step_s = 1e-6;  ///< time step for rates
 constexpr size_t echo_chunk = 256;
 
 void check(const EchoOptions& o) {
@@ -45,7 +45,8 @@ TurnedElement turned(const EchoEnd& end, const Pose& pose) {
   return {end.pattern, std::span(&end.slant, 1), pose.orientation};
 }
 
-/// What every raw echo needs to be told apart by, and how it moves.
+/// Provides the data of the raw echoes for merging and tracking: their instances, their vertices and the
+/// rates of their path lengths.
 class Movers {
  public:
   Movers(const scene::Scene& scene, const FacetWorld& world, const RawEchoes& raw, const EchoMotion& motion,
@@ -73,7 +74,7 @@ class Movers {
   PoseTable poses(std::vector<double> times) const {
     return PoseTable(motion_, std::span(asked_.get(), scene_.bodies.size()), std::move(times));
   }
-  /// Of path length, m/s, in the middle of the frame.
+  /// Returns the rates of path length in the middle of the frame, m/s.
   std::vector<double> rates() const {
     std::vector<double> rates(raw_.echoes.size(), 0.0);
     if (motion_.frame_s() == 0.0) return rates;
@@ -142,7 +143,8 @@ Echo echo_of(const MergedEcho& merged, const RawEcho& raw, const RawEchoes& all,
   return echo;
 }
 
-/// The delays of all echoes; those that no cubic follows get a table each, in their order.
+/// Adds the delays of all echoes. Each echo that no cubic follows gets a table; the tables are in the order
+/// of the echoes.
 void add_tracks(const Movers& movers, const RawEchoes& raw, std::span<const MergedEcho> merged,
                 const EchoMotion& motion, double wavelength_m, uint32_t threads, EchoList& list) {
   const PoseTable poses = movers.poses(track_times(motion));
@@ -205,7 +207,8 @@ std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) con
                         scene.owner_of(instance.body) != transmitter_.own_body;
     if (!named && !moving) continue;
     scene::Bounds bounds = instance.bounds;
-    if (instance.body != 0) bounds.add(scene.reach_of(instance.body));  // with the parts that it carries
+    // with the parts that the body carries
+    if (instance.body != 0) bounds.add(scene.reach_of(instance.body));
     boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body], i, instance.body});
   }
   return boxes;
@@ -254,7 +257,7 @@ void EchoFinder::check_antenna(const dvec3& at, const RayGrid& grid, std::span<c
     if (index == VisibleCell::nothing) continue;
     const PosedFacet& facet = world_.facet(index);
     const double distance = std::abs(facet.distance(at));
-    if (distance >= options_.antenna_radius_m) continue;  // nothing on the plane is nearer
+    if (distance >= options_.antenna_radius_m) continue;  // no point of the plane is nearer
     const double reach = distance / std::abs(glm::dot(facet.normal, grid.axis(tube)));
     if (reach < options_.antenna_radius_m)
       throw_user_error("radar '{}': expected nothing within {} m of its antenna, found '{}' at {:.4f} m",
@@ -287,7 +290,7 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   if (monostatic_) hits.find_seen(*grid, world_, source, options_.max_bounces, options_.threads);
   RawEchoes raw = TubeEchoes(*grid, hits, world_, trees_, field, scene, source, monostatic_, options_).find();
   const dvec3 arm = pending.receiver.position - source;
-  // Two elements at one place (of other polarizations) have no way from one to the other.
+  // Two elements at one place (with different polarizations) have no path between them.
   if (const double length = glm::length(arm); !monostatic_ && direct && length > 0.0) {
     raw.echoes.push_back({field.direct(source), arm / length, -arm / length, source, length, 0, 0});
   }

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The echoes of a radar, from the scene: shooting and bouncing rays with the physical optics of each tube
-// (docs/radar_echoes.md; H. Ling, R.-C. Chou, S.-W. Lee, "Shooting and bouncing rays: calculating the RCS of an arbitrarily
-// shaped cavity", IEEE Trans. Antennas Propag. 37(2), 1989).
+// Finds the echoes of a radar in the scene by shooting and bouncing rays, with the physical optics of each
+// tube (docs/radar_echoes.md; H. Ling, R.-C. Chou, S.-W. Lee, "Shooting and bouncing rays: calculating the
+// RCS of an arbitrarily shaped cavity", IEEE Trans. Antennas Propag. 37(2), 1989).
 //
-//   record   RayGrid: tubes over the field of view, finer where targets are ─► EchoPass: what each ray meets (GPU)
+//   record   RayGrid: tubes over the field of view, finer where targets are
+//              ─► EchoPass (GPU): facets that each ray meets
 //   collect  (EchoTracer: the same on the host, where the device is a CPU)
-//            TubeEchoes: fields and phase integrals of every tube, fp64 ─► merge ─► delay tracks ─► EchoList
+//              ─► TubeEchoes (fp64): fields and phase integrals of every tube
+//              ─► merge ─► delay tracks ─► EchoList
 #pragma once
 
 #include <memory>
@@ -30,32 +32,35 @@ namespace greatx::rf {
 
 class EchoFinder {
  public:
-  /// `receiver`: absent for a monostatic radar, whose receiver is the transmitter. Surfaces are those of the carrier.
-  /// Throws UserError if an option is out of its range.
+  /// `receiver` is absent for a monostatic radar, whose receiver is the transmitter. `surfaces` are those at
+  /// the carrier. Throws UserError if an option is out of its range.
   EchoFinder(scene::GpuScene& scene, const RadioSurfaces& surfaces, const EchoEnd& transmitter,
              const std::optional<EchoEnd>& receiver, const EchoOptions& options);
 
-  /// What is under way; the slices are valid until the slot is begun again.
+  /// Holds a search that is under way. The slices are valid until the slot begins again.
   struct Pending {
-    std::shared_ptr<const RayGrid> grid;  ///< none yet if the host traces
+    std::shared_ptr<const RayGrid> grid;  ///< null if the host traces
     Pose transmitter, receiver;
     std::vector<Pose> body_poses;
-    EchoPass::Pending rays;  ///< nothing if the host traces
+    EchoPass::Pending rays;  ///< empty if the host traces
   };
 
-  /// Records the rays among the scene as scene.record_update(slot, body_poses) left it. Poses in local coordinates.
+  /// Records the rays in the scene as scene.record_update(slot, body_poses) left it. Poses are in local
+  /// coordinates.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, const Pose& transmitter, const Pose& receiver,
                                std::span<const Pose> body_poses);
   [[nodiscard]] Pending record(gpu::TickSlot& slot, const Pose& radar, std::span<const Pose> body_poses) {
     return record(slot, radar, radar, body_poses);
   }
 
-  /// The echoes, after the slot's submission is done; the same bytes whatever the threads. Nothing met: no echoes.
-  /// Throws UserError naming the instance if a surface is inside an antenna (EchoOptions::antenna_radius_m).
+  /// Returns the echoes; call it after the submission of the slot is done. The list is empty if no ray meets
+  /// anything. The bytes do not depend on the number of threads. Throws UserError naming the instance if a
+  /// surface is inside an antenna (EchoOptions::antenna_radius_m).
   EchoList collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics = nullptr);
 
-  /// The same outside the ticks, everything at rest, in a set-up submission of its own (waits for it); calls
-  /// GpuScene::record_update: record it again before the next pass of a tick.
+  /// Returns the echoes outside the ticks, with everything at rest. Uses a set-up submission of its own and
+  /// waits for it. Calls GpuScene::record_update; the caller has to record that again before the next pass of
+  /// a tick.
   EchoList find(const Pose& transmitter, const Pose& receiver, std::span<const Pose> body_poses,
                 EchoStatistics* statistics = nullptr);
 
@@ -63,7 +68,7 @@ class EchoFinder {
 
  private:
   std::vector<TargetBox> targets(std::span<const Pose> body_poses) const;
-  /// Tubes for where everything is; world_ is posed so.
+  /// Returns the tubes for the given poses. world_ must already be in these poses.
   std::shared_ptr<const RayGrid> grid_for(const Pose& transmitter, std::span<const Pose> body_poses) const;
   EchoRays rays_of(const Pending& pending) const {
     return {pending.transmitter.position, pending.receiver.position, transmitter_.own_body,
@@ -79,9 +84,9 @@ class EchoFinder {
   EchoOptions options_;
   FacetWorld world_;
   FacetTrees trees_;
-  uint32_t traced_;                   ///< surfaces that a ray may meet
-  std::optional<EchoPass> pass_;      ///< none: the host traces
-  std::optional<EchoTracer> tracer_;  ///< if it does, or looks for mirrors
+  uint32_t traced_;                   ///< number of surfaces that a ray may meet
+  std::optional<EchoPass> pass_;      ///< empty if the host traces
+  std::optional<EchoTracer> tracer_;  ///< present if the host traces or looks for mirrors
   std::optional<MirrorFinder> mirrors_;
 };
 

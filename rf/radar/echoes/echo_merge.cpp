@@ -16,13 +16,13 @@ int32_t cell(double value, double size) {
   return size > 0.0 ? static_cast<int32_t>(std::floor(std::clamp(value / size, -2e9, 2e9))) : 0;
 }
 
-/// Two numbers as one that is ordered as they are.
+/// Pack two numbers into one whose order is that of the pair.
 uint64_t both(uint32_t first, uint32_t second) { return uint64_t{first} << 32 | second; }
 uint64_t both_cells(int32_t first, int32_t second) {
   return both(static_cast<uint32_t>(first) ^ 0x80000000u, static_cast<uint32_t>(second) ^ 0x80000000u);
 }
 
-/// instance, bounces; delay, rate; departure and arrival.
+/// The key of a cell: instance, bounces; delay, rate; departure and arrival.
 using Key = std::array<uint64_t, 5>;
 
 Key key_of(const RawEcho& echo, double rate_mps, uint32_t instance, const MergeCells& cells) {

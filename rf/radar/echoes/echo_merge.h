@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Raw echoes that no output can tell apart become one: same instance, same number of bounces, one cell of
-// delay, of delay rate and of direction at both ends. The sum is exact at the carrier and the middle of the
-// frame; what differs elsewhere is bounded by the size of a cell (docs/radar_echoes.md).
+// Merges raw echoes that no output can tell apart: those with the same instance, the same number of bounces,
+// and the same cell of delay, of delay rate and of direction at both ends. The sum is exact at the carrier
+// and in the middle of the frame. Elsewhere the size of a cell bounds its error (docs/radar_echoes.md).
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,24 @@
 
 namespace greatx::rf {
 
+/// Holds the sizes of the cells in which echoes are merged.
 struct MergeCells {
   double wavelength_m = 0.0;
-  double length_m = 0.0;         ///< of path; 0: nothing is merged
-  double rate_mps = 0.0;         ///< of path length; 0: no cells of rate
-  double direction = 0.0;        ///< of unit vectors' components
-  bool compare_arrival = false;  ///< bistatic
+  double length_m = 0.0;         ///< path length; 0: nothing is merged
+  double rate_mps = 0.0;         ///< rate of the path length; 0: rates are not compared
+  double direction = 0.0;        ///< components of the unit vectors of direction
+  bool compare_arrival = false;  ///< true for a bistatic radar
 };
 
 struct MergedEcho {
   Complex amplitude;
-  uint32_t strongest = 0;  ///< the raw echo that stands for all: its directions, point and delay
+  uint32_t strongest = 0;  ///< index of the raw echo that gives directions, point and delay
   uint32_t members = 0;
 };
 
-/// `rate_mps`, `instance`: [echoes]. In the order of their cells, which are in that of instance, bounces,
-/// delay, ...: a total order. Echoes whose members cancel to less than 1e-9 of the strongest one are left
-/// out.
+/// Returns the merged echoes in a total order: that of instance, bounces and the cells of delay, rate and
+/// directions, or that of the raw echoes if nothing is merged. `rate_mps` and `instance` are [echoes]. A
+/// merged echo is left out if its members cancel to less than 1e-9 of the strongest member.
 std::vector<MergedEcho> merge(const RawEchoes& raw, std::span<const double> rate_mps,
                               std::span<const uint32_t> instance, const MergeCells& cells);
 

@@ -46,7 +46,7 @@ EchoPass::Pending EchoPass::record(gpu::TickSlot& slot, const EchoRays& rays,
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope("radar echoes");
   const gpu::Slice upload = slot.upload.put(directions);
-  // A few words a ray, each written once: straight into the memory that the host reads.
+  // Each ray writes a few words once, directly into the memory that the host reads.
   const gpu::Slice hits = slot.readback.allocate_for<uint32_t>(size_t{count} * max_bounces_ + 1);
   cmd.bind(pipeline_);
   std::vector<gpu::Descriptor> descriptors = scene_->descriptors();

@@ -19,8 +19,9 @@ namespace greatx::rf {
 namespace {
 
 constexpr uint32_t tubes_at_once = 256;
-/// Of the largest coordinate: how far a reflected ray starts from its surface, as lib/trace.glsl has it, so
-/// that what lies in the same plane but for the roundings of its fp32 corners is not met.
+/// Distance by which a reflected ray starts away from its surface, as a fraction of the largest coordinate.
+/// lib/trace.glsl uses the same value. A facet that lies in the same plane, except for the rounding of its
+/// fp32 corners, is then not met.
 constexpr double lift = 4.2e-7;
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -28,7 +29,7 @@ double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), 
 using Lane [[gnu::vector_size(32), gnu::may_alias]] = float;
 using Bits [[gnu::vector_size(32), gnu::may_alias]] = int32_t;
 
-/// One bit for each lane that is not 0.
+/// Returns one bit for each lane that is not 0.
 inline uint32_t mask_of(const Bits& lanes) {
 #if defined(__SSE2__)
   const __m128* halves = reinterpret_cast<const __m128*>(&lanes);
@@ -76,7 +77,7 @@ EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
         const std::span<const dvec3> corners = trees.corners(index);
         scene::Bounds bounds;
         for (const dvec3& corner : corners) bounds.add(corner);
-        // Boxes are tested in fp32: wider by more than its roundings.
+        // Boxes are tested in fp32, so they are widened by more than the rounding errors.
         const double room = 1e-6 * std::max(largest(bounds.min), largest(bounds.max)) + 1e-6;
         bounds.min -= room, bounds.max += room;
         tree.bounds.add(bounds);
@@ -91,7 +92,8 @@ EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
   }
 }
 
-/// Where to cut [first, first + count) of work.order, which is partitioned; 0: nowhere.
+/// Partitions [first, first + count) of `order` at the best cut. Returns the number of entries before the
+/// cut.
 static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scene::Bounds>& bounds,
                             uint32_t first, uint32_t count, uint32_t bins) {
   scene::Bounds centers;
@@ -110,7 +112,7 @@ static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scen
     box[bin].add(bounds[order[first + i]]);
     ++held[bin];
   }
-  std::vector<double> above(bins, 0.0);  // cost of bins from here on
+  std::vector<double> above(bins, 0.0);  // [bins] cost of this bin and all bins after it
   scene::Bounds sum;
   uint32_t in = 0;
   for (uint32_t bin = bins; bin-- > 1;) {
@@ -145,7 +147,7 @@ uint32_t EchoTracer::build(Build& work, uint32_t first, uint32_t count) {
   };
   std::array<Range, wide> ranges{range_of(first, count)};
   uint32_t used = 1;
-  while (used < wide) {  // the one that most rays meet is cut again
+  while (used < wide) {  // the range that most rays meet is cut next
     uint32_t widest = wide;
     for (uint32_t i = 0; i < used; ++i)
       if (ranges[i].count > leaf_size && (widest == wide || ranges[i].area > ranges[widest].area)) widest = i;
@@ -201,7 +203,7 @@ GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const
   std::array<Entry, 256> stack;
   uint32_t depth = 0;
   float origin[3], inverse[3];
-  uint32_t far[3];  // which end of a box a ray leaves by
+  uint32_t far[3];  // the end of a box by which the ray leaves
   for (int axis = 0; axis < 3; ++axis) {
     const double d = query.direction[axis];
     origin[axis] = static_cast<float>(query.origin[axis]);
@@ -231,7 +233,7 @@ GREATX_LANES void EchoTracer::meet(const Node* nodes, const Piece* pieces, const
         continue;
       }
       const float at = in[k];
-      uint32_t place = depth++;  // the nearest is looked at first
+      uint32_t place = depth++;  // the nearest child is tested first
       while (place > bottom && stack[place - 1].at < at) stack[place] = stack[place - 1], --place;
       stack[place] = {node.child[k], at};
     }

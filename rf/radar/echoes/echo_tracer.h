@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What EchoPass does, without a device: where the "GPU" is a CPU, a ray costs a third of what it costs in a
-// shader. In fp64, against the same convex pieces of facets that tubes are clipped to. One tree of boxes a
-// body, in its frame, which no pose changes; I. Wald, "On fast construction of SAH-based bounding volume
-// hierarchies", IEEE Symp. Interactive Ray Tracing 2007 (bins), three levels of it in one node, so that eight
-// boxes are tested side by side. Where a ray meets two facets at the same distance it is the one of the lower
-// index: what is met depends on no tree.
+// Traces rays on the host as EchoPass does on the device. Where the "GPU" is a CPU, a ray costs a third of
+// what it costs in a shader. Rays are traced in fp64 against the convex pieces of facets to which tubes are
+// clipped. Each body has one tree of boxes in its own frame, which poses do not change. The trees are built
+// by binning the surface-area heuristic (I. Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", IEEE Symp. Interactive Ray Tracing 2007). A node holds three binary levels, so that eight
+// boxes are tested side by side. If a ray meets two facets at the same distance, the facet with the lower
+// index counts, so that the result does not depend on the tree.
 #pragma once
 
 #include <array>
@@ -27,41 +28,44 @@ class EchoTracer {
   EchoTracer(const scene::Scene& scene, const FacetTrees& trees);
 
   struct Answer {
-    std::vector<uint32_t> words;  ///< [max_bounces * tubes], as EchoPass::collect's
-    bool direct = false;          ///< as EchoPass::direct
+    std::vector<uint32_t> words;  ///< [max_bounces * tubes], as EchoPass::collect returns
+    bool direct = false;          ///< as EchoPass::direct returns
   };
-  /// `reflects`: rays end at facets that do not. `last`: the surfaces, at most max_bounces, that a ray may
-  /// meet whose first two these are. The same bytes whatever the threads.
+  /// Traces the rays of all tubes. `reflects` tells whether a facet reflects; rays end at facets that do not.
+  /// `last` returns the number of surfaces, at most max_bounces, that a ray may meet if its first two
+  /// surfaces are the given ones. The bytes do not depend on the number of threads.
   Answer trace(const FacetWorld& world, const EchoRays& rays, const RayGrid& grid, uint32_t max_bounces,
                bool monostatic, const std::function<bool(uint32_t facet)>& reflects,
                const std::function<uint32_t(uint32_t first, uint32_t second)>& last, uint32_t threads) const;
 
-  /// What single rays meet, as all bodies stand.
+  /// Holds the bodies at their present poses, for tracing single rays.
   class View;
-  /// Without the bodies of that owner; 0: with all.
+  /// Returns a view without the bodies of `hidden_owner`; 0 hides none.
   View view(const FacetWorld& world, uint32_t hidden_owner) const;
   struct Met {
     uint32_t facet = ~0u;
     double distance = 1e30;
   };
-  /// `direction`: unit. `leaving`: a facet that is passed through; ~0: none.
+  /// Returns the first facet that a ray meets. `direction` is a unit vector. The ray passes through the facet
+  /// `leaving`; ~0: none.
   Met first(const View& view, const dvec3& origin, const dvec3& direction, uint32_t leaving) const;
 
  private:
   static constexpr uint32_t wide = 8, leaf_size = 4, bins = 16;
-  /// Children side by side; a leaf has `count` pieces from `child` on, an inner one is the node `child`, an
-  /// absent one has a box that nothing meets.
+  /// Holds eight children side by side. A leaf has `count` pieces from index `child` on. An inner child is
+  /// the node `child`, with `count` = 0. The box of an absent child is empty, so that no ray meets it.
   struct alignas(32) Node {
-    float box[3][2][wide];  ///< by axis: low, high
+    float box[3][2][wide];  ///< [axis][low, high][child]
     uint32_t child[wide], count[wide];
   };
   struct Piece {
     dvec3 normal{0.0};
     double offset = 0.0;
     uint32_t facet = 0, first_side = 0, side_count = 0;
-    double room = 0.0;  ///< that a ray may be outside of a side, metres: nothing slips between two pieces
+    /// Distance by which a ray may pass outside a side, metres, so that no ray slips between two pieces.
+    double room = 0.0;
   };
-  struct Side {  ///< normal . x + offset >= 0 inside
+  struct Side {  ///< normal . x + offset >= 0 inside the piece
     dvec3 normal{0.0};
     double offset = 0.0;
   };
@@ -69,7 +73,7 @@ class EchoTracer {
     uint32_t root = 0, body = 0, owner = 0;
     scene::Bounds bounds;
   };
-  /// A tree where its body stands now.
+  /// Holds a tree at the present pose of its body.
   struct Standing {
     const Tree* tree = nullptr;
     Pose back;  ///< body_from_local
@@ -77,22 +81,22 @@ class EchoTracer {
     double squared_radius = 0.0;
   };
   struct Build;
-  /// A ray and what it has met so far, all in one body's frame.
+  /// Holds a ray in the frame of one body, and the nearest facet that it has met so far.
   struct Query {
     dvec3 origin, direction;
-    double nearest = 1e30;  ///< in lengths of `direction`
+    double nearest = 1e30;  ///< in units of the length of `direction`
     uint32_t leaving = ~0u, facet = ~0u;
     bool any = false;
   };
-  using Hidden = std::array<uint32_t, 2>;  ///< owners of bodies that are passed through; 0: none
+  using Hidden = std::array<uint32_t, 2>;  ///< owners of the bodies that rays pass through; 0: none
 
   Piece piece_of(const scene::Facet& facet, uint32_t index, std::span<const dvec3> corners);
   uint32_t build(Build& work, uint32_t first, uint32_t count);
   static void meet(const Node* nodes, const Piece* pieces, const Side* sides, uint32_t root, Query& query);
   static void test(const Piece& piece, const Side* sides, Query& query);
-  /// All trees but those of what is hidden.
+  /// Returns all trees except those of hidden bodies.
   std::vector<Standing> standing(const FacetWorld& world, const Hidden& hidden) const;
-  /// Over all bodies; `query` in local coordinates.
+  /// Tests the ray against all bodies. `query` is in local coordinates.
   void meet_all(std::span<const Standing> trees, Query& query) const;
   bool sees(std::span<const Standing> trees, const dvec3& from, const dvec3& to, uint32_t leaving) const;
 

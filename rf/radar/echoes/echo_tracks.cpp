@@ -10,8 +10,7 @@
 namespace greatx::rf {
 namespace {
 
-constexpr size_t nodes = 4,
-                 checks = 9;  // Chebyshev nodes of the cubic, then the points that it is held against
+constexpr size_t nodes = 4, checks = 9;  // Chebyshev nodes of the cubic, points at which it is checked
 
 struct Span {
   double begin_s = 0.0, end_s = 0.0;
@@ -26,7 +25,8 @@ Span span_of(const EchoMotion& motion) {
 
 double chebyshev_node(size_t i) { return std::cos(pi * (2.0 * double(i) + 1.0) / (2.0 * nodes)); }
 
-/// Coefficients of the cubic through (x_i, y_i), x = (t - mid)/half: divided differences, then expanded.
+/// Returns the coefficients of the cubic through (x_i, y_i), x = (t - mid)/half. Divided differences give the
+/// Newton form, which is then expanded.
 std::array<double, 4> cubic_through(const std::array<double, 4>& x, std::array<double, 4> y) {
   for (int order = 1; order < 4; ++order)
     for (int i = 3; i >= order; --i) y[i] = (y[i] - y[i - 1]) / (x[i] - x[i - order]);
@@ -92,8 +92,8 @@ bool fit_track(const PoseTable& poses, std::span<const CarriedPoint> vertices, d
   std::array<double, 4> x, y;
   for (size_t i = 0; i < nodes; ++i) {
     x[i] = (times[i] - track.mid_s) / half;
-    y[i] = poses.length(vertices, i) -
-           at_begin;  // differences: the cubic has to be exact to parts of a wavelength
+    // Differences, because the cubic has to be exact to fractions of a wavelength.
+    y[i] = poses.length(vertices, i) - at_begin;
   }
   const std::array<double, 4> c = cubic_through(x, y);
   for (size_t i = nodes; i < times.size(); ++i) {

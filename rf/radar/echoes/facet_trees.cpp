@@ -12,10 +12,11 @@
 namespace greatx::rf {
 namespace {
 
-using Corners = std::vector<uint32_t>;  ///< of a convex piece, counter-clockwise about the facet's normal
+/// corners of a convex piece, counter-clockwise about the facet's normal
+using Corners = std::vector<uint32_t>;
 
-/// Joins the triangles of one facet: greedily, across every edge that two pieces share and that leaves a
-/// convex one.
+/// Joins the triangles of one facet greedily: across every edge that two pieces share, if the joined piece is
+/// convex.
 class Joiner {
  public:
   Joiner(const scene::Facet& facet, std::span<const scene::FacetTriangle> triangles) : normal_(facet.normal) {
@@ -36,14 +37,14 @@ class Joiner {
     for (uint32_t piece = 0; piece < pieces.size(); ++piece)
       for (size_t i = 0; i < 3; ++i) {
         const auto [at, is_new] = owner_.try_emplace(edge(pieces[piece], i), piece);
-        if (!is_new) at->second = nobody;  // triangles on top of one another
+        if (!is_new) at->second = nobody;  // triangles overlap
       }
     for (uint32_t piece = 0; piece < pieces.size(); ++piece)
       while (join_one(piece)) {
       }
   }
   std::vector<dvec3> points;
-  std::vector<Corners> pieces;  ///< those joined to another are empty
+  std::vector<Corners> pieces;  ///< pieces that were joined to another are empty
 
  private:
   using Edge = std::pair<uint32_t, uint32_t>;
@@ -63,12 +64,13 @@ class Joiner {
       const uint32_t other = found->second;
       if (other == piece || own.size() + pieces[other].size() - 2 > FacetTrees::most_corners) continue;
       Corners& theirs = pieces[other];
-      // From b round our own to a, then round theirs from behind a to before b.
+      // The joined outline runs from b around this piece to a, then around the other piece from after a to
+      // before b.
       Corners joined(own);
       std::rotate(joined.begin(), joined.begin() + (i + 1) % own.size(), joined.end());
       const size_t at_a = std::find(theirs.begin(), theirs.end(), a) - theirs.begin();
       for (size_t k = 1; k + 1 < theirs.size(); ++k) joined.push_back(theirs[(at_a + k) % theirs.size()]);
-      const size_t joint = own.size() - 1;  // a
+      const size_t joint = own.size() - 1;  // index of a
       if (!convex_at(joined[joint - 1], a, joined[joint + 1]) || !convex_at(joined.back(), b, joined[1]))
         continue;
       for (size_t k = 0; k < theirs.size(); ++k)
@@ -82,11 +84,11 @@ class Joiner {
   }
 
   dvec3 normal_;
-  std::map<Edge, uint32_t> owner_;  ///< of directed edges
+  std::map<Edge, uint32_t> owner_;  ///< owner of each directed edge
 };
 
-/// A KeptSide in a body's frame, and how far a box of half size 1 reaches along it. Nothing is set
-/// beforehand.
+/// Holds a KeptSide in a body's frame, and the reach of a box of half size 1 along its normal. Members stay
+/// uninitialized.
 struct HalfSpace {
   dvec3 normal, reach;
   double offset;
@@ -176,7 +178,7 @@ bool FacetTrees::contains(const FacetWorld& world, uint32_t facet, const dvec3& 
     return true;
   };
   const auto outside = [&](const scene::Bounds& box) {
-    // Boxes of a plane may be flat: a point of the plane is off it by roundings.
+    // The boxes of a plane may be flat. A point of the plane is outside of such a box by rounding errors.
     const dvec3 off = glm::abs(at - box.center()) - 0.5 * (box.max - box.min);
     return std::max({off.x, off.y, off.z}) > 1e-5;
   };

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a facet is made of, for tubes: its triangles joined to convex pieces across the edges that two of them
-// share (a wall's two triangles become its rectangle), so that a tube on a wall is not cut along seams that
-// send nothing back. Which pieces may a part of a tube fall on? Facets of many pieces (ground) have a tree of
-// boxes.
+// Prepares facets for tubes: joins the triangles of a facet to convex pieces across shared edges (the two
+// triangles of a wall become its rectangle). A tube on a wall is then not cut along seams that send nothing
+// back. Facets with many pieces, such as ground, have a tree of boxes that finds the pieces on which a part
+// of a tube may fall.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace greatx::rf {
 
-/// normal . x + offset >= 0.
+/// The half-space normal . x + offset >= 0.
 struct KeptSide {
   dvec3 normal{0.0};
   double offset = 0.0;
@@ -27,39 +27,40 @@ struct KeptSide {
 
 class FacetTrees {
  public:
-  static constexpr uint32_t most_corners = 8;  ///< of a piece
+  static constexpr uint32_t most_corners = 8;  ///< largest number of corners of a piece
 
   explicit FacetTrees(const scene::Scene& scene);
-  /// Indices of pieces, ascending, whose boxes are not wholly outside of one of the half-spaces (local
-  /// coordinates).
+  /// Returns the indices of the pieces whose boxes are not entirely outside one of the half-spaces,
+  /// ascending. The half-spaces are in local coordinates.
   void find(const FacetWorld& world, uint32_t facet, std::span<const KeptSide> spaces,
             std::vector<uint32_t>& pieces) const;
-  /// All pieces of a facet, and the corners of one in the frame of its body, counter-clockwise about the
-  /// normal.
+  /// Returns the indices of all pieces of a facet.
   std::ranges::iota_view<uint32_t, uint32_t> pieces(uint32_t facet) const {
     return {first_piece_[facet], first_piece_[facet + 1]};
   }
+  /// Returns the corners of a piece in the frame of its body, counter-clockwise about the normal.
   std::span<const dvec3> corners(uint32_t piece) const {
     return std::span(corners_).subspan(pieces_[piece].first, pieces_[piece].count);
   }
-  /// Corners of a piece in local coordinates, in `room` unless its body is the static one.
+  /// Returns the corners of a piece in local coordinates. They are stored in `room` unless the body is the
+  /// static one.
   std::span<const dvec3> corners(const FacetWorld& world, uint32_t facet, uint32_t piece,
                                  std::array<dvec3, most_corners>& room) const;
-  /// FacetWorld::contains for a point in local coordinates, by the tree if there is one: 1e-9 of a side
-  /// beyond it is inside.
+  /// Returns FacetWorld::contains for a point in local coordinates. Uses the tree if the facet has one; a
+  /// point then counts as inside up to 1e-9 of the length of a side beyond that side.
   bool contains(const FacetWorld& world, uint32_t facet, const dvec3& point) const;
 
  private:
   static constexpr uint32_t small_facet = 8;
   struct Piece {
-    uint32_t first = 0, count = 0;  ///< of corners_
+    uint32_t first = 0, count = 0;  ///< range of corners_
   };
   scene::Bounds bounds_of(uint32_t piece) const;
 
-  std::vector<dvec3> corners_;         ///< in the bodies' frames
+  std::vector<dvec3> corners_;         ///< in the frames of the bodies
   std::vector<Piece> pieces_;          ///< facet by facet
   std::vector<uint32_t> first_piece_;  ///< [facets + 1]
-  /// [facets] of the facet's pieces, in the body's frame; empty where these are few.
+  /// [facets] trees of the pieces of each facet, in the frame of the body; empty for facets with few pieces.
   std::vector<scene::BoxTree> trees_;
 };
 

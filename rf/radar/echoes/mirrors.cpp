@@ -8,12 +8,13 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double same_distance = 1e-6;  ///< of two ways to find out how far a mirror is, relative
+/// relative tolerance between two computations of the distance to a mirror
+constexpr double same_distance = 1e-6;
 
-/// A target that is looked for in mirrors.
+/// A target that is looked for over mirrors.
 struct Sought {
   const TargetBox* box = nullptr;
-  std::array<dvec3, 9> points;  ///< the middle of the box, and half way to its corners
+  std::array<dvec3, 9> points;  ///< the centre of the box, and the points halfway to its corners
   double radius = 0.0;
 };
 
@@ -60,8 +61,8 @@ std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, 
       const PosedFacet& posed = world.facet(mirror.facet);
       const double side = posed.distance(radar), there = posed.distance(target.points[0]);
       if (!(side * there > 0.0)) continue;
-      // Where the ray to the image of the middle meets the plane, as far from the facet as a ray to a corner
-      // may be.
+      // The point where the ray to the image of the centre meets the plane. It may lie outside the facet by
+      // as much as the ray to a corner may lie beside it.
       const double share = side / (side + there);
       const dvec2 from = posed.plane_coordinates(radar),
                   at = from + share * (posed.plane_coordinates(target.points[0]) - from);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small convex polygons in a plane, counter-clockwise: parts of tubes. Nothing is allocated.
+// Provides small convex polygons in a plane, with counter-clockwise corners, for parts of tubes. They
+// allocate no memory.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 
 namespace greatx::rf {
 
-/// x . normal + offset >= 0.
+/// The half-plane x . normal + offset >= 0.
 struct HalfPlane {
   dvec2 normal{0.0};
   double offset = 0.0;
@@ -24,14 +25,14 @@ class Polygon {
  public:
   static constexpr uint32_t capacity = 24;
 
-  Polygon() {}  // the corners stay as they are: polygons are made by the million
+  Polygon() {}  // the corners stay uninitialized, since polygons are made by the million
   Polygon(const Polygon& other) { *this = other; }
   Polygon& operator=(const Polygon& other) {
     std::copy_n(other.points_.begin(), other.count_, points_.begin());
     count_ = other.count_;
     return *this;
   }
-  /// Turned round if the points run clockwise. At most `capacity` points; repeated ones are kept once.
+  /// Takes at most `capacity` points and reverses them if they run clockwise. Repeated points are kept once.
   explicit Polygon(std::span<const dvec2> points);
 
   uint32_t size() const { return count_; }
@@ -39,12 +40,12 @@ class Polygon {
   const dvec2& operator[](uint32_t i) const { return points_[i]; }
   const dvec2& next(uint32_t i) const { return points_[i + 1 < count_ ? i + 1 : 0]; }
   double area() const;
-  /// Of the area; the mean of the corners if there is none.
+  /// Returns the centroid of the area, or the mean of the corners if the area is 0.
   dvec2 centroid() const;
-  /// The part in a half-plane. A polygon that would grow beyond `capacity` loses its shortest side: its area
-  /// changes by less than anything that a tube resolves.
+  /// Returns the part in a half-plane. A polygon that would exceed `capacity` loses its shortest side, which
+  /// changes its area by less than a tube resolves.
   Polygon clipped(const HalfPlane& side) const;
-  /// The half-plane on the inner side of side i.
+  /// Returns the half-plane on the inner side of side i.
   HalfPlane inside(uint32_t i) const;
 
  private:

@@ -19,7 +19,7 @@ dvec3 direction_of(double azimuth, double elevation) {
           std::sin(elevation)};
 }
 
-/// Cells that a target may be seen in, and how near it comes.
+/// Describes the directions in which a target may be seen, and its smallest distance.
 struct Footprint {
   double azimuth = 0.0, half_azimuth = 0.0;  ///< rad
   double elevation_min = 0.0, elevation_max = 0.0;
@@ -28,7 +28,7 @@ struct Footprint {
 
 Footprint whole_sphere(double distance_m) { return {0.0, pi, -0.5 * pi, 0.5 * pi, distance_m}; }
 
-/// `seen_at`: where a point of the target's (local coordinates) appears to be.
+/// `seen_at` returns where a point of the target (local coordinates) appears to be.
 template <typename SeenAt>
 Footprint footprint_of(const TargetBox& target, const Pose& radar_from_local, const SeenAt& seen_at) {
   const dvec3 half = 0.5 * target.bounds.size();
@@ -46,8 +46,8 @@ Footprint footprint_of(const TargetBox& target, const Pose& radar_from_local, co
     const double azimuth = std::remainder(std::atan2(p.y, p.x) - print.azimuth, 2.0 * pi);
     print.half_azimuth = std::max(print.half_azimuth, std::abs(azimuth));
   }
-  // Near a pole azimuth says nothing; edges of boxes bulge beyond their corners by less than the sagitta of
-  // what they span.
+  // Near a pole the azimuth carries no information. The edges of a box bulge beyond its corners by less than
+  // the sagitta of their span.
   const double highest = std::max(std::abs(print.elevation_min), std::abs(print.elevation_max));
   const double span = std::max(print.elevation_max - print.elevation_min, 2.0 * print.half_azimuth);
   const double bulge = 0.125 * span * span * std::tan(std::min(highest, 1.4));
@@ -118,7 +118,7 @@ void RayGrid::subdivide(const EchoOptions& options, const Pose& local_from_radar
   const double cell_rad = std::max(step_azimuth, step_elevation);
   const size_t cells = size_t{columns_} * rows_;
   const Pose radar_from_local = local_from_radar.inverse();
-  std::vector<double> nearest(cells, 1e300);  // distance of the nearest target of each cell
+  std::vector<double> nearest(cells, 1e300);  // [cells] distance of the nearest target
   const auto mark = [&](const Footprint& print, const auto& counts) {
     for (uint32_t row = 0; row < rows_; ++row) {
       const double low = view_.elevation_min + row * step_elevation;
@@ -203,7 +203,8 @@ std::array<dvec3, 4> RayGrid::corners(uint32_t tube) const {
 }
 
 uint32_t RayGrid::tube_at(const dvec3& direction) const {
-  const dvec3 d = direction * local_from_radar_;  // by the transpose: into the radar's frame
+  // multiplication by the transpose turns into the radar's frame
+  const dvec3 d = direction * local_from_radar_;
   const double turn = 2.0 * pi, azimuths = view_.azimuth_max - view_.azimuth_min;
   double azimuth = std::fmod(std::atan2(d.y, d.x) - view_.azimuth_min, turn);
   if (azimuth < 0.0) azimuth += turn;
@@ -239,7 +240,7 @@ std::array<uint32_t, 8> RayGrid::neighbours(uint32_t tube) const {
       continue;
     }
     const double m = count_[cell];
-    const auto inside = [&](int k, int over) {  // the other cell's own subdivision at the same place
+    const auto inside = [&](int k, int over) {  // subdivision of the other cell at the same place
       return std::min(m - 1.0, std::floor((k - over * n + 0.5) / n * m));
     };
     found[i] = first_[cell] + static_cast<uint32_t>(inside(y, over_y) * m + inside(x, over_x));

@@ -43,7 +43,7 @@ void RayHits::find_seen(const RayGrid& grid, const FacetWorld& world, const dvec
                         uint32_t max_bounces, uint32_t threads) {
   constexpr uint32_t chunk = 512;
   if (bounces_ < 2) return;
-  // New words beside the old ones, which other tubes are looking at.
+  // The new words are kept apart, because other tubes still read the old ones.
   std::vector<uint32_t> words(words_.begin() + tubes_, words_.end());
   parallel_for((tubes_ + chunk - 1) / chunk, threads, [&](size_t part) {
     const uint32_t first = static_cast<uint32_t>(part) * chunk, last = std::min(tubes_, first + chunk);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tube on its way, unfolded: where its rays seem to come from, and coordinates that a ray keeps when it is
-// reflected.
+// Describes a tube on its way, unfolded: the point from which its rays seem to come, and coordinates that a
+// ray keeps when it is reflected.
 #pragma once
 
 #include <cmath>
@@ -12,9 +12,9 @@
 
 namespace greatx::rf {
 
-/// Rays leave `source` along axis + u e1 + v e2: straight lines of the (u, v) plane are planes through the
-/// source, so that triangles are polygons there. A reflection mirrors all four vectors; (u, v) of a ray
-/// stays.
+/// Holds the axes of a beam. Rays leave `source` along axis + u e1 + v e2. Straight lines of the (u, v) plane
+/// are planes through the source, so that triangles are polygons there. A reflection mirrors all four
+/// vectors, and the (u, v) of a ray stays the same.
 struct TubeBeam {
   dvec3 source{0.0}, axis{1, 0, 0}, e1{0, 1, 0}, e2{0, 0, 1};
 
@@ -25,12 +25,13 @@ struct TubeBeam {
     e2 = glm::cross(axis, e1);
   }
   dvec3 along(const dvec2& uv) const { return axis + uv.x * e1 + uv.y * e2; }
-  /// Of a point in front of the source.
+  /// Returns (u, v) of a point in front of the source.
   dvec2 uv(const dvec3& point) const {
     const dvec3 arm = point - source;
     return dvec2(glm::dot(arm, e1), glm::dot(arm, e2)) / glm::dot(arm, axis);
   }
-  /// Distance to a plane along a ray, in lengths of along(uv); not finite along the plane.
+  /// Returns the distance to the plane of `facet` along a ray, in units of the length of `direction`. The
+  /// result is not finite for a ray parallel to the plane.
   double reach(const PosedFacet& facet, const dvec3& direction) const {
     return -facet.distance(source) / glm::dot(facet.normal, direction);
   }
@@ -43,7 +44,7 @@ struct TubeBeam {
   }
 };
 
-/// A point of a facet's plane by its plane coordinates.
+/// Returns the point of a facet's plane with the plane coordinates `p`.
 inline dvec3 point_of(const PosedFacet& facet, const dvec2& p) {
   return facet.normal * facet.offset + facet.axis_u * (p.x + facet.offset_u) +
          facet.axis_v * (p.y + facet.offset_v);

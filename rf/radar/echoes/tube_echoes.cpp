@@ -14,8 +14,8 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double smallest_share = 1e-9;  ///< of a tube: parts below it are dropped
-constexpr uint32_t most_pieces = 256;    ///< that a diffuse part is cut into
+constexpr double smallest_share = 1e-9;  ///< fraction of a tube's area; smaller parts are dropped
+constexpr uint32_t most_pieces = 256;    ///< number of pieces into which a diffuse part is cut
 
 PhasePlane phase_plane(const PosedFacet& facet, const dvec3& source, const dvec3& receiver,
                        double wavenumber) {
@@ -42,20 +42,20 @@ Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& p
   return Polygon(std::span(points.data(), part.size()));
 }
 
-/// A tube being worked on.
+/// Holds the state of a tube while it is processed.
 struct TubeEchoes::Job {
   uint32_t tube = 0;
   std::array<uint32_t, 8> ring{};
-  std::array<dvec3, 4> corners{};             ///< of the whole tube
-  std::array<TubeBeam, most_surfaces> beams;  ///< [bounces before]
+  std::array<dvec3, 4> corners{};             ///< corners of the whole tube
+  std::array<TubeBeam, most_surfaces> beams;  ///< [number of bounces before]
   std::array<uint32_t, most_surfaces> chain{};
-  Polygon part;  ///< the whole tube
+  Polygon part;  ///< quadrilateral of the whole tube
   RawEchoes* out = nullptr;
   std::vector<Contribution> contributions;
   std::vector<uint32_t> facets;
   std::array<std::vector<VisibleCell>, most_surfaces> cells;
   VisibleScratch scratch;
-  uint32_t chain_at = ~0u;  ///< of the chain as it is now, in out->chains
+  uint32_t chain_at = ~0u;  ///< start of the present chain in out->chains; ~0: not stored yet
 };
 
 TubeEchoes::TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world,
@@ -106,7 +106,8 @@ void TubeEchoes::classify(uint32_t tube) {
       return;
     }
     whole = Whole::silent;
-    // From the second surface the receiver is seen directly or over the first, never both.
+    // From the second surface the receiver is seen either directly or over the first surface, never both
+    // ways.
     const bool over = bounce == 1 && RayHits::sees_over(word);
     if (over || RayHits::sees_receiver(word)) {
       const dvec3 receiver =
@@ -234,11 +235,11 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
     send_back(job, bounce, part, facet, whole);
   if (RayHits::sees_over(word)) send_over(job, bounce, part, job.chain[0], Over::first, whole && bounce == 1);
   if (bounce + 1 == bounces_) return;
-  // Beyond max_bounces hits are there of those alone that came by a mirror.
+  // Beyond max_bounces only tubes that came over a mirror have hits.
   if (bounce + 1 == options_.max_bounces && !mirrors(world_, job.chain[0], job.chain[1])) return;
   const TubeBeam& beam = job.beams[bounce];
   job.beams[bounce + 1] = beam.mirrored(posed);
-  // Rays go on to the side that they came from, which is where the source of before is.
+  // The rays continue on the side from which they came, where the source before the reflection is.
   const BeamStart start{&posed, facet, posed.distance(beam.source) > 0.0 ? 1.0 : -1.0};
   follow(job, bounce + 1, part, start, whole);
   job.chain_at = ~0u;
@@ -247,7 +248,7 @@ void TubeEchoes::bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint
 uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet,
                                    const Polygon& piece, bool whole) const {
   const bool border = whole && whole_[size_t{job.tube} * bounces_ + bounce] == Whole::border;
-  std::array<dvec2, Polygon::capacity> points;  // the piece's corners in the beam's coordinates
+  std::array<dvec2, Polygon::capacity> points;  // corners of the piece in the coordinates of the beam
   uint32_t marks = 0;
   bool placed = false;
   for (int side = 0; side < 4; ++side) {
@@ -275,7 +276,7 @@ uint32_t TubeEchoes::omitted_sides(const Job& job, uint32_t bounce, const PosedF
   return marks;
 }
 
-/// With the floor where the piece is nearest to both ends.
+/// Returns the limits with the floor at the corner of the piece that is nearest to both ends.
 IntegralLimits TubeEchoes::limits_of(const PosedFacet& facet, const Polygon& piece, const dvec3& source,
                                      const dvec3& receiver) const {
   IntegralLimits limits = limits_;
@@ -308,7 +309,7 @@ void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_
     const double share = -wall.distance(point) / glm::dot(wall.normal, way);
     const dvec3 over = point + share * way;
     if (!(share > 0.0 && share < 1.0)) continue;
-    // Where the tube came by the mirror straight to this surface, so does the way back.
+    // A tube that came over the mirror directly to this surface returns over the mirror in the same way.
     if (!(way_home == Over::first && last == 1) && !trees_.contains(world_, mirror, over)) continue;
     const dvec3 departure = glm::normalize(job.beams[0].along(beam.uv(point)));
     const Complex amplitude =
@@ -330,12 +331,13 @@ void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_
 
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
   if (bounce > 0 && mirrors(world_, facet, job.chain[bounce - 1])) {
-    if (bounce > 1 && home_ && facet == job.chain[0]) return;  // sent home from the surface before
+    // the previous surface has already sent this path back
+    if (bounce > 1 && home_ && facet == job.chain[0]) return;
     return send_over(job, bounce - 1, part, facet, Over::other, false);
   }
   const PosedFacet& posed = world_.facet(facet);
   const TubeBeam& beam = job.beams[bounce];
-  // The receiver is on the lit side: where the source was before the last surface turned the rays.
+  // The receiver must be on the lit side: where the source was before the last surface turned the rays.
   if (posed.distance(beam.source) * posed.distance(field_.receiver_at()) <= 0.0) return;
   const Polygon piece = on_facet(posed, beam, part);
   if (piece.empty()) return;
@@ -367,7 +369,8 @@ void TubeEchoes::add(Job& job, uint32_t bounce, const PosedFacet& facet, const d
       {amplitude, departure, back / after, point, before + after, job.chain_at, bounce + 1});
 }
 
-/// Pieces no longer in delay than what the bandwidth tells apart.
+/// Cuts the part into pieces whose spread of path length is less than half a resolution cell of the
+/// bandwidth.
 void TubeEchoes::scatter(Job& job, const Polygon& part, uint32_t facet) const {
   const PosedFacet& posed = world_.facet(facet);
   if (posed.distance(source_) * posed.distance(field_.receiver_at()) <= 0.0) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From what the rays have met to what every tube sends back: geometry and fields, fp64, tube by tube.
+// Computes the raw echoes from the hits of the rays: geometry and fields, tube by tube, in fp64.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace greatx::rf {
 
-/// A place that sends something back, before merging.
+/// Holds the contribution of one place, before merging.
 struct RawEcho {
   Complex amplitude;
-  dvec3 departure{0.0}, arrival{0.0};  ///< as Echo's
+  dvec3 departure{0.0}, arrival{0.0};  ///< as in Echo
   dvec3 point{0.0};
-  double length_m = 0.0;     ///< transmitter to receiver, unfolded
-  uint32_t first_facet = 0;  ///< of its chain, into RawEchoes::chains
+  double length_m = 0.0;     ///< unfolded length from the transmitter to the receiver
+  uint32_t first_facet = 0;  ///< start of the echo's chain in RawEchoes::chains
   uint32_t bounces = 0;
 };
 
@@ -35,36 +35,40 @@ struct RawEchoes {
   }
 };
 
+/// Computes the raw echoes of all tubes.
+///
 /// A tube is *whole* up to a bounce if its ray and the eight around it have met the same facets so far and
-/// agree on seeing the receiver: then all of it falls on that facet. Else it is divided by find_visible among
-/// the facets that those nine have met after the same facets before, if anything sends from there: any of the
-/// nine sees the receiver then or later. Each part goes on as a beam of its own.
+/// agree on seeing the receiver. All of the tube then falls on that facet. Otherwise find_visible divides the
+/// tube among the facets that those nine rays have met after the same facets before, provided that one of the
+/// nine sees the receiver then or later. Each part continues as a beam of its own.
 ///
-/// Where a small surface is followed by a large one (target, wall), the currents are taken on the small one
-/// and the large one is a mirror on the way to the receiver: on the large one the wave of a small surface has
-/// no parallel rays, and currents there would be stronger than they are (by 10 dB in the test). The same path
-/// backwards, out over the mirror, is its reciprocal for a monostatic radar: it is added with it, and not
-/// looked for on its own where the small surface is seen directly.
+/// Where a small surface is followed by a large one (target, wall), the currents are taken on the small
+/// surface, and the large one is a mirror on the way to the receiver. The wave of a small surface has no
+/// parallel rays on the large one, and currents there would be too strong (by 10 dB in the test). For a
+/// monostatic radar the opposite path, out over the mirror, is the reciprocal of this path. Both are added
+/// together; the opposite path is not searched for where the radar sees the small surface directly.
 ///
-/// A tube that came by a mirror sends back over it, too (wall, target, wall), from all surfaces from which
-/// the radar is seen there, wherever their own reflections go: what the wall shows is an image of the radar,
-/// and it sees the target as the radar itself would from there.
+/// A tube that came over a mirror also sends back over that mirror (wall, target, wall). It does so from all
+/// surfaces from which the radar is seen over the mirror, wherever their own reflections go. The wall shows
+/// an image of the radar, and this image sees the target as a radar at that place would.
 ///
-/// Errors: a surface that none of the nine rays meets is not there; where all nine meet one instance (a fine
-/// mesh) what is left uncovered counts as the middle ray's facet.
+/// Errors: a surface that none of the nine rays meets is missed. Where all nine rays meet one instance (a
+/// fine mesh), uncovered parts count as the facet of the middle ray.
 class TubeEchoes {
  public:
   TubeEchoes(const RayGrid& grid, const RayHits& hits, const FacetWorld& world, const FacetTrees& trees,
              const EchoField& field, const scene::Scene& scene, const dvec3& source, bool monostatic,
              const EchoOptions& options);
 
-  /// All tubes, in their order, on options.threads threads.
+  /// Returns the raw echoes of all tubes in the order of the tubes. Uses options.threads threads.
   RawEchoes find() const;
 
  private:
   struct Job;
   static constexpr uint32_t chunk = 128;
-  /// How a whole tube's integral goes at each bounce, so that neighbours know what cancels.
+  /// Tells which form the integral of a whole tube takes at a bounce, so that neighbours know which sides
+  /// cancel. `no`: the tube is not whole there. `silent`: it is whole and sends nothing. `border`: the border
+  /// form. `other`: another form.
   enum class Whole : uint8_t { no, silent, border, other };
   void classify(uint32_t tube);
   bool ring_agrees(uint32_t tube, const std::array<uint32_t, 8>& ring, uint32_t bounce) const;
@@ -74,17 +78,18 @@ class TubeEchoes {
               std::vector<VisibleCell>& cells) const;
   void bounce_off(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
   void send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const;
-  /// Which mirror the way to the receiver goes over: the tube's first surface, or another one that its ray
-  /// meets next.
+  /// Selects the mirror on the way to the receiver: the first surface of the tube, or the surface that its
+  /// ray meets next.
   enum class Over : uint8_t { first, other };
-  /// Currents on surface `last` of the chain, and what they send over `mirror`; with the same path backwards
-  /// where only this one is looked for.
+  /// Adds the echoes of the currents on surface `last` of the chain that reach the receiver over `mirror`. If
+  /// the opposite path is not searched for, it is added with this one.
   void send_over(Job& job, uint32_t last, const Polygon& part, uint32_t mirror, Over way_home,
                  bool whole) const;
   void scatter(Job& job, const Polygon& part, uint32_t facet) const;
-  /// Whether the ray of a tube, from that bounce on, met anything that sends something to the receiver.
+  /// Returns whether the ray of a tube met, from `bounce` on, a facet from which the receiver is seen.
   bool may_send(uint32_t tube, uint32_t bounce) const;
-  /// Of the ray, this one's or one's around it, that met the facet after the same ones.
+  /// Returns the word of the first ray, of this tube or else of one around it, that met `facet` at `bounce`
+  /// after the same facets as the job. Returns RayHits::nothing if there is none.
   uint32_t word_of(const Job& job, uint32_t bounce, uint32_t facet) const;
   bool same_chain(const Job& job, uint32_t tube, uint32_t length) const;
   uint32_t omitted_sides(const Job& job, uint32_t bounce, const PosedFacet& facet, const Polygon& piece,
@@ -102,16 +107,18 @@ class TubeEchoes {
   dvec3 source_;
   bool monostatic_;
   const EchoOptions& options_;
-  uint32_t bounces_;  ///< traced
-  bool home_;         ///< tubes that come by mirrors send back over them
+  uint32_t bounces_;  ///< number of surfaces that were traced
+  bool home_;         ///< tubes that came over mirrors send back over them
   IntegralLimits limits_;
-  double hidden_floor_;       ///< of a border's contribution 1 m from both ends, m^2
+  /// Floor of a border contribution 1 m from both ends, below which noise hides it, m^2.
+  double hidden_floor_;
   std::vector<Whole> whole_;  ///< [tubes * bounces]
 };
 
-/// The tube's quadrilateral in its own coordinates.
+/// Returns the quadrilateral of a tube in the coordinates of `beam`.
 Polygon tube_part(const std::array<dvec3, 4>& corners, const TubeBeam& beam);
-/// A part of a beam on a facet, in the facet's plane coordinates; empty where it does not fall on the plane.
+/// Returns a part of a beam on a facet, in the plane coordinates of the facet. Returns an empty polygon if a
+/// corner of the part does not fall on the plane.
 Polygon on_facet(const PosedFacet& facet, const TubeBeam& beam, const Polygon& part);
 
 }  // namespace greatx::rf

@@ -24,7 +24,7 @@ double quadratic(const dvec3& m, const dvec2& v) {
   return m.x * v.x * v.x + 2.0 * m.y * v.x * v.y + m.z * v.y * v.y;
 }
 
-/// Second moments of the area about the centroid: (xx, xy, yy), m^4.
+/// Returns the second moments of the area about the centroid: (xx, xy, yy), m^4.
 dvec3 second_moments(const Polygon& piece, const dvec2& centroid) {
   dvec3 sum(0.0);
   for (uint32_t i = 0; i < piece.size(); ++i) {
@@ -49,12 +49,12 @@ void add_area(const PhasePlane& plane, const Polygon& piece, std::vector<Contrib
   const double area = piece.area();
   if (!(area > 0.0)) return;
   const dvec3 bend = plane.curvature(centroid), moments = second_moments(piece, centroid);
-  // The mean of the quadratic part over the piece.
+  // The mean of the quadratic part of the phase over the piece.
   const double mean = 0.5 * (bend.x * moments.x + 2.0 * bend.y * moments.y + bend.z * moments.z) / area;
   out.push_back({centroid, linear_phase_integral(piece, centroid, plane.gradient(centroid)) * turned(mean)});
 }
 
-/// The density of the border form at a point of a side with outward normal n: -j V . n (1 + j div V).
+/// Returns the density of the border form at a point of a side with outward normal n: -j V . n (1 + j div V).
 Complex border_density(const PhasePlane& plane, const dvec2& p, const dvec2& normal) {
   const dvec2 g = plane.gradient(p);
   const dvec3 bend = plane.curvature(p);
@@ -63,11 +63,11 @@ Complex border_density(const PhasePlane& plane, const dvec2& p, const dvec2& nor
   return -j * (glm::dot(g, normal) / squared) * (1.0 + j * divergence);
 }
 
-/// The border of one piece being worked out.
+/// Holds the state of the border form of one piece.
 struct Border {
   const PhasePlane& plane;
   const IntegralLimits& limits;
-  double most_bend = 0.0;  ///< bound of the curvature on the piece
+  double most_bend = 0.0;  ///< bound on the curvature on the piece
   std::vector<Contribution>& out;
   uint64_t below = 0;
 
@@ -77,9 +77,9 @@ struct Border {
     else
       out.push_back({at, value, true});
   }
-  /// Whether both ends of a side are far from stationary and below the floor, without working them out:
-  /// |density| is at most (1 + 3 bend/gradient^2)/gradient, what an end makes of it that times (1 +
-  /// bend/slope^2)/slope.
+  /// Returns whether both ends of a side are far from stationary and below the floor, without computing them.
+  /// |density| is at most (1 + 3 bend/gradient^2)/gradient. The contribution of an end is at most this times
+  /// (1 + bend/slope^2)/slope.
   bool faint(double slope, double gradient, double length) const {
     const double squared = slope * slope;
     if (!(limits.floor > 0.0 && squared > limits.stationary * most_bend && slope * length > pi)) return false;
@@ -88,7 +88,7 @@ struct Border {
   }
 };
 
-/// One side from a to b, along the unit vector `along`, with the phase's gradients at both ends.
+/// Adds one side from a to b. `along` is its unit vector; the gradients of the phase are those at both ends.
 void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along, const dvec2& gradient_a,
               const dvec2& gradient_b, int depth) {
   const PhasePlane& plane = border.plane;
@@ -97,7 +97,7 @@ void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along
   const double length = glm::dot(b - a, along);
   const double slope_a = glm::dot(gradient_a, along), slope_b = glm::dot(gradient_b, along);
   const double slope = std::min(std::abs(slope_a), std::abs(slope_b));
-  const bool turns = slope_a * slope_b <= 0.0;  // the phase has an extremum on the way
+  const bool turns = slope_a * slope_b <= 0.0;  // the phase has an extremum on the side
   const double gradient =
       std::sqrt(std::min(glm::dot(gradient_a, gradient_a), glm::dot(gradient_b, gradient_b)));
   if (!turns && border.faint(slope, gradient, length)) {
@@ -108,7 +108,8 @@ void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along
   const double bend_middle = quadratic(plane.curvature(middle), along);
   const double bend = std::max({std::abs(bend_a), std::abs(bend_b), std::abs(bend_middle)});
   if (!turns && slope * slope > limits.stationary * bend && slope * length > pi) {
-    // [e^{j phase}/(j slope) (1 - j bend/slope^2)] from a to b: the first correction of integration by parts.
+    // [e^{j phase}/(j slope) (1 - j bend/slope^2)] from a to b, with the first correction of integration by
+    // parts.
     const auto end = [&](const dvec2& p, double s, double c, double sign) {
       border.add(p, sign * border_density(plane, p, normal) * (-j / s) * (1.0 - j * (c / (s * s))));
     };
@@ -119,7 +120,7 @@ void add_side(Border& border, const dvec2& a, const dvec2& b, const dvec2& along
   if (bend * length * length < 8.0 * limits.bend || depth == 0) {
     const double phase_a = -plane.wavenumber * (plane.length(a) - plane.length(middle));
     const double phase_b = -plane.wavenumber * (plane.length(b) - plane.length(middle));
-    // Over the chord of the phase, plus the mean of what the phase leaves above the chord.
+    // The phase is replaced by its chord. The mean deviation of the phase from the chord is added afterwards.
     const double chord = 0.5 * (phase_a + phase_b), mean = chord - (2.0 / 3.0) * chord;
     border.add(middle, border_density(plane, middle, normal) * length * sinc(0.5 * (phase_b - phase_a)) *
                            turned(mean));
@@ -148,7 +149,8 @@ uint64_t add_border(const PhasePlane& plane, const Polygon& piece, uint32_t omit
   return border.below;
 }
 
-/// Halves across the direction of the farthest corner. Sides keep their mark.
+/// Holds the halves of a piece, cut across the direction to the farthest corner. Their sides inherit the
+/// omitted bits.
 struct Halves {
   Polygon first, second;
   uint32_t omitted_first = 0, omitted_second = 0;
@@ -244,14 +246,14 @@ uint64_t integrate(const PhasePlane& plane, const Polygon& piece, uint32_t omitt
 
 Complex linear_phase_integral(const Polygon& piece, const dvec2& centroid, const dvec2& gradient) {
   const double reach = reach_of(piece, centroid), squared = glm::dot(gradient, gradient);
-  if (squared * reach * reach < 4e-4) {  // to second order; the third is below 2e-6 of the area
+  if (squared * reach * reach < 4e-4) {  // to second order; the third order is below 2e-6 of the area
     const double area = piece.area();
     return area - 0.5 * quadratic(second_moments(piece, centroid), gradient);
   }
   Complex sum(0.0);
   for (uint32_t i = 0; i < piece.size(); ++i) {
     const dvec2 a = piece[i] - centroid, b = piece.next(i) - centroid, side = b - a;
-    const dvec2 outward(side.y, -side.x);  // times its length
+    const dvec2 outward(side.y, -side.x);  // outward normal times the length of the side
     sum += glm::dot(outward, gradient) * sinc(0.5 * glm::dot(gradient, side)) *
            turned(0.5 * glm::dot(gradient, a + b));
   }

@@ -9,16 +9,16 @@
 namespace greatx::rf {
 namespace {
 
-constexpr double nearest_m = 1e-5;  ///< of the source: what is nearer is not seen
+constexpr double nearest_m = 1e-5;  ///< distance from the source below which nothing is seen
 
-/// A piece cut by two planes: each adds a corner at most.
+/// A piece after cuts by two planes, each of which adds at most one corner.
 struct SpaceCorners {
   std::array<dvec3, FacetTrees::most_corners + 2> points;
   uint32_t count = 0;
   SpaceCorners() {}
 };
 
-/// The part where normal . x + offset >= 0.
+/// Keeps the part where normal . x + offset >= 0.
 void cut(SpaceCorners& corners, const dvec3& normal, double offset) {
   double least = 1e300;
   for (uint32_t i = 0; i < corners.count; ++i)
@@ -43,7 +43,8 @@ struct Box {
   }
 };
 
-/// The planes around a box of the (u, v) plane, and that of the facet that the beam starts from.
+/// Returns the planes around a box of the (u, v) plane, and the plane of the facet from which the beam
+/// starts.
 std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, const Box& box) {
   const auto side = [&](const dvec3& normal) { return KeptSide{normal, -glm::dot(normal, beam.source)}; };
   std::array<KeptSide, 5> spaces{side(beam.e1 - box.low.x * beam.axis),
@@ -56,11 +57,11 @@ std::array<KeptSide, 5> around(const TubeBeam& beam, const BeamStart& start, con
   return spaces;
 }
 
-/// A piece of a facet as the beam sees it; empty if it does not.
+/// Returns a piece of a facet as the beam sees it, or an empty polygon if the beam does not see it.
 Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart& start, const Box& within) {
   std::array<dvec2, FacetTrees::most_corners + 2> points;
   std::array<double, FacetTrees::most_corners> depths;
-  uint32_t beyond = 15;  // sides of the box that all corners are beyond
+  uint32_t beyond = 15;  // sides of the box beyond which all corners lie
   double nearest = 1e300, lowest = 1e300;
   for (uint32_t i = 0; i < piece.size(); ++i) {
     const dvec3 arm = piece[i] - beam.source;
@@ -90,7 +91,7 @@ Polygon seen(std::span<const dvec3> piece, const TubeBeam& beam, const BeamStart
   return Polygon(std::span(points.data(), corners.count));
 }
 
-/// The half-planes that make up a polygon.
+/// Holds the half-planes whose intersection is a polygon.
 struct Cover {
   std::array<dvec2, Polygon::capacity> normals;
   std::array<double, Polygon::capacity> offsets;
@@ -101,7 +102,7 @@ struct Cover {
       normals[i] = side.normal, offsets[i] = side.offset;
     }
   }
-  /// The sides that cut `part`, a bit each; nothing if all of it is outside.
+  /// Returns the sides that cut `part`, one bit each, or nullopt if all of the part is outside.
   std::optional<uint32_t> cutting(const Polygon& part) const {
     uint32_t cuts = 0;
     for (uint32_t side = 0; side < count; ++side) {
@@ -117,7 +118,7 @@ struct Cover {
   }
 };
 
-/// Leaves of a polygon what it shares with a cover; `rest`: what else there is of it, as convex pieces.
+/// Reduces a polygon to its overlap with a cover. `rest` receives the remainder as convex pieces.
 void divide(Polygon& part, const Cover& cover, uint32_t cuts, double smallest, std::vector<Polygon>& rest) {
   rest.clear();
   for (uint32_t side = 0; side < cover.count && !part.empty(); ++side) {

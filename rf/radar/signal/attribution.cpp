@@ -13,7 +13,7 @@ namespace {
 
 constexpr double reach = 2.0;  ///< bins
 
-/// `value` less the nearest multiple of `period`.
+/// Returns `value` minus the nearest multiple of `period`.
 double around(double value, double period) { return value - period * std::nearbyint(value / period); }
 
 }  // namespace
@@ -24,7 +24,7 @@ Attribution::Attribution(const RadarSignalConfig& config, const RadarMaps& maps,
   const RadarWaveform& w = config.waveform;
   const double frame_s = w.chirps() * w.repetition_s();
   for (const EchoList& list : lists) {
-    const double share = double(list.slots) / w.slots;  // of the frame's slots
+    const double share = double(list.slots) / w.slots;  // share of the slots of the frame
     const double mid_s =
         0.5 * (w.slot_middle_s(list.first_slot) + w.slot_middle_s(list.first_slot + list.slots - 1));
     for (const Echo& echo : list.echoes) {

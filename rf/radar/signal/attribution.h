@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which instance a detection is of: the one whose echoes' tones account for most of the cell's power.
+// Assigns a detection to an instance: the one whose echoes' tones account for most of the power of the cell.
 #pragma once
 
 #include <span>
@@ -12,30 +12,32 @@
 
 namespace greatx::rf {
 
-/// Where each echo's tone is expected: bins of range and Doppler at the middle of its list's slots,
-/// ambiguities included.
+/// Holds the expected place of each echo's tone: the bins of range and Doppler at the middle of the slots of
+/// its list, with the ambiguities included.
 class Attribution {
  public:
-  /// An instance must account for this share of a cell's power.
+  /// An instance must account for this share of the power of a cell.
   static constexpr double least_share = 0.1;
 
   Attribution(const RadarSignalConfig& config, const RadarMaps& maps, std::span<const EchoList> lists);
 
-  /// Of instances whose echoes lie within two bins of the cell: that with the largest of |sum of tones|^2 and
-  /// the sum of their powers (the lower id of equals), if that is least_share of `power_w`; else 0. Echoes by
-  /// tables count in all Doppler bins between their slowest and fastest, their power shared among those.
+  /// Returns the instance that accounts for most of the power of a cell, among those whose echoes lie within
+  /// two bins of the cell. The power of an instance is the larger of |sum of tones|^2 and the sum of the
+  /// tones' powers. Of equal instances the one with the lower id counts. Returns 0 if the power of the
+  /// instance is not more than least_share of `power_w`. An echo with a delay table counts in all Doppler
+  /// bins between its slowest and its fastest rate, and shares its power among these bins.
   uint32_t instance(uint32_t range_bin, uint32_t velocity_bin, double power_w) const;
 
  private:
   struct Tone {
     uint32_t instance;
-    double range, doppler;  ///< bins, turns over the chirps
-    double doppler_spread;  ///< half of the width, turns; 0: a tone
+    double range, doppler;  ///< range in bins; Doppler in turns over the chirps
+    double doppler_spread;  ///< half of the width, turns; 0: a single tone
     std::complex<double> amplitude;
   };
   const RadarMaps& maps_;
   double ranges_, velocities_;
-  std::vector<Tone> tones_;  ///< by instance
+  std::vector<Tone> tones_;  ///< sorted by instance
 };
 
 }  // namespace greatx::rf

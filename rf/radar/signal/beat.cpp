@@ -26,13 +26,13 @@ std::vector<double> element_leads(const std::vector<dvec3>& positions, const dqu
 
 constexpr size_t slots_per_task = 4;
 
-/// Echoes of one list, column by column, padded to whole blocks with echoes of amplitude 0.
+/// Holds the echoes of one list by columns. They are padded to whole blocks with echoes of amplitude 0.
 struct EchoColumns {
   size_t echoes = 0, padded = 0;
   TrackColumns track;
-  std::vector<double> mid_delay_s;  ///< at the middle of the list's slots
-  /// [virtual antennas, padded]: conj(a) sqrt(P_t) and the phase of the antenna's lead; cells that it shifts
-  /// the tone.
+  std::vector<double> mid_delay_s;  ///< delay at the middle of the list's slots
+  /// [virtual antennas, padded]: conj(a) sqrt(P_t) with the phase of the antenna's lead, and the cells by
+  /// which the lead shifts the tone.
   std::vector<float> phasor_re, phasor_im, shift;
 };
 
@@ -92,7 +92,7 @@ struct BeatSynthesizer::Shared {
   ToneKernel kernel;
   Fft transform;
   SlotScales scales;
-  uint32_t stride;  ///< floats of one part of a grid, with the cells that are folded back
+  uint32_t stride;  ///< floats of one part of a grid, including the cells that are folded back
 
   explicit Shared(const RadarSignalConfig& of)
       : config(of),
@@ -104,7 +104,7 @@ struct BeatSynthesizer::Shared {
 
 namespace {
 
-/// Everything that one slot needs, kept from slot to slot of a task.
+/// Sums the echoes of one slot. A task reuses the object for all its slots.
 class SlotSum {
  public:
   SlotSum(const RadarSignalConfig& config, const ToneKernel& kernel, const Fft& transform,
@@ -197,14 +197,14 @@ class SlotSum {
            grids_.data());
   }
 
-  /// From grids to samples, four receivers at a time.
+  /// Transforms the grids to samples, four receivers at a time.
   void add_grids(size_t node, size_t first, const std::vector<float>* turns,
                  std::span<std::complex<float>> cube) {
     constexpr size_t together = Fft::lanes;
     const uint32_t grid = kernel_.grid(), middle = w_.middle_sample();
     const size_t count = std::min(together, receivers_ - first);
     const float* parts[2][together];
-    for (size_t i = 0; i < together; ++i) {  // where there are fewer, the last one fills up
+    for (size_t i = 0; i < together; ++i) {  // if there are fewer, the last receiver fills the lanes
       float* re = grids_.data() + (node * receivers_ + first + std::min(i, count - 1)) * 2 * stride_;
       parts[0][i] = re, parts[1][i] = re + stride_;
       for (uint32_t k = 0; i < count && k < stride_ - grid; ++k) {
@@ -245,7 +245,7 @@ class SlotSum {
     return {sample.real() * cosine - sample.imag() * sine, sample.real() * sine + sample.imag() * cosine};
   }
 
-  /// An echo that bends too much for the kernels: sample by sample.
+  /// Adds an echo that bends too much for the kernels, sample by sample.
   void add_bent(size_t e, size_t r, const std::vector<std::vector<float>>& turns,
                 std::span<std::complex<float>> row) {
     const Echo& echo = list_.echoes[e];

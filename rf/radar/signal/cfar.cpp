@@ -12,7 +12,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Where a function that falls with its argument passes `value`, above 0.
+/// Returns the argument above 0 at which a falling function passes `value`.
 template <typename Function>
 double root_of_falling(const Function& function, double value) {
   double low = -40.0, high = 60.0;  // natural logarithms
@@ -23,7 +23,7 @@ double root_of_falling(const Function& function, double value) {
   return std::exp(0.5 * (low + high));
 }
 
-/// P(x > threshold) of Gamma(looks), a whole number: e^{-t} sum_{k<looks} t^k/k!.
+/// Returns P(x > threshold) of Gamma(looks) for a whole number of looks: e^{-t} sum_{k<looks} t^k/k!.
 double gamma_tail(uint32_t looks, double threshold) {
   double term = 1.0, sum = 1.0;
   for (uint32_t k = 1; k < looks; ++k) {
@@ -34,15 +34,16 @@ double gamma_tail(uint32_t looks, double threshold) {
   return std::min(1.0, std::exp(std::log(sum) - threshold));
 }
 
-/// The x with that tail.
+/// Returns the x whose tail probability is `tail`.
 double gamma_quantile(uint32_t looks, double tail) {
   return root_of_falling([&](double x) { return gamma_tail(looks, x); }, tail);
 }
 
 constexpr int steps = 800;
 
-/// Mean of f(x) over the rank-th smallest x of n Gamma(looks) variates, n and rank real: midpoints in F(x)'s
-/// logit, whose density Beta(rank, n - rank + 1) is known.
+/// Returns the mean of f(x) over the rank-th smallest x of n Gamma(looks) variates. n and rank are real
+/// numbers. The midpoint rule is applied in the logit of F(x), whose density follows from Beta(rank, n - rank
+/// + 1).
 template <typename Function>
 double order_statistic_mean(double cells, double rank, const std::vector<double>& quantiles,
                             const Function& f) {
@@ -85,7 +86,8 @@ double statistic_mean(double cells, double rank, uint32_t looks, const std::vect
 double cell_averaging_factor(double cells, uint32_t looks, double false_alarm) {
   const double shape = cells * looks;
   const auto tail = [&](double p) {
-    // Terms grow from Gamma(shape)/Gamma(shape) (1+p)^-shape by (shape + k) p/((k+1)(1+p)); in logarithms.
+    // The first term is (1+p)^-shape. Each term follows from the previous one by the factor (shape + k)
+    // p/((k+1)(1+p)). The terms are computed as logarithms.
     const double by = std::log(p) - std::log1p(p);
     double log_term = -shape * std::log1p(p), sum = std::exp(log_term);
     for (uint32_t k = 0; k + 1 < looks; ++k) {
@@ -116,7 +118,7 @@ double ordered_statistic_mean(uint32_t cells, uint32_t rank, uint32_t looks) {
 
 Cfar::Cfar(const RadarCfar& config, const Window& range_window, const Window& doppler_window, uint32_t looks)
     : config_(config), ranges_(range_window.size()), velocities_(doppler_window.size()), looks_(looks) {
-  // The square of a sum of four cosines correlates bins up to six apart.
+  // The square of a sum of four cosines correlates bins that are up to six apart.
   constexpr uint32_t farthest = 6;
   for (const auto& [window, correlation] :
        {std::pair{&range_window, &range_correlation_}, {&doppler_window, &doppler_correlation_}})
@@ -176,7 +178,7 @@ Cfar::Row Cfar::row(std::span<const float> map, uint32_t range) const {
   const auto guarded = [&](uint32_t r) { return r + guard_r >= range && r <= range + guard_r; };
   Row result{std::vector<double>(velocities_), f.threshold * f.bias};
   if (config_.kind == RadarCfar::Kind::cell_averaging) {
-    // Sums of each column over the rows beyond the guard, and over those within it.
+    // Sums of each column over the rows beyond the guard cells, and over the rows within them.
     std::vector<double> beyond(velocities_, 0.0), within(velocities_, 0.0);
     uint32_t rows_beyond = 0, rows_within = 0;
     for (uint32_t r = first; r <= last; ++r) {

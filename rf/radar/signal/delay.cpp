@@ -18,7 +18,7 @@ DelayAt table_at(const EchoList& list, uint32_t row, double interval_s, double t
   const auto& a = table[static_cast<size_t>(first)];
   const auto& b = table[static_cast<size_t>(first) + 1];
   const double u = place - first, h = interval_s;
-  // a + slope u + bend u^2 + twist u^3 with the rates at both ends.
+  // The polynomial a + slope u + bend u^2 + twist u^3 matches the delays and the rates at both ends.
   const double slope = a[1] * h, end_slope = b[1] * h, rise = b[0] - a[0];
   const double bend = 3.0 * rise - 2.0 * slope - end_slope, twist = slope + end_slope - 2.0 * rise;
   return {a[0] + u * (slope + u * (bend + u * twist)), (slope + u * (2.0 * bend + u * 3.0 * twist)) / h,

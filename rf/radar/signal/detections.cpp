@@ -13,7 +13,7 @@
 namespace greatx::rf {
 namespace {
 
-/// `value` moved by multiples of `period` into [low, low + period).
+/// Returns `value` shifted by a multiple of `period` into [low, low + period).
 double wrapped(double value, double low, double period) {
   const double moved = value - period * std::floor((value - low) / period);
   return moved < low + period ? moved : low;
@@ -24,7 +24,7 @@ uint32_t distance_on_circle(uint32_t a, uint32_t b, uint32_t size) {
   return std::min(apart, size - apart);
 }
 
-/// Of a window's response within half a bin of each whole offset, the largest power: [size/2 + 1].
+/// Returns the largest power of a window's response within half a bin of each whole offset: [size/2 + 1].
 std::vector<double> envelope(const Window& window) {
   std::vector<double> result;
   for (uint32_t k = 0; k <= window.size() / 2; ++k) {
@@ -61,7 +61,7 @@ DetectionMaker::Offsets DetectionMaker::offsets(const CfarPeak& peak, std::span<
 
 size_t DetectionMaker::drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<const float> map) const {
   const uint32_t ranges = config_.waveform.samples, velocities = config_.waveform.chirps();
-  std::vector<double> strength;  // at the centre of the tone
+  std::vector<double> strength;  // power at the centre of the tone
   for (const CfarPeak& peak : peaks) {
     const Offsets at = offsets(peak, map);
     strength.push_back(peak.power_w /
@@ -87,12 +87,13 @@ void DetectionMaker::place(RadarDetection& detection, const Offsets& at,
                            const RadarGeometry& geometry) const {
   const RadarWaveform& w = config_.waveform;
   const dvec3 unit = Direction{detection.azimuth, detection.elevation, 0.0}.unit();
-  // Tone f_b = S tau + nu, nu = (f_c - S tau) dtau/dt what turns from chirp to chirp.
+  // The frequency of the tone is f_b = S tau + nu. The Doppler part nu = (f_c - S tau) dtau/dt turns the
+  // phase from chirp to chirp.
   const double turns =
       wrapped(doppler_turns(detection.velocity_bin, w.chirps()) + at.velocity, -0.5 * w.chirps(), w.chirps());
   const double nu = turns / (w.chirps() * w.repetition_s());
   double way = speed_of_light * ((detection.range_bin + at.range) / w.sampled_s() - nu) / w.slope_hz_per_s;
-  // From between the elements' middles to between the origins.
+  // Converts the path length between the centres of the elements to that between the origins.
   const auto middle = [](const std::vector<dvec3>& positions) {
     return std::accumulate(positions.begin(), positions.end(), dvec3(0.0)) / double(positions.size());
   };
@@ -101,8 +102,8 @@ void DetectionMaker::place(RadarDetection& detection, const Offsets& at,
   detection.range_m = wrapped(0.5 * way, -0.5 * w.range_bin_m(), w.range_span_m());
   detection.velocity_m_s = 0.5 * speed_of_light * nu /
                            (w.carrier_hz - 2.0 * w.slope_hz_per_s * detection.range_m / speed_of_light);
-  // The point on the ray of arrival whose way to the transmitter and back is that: a sphere's, or an
-  // ellipsoid's.
+  // The point on the ray of arrival at which the path from the transmitter to the receiver has this length.
+  // It lies on a sphere (monostatic) or on an ellipsoid (bistatic).
   way = 2.0 * detection.range_m;
   const dvec3 arrival = geometry.attitude.receiver * unit, baseline = geometry.baseline_m;
   const double back =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From peaks of the range-Doppler map to detections.
+// Turns the peaks of the range-Doppler map into detections.
 #pragma once
 
 #include <complex>
@@ -18,24 +18,25 @@
 
 namespace greatx::rf {
 
-/// Power gain of an element towards a unit direction in its array's frame; 1: isotropic.
+/// The power gain of an element towards a unit direction in the frame of its array; 1 is isotropic.
 using RadarGain = std::function<double(const dvec3&)>;
 
 struct RadarDetection {
-  double range_m =
-      0.0;  ///< half the way from transmitter to receiver, at frame_middle_s(), in [-1/2 bin, range_span_m())
-  double velocity_m_s = 0.0;  ///< its rate, positive receding, in [-v_max, v_max)
-  double azimuth = 0.0;       ///< rad, in the receiving array's frame
+  /// Half the path length from the transmitter over the target to the receiver at frame_middle_s(), in
+  /// [-1/2 bin, range_span_m()).
+  double range_m = 0.0;
+  double velocity_m_s = 0.0;  ///< rate of range_m, positive receding, in [-v_max, v_max)
+  double azimuth = 0.0;       ///< rad, in the frame of the receiving array
   double elevation = 0.0;     ///< rad
-  dvec3 position_m{0.0};      ///< in that frame, from the range and both angles
-  double snr = 0.0;           ///< power ratio: cell less noise by noise, mean of the virtual antennas
-  double power_w = 0.0;       ///< received, of the beam, with the windows' scalloping mended
-  double rcs_m2 = 0.0;        ///< by the radar equation, both arrays' gains towards the target
-  uint32_t instance = 0;      ///< index + 1; 0: nothing that sends an echo there, a false alarm
+  dvec3 position_m{0.0};      ///< in the same frame, from the range and both angles
+  double snr = 0.0;           ///< (power of the cell - noise)/noise, mean of the virtual antennas
+  double power_w = 0.0;       ///< received power of the beam, corrected for the windows' scalloping
+  double rcs_m2 = 0.0;        ///< by the radar equation with the gains of both arrays towards the target
+  uint32_t instance = 0;      ///< index + 1; 0: no instance sends an echo there (a false alarm)
   uint32_t range_bin = 0, velocity_bin = 0;
 };
 
-/// Where both arrays stand while a frame is sent.
+/// Describes where both arrays are during a frame.
 struct RadarGeometry {
   RadarAttitude attitude;
   dvec3 baseline_m{0.0};  ///< from the receiver's origin to the transmitter's, world axes; 0: monostatic
@@ -46,10 +47,10 @@ class DetectionMaker {
   DetectionMaker(const RadarSignalConfig& config, const RadarMaps& maps, RadarGain transmit_gain,
                  RadarGain receive_gain);
 
-  /// Drops the peaks that a stronger one's windows leave there (twice the highest response within half a bin
-  /// of that offset); returns how many.
+  /// Removes the peaks that are sidelobes of a stronger peak's windows: those below twice the highest
+  /// response of the windows within half a bin of their offset. Returns their number.
   size_t drop_sidelobes(std::vector<CfarPeak>& peaks, std::span<const float> map) const;
-  /// [peaks]; spectrum [rx, tx, range, velocity].
+  /// Returns the detections, [peaks]. `spectrum` is [rx, tx, range, velocity].
   std::vector<RadarDetection> make(std::span<const CfarPeak> peaks, std::span<const float> map,
                                    std::span<const std::complex<float>> spectrum,
                                    std::span<const EchoList> lists, const RadarGeometry& geometry,
@@ -57,7 +58,7 @@ class DetectionMaker {
 
  private:
   struct Offsets {
-    double range, velocity;  ///< bins from the peak's cell
+    double range, velocity;  ///< bins from the cell of the peak
   };
   Offsets offsets(const CfarPeak& peak, std::span<const float> map) const;
   void place(RadarDetection& detection, const Offsets& at, const RadarGeometry& geometry) const;

@@ -11,11 +11,12 @@
 namespace greatx::rf {
 namespace {
 
-/// Elements nearer than this one to another, in wavelengths, tell nothing of that axis.
+/// An array with a smaller extent along an axis, in wavelengths, does not measure the angle of that axis.
 constexpr double least_extent = 0.05;
 constexpr double finest_step = radians(0.05);
 
-/// Angles from -90 to 90 degrees, a fifth of the beam lambda/extent apart; one, 0, if there is no extent.
+/// Returns angles from -90 to 90 degrees, a fifth of the beam lambda/extent apart, or the single angle 0 if
+/// there is no extent.
 std::vector<double> angles(double extent_wavelengths) {
   if (extent_wavelengths < least_extent) return {0.0};
   const double step = std::max(finest_step, 0.2 / std::max(extent_wavelengths, 1.0));
@@ -73,7 +74,7 @@ double DirectionFinder::power(std::span<const std::complex<double>> snapshot, do
 Direction DirectionFinder::find(std::span<const std::complex<double>> snapshot) const {
   const uint32_t transmitters = config_.waveform.transmitters;
   const size_t antennas = snapshot.size();
-  double largest = 0.0;  // so that fp32 holds squares
+  double largest = 0.0;  // scaling by this keeps squares within the range of fp32
   for (const auto& value : snapshot) largest = std::max(largest, std::abs(value));
   if (!(largest > 0.0)) return {};
   std::vector<std::complex<float>> rounded;
@@ -100,7 +101,7 @@ Direction DirectionFinder::find(std::span<const std::complex<double>> snapshot) 
       }
     }
   best.power_w = power(snapshot, best.azimuth, best.elevation);
-  // Uphill in ever smaller steps along either angle.
+  // Climbs in ever smaller steps along either angle.
   double azimuth_step = azimuths_.size() > 1 ? azimuths_[1] - azimuths_[0] : 0.0;
   double elevation_step = elevations_.size() > 1 ? elevations_[1] - elevations_[0] : 0.0;
   while (std::max(azimuth_step, elevation_step) > 1e-8) {

@@ -10,9 +10,10 @@
 
 #include "core/error.h"
 
-/// KISS FFT's template on four numbers side by side. Its own constructor works out the phases in the numbers
-/// that it transforms; here they are fp64, rounded last. Radices are 4, 2, 3 and 5 alone: for others the
-/// template keeps a buffer that threads would share.
+/// Specializes the constructor of KISS FFT's template for four numbers side by side. The template's own
+/// constructor computes the phases in the type of the numbers that it transforms. Here they are computed in
+/// fp64 and rounded last. Only the radices 4, 2, 3 and 5 are allowed: for others the template keeps a buffer
+/// that threads would share.
 template <>
 kissfft<greatx::rf::Four>::kissfft(const std::size_t nfft, const bool inverse)
     : _nfft(nfft), _inverse(inverse) {
@@ -43,8 +44,8 @@ bool has_template_radices(uint32_t size) {
 }  // namespace
 
 struct Fft::Plan {
-  std::unique_ptr<const kissfft<Four>>
-      four;  ///< or, for sizes with other factors, one signal after the other:
+  /// Null for sizes with other factors; `single` then transforms one signal after the other.
+  std::unique_ptr<const kissfft<Four>> four;
   kiss_fft_cfg single = nullptr;
   Plan(uint32_t size, bool backward) {
     if (size > 1 && has_template_radices(size)) {

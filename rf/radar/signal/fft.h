@@ -10,12 +10,12 @@
 
 namespace greatx::rf {
 
-/// Discrete Fourier transforms of four signals side by side, in fp32 (KISS FFT): out[k] = sum_n in[n] e^{-j 2
-/// pi k n/size}, or e^{+j ...} backward; no factor. The same input gives the same bits, in any lane.
-/// transform() may run on many threads at once.
+/// Computes discrete Fourier transforms of four signals side by side in fp32 (KISS FFT): out[k] = sum_n in[n]
+/// e^{-j 2 pi k n/size} forward, or with e^{+j ...} backward, without a factor. The same input gives the same
+/// bits in any lane. transform() may run on many threads at once.
 class Fft {
  public:
-  /// A number of each signal.
+  /// One value of each of the four signals.
   using Value = std::complex<Four>;
   static constexpr uint32_t lanes = 4;
 
@@ -26,10 +26,10 @@ class Fft {
   Fft& operator=(Fft&&) noexcept;
 
   uint32_t size() const { return size_; }
-  /// in and out: [size], not the same.
+  /// `in` and `out` are [size] and must not be the same.
   void transform(const Value* in, Value* out) const;
 
-  /// Between four rows of `count` numbers and [count] values.
+  /// Convert between four rows of `count` numbers and `count` values.
   static void gather(const std::complex<float>* const rows[lanes], uint32_t count, Value* values);
   static void scatter(const Value* values, uint32_t count, std::complex<float>* const rows[lanes]);
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Loops that one processor works on eight numbers at a time and another on four: GREATX_LANES before a
-// function compiles it once for each and picks at run time. The bits are the same: nothing is contracted or
-// reordered, only done side by side. The functions here have no branch, so that loops of them stay so.
+// Helps to vectorize loops. GREATX_LANES before a function compiles the function once for processors with
+// eight lanes and once for those with four, and selects one at run time. The bits are the same, because no
+// operation is contracted or reordered. The functions here have no branches, so that the compiler can
+// vectorize loops over them.
 #pragma once
 
 #include <bit>
@@ -17,7 +18,7 @@
 
 namespace greatx::rf {
 
-/// Four numbers that are worked on as one.
+/// Holds four numbers that are processed as one.
 struct Four {
   using Lanes [[gnu::vector_size(16)]] = float;
   Lanes lane{};
@@ -37,7 +38,7 @@ struct Four {
   friend Four operator-(const Four& a) { return Four(-a.lane); }
 };
 
-/// Rows become columns.
+/// Transposes a 4 x 4 matrix whose rows are a, b, c, d.
 inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   const Four::Lanes ab = {a.lane[0], b.lane[0], a.lane[1], b.lane[1]},
                     cd = {c.lane[0], d.lane[0], c.lane[1], d.lane[1]},
@@ -49,12 +50,12 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   d.lane = Four::Lanes{ab2[2], ab2[3], cd2[2], cd2[3]};
 }
 
-/// Nearest whole number, ties to even; |value| < 2^51 (2^22).
+/// Returns the nearest whole number, with ties to even, for |value| < 2^51 (double) or 2^22 (float).
 inline double nearest(double value) { return (value + 0x1.8p52) - 0x1.8p52; }
 inline float nearest(float value) { return (value + 0x1.8p23f) - 0x1.8p23f; }
 
-/// cos and sin of 2 pi `turns`, |turns| <= 2^20, to 1.2e-7. Polynomials over an eighth of a turn on each
-/// side: S. Moshier, Cephes 2.2, sinf.c and cosf.c.
+/// Computes cos and sin of 2 pi `turns` for |turns| <= 2^20, to 1.2e-7, by polynomials over an eighth of a
+/// turn on each side (S. Moshier, Cephes 2.2, sinf.c and cosf.c).
 inline void cos_sin_of_turns(float turns, float& cosine, float& sine) {
   const float quarter = nearest(turns * 4.0f);
   const float x = (turns - quarter * 0.25f) * 6.28318530717958647692f, xx = x * x;
@@ -63,17 +64,17 @@ inline void cos_sin_of_turns(float turns, float& cosine, float& sine) {
       1.0f - 0.5f * xx +
       xx * xx * (4.166664568298827e-2f + xx * (-1.388731625493765e-3f + xx * 2.443315711809948e-5f));
   const uint32_t q = static_cast<uint32_t>(static_cast<int32_t>(quarter));
-  const uint32_t swap = 0u - (q & 1u);  // all ones where sine and cosine change places
+  const uint32_t swap = 0u - (q & 1u);  // all ones if sine and cosine change places
   const uint32_t cosine_bits = (std::bit_cast<uint32_t>(c) & ~swap) | (std::bit_cast<uint32_t>(s) & swap);
   const uint32_t sine_bits = (std::bit_cast<uint32_t>(s) & ~swap) | (std::bit_cast<uint32_t>(c) & swap);
   cosine = std::bit_cast<float>(cosine_bits ^ (((q + 1u) & 2u) << 30));
   sine = std::bit_cast<float>(sine_bits ^ ((q & 2u) << 30));
 }
 
-/// Natural logarithm of a normal number above 0, to 2e-7. S. Moshier, Cephes 2.2, logf.c.
+/// Returns the natural logarithm of a normal number above 0, to 2e-7 (S. Moshier, Cephes 2.2, logf.c).
 inline float natural_log(float value) {
   uint32_t bits = std::bit_cast<uint32_t>(value);
-  // value = 2^exponent * fraction, fraction in [sqrt(1/2), sqrt(2)).
+  // value = 2^exponent * fraction with the fraction in [sqrt(1/2), sqrt(2)).
   const int32_t exponent = static_cast<int32_t>(bits - 0x3f3504f3u) >> 23;
   bits -= static_cast<uint32_t>(exponent) << 23;
   const float x = std::bit_cast<float>(bits) - 1.0f, xx = x * x, e = static_cast<float>(exponent);

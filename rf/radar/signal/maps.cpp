@@ -17,7 +17,7 @@ constexpr uint32_t lanes = 8;
 using Lane [[gnu::vector_size(32)]] = float;
 using Stored [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
 
-/// sum x[i] conj(y[i]) over `count` values, a multiple of 8, in a fixed order.
+/// Computes sum x[i] conj(y[i]) over `count` values, a multiple of 8, in a fixed order.
 GREATX_LANES void conjugate_product(const float* x_re, const float* x_im, const float* y_re,
                                     const float* y_im, uint32_t count, float& re, float& im) {
   Lane sum_re{}, sum_im{};
@@ -103,7 +103,8 @@ std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::comple
   const float doppler_factor = static_cast<float>(1.0 / (chirps * doppler_window_.coherent_gain()));
   std::vector<std::complex<float>> result(cube.size());
   constexpr uint32_t together = Fft::lanes;
-  // Chirps, then ranges four at a time; of the last few, some twice.
+  // Transforms chirps, then ranges, four at a time. At the end some of them are transformed twice to fill the
+  // lanes.
   parallel_for(antennas, threads, [&](size_t antenna) {
     const std::complex<float>* in = cube.data() + antenna * plane;
     std::complex<float>* out = result.data() + antenna * plane;
@@ -130,7 +131,7 @@ std::vector<std::complex<float>> RadarMaps::spectrum(std::span<const std::comple
     const uint32_t half = chirps / 2;
     for (uint32_t first = 0; first < samples; first += together) {
       const std::complex<float>* columns[together];
-      std::complex<float>* above[together];  // where velocities from 0 up go, and those below
+      std::complex<float>* above[together];  // output of the velocities from 0 up
       std::complex<float>* below[together];
       for (uint32_t i = 0; i < together; ++i) {
         const size_t k = std::min(first + i, samples - 1);
@@ -173,7 +174,8 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
     for (uint32_t k = 0; k < chirps; ++k)
       compensation[size_t{t} * chirps + k] = std::complex<float>(
           unit_phasor(-fraction_of_turn(tdm_turns(config_.waveform, t, doppler_turns(k, chirps)))));
-  // |sum of n antennas|^2/n^2 of each beam, the beams' mean, over the window's noise bandwidth.
+  // The power of a beam is |sum of n antennas|^2/n^2. The map is the mean over the beams, divided by the
+  // noise bandwidth of the window.
   const double each = double(antennas) / beams_;
   const float factor = static_cast<float>(1.0 / (each * each * beams_ * doppler_window_.noise_bandwidth()));
   std::vector<float> map(samples * azimuths);
@@ -197,11 +199,13 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
       const auto [a, b] = pairs_[i];
       conjugate_product(&re[a * padded], &im[a * padded], &re[b * padded], &im[b * padded], padded,
                         product_re, product_im);
-      // conj(w_a) w_b x_a conj(x_b), w the steering; its conjugate comes with the pair (b, a).
+      // The term is conj(w_a) w_b x_a conj(x_b), where w is the steering. The pair (b, a) gives its
+      // conjugate.
       add_scaled(2.0f * product_re, 2.0f * product_im, &steering_[2 * i * azimuths],
                  &steering_[(2 * i + 1) * azimuths], static_cast<uint32_t>(azimuths), out);
     }
-    for (size_t k = 0; k < azimuths; ++k) out[k] = std::max(out[k], 0.0f) * factor;  // roundings below zero
+    // rounding errors may be below zero
+    for (size_t k = 0; k < azimuths; ++k) out[k] = std::max(out[k], 0.0f) * factor;
   });
   return map;
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A radar's frame, from its echoes to its detections (echo.h draws the stages): the one way in.
+// Computes a radar's frame, from its echoes to its detections. This is the only entry point; echo.h shows the
+// stages.
 #pragma once
 
 #include <memory>
@@ -20,34 +21,34 @@
 namespace greatx::rf {
 
 struct RadarFrameInput {
-  std::span<const EchoList> lists;           ///< in order of slots, without overlap; slots of none are silent
-  std::span<const RadarAttitude> attitudes;  ///< of each list, or one for all
+  std::span<const EchoList> lists;  ///< in the order of slots, without overlap; slots of no list are silent
+  std::span<const RadarAttitude> attitudes;  ///< one per list, or one for all
   dvec3 baseline_m{0.0};                     ///< from the receiver's origin to the transmitter's, world axes
   RadarSeeds seeds;
 };
 
 struct RadarReport {
-  uint64_t echoes = 0;  ///< of all lists
+  uint64_t echoes = 0;  ///< number of echoes of all lists
   BeatReport beat;
-  uint64_t saturated_samples = 0;  ///< beyond the converter's full scale
-  uint64_t late_echoes =
-      0;  ///< delayed beyond adc_start_s: their first samples are of no ramp in a real receiver
-  uint64_t sidelobes = 0;  ///< peaks left out for a stronger one's windows put them there
+  uint64_t saturated_samples = 0;  ///< samples beyond the full scale of the converter
+  /// Echoes delayed beyond adc_start_s. In a real receiver their first samples belong to no ramp.
+  uint64_t late_echoes = 0;
+  uint64_t sidelobes = 0;  ///< peaks left out as sidelobes of a stronger peak's windows
 };
 
 struct RadarFrame {
   RadarCube cube;  ///< sqrt(W) [rx, tx, chirp, sample]
-  std::vector<float>
-      range_doppler;  ///< W [range, velocity], mean of the virtual antennas; empty if not asked
-  std::vector<float> range_azimuth;        ///< W [range, azimuth]; empty if not asked
-  std::vector<RadarDetection> detections;  ///< in order of range bin, then velocity bin
+  /// W [range, velocity], mean of the virtual antennas; empty if not requested.
+  std::vector<float> range_doppler;
+  std::vector<float> range_azimuth;        ///< W [range, azimuth]; empty if not requested
+  std::vector<RadarDetection> detections;  ///< in the order of range bin, then velocity bin
   RadarReport report;
 };
 
-/// Made once for a radar; process() may run on many threads at once.
+/// Processes the frames of one radar. It is made once; process() may run on many threads at once.
 class RadarProcessor {
  public:
-  /// `name`: the radar's, for messages. A configuration that check() refuses is a broken contract.
+  /// `name` is the name of the radar for messages. Requires a configuration that check() accepts.
   RadarProcessor(std::string name, const RadarSignalConfig& config, RadarGain transmit_gain,
                  RadarGain receive_gain);
   RadarProcessor(const RadarProcessor&) = delete;
@@ -57,8 +58,8 @@ class RadarProcessor {
   const RadarAxes& axes() const { return maps_.axes(); }
   const RadarMaps& maps() const { return maps_; }
 
-  /// threads: 0, all there are; the bytes do not depend on it. Throws UserError for echoes of no use
-  /// (check_echoes()).
+  /// Returns the frame. `threads`: 0 uses all there are; the bytes do not depend on it. Throws UserError for
+  /// echoes that cannot be used (check_echoes()).
   RadarFrame process(const RadarFrameInput& input, uint32_t threads = 0) const;
 
  private:

@@ -13,11 +13,11 @@ namespace greatx::rf {
 namespace {
 
 constexpr double boltzmann_j_k = 1.380649e-23;    ///< exact, SI
-constexpr double standard_temperature_k = 290.0;  ///< T_0 of a noise figure by the definition of the IEEE
-constexpr uint32_t draws = 64;                    ///< counters side by side
+constexpr double standard_temperature_k = 290.0;  ///< T_0 of a noise figure, as IEEE defines it
+constexpr uint32_t draws = 64;                    ///< number of counters side by side
 constexpr size_t samples_per_task = 16384;
 
-/// shaders/shared/random.h's philox4x32 of `draws` counters (first + i, y, z, w).
+/// Holds philox4x32 (shaders/shared/random.h) of the `draws` counters (first + i, y, z, w).
 struct Words {
   uint32_t x[draws], y[draws], z[draws], w[draws];
 };
@@ -43,7 +43,7 @@ GREATX_LANES void philox(uint32_t first, uint32_t y, uint32_t z, uint32_t w, uin
   }
 }
 
-/// A point of the complex normal distribution for each two words.
+/// Computes a complex normal number from each pair of words.
 GREATX_LANES void box_muller(const uint32_t* radius_bits, const uint32_t* angle_bits, float* re, float* im) {
   for (uint32_t i = 0; i < draws; ++i) {
     const float uniform =
@@ -95,7 +95,7 @@ void add_noise(const RadarSeeds& seeds, double power_w, uint32_t threads,
   parallel_for((cube.size() + samples_per_task - 1) / samples_per_task, threads, [&](size_t task) {
     const size_t first = task * samples_per_task, count = std::min(samples_per_task, cube.size() - first);
     std::vector<std::complex<float>> noise(count);
-    // Words of a counter serve two samples; a counter is the pair's number.
+    // The four words of a counter serve two samples; the counter is the number of the pair.
     complex_normals(seeds, RadarDraw::thermal, static_cast<uint32_t>(first >> 32),
                     static_cast<uint32_t>(first), noise);
     for (size_t i = 0; i < count; ++i) cube[first + i] += amplitude * noise[i];
@@ -149,7 +149,7 @@ double PhaseWalk::node_delay_s(uint32_t node) { return first_node_s * std::pow(n
 
 void PhaseWalk::Ramp::extend(size_t count) {
   if (count <= backwards_.size()) return;
-  // A stationary Gaussian process of one pole is the same read backwards.
+  // A stationary Gaussian process with one pole has the same statistics when it is read backwards.
   std::vector<std::complex<float>> draws_of(count);
   complex_normals(walk_.seeds_, RadarDraw::walk, slot_, 0, draws_of);
   const double kept = std::exp(-walk_.pole_rad_s_ * walk_.sample_s_);
@@ -168,8 +168,8 @@ void PhaseWalk::Ramp::differences(uint32_t node, std::span<float> turns) {
   extend(walk_.samples_ + whole + 1);
   std::vector<std::complex<float>> bridge(walk_.samples_);
   complex_normals(walk_.seeds_, RadarDraw::bridge, slot_, node << 24, bridge);
-  // Given both neighbours: D. T. Gillespie, Phys. Rev. E 54, 2084 (1996), for the process; conditioned on the
-  // far end.
+  // The phase between two samples, conditioned on both. D. T. Gillespie, Phys. Rev. E 54, 2084 (1996), gives
+  // the process; here it is also conditioned on the far end.
   const double both = std::sinh(rate);
   const float near = static_cast<float>(std::sinh(rate * (1.0 - later)) / both);
   const float far = static_cast<float>(std::sinh(rate * later) / both);

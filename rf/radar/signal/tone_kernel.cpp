@@ -10,7 +10,7 @@ namespace greatx::rf {
 namespace {
 
 constexpr int taps = ToneKernel::taps;
-constexpr int nodes = 96;  ///< of x at which the taps fit
+constexpr int nodes = 96;  ///< number of values of x at which the taps are fitted
 
 using Taps = std::array<double, taps>;
 
@@ -20,7 +20,7 @@ uint32_t grid_for(uint32_t samples) {
       if (2 * uint64_t{grid} >= 3 * uint64_t{samples}) return grid;
 }
 
-/// Solves G y = b for symmetric positive definite G, factored once (Cholesky).
+/// Solves G y = b for a symmetric positive definite G, which is factored once (Cholesky).
 class Cholesky {
  public:
   explicit Cholesky(std::array<Taps, taps> matrix) : l_(matrix) {
@@ -47,7 +47,7 @@ class Cholesky {
   std::array<Taps, taps> l_;
 };
 
-/// The least-squares problem of one oversampling M/N.
+/// Describes the least-squares problem of one oversampling M/N.
 class TapFit {
  public:
   explicit TapFit(double oversampling) : turn_(pi / oversampling) {
@@ -60,7 +60,7 @@ class TapFit {
     }
   }
 
-  /// Transform of the Kaiser-Bessel window at x, 1 at 0: what tones are damped by.
+  /// Returns the transform of the Kaiser-Bessel window at x, 1 at 0, by which tones are damped.
   double scale(double x) const {
     const auto shape = [](double squared) {
       const double root = std::sqrt(squared);
@@ -78,7 +78,7 @@ class TapFit {
     return Cholesky(gram);
   }
 
-  /// Taps for T_2k(x) at `place` in [0, 1) above the lower grid frequency.
+  /// Returns the taps for T_2k(x) at `place` in [0, 1) above the lower grid frequency.
   Taps fit(const Cholesky& equations, int k, double place) const {
     Taps right{};
     for (int j = 0; j < taps; ++j)
@@ -105,7 +105,7 @@ ToneKernel::ToneKernel(uint32_t samples) : samples_(samples), grid_(grid_for(sam
   table_.resize(size_t(orders) * segments * 3 * taps);
   for (int k = 0; k < orders; ++k)
     for (int segment = 0; segment < segments; ++segment) {
-      // The parabola through the Chebyshev nodes of the segment.
+      // The parabola runs through the Chebyshev nodes of the segment.
       const double r = 0.25 * std::sqrt(3.0), u[3] = {0.5 - r, 0.5, 0.5 + r};
       Taps v[3];
       for (int i = 0; i < 3; ++i) v[i] = problem.fit(equations, k, (segment + u[i]) / segments);

@@ -26,7 +26,7 @@ GREATX_LANES void block_tones(const SlotScales& scales, const BlockDelays& delay
   const double grid = scales.grid, by_grid = 1.0 / grid, cells_per_hz = scales.cells_per_hz;
   double turns[tone_block], cells[tone_block];
   for (uint32_t i = 0; i < tone_block; ++i) {
-    // f_c tau + S tau u - S tau^2/2 with tau = tau_0 + rate u + curvature u^2/2, by powers of u.
+    // f_c tau + S tau u - S tau^2/2 with tau = tau_0 + rate u + curvature u^2/2, sorted by powers of u.
     const double tau = delays.delay_s[i], rate = delays.rate[i], curvature = delays.curvature_per_s[i];
     const double bend =
         half * half * (0.5 * f * curvature + s * rate - 0.5 * s * (rate * rate + tau * curvature));
@@ -38,7 +38,7 @@ GREATX_LANES void block_tones(const SlotScales& scales, const BlockDelays& delay
     tones.drift[i] = static_cast<float>(-2.0 * pi / cells_per_hz * (tau - mid_delay_s[i]));
   }
   for (uint32_t i = 0; i < tone_block; ++i) {
-    // Truncated where it is above 0: the grid frequency below.
+    // Truncation of a value above 0 gives the grid frequency below.
     const int32_t below = static_cast<int32_t>(cells[i] + grid) - static_cast<int32_t>(scales.grid);
     tones.place[i] = static_cast<float>(cells[i] - below);
     tones.cell[i] = below + (static_cast<int32_t>(scales.grid) & (below >> 31));
@@ -60,7 +60,7 @@ GREATX_LANES void block_taps(const SlotScales& scales, const BlockTones& tones, 
     const int32_t below = static_cast<int32_t>(place + 1024.0f) - 1024;
     const float u = (place - static_cast<float>(below)) * ToneKernel::segments;
     const int32_t segment = static_cast<int32_t>(u);
-    const int32_t last = segment - (segment >> 6);  // 64, by roundings, is the end of 63
+    const int32_t last = segment - (segment >> 6);  // the value 64, due to rounding, is the end of segment 63
     taps.segment[i] = last;
     taps.u[i] = u - static_cast<float>(last);
     int32_t start = tones.cell[i] + below + ToneKernel::first_tap;
@@ -94,8 +94,8 @@ GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, cons
   for (uint32_t i = 0; i < count; ++i) {
     const int32_t orders = tones.orders[i];
     if (orders == 0) continue;
-    // Receiver by receiver, for neighbours in delay add to the same cells: each waits for what the one before
-    // has stored.
+    // The loop runs over the receivers of a tone, because tones with similar delays add to the same cells,
+    // and each addition would wait for the previous store.
     for (uint32_t r = 0; r < receivers; ++r) {
       const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
       const int32_t segment = taps[r].segment[i] * row;

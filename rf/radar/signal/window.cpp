@@ -8,7 +8,7 @@
 namespace greatx::rf {
 namespace {
 
-/// c_0 .. c_{nbar-1} of Taylor's window.
+/// Returns c_0 .. c_{nbar-1} of Taylor's window.
 std::vector<double> taylor(int nbar, double sidelobe_db) {
   const double a = std::acosh(std::pow(10.0, sidelobe_db / 20.0)) / pi, aa = a * a;
   const double spread = nbar * nbar / (aa + (nbar - 0.5) * (nbar - 0.5));
@@ -40,12 +40,12 @@ std::vector<double> coefficients_of(RadarWindow kind) {
   return {1.0};
 }
 
-/// sum_n e^{j 2 pi bins (n - h)/size}, h = size/2 rounded down.
+/// Returns sum_n e^{j 2 pi bins (n - h)/size}, where h is size/2 rounded down.
 std::complex<double> kernel_of(double bins, uint32_t size) {
   const double turns = bins / size, whole = std::nearbyint(turns);
   const double lean = pi * turns * (double(size) - 1.0 - 2.0 * double(size / 2));
-  // At multiples of `size` all terms are 1: the quotient's limit, sign included, is what lean's phase takes
-  // off again.
+  // At multiples of `size` all terms are 1. The limit of the quotient then has a sign, which cancels that of
+  // the phase of `lean`.
   const double top = std::sin(pi * (bins - whole * size)), bottom = std::sin(pi * (turns - whole));
   const double sum = std::abs(bottom) < 1e-15 ? size : top / bottom;
   const double sign = std::fmod(std::abs(whole), 2.0) == 0.0 || size % 2 == 1 ? 1.0 : -1.0;
@@ -55,7 +55,8 @@ std::complex<double> kernel_of(double bins, uint32_t size) {
 }  // namespace
 
 Window::Window(RadarWindow kind, uint32_t size) : coefficients_(coefficients_of(kind)) {
-  // Of fewer samples than twice the cosines these fold onto one another: sums instead of closed forms.
+  // If the size is less than twice the number of cosines, the cosines alias. Sums are right for any size,
+  // closed forms are not.
   double sum = 0.0, squares = 0.0;
   for (uint32_t n = 0; n < size; ++n) {
     double value = 0.0;
@@ -102,7 +103,7 @@ double Window::peak_offset(double before, double peak, double after) const {
   const double step = 0.5 / double(ratios_.size() - 1);
   double low = step * double(above - ratios_.begin() - 1), high = low + step;
   double low_fault = *(above - 1) - ratio, high_fault = *above - ratio;
-  // Secants within the bracket.
+  // Secant steps within the bracket.
   for (int i = 0; i < 4; ++i) {
     const double middle = low - low_fault * (high - low) / (high_fault - low_fault);
     const double fault = neighbour_ratio(middle) - ratio;
