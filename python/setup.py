@@ -6,6 +6,7 @@ GREATX_NATIVE=1: it must be there; 0: it is left out (data sets alone, nothing i
 built where the project has been built before, or can be (CMake, Ninja and the shaders' compiler are there).
 Nothing is written into python/.
 """
+import contextlib
 import os
 import pathlib
 import shutil
@@ -36,6 +37,23 @@ def wanted() -> bool:
         return False
     tools = all(shutil.which(tool) for tool in ("cmake", "ninja", "glslangValidator"))
     return wish == "1" or tools or (RELEASE / "build.ninja").is_file()
+
+
+@contextlib.contextmanager
+def progress_output():
+    """Yields where the progress of a build goes: the terminal, since pip keeps standard output to itself, or standard
+    output (None) if there is no terminal."""
+    try:
+        terminal = open("/dev/tty", "w")
+    except OSError:
+        yield None
+        return
+    with terminal:
+        terminal.write(
+            "\nbuilding greatx's compiled module, which takes some minutes if nothing is built yet\n"
+        )
+        terminal.flush()
+        yield terminal
 
 
 class CMakeBuild(build_ext):
@@ -71,7 +89,8 @@ class CMakeBuild(build_ext):
 
     def run_cmake(self, *command):
         try:
-            subprocess.run([str(part) for part in command], cwd=PROJECT, check=True)
+            with progress_output() as output:
+                subprocess.run([str(part) for part in command], cwd=PROJECT, check=True, stdout=output)
         except (OSError, subprocess.CalledProcessError) as error:
             sys.exit(
                 f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, GREATX_NATIVE=0 "
