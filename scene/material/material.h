@@ -21,7 +21,7 @@ struct PbrMaterial {
   vec4 base_color{1.0f};
   float metallic = 1.0f;
   float roughness = 1.0f;
-  vec3 emissive{0.0f};  ///< times KHR_materials_emissive_strength; 1.0 stands for 1000 cd/m^2
+  vec3 emissive{0.0f};  ///< multiplied by KHR_materials_emissive_strength; 1.0 stands for 1000 cd/m^2
   float normal_scale = 1.0f;
   float alpha_cutoff = 0.5f;
   AlphaMode alpha_mode = AlphaMode::opaque;
@@ -78,7 +78,7 @@ struct RadioMaterial {
   ScatteringPattern pattern = ScatteringPattern::lambertian;
   double pattern_exponent = 4.0;      ///< alpha_R of the directive pattern
   double backscatter_exponent = 4.0;  ///< alpha_I
-  double backscatter_share = 0.5;     ///< 1 - Lambda
+  double backscatter_share = 0.5;     ///< 1 - Lambda, the part of the energy in the backscattering lobe
   double cross_polarization = 0.0;    ///< K_x in [0, 1]
   double roughness_m = 0.0;           ///< rms height
   friend bool operator==(const RadioMaterial&, const RadioMaterial&) = default;

@@ -89,7 +89,7 @@ RadioSidecar RadioSidecar::read(const std::filesystem::path& file) {
   std::set<std::string_view> keys;
   for (const auto& [key, fields] : sidecar.entries_) {
     if (!keys.insert(key).second) throw_user_error_at(fields.where, "materials.{}: given twice", key);
-    // Entries that this scene does not use are checked too, as if laid over some medium.
+    // Entries that this scene does not use are checked too, as if they were laid over some medium.
     RadioSources any_medium;
     any_medium.radio.emplace().layers.push_back({*itu_medium("vacuum"), 0.0});
     read_radio_fields(fields, any_medium);
