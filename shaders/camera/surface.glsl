@@ -13,7 +13,9 @@ layout(set = 0, binding = material_records_binding, scalar) readonly buffer Mate
   uvec4 material_records[];
 };
 
-uvec4 material_record(uint material, uint quad) { return material_records[material * material_record_quads + quad]; }
+uvec4 material_record(uint material, uint quad) {
+  return material_records[material * material_record_quads + quad];
+}
 
 /// Holds the place where textures are read, and the width of a pixel there.
 struct Footprint {

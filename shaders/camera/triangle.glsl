@@ -34,7 +34,8 @@ struct Seen {
 Seen see(uint triangle) {
   Seen seen;
   seen.triangle = triangle;
-  uvec4 r0 = triangle_record(triangle, 0u), r1 = triangle_record(triangle, 1u), r2 = triangle_record(triangle, 2u);
+  uvec4 r0 = triangle_record(triangle, 0u), r1 = triangle_record(triangle, 1u),
+        r2 = triangle_record(triangle, 2u);
   seen.body = r0.w >> 16;
   seen.material = r0.w & 0xffffu;
   vec3 a = uintBitsToFloat(r0.xyz);

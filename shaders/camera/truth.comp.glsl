@@ -108,7 +108,8 @@ void main() {
     Words(camera.depth_ray).v[pixel] = sky ? infinity_bits : floatBitsToUint(depth * length(ray));
 
   uint body = 0u;
-  if (moving && (want_flow || want_normals) && !sky) body = scene_primitive(triangle_primitives[seen.y - 1u]).body;
+  if (moving && (want_flow || want_normals) && !sky)
+    body = scene_primitive(triangle_primitives[seen.y - 1u]).body;
   if (want_normals) {
     vec3 n = vec3(0.0);
     if (!sky) n = surface_normal(seen.y - 1u, body, ray);

@@ -25,12 +25,16 @@ layout(set = 0, binding = lidar_poses_binding, scalar) readonly buffer PosesBloc
 layout(set = 0, binding = lidar_echoes_binding, scalar) writeonly buffer EchoesBlock { LidarEcho echoes[]; };
 layout(set = 0, binding = lidar_sub_rays_binding, scalar) readonly buffer SubRaysBlock { vec2 offsets[]; };
 layout(set = 0, binding = lidar_panes_binding, scalar) readonly buffer PanesBlock { LidarPane panes[]; };
-layout(set = 0, binding = lidar_targets_binding, scalar) readonly buffer TargetsBlock { LidarTarget targets[]; };
+layout(set = 0, binding = lidar_targets_binding, scalar) readonly buffer TargetsBlock {
+  LidarTarget targets[];
+};
 layout(set = 0, binding = lidar_motions_binding, scalar) readonly buffer MotionsBlock { GpuBody motions[]; };
 
 layout(push_constant, scalar) uniform Constants { LidarConstants constants; };
 
-vec3 turned(GpuBody body, vec3 d) { return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d)); }
+vec3 turned(GpuBody body, vec3 d) {
+  return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d));
+}
 vec3 moved(GpuBody body, vec3 p) { return turned(body, p) + vec3(body.row0.w, body.row1.w, body.row2.w); }
 
 /// Describes a hit, and the motion that took the ray to where its body stands at the tick. The data of a
@@ -45,8 +49,8 @@ struct ShotHit {
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
   // Through the tree there is one way for all cases: there it costs nothing to pass over triangles.
   if (trace_tree || (glass && behind != no_facet))
-    return trace_closest_except(origin, t_min, direction, constants.max_range, exclude_body ? constants.excluded_body : no_body,
-                                behind, alpha_mask);
+    return trace_closest_except(origin, t_min, direction, constants.max_range,
+                                exclude_body ? constants.excluded_body : no_body, behind, alpha_mask);
   Hit hit;
 #ifdef GREATX_TRACE_ALPHA
   if (alpha_mask)
@@ -56,8 +60,8 @@ Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
     hit = trace_closest(origin, t_min, direction, constants.max_range);
   // Only beams that meet the own body pay for looking at every triangle on their way.
   if (exclude_body && hit.hit && scene_primitive(hit.primitive).owner == constants.excluded_body)
-    hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body, no_facet,
-                               alpha_mask);
+    hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body,
+                               no_facet, alpha_mask);
   return hit;
 }
 
@@ -169,8 +173,9 @@ void main() {
     // A clean pane gives nothing back and makes no echo. The last slot is kept for the surface that ends the
     // ray.
     if (pane.sheets == 0.0 || (back > 0.0 && written + 1u < lidar_glass_slots)) {
-      echoes[written * stride + slot] = LidarEcho(found.hit.t, carried * carried * back, carried * (1.0 - through),
-                                                  primitive.instance + 1u, primitive.material + 1u);
+      echoes[written * stride + slot] =
+          LidarEcho(found.hit.t, carried * carried * back, carried * (1.0 - through),
+                    primitive.instance + 1u, primitive.material + 1u);
       ++written;
     }
     if (through <= 0.0) break;
