@@ -25,8 +25,8 @@ class MaterialMerger {
  private:
   Scene& scene_;
   std::map<const Model*, std::vector<uint32_t>> done_;
-  std::unordered_multimap<size_t, uint32_t> textures_,
-      materials_;  ///< those of the scene, by a hash of their content
+  /// Indices of the scene's textures and materials by a hash of their content.
+  std::unordered_multimap<size_t, uint32_t> textures_, materials_;
   Spending memory_{budget::scene_textures};
 };
 

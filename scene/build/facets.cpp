@@ -294,8 +294,8 @@ class Merger {
   std::unordered_map<uint32_t, Fan> fans_;  ///< by EdgeTable::Edge::first
   std::vector<uint32_t> near_;
   uint64_t changes_ = 0;  ///< number of changes of the growing plane and of taken_
-  std::vector<uint32_t>
-      grown_;  ///< triangles of one group after the other, in the order in which they joined
+  /// Triangles of one group after the other, in the order in which they joined.
+  std::vector<uint32_t> grown_;
   std::vector<FacetGroup> groups_;  ///< in the order in which they grew, with ranges into grown_
 };
 

@@ -197,8 +197,8 @@ struct Frame {
   explicit Frame(const Box& box) {
     if (box.min.x > box.max.x) return;
     const vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const float least =
-        std::max({reach.x, reach.y, reach.z, 1.0f}) * 0x1p-20f;  // at least this large, for flat worlds
+    // a lower limit for flat worlds
+    const float least = std::max({reach.x, reach.y, reach.z, 1.0f}) * 0x1p-20f;
     low = box.min;
     // The step is a little larger than needed, so that the last step lies beyond the box however the division
     // was rounded.
