@@ -30,7 +30,8 @@ uint cluster_of(vec3 p) {
 }
 
 /// Returns the radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics
-/// show no highlight of a lamp. They give as diffuse light the part that their specular lobe would reflect.
+/// show no highlight of a lamp. They reflect diffusely the part of the light that their specular lobe would
+/// reflect.
 vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
   uint cluster = cluster_of(p_eye);
   uint entry = lamp_words[cluster], end = entry + lamp_words[cluster + 1u];

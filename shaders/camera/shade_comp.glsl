@@ -53,8 +53,8 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
   return radiance;
 }
 
-/// Takes the triangle for the one that the centre sees if it covers the centre and is nearer than the one
-/// found so far.
+/// Makes the triangle the one that the centre sees, if it covers the centre and is nearer than the one found
+/// so far.
 void look(inout Center center, Seen seen, vec3 ray) {
   float facing = dot(ray, seen.normal);
   float depth = dot(seen.p0, seen.normal) / facing;

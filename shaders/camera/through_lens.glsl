@@ -50,7 +50,7 @@ Sample nearer(Sample a, Sample b, vec2 pixel) {
   return a;
 }
 
-/// `pixel` is the ray's place in the pinhole picture.
+/// Returns the view along a ray. `pixel` is the ray's place in the pinhole picture.
 Center through_lens(vec2 pixel, vec3 ray) {
   const Center nothing = Center(uintBitsToFloat(0x7f800000u), 0u);
   ivec2 first = ivec2(pixel - 0.5);

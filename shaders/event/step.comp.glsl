@@ -30,8 +30,8 @@ float flow_at(uvec2 at, uint pixel) {
 void look(uint pixel, int signal, ivec2 nominal) {
   int reference = signal;
   if (leak_on) {
-    // The reference begins at a random distance below the signal, since all pixels would otherwise leak at
-    // once.
+    // The reference begins at a random distance below the signal. Otherwise all pixels would leak at the same
+    // time.
     uint phase = random_bits(model.pattern_seed, model.pattern_stream, 0u, pixel, 0u).z;
     reference -= int(uint64_t(thresholds_at(pixel, nominal).x) * uint64_t(phase) >> 32);
   }

@@ -72,7 +72,7 @@ Hit committed_hit(rayQueryEXT query, Hit hit) {
 }
 Hit committed_hit(rayQueryEXT query, float t_max) { return committed_hit(query, no_hit(t_max)); }
 
-/// For trace_tree. Puts the answer of the tree into `hit` and leaves in `mask` the bodies that the tree does
+/// For trace_tree: stores the answer of the tree in `hit` and leaves in `mask` the bodies that the tree does
 /// not hold. Returns whether the driver need not be asked. `body`, `facet` and `masks` are as below.
 bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks,
                   inout uint mask, inout Hit hit) {
@@ -101,9 +101,9 @@ Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   return committed_hit(query, hit);
 }
 
-/// Does the same without the triangles of one body, its parts included, and of one facet (no_body, no_facet:
-/// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else stands
-/// at the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
+/// Returns the first triangle that is not of `body`, its parts included, nor of `facet` (no_body, no_facet:
+/// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else is at
+/// the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
 Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet,
                          bool masks) {
   Hit hit = no_hit(t_max);
@@ -165,10 +165,11 @@ Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) 
 }
 #endif
 
-/// Returns the given ray, then two beside it. At every distance they lie some rounding errors of the
-/// traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's coordinates, which is 0.05 mm
-/// at 100 m. The two stand at a right angle, so that one of them leaves any edge that the first ray runs
-/// along. They point towards no axis in particular, since edges follow the axes.
+/// One of the looks of a ray: the given ray, then two rays beside it. At every distance these are some
+/// rounding errors of the traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's
+/// coordinates, which is 0.05 mm at 100 m. The two are at a right angle to each other, so that one of them
+/// leaves any edge that the first ray follows. They point towards no axis in particular, since edges follow
+/// the axes.
 struct Ray {
   vec3 origin, direction;
 };
@@ -199,8 +200,8 @@ Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_m
   return hit;
 }
 
-/// Returns whether anything stands between t_min and t_max. Triangles of two facets do not count (those at
-/// the ends of a segment; no_facet: none). Masked texels count as solid.
+/// Returns whether anything lies between t_min and t_max. Triangles of two facets do not count (those at the
+/// ends of a segment; no_facet: none). Masked texels count as solid.
 bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,

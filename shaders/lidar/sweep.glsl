@@ -47,7 +47,7 @@ struct ShotHit {
 /// Returns the first surface among the bodies of `trace_mask` where they stand at the tick. `behind` is the
 /// facet that the ray leaves.
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
-  // Through the tree there is one way for all cases: there it costs nothing to pass over triangles.
+  // The tree takes the same path in all cases, since passing over triangles costs it nothing.
   if (trace_tree || (glass && behind != no_facet))
     return trace_closest_except(origin, t_min, direction, constants.max_range,
                                 exclude_body ? constants.excluded_body : no_body, behind, alpha_mask);
@@ -109,7 +109,7 @@ float reflectance_at(Hit hit, GpuMaterial material) {
   return near ? material.reflectance_905nm : material.reflectance_1550nm;
 }
 
-/// Holds the shares of the light on a pane that the pane gives back and lets through.
+/// Holds the fractions of the light on a pane that the pane returns and transmits.
 struct PaneLight {
   float back, through;
 };
@@ -117,7 +117,7 @@ PaneLight pane_light(LidarPane pane, vec3 normal, vec3 direction, float cosine, 
   float mirrored = pane_reflectance(cosine, constants.refractive_index, pane.sheets);
   float rest = 1.0 - mirrored;
   float back = rest * pane.scattering * cosine;
-  // Returns whether the mirrored beam finds back depends on the beam's own axis.
+  // The axis of the beam decides whether the mirrored beam returns to the receiver.
   float axis_cosine = min(abs(dot(normal, axis)), 1.0);
   if (constants.half_divergence > 0.0 && axis_cosine > 0.5)
     back += mirrored * glare_intensity(length(cross(normal, axis)), axis_cosine, constants.half_divergence);
@@ -170,7 +170,7 @@ void main() {
     } else {
       back = reflectance_at(found.hit, scene_material(primitive.material)) * cosine;
     }
-    // A clean pane gives nothing back and makes no echo. The last slot is kept for the surface that ends the
+    // A clean pane returns nothing and makes no echo. The last slot is kept for the surface that ends the
     // ray.
     if (pane.sheets == 0.0 || (back > 0.0 && written + 1u < lidar_glass_slots)) {
       echoes[written * stride + slot] =

@@ -37,8 +37,8 @@ struct Way {
   vec3 origin, direction;
   uint left_facet;
   uint met;            // facets reflected at or passed, <= max_depth
-  uint reflections;    // of them: words of the key
-  uint transmissions;  // of them
+  uint reflections;    // facets reflected at: words of the key
+  uint transmissions;  // walls passed
 };
 
 /// Returns the next hit of a way. Foliage is passed over.

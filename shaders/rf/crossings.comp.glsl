@@ -73,14 +73,14 @@ void add_crossing(inout Depth depth, GpuFacetPlane plane, vec3 direction, float 
   depth.sum += entering ? behind : -behind;
   depth.net += entering ? 1 : -1;
 }
-/// From outside to outside, a line leaves closed volumes as often as it enters them. A line that does not has
-/// slipped through an edge, or has met it twice.
+/// Returns whether the line leaves closed volumes as often as it enters them. From outside to outside it
+/// must. A line that does not has slipped through an edge, or has met an edge twice.
 bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
 
-/// Returns whether two walls are passed in one place. Parallel walls are if they lie in one plane, which a
-/// segment passes only once (neighbours, duplicates). Other walls are if the segment meets their common edge.
-/// The three looks run beside each other, which shifts the points where they meet a wall. Four times their
-/// offset allows for 60 degrees from the normal of both walls.
+/// Returns whether a segment passes two walls in one place. Parallel walls are in one place if they lie in
+/// one plane, which a segment passes only once (neighbours, duplicates). Other walls are if the segment meets
+/// their common edge. The three looks run side by side, which shifts the points where they meet a wall. Four
+/// times their offset allows for 60 degrees from the normal of both walls.
 bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance,
                 float reach) {
   GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
@@ -143,9 +143,9 @@ bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth dep
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-/// Returns whether the segment is blocked. `depth` is that of the last look that is closed. The first look
-/// counts least: it meets crowns in their very top more often than by chance, and the other looks go past the
-/// top.
+/// Returns whether the segment is blocked. `depth` is the depth of the last look that is closed. The first
+/// look counts least: it meets the very tops of crowns more often than by chance, and the other looks pass
+/// beside the tops.
 bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth) {
   walls.count = 0u;
   depth = Depth(0, 1);
@@ -214,8 +214,8 @@ Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   return depth;
 }
 
-/// Returns the same for the whole line, from outside of all foliage to outside, beyond both ends of the
-/// segment. Ends inside a volume or on its surface then need no rule of their own.
+/// Returns the depth of foliage along the whole line, from outside of all foliage to outside, beyond both
+/// ends of the segment. Ends inside a volume or on its surface then need no rule of their own.
 Depth depth_on_line(GpuSegment segment, vec3 direction) {
   vec2 part = line_through_foliage(segment, direction);
   vec3 origin = segment.a + part.x * direction;
@@ -235,7 +235,7 @@ void main() {
     return;
   }
   vec3 direction = segment.b - segment.a;
-  if (direction == vec3(0.0)) {  // nothing fits between a point and itself
+  if (direction == vec3(0.0)) {  // a segment without length has no obstacles
     results[row] = 0u;
     if (has_foliage) results[row + 1u] = 0u;
     return;

@@ -96,14 +96,14 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   vec2 terms = specular_albedo_terms(r.n_dot_v, roughness);
   r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
   r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
-  // Under the diffuse part lies the dielectric's lobe, whatever share of the surface is metal.
+  // The dielectric's lobe lies over the diffuse part, whatever fraction of the surface is metal.
   float dielectric =
       (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
   r.diffuse = base_color * ((1.0f - metallic) * (1.0f - dielectric));
   return r;
 }
 
-/// Returns the same without a specular lobe: a Lambertian surface.
+/// Returns the reflectance of a Lambertian surface, without a specular lobe.
 GREATX_FUNCTION Reflectance lambertian_reflectance(vec3 base_color) {
   Reflectance r;
   r.n_dot_v = 1.0f;

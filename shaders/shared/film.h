@@ -179,7 +179,7 @@ GREATX_FUNCTION float sensed(float light, SensorConstants sensor, uint bits) {
   return clamp(number, 0.0f, sensor.levels) / sensor.levels;
 }
 
-/// Returns the same for a pixel; `pixel` is row * width + column.
+/// Returns the digital numbers of a pixel's three channels; `pixel` is row * width + column.
 GREATX_FUNCTION vec3 sensed_color(vec3 light, SensorConstants sensor, uint pixel) {
   uvec4 bits = random_bits(sensor.key.x, sensor.key.y, sensor.tick, pixel, 0u);
   return vec3(sensed(light.x, sensor, bits.x), sensed(light.y, sensor, bits.y),

@@ -39,11 +39,11 @@ const uint lidar_base_color_arrays_id = 6u;     // sweep_textured: lib/textures.
 const uint lidar_no_object = 0u;
 // The LidarTarget::first_motion of a body that stays where it is at the tick.
 const uint lidar_still = 0xffffffffu;
-// A ray may pass this many panes; the next one ends it. Clear glass lets 0.92^32 = 7 % of the light there and
-// back.
+// The most panes that a ray may pass; the next one ends it. Clear glass transmits 0.92^32 = 7 % of the light
+// on the way there and back.
 const uint lidar_most_panes = 16u;
-// A ray may have this many echoes: of the first panes that give light back, and of the surface that ends the
-// ray.
+// The most echoes of a ray. They come from the first panes that return light, and from the surface that ends
+// the ray.
 const uint lidar_glass_slots = 5u;
 
 struct LidarBeam {
