@@ -27,7 +27,7 @@ struct FacetGroup {
 
 struct FacetGroups {
   std::vector<FacetGroup> groups;
-  std::vector<uint32_t> triangles;  ///< of one group after the other, ascending in each group
+  std::vector<uint32_t> triangles;  ///< triangles of one group after the other, ascending in each group
 };
 
 /// Merges edge-connected triangles that face the same way and whose corners all lie within

@@ -93,7 +93,7 @@ struct Instance {
 /// it turns about `axis`.
 struct Joint {
   uint32_t owner = 0;         ///< the carrier: an earlier body that is not a part itself
-  dvec3 position{0.0};        ///< of the part's origin in its owner's frame, metres
+  dvec3 position{0.0};        ///< origin of the part in its owner's frame, metres
   dvec3 axis{0.0, 0.0, 1.0};  ///< unit, in both frames
   /// Returns owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
   Pose pose(double angle) const { return {position, glm::angleAxis(angle, axis)}; }
@@ -159,7 +159,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
-  Bounds bounds;                   ///< of body 0
+  Bounds bounds;                   ///< bounds of body 0
   std::vector<std::string> notes;  ///< the repairs and choices of the loader, for `greatx scene info`
 
   dvec3 to_local(const dvec3& world) const { return world - origin; }

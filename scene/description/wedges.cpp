@@ -114,7 +114,7 @@ std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, 
     return std::tuple(x.angle, x.facet) < std::tuple(y.angle, y.facet);
   });
   const size_t count = around.size();
-  const auto turn = [&](size_t from, size_t to) {  // from one direction on to a later one
+  const auto turn = [&](size_t from, size_t to) {  // angle from one direction to a later one
     const double angle = around[to].angle - around[from].angle;
     return to > from ? angle : angle + 2.0 * pi;
   };

@@ -78,12 +78,12 @@ class GpuScene {
   gpu::Buffer positions_, normals_, tangents_, uvs_, indices_, primitives_, materials_, facet_of_triangle_,
       addresses_;
   GpuTextures textures_;
-  std::vector<gpu::Blas> blas_;      ///< of the bodies that have triangles
-  std::vector<uint32_t> blas_body_;  ///< body of each
+  std::vector<gpu::Blas> blas_;      ///< one for each body that has triangles
+  std::vector<uint32_t> blas_body_;  ///< body of each element of blas_
   gpu::Tlas tlas_;
   gpu::Buffer tree_;  ///< a single quadruple until a pass needs the tree
   bool has_tree_ = false;
-  gpu::Slice bodies_;  ///< of the tick being recorded
+  gpu::Slice bodies_;  ///< slice of the tick that is being recorded
   std::vector<Pose> last_poses_;
 };
 

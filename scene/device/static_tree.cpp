@@ -145,7 +145,7 @@ class Builder {
         boxes[bin].add(boxes_[leaf]);
         ++counts[bin];
       }
-      std::array<double, bin_count> right_cost{};  // of bins from this one on
+      std::array<double, bin_count> right_cost{};  // cost of the bins from this one on
       Box right;
       uint32_t in_right = 0;
       for (size_t bin = bin_count - 1; bin > 0; --bin) {

@@ -37,7 +37,7 @@ struct TextureLayers {
   };
   struct Array {
     bool srgb = true, repeat_u = true, repeat_v = true;
-    uint32_t width = 0, height = 0;  ///< of a layer
+    uint32_t width = 0, height = 0;  ///< size of a layer
     std::vector<Layer> layers;
   };
   std::vector<Array> arrays;
@@ -45,7 +45,7 @@ struct TextureLayers {
 };
 
 struct TextureLayerLimits {
-  uint32_t layers = 2048;  ///< of an array, at most
+  uint32_t layers = 2048;  ///< most layers of an array
   /// Maximum size of all layers that are laid side by side, without their mips; 0: no layer is.
   uint64_t tiled_bytes = 0;
 };

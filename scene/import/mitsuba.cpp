@@ -159,7 +159,7 @@ class MitsubaImporter {
   MitsubaXml xml_;
   AssetFolder folder_;
   std::map<std::string, pugi::xml_node> bsdfs_;  ///< top level, by id
-  std::map<std::ptrdiff_t, int> materials_;      ///< of the <bsdf> at this offset
+  std::map<std::ptrdiff_t, int> materials_;      ///< index of the material of the <bsdf> at this offset
   ImportedScene scene_;
   Spending memory_{budget::import_geometry};
 };

@@ -23,8 +23,8 @@ struct RadioField {
   bool boolean = false;
   double number = 0.0;
   std::string text;
-  std::vector<RadioField> items;                            ///< of a list
-  std::vector<std::pair<std::string, RadioField>> members;  ///< of a map, in the document's order
+  std::vector<RadioField> items;                            ///< elements of a list
+  std::vector<std::pair<std::string, RadioField>> members;  ///< members of a map, in the document's order
   SourceLocation where;
   std::string path;  ///< e.g. "materials.wall.layers[1].thickness_m"
 };

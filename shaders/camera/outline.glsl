@@ -14,9 +14,9 @@ const float outline_slack = 1.0 / 256.0;
 
 struct Outline {
   float side;      // sign that makes its edge functions positive inside
-  float offset;    // of its plane: depth = offset / sum of the edge functions
-  vec3 slope;      // of each edge function, per pixel
-  float nearest;   // of its corners' planar depths, not nearer than the near plane
+  float offset;    // offset of its plane: depth = offset / sum of the edge functions
+  vec3 slope;      // slope of each edge function, per pixel
+  float nearest;   // least planar depth of its corners, not nearer than the near plane
   float farthest;
   bool thin;       // less than a pixel across
 };

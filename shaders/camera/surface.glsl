@@ -27,7 +27,7 @@ vec4 texel(uint arrays, uint texture_plus_1, Footprint at) {
 }
 
 struct Surface {
-  vec3 p, v;          // from the eye; unit towards it
+  vec3 p, v;          // position from the eye; unit vector towards the eye
   vec3 geometric, n;  // unit, on the eye's side
   vec3 base_color, glow;
   float metallic, roughness;

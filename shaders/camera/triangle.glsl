@@ -25,7 +25,7 @@ uvec4 triangle_record(uint triangle, uint quad) {
 struct Seen {
   uint triangle;
   uint body, material;
-  vec3 p0, e1, e2;  // from the eye, local axes
+  vec3 p0, e1, e2;  // corner from the eye and two edges, local axes
   vec3 normal;      // not unit
   vec3 u_numerator, v_numerator;
   uvec2 vertex_normals;  // octahedral, of the first two corners

@@ -48,7 +48,7 @@ struct Hit {
   float t;          // along the direction, in its lengths
   uint primitive;   // index into the scene's primitives
   uint triangle;    // index into the scene's triangles
-  vec2 barycentric; // of the second and third corner
+  vec2 barycentric; // weights of the second and third corner
   bool front;       // seen from the side the winding faces
 };
 

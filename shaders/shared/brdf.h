@@ -69,7 +69,8 @@ GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   float e1 = dot(p, vec4(21.557946f, -109.687165f, 156.616098f, -70.463709f));
   float e2 = dot(p, vec4(-25.609111f, 154.674327f, -241.176599f, 114.568377f));
   float e3 = dot(p, vec4(8.961386f, -64.118487f, 106.530581f, -52.509684f));
-  float whole = 1.0f + r * r * (e0 + n_dot_v * (e1 + n_dot_v * (e2 + n_dot_v * e3)));  // of a white conductor
+  // the albedo of a white conductor
+  float whole = 1.0f + r * r * (e0 + n_dot_v * (e1 + n_dot_v * (e2 + n_dot_v * e3)));
   float y5 = dot(p, vec4(1.616073f, -3.050597f, -0.256109f, 1.814167f));
   float y2 = dot(p, vec4(-0.261276f, 1.749049f, -2.617528f, 1.128633f));
   float y1 = dot(p, vec4(0.072480f, -0.461911f, 0.730696f, -0.340329f));

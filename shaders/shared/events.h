@@ -221,7 +221,7 @@ const uint event_awake_binding = 11u;     // storage: int: end of the refractory
 const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding = 0u;   // of the difference pass: storage: float, the picture before
+const uint event_previous_binding = 0u;   // storage, difference pass: float, the picture before
 
 // Specialization constants. An effect that is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -309,7 +309,7 @@ struct EventConstants {
   uint index;  ///< index of this instant, 1 to grid; 0: the first picture, which sets the reference
   uint noise_seed;
   uint noise_stream;
-  uint noise_sample;  ///< of the sensor
+  uint noise_sample;  ///< sample number of the sensor
 };
 
 struct DifferenceConstants {

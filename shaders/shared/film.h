@@ -50,9 +50,9 @@ const uint develop_pixels = 8u;
 struct SensorConstants {
   float full_well;   ///< electrons of light 1 (L_max)
   float read_noise;  ///< electrons, rms
-  float levels;      ///< of the converter, less 1
+  float levels;      ///< levels of the converter, less 1
   uint tick;
-  uvec2 key;  ///< of (seed, sensor, sequence)
+  uvec2 key;  ///< key made of (seed, sensor, sequence)
 };
 
 struct DevelopConstants {
@@ -106,7 +106,7 @@ struct MeterConstants {
   uint step;               ///< pixels from sample to sample
   float stored_luminance;  ///< cd/m^2 of a stored 1
   float compensation_ev;
-  uint width;  ///< of the picture
+  uint width;  ///< width of the picture
 };
 
 /// Below this mean number of electrons the shot noise is Poisson's law itself; above it, a corrected normal

@@ -62,22 +62,22 @@ struct LidarConstants {
   uint wavelength_nm;      // 905 or 1550
   float min_range;         // m
   float max_range;         // m
-  float refractive_index;  // of glass
+  float refractive_index;  // refractive index of glass
   float half_divergence;   // rad, to 1/e^2; 0: no width
 };
 
 struct LidarEcho {
   float range;      // m along the beam
   float intensity;  // the returned part of all light that the ray carries (docs/lidar.md)
-  float share;      // of the ray's energy, the part that goes no further than this surface
+  float share;      // part of the ray's energy that goes no further than this surface
   uint instance;    // index + 1; 0: none, and none in the slots behind
   uint material;    // index + 1; 0: none
 };
 
 // Describes a material that lets light through.
 struct LidarPane {
-  float sheets;      // of glass one behind the other; 0: opaque
-  float clearness;   // of the light that is not reflected, the part that goes through
+  float sheets;      // number of glass sheets one behind the other; 0: opaque
+  float clearness;   // transmitted part of the light that is not reflected
   float scattering;  // diffuse reflectance: dirt, frosting
 };
 

@@ -23,7 +23,7 @@ const uint candidates_group = 64u;
 struct CandidateConstants {
   vec3 source;  // local coordinates
   uint first_ray;
-  uint rays;  // of this dispatch
+  uint rays;  // rays of this dispatch
   uint max_depth;
   uint slots;
 };

@@ -30,8 +30,8 @@ namespace {
 struct Field {
   int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
   int material;
-  double angle = 0.0;  ///< of the rows of its crop, rad
-  dvec2 offset{0.0};   ///< of its texture
+  double angle = 0.0;  ///< angle of the rows of its crop, rad
+  dvec2 offset{0.0};   ///< offset of its texture
 };
 
 class Country {

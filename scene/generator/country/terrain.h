@@ -51,8 +51,8 @@ class Terrain {
   /// Describes the look of a cell. Material -1 leaves the cell out.
   struct Cover {
     int material = -1;
-    double angle = 0.0;       ///< from the world's x axis to the texture's, rad
-    dvec2 offset{0.0};        ///< of the texture, in tiles
+    double angle = 0.0;       ///< angle from the world's x axis to the texture's, rad
+    dvec2 offset{0.0};        ///< offset of the texture, in tiles
     bool along_road = false;  ///< the texture follows the road, one tile across its width
   };
   /// Adds the surface with smooth normals. `cover_of(row, column)` returns the cover of the cell north-east

@@ -98,7 +98,7 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const dvec2> corners)
 struct Ring {
   double inset_m = 0.0;
   double z = 0.0;
-  int material = 0;         ///< of the strip up to the next ring; of the cap for the last ring
+  int material = 0;         ///< material of the strip up to the next ring, or of the cap for the last ring
   bool whole_bays = false;  ///< fit a whole number of texture bays to each wall
   double base_z = 0.0;      ///< with whole_bays: height at which the texture starts
   uint32_t shift = 0;       ///< with whole_bays: seed of the bay at which each wall starts; 0: the first bay

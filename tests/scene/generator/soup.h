@@ -22,7 +22,7 @@ inline void PrintTo(const GenerateOptions& options, std::ostream* out) {
 struct SoupTriangle {
   std::array<dvec3, 3> corners;  ///< world, z up
   std::array<dvec3, 3> local;    ///< in the mesh's own frame: exact millimetres
-  std::array<dvec3, 3> normals;  ///< from the file, world
+  std::array<dvec3, 3> normals;  ///< normals of the file, world
   uint32_t material = 0;
   uint32_t instance = 0;
   dvec3 normal() const;  ///< unit, from the winding
