@@ -181,9 +181,8 @@ TEST(EventNoise, RefractoryPixelsRest) {
   // dead)^2 (Mueller 1973).
   const double rate = 400.0 * (1.0 - 0.75 * 20.0 / 275.0), slow = 1.0 + rate * 2.5e-3;
   const double expected = rate / slow * 0.5 * 48 * 48;
-  const double start =
-      // All pixels are awake at the beginning.
-      0.5 * std::pow(rate * 2.5e-3 / slow, 2) * 48 * 48;
+  // All pixels are awake at the beginning.
+  const double start = 0.5 * std::pow(rate * 2.5e-3 / slow, 2) * 48 * 48;
   EXPECT_LT(std::abs(double(events) - expected - start) / std::sqrt(expected / (slow * slow)), limit + 1.0);
 }
 

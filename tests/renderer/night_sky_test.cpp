@@ -73,9 +73,8 @@ TEST(NightSky, StarsKeepTheirLightAtEveryResolution) {
     if (!std::isfinite(drawn[i].magnitude) || packed[i].light == 0) continue;
     const double rim = std::max(std::abs(d.x), std::abs(d.y)) / d.z;
     if (d.z > 0.0 && rim < 1.0)
-      expected += render::magnitude_0_lux *
-                  // The air mass is 1/z. This approximation is good to 0.3 % at 45 degrees.
-                  std::pow(10.0, -0.4 * (drawn[i].magnitude + 0.19 / d.z));
+      // The air mass is 1/z. This approximation is good to 0.3 % at 45 degrees.
+      expected += render::magnitude_0_lux * std::pow(10.0, -0.4 * (drawn[i].magnitude + 0.19 / d.z));
   }
   for (const uint32_t size : {160u, 320u, 900u}) {
     render::CameraDesc desc = plain_camera(size, 1);

@@ -189,9 +189,8 @@ TEST(CandidateWalls, ABoxInABoxAsTheExhaustiveSearchFindsIt) {
   options.rays = 1u << 17;
   options.max_depth = 3;
   options.max_transmissions = 2;
-  for (const dvec3& source :
-       // The sources are outside and inside the inner box.
-       {dvec3(2.1, 1.3, 1.7), dvec3(6.2, 4.4, 2.9)}) {
+  // The sources are outside and inside the inner box.
+  for (const dvec3& source : {dvec3(2.1, 1.3, 1.7), dvec3(6.2, 4.4, 2.9)}) {
     CandidateList list = search(scene, kinds, options, source).list;
     list.add({});
     list.make_canonical();

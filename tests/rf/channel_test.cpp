@@ -142,9 +142,8 @@ TEST(ChannelHardCase, N40_WideBandAndLongDelay) {
       const Wide expected = scale * wide_phasor(140e9, delay) *
                             wide_phasor(grid.subcarrier_number(k) * grid.subcarrier_spacing_hz, delay);
       const Wide value(found[k].real(), found[k].imag());
-      EXPECT_LT(std::abs(value - expected) / std::abs(expected), 1e-11L)
-          // The frequency f = k * spacing rounds to 1e-12 turns.
-          << k;
+      // The frequency f = k * spacing rounds to 1e-12 turns.
+      EXPECT_LT(std::abs(value - expected) / std::abs(expected), 1e-11L) << k;
     }
   }
 }
