@@ -286,7 +286,7 @@ class Joiner {
   Joiner(const Scene& scene, const WedgeOptions& options) : scene_(scene), options_(options) {}
 
   void join(std::vector<Piece> pieces, std::vector<Wedge>& wedges) {
-    // The longest piece has the most exact line.
+    // The longest piece determines the line best.
     std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
       return std::tuple(-x.length(), key(x.a), key(x.b)) < std::tuple(-y.length(), key(y.a), key(y.b));
     });

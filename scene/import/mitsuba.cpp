@@ -21,8 +21,8 @@ std::string id_of(const pugi::xml_node& node) { return node.attribute("id").valu
 /// Returns the id as messages show it.
 std::string shown_id(const pugi::xml_node& node) { return printable(node.attribute("id").value()); }
 
-/// Returns a file name as a URI. The folder's reader knows URIs, and a per cent sign in a file name is not an
-/// escape.
+/// Returns a file name as a URI. AssetFolder decodes percent escapes, so a per cent sign of the file name
+/// must be escaped.
 std::string uri_of(const std::string& filename) {
   std::string uri;
   for (const char character : filename) uri += character == '%' ? "%25" : std::string(1, character);

@@ -7,7 +7,7 @@
 
 namespace greatx::scene::generator {
 
-/// Height of pavements and courtyards above the road (the kerb), metres
+/// The height of pavements and courtyards above the road (the kerb), metres.
 inline constexpr double pavement_height_m = 0.15;
 
 /// Adds streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane instead
