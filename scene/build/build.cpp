@@ -26,22 +26,22 @@ dmat4 linear_of(const dmat4& affine) {
   return linear;
 }
 
-/// The linear part of a placement.
+/// Returns the linear part of a placement.
 dmat4 scaled_axes(const ModelPlacement& placement) {
   dmat4 scaled = glm::mat4_cast(placement.pose.orientation);
   for (int axis = 0; axis < 3; ++axis) scaled[axis] *= placement.scale[axis];
   return scaled;
 }
 
-/// What goes into one body: the model_from_... transforms of a placement become body_from_...
+/// Turns the model_from_... transforms of a placement into body_from_... transforms for one body.
 class Frame {
  public:
-  /// world_from_model about `reference`, a point of the world, or body_from_model for a moving body. The
-  /// large numbers of a position in UTM cancel here, in fp64, before anything is multiplied by them.
+  /// Makes world_from_model relative to `reference`, a point of the world, or body_from_model for a moving
+  /// body. The large numbers of a UTM position cancel here, in fp64, before any product with them.
   Frame(const ModelPlacement& placement, const dvec3& reference)
       : scaled_(scaled_axes(placement)),
         offset_(placement.moving ? placement.pose.position : placement.pose.position - reference) {}
-  /// part_from_model: the axes stay, the origin goes to that of `node`.
+  /// Makes part_from_model: the axes remain, and the origin moves to that of `node`.
   Frame(const ModelPlacement& placement, const ModelNode& node)
       : scaled_(scaled_axes(placement)), model_origin_(node.model_from_node[3]) {}
 
@@ -56,7 +56,8 @@ class Frame {
   dvec3 offset_{0.0}, model_origin_{0.0};
 };
 
-/// The joint of a part in its owner's frame. Throws UserError if its transforms leave the axis no direction.
+/// Returns the joint of a part in its owner's frame. Throws UserError if the transforms of the part leave its
+/// axis without a direction.
 Joint joint_of(const ModelPlacement& placement, const PartPlacement& part, uint32_t owner) {
   const ModelNode& node = placement.model->nodes[part.node];
   const dmat4 body_from_node = Frame(placement, dvec3(0.0)).place(node.model_from_node);
@@ -92,8 +93,9 @@ void check_placement(const ModelPlacement& placement) {
   }
 }
 
-/// The centre of the static bounds, rounded to whole metres. The halves are nudged so that a scene and its
-/// copy some 1e5 m away, whose centres differ in the last digit, round alike.
+/// Returns the centre of the static bounds, rounded to whole metres. Halves are shifted by 1e-6 before
+/// rounding, so that a scene and its copy some 1e5 m away, whose centres differ in the last digit, round
+/// alike.
 dvec3 default_origin(const std::vector<ModelPlacement>& placements) {
   Bounds bounds;
   for (const ModelPlacement& placement : placements) {
@@ -112,7 +114,8 @@ dvec3 default_origin(const std::vector<ModelPlacement>& placements) {
   return glm::floor(bounds.center() + 0.5 + 1e-6);
 }
 
-/// What the scene will have, said before it is made: a small file may place one mesh many times.
+/// The size of the scene, computed before the scene is built, since a small file may place one mesh many
+/// times.
 struct Planned {
   uint64_t triangles = 0, vertices = 0;
 };
@@ -156,7 +159,7 @@ class Builder {
     scene_.bodies.push_back(body);
   }
 
-  /// Into the body added last, without what belongs to the parts.
+  /// Adds the placement to the last body, without the nodes that belong to its parts.
   void add(const ModelPlacement& placement) {
     add(placement, Frame(placement, scene_.origin), [&](uint32_t node) {
       return std::ranges::none_of(placement.parts, [&](const PartPlacement& part) {
@@ -165,7 +168,7 @@ class Builder {
     });
   }
 
-  /// The parts of the placement whose own body is `owner`, each in a body of its own.
+  /// Adds the parts of the placement whose own body is `owner`, each as a body of its own.
   void add_parts(const ModelPlacement& placement, uint32_t owner) {
     for (const PartPlacement& part : placement.parts) {
       const ModelNode& node = placement.model->nodes[part.node];
@@ -188,7 +191,7 @@ class Builder {
  private:
   uint32_t current_body() const { return static_cast<uint32_t>(scene_.bodies.size() - 1); }
 
-  /// What of a placement's model is on the nodes that `belongs` says.
+  /// Adds the instances and lights of a placement's model on the nodes for which belongs(node) is true.
   template <typename Belongs>
   void add(const ModelPlacement& placement, const Frame& frame, const Belongs& belongs) {
     const Model& model = *placement.model;
@@ -211,7 +214,7 @@ class Builder {
     }
   }
 
-  /// Of a part, in its owner's frame: every place that its corners come to in a turn.
+  /// Returns the bounds, in its owner's frame, of all places that the corners of a part reach in a full turn.
   Bounds reach_of(const Body& body) const {
     const Joint& joint = *body.joint;
     Bounds reach;
@@ -246,7 +249,7 @@ class Builder {
   std::string unique_name(const ModelPlacement& placement, const ModelInstance& instance) {
     const std::string wanted = placement.name.empty() ? instance.name : placement.name + "/" + instance.name;
     std::string name = wanted;
-    // Starts where the last one of this name ended, so that a thousand copies cost a thousand steps.
+    // The search continues where the last one of this name ended, so that n copies take n steps.
     uint32_t& number = next_number_[wanted];
     while (!names_.insert(name).second)
       name = fmt::format("{}_{}", wanted, number = std::max(number, 1u) + 1);
@@ -256,7 +259,7 @@ class Builder {
   void add_instance(const ModelPlacement& placement, const Frame& frame, const ModelInstance& instance) {
     const Model& model = *placement.model;
     const ModelMesh& mesh = model.meshes[instance.mesh];
-    // Kept for the whole scene: a mesh may be placed a thousand times.
+    // The indices are kept for the whole scene, since a mesh may be placed a thousand times.
     const std::vector<uint32_t>& materials = materials_.indices_of(model);
     Instance result;
     result.name = unique_name(placement, instance);
@@ -265,7 +268,7 @@ class Builder {
     const std::string what =
         fmt::format("{}: mesh '{}', placed as '{}'", model.file.string(), mesh.name, result.name);
     const dmat4 body_from_mesh = frame.place(instance.model_from_mesh);
-    // By material: facets may cross primitives, but not instances.
+    // Facets are merged by material: they may cross primitives, but not instances.
     std::map<uint32_t, FacetWork> work;
     std::map<uint32_t, size_t> corners;
     for (const ModelPrimitive& primitive : mesh.primitives)
@@ -280,10 +283,10 @@ class Builder {
     scene_.instances.push_back(std::move(result));
   }
 
-  /// Triangles of one instance and material that await merging.
+  /// Triangles of one instance and material that are to be merged.
   struct FacetWork {
     FacetInput input;
-    std::vector<uint32_t> triangles;  ///< their numbers in the scene
+    std::vector<uint32_t> triangles;  ///< their indices in the scene
     void reserve(size_t corners) {
       input.corners.reserve(corners);
       input.vertices.reserve(corners);
@@ -319,7 +322,7 @@ class Builder {
     ++scene_.bodies.back().primitive_count;
   }
 
-  /// Returns how many triangles have no area left in fp32.
+  /// Appends the vertices and returns the number of triangles that have no area left in fp32.
   size_t append(const VertexData& vertices) {
     const size_t base = scene_.positions.size();
     const size_t total = base + vertices.positions.size();

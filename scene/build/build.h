@@ -10,36 +10,40 @@
 
 namespace greatx::scene {
 
-/// A node of a moving model, with all that hangs on it, that turns about an axis through its origin.
+/// A node of a moving model, with all its descendants, that turns about an axis through the node's origin.
 struct PartPlacement {
   std::string name;
-  uint32_t node = 0;          ///< into Model::nodes; not the descendant of another part's
+  uint32_t node = 0;          ///< into Model::nodes; not a descendant of another part's node
   dvec3 axis{0.0, 0.0, 1.0};  ///< in the node's own frame, but z up: glTF's (x, y, z) is (x, -z, y) here
 };
 
-/// A model put into the world.
+/// A model placed in the world.
 struct ModelPlacement {
-  std::string name;  ///< prefix of its instances' names; may be empty
+  std::string name;  ///< prefix of the names of its instances; may be empty
   const Model* model = nullptr;
-  Pose pose;  ///< world_from_model; of a moving body: body_from_model
+  Pose pose;  ///< world_from_model; for a moving body: body_from_model
   dvec3 scale{1.0};
-  bool moving = false;                          ///< true: becomes a body of its own, called `name`
+  bool moving = false;                          ///< true: the model becomes a body of its own, called `name`
   std::optional<SemanticClass> semantic_class;  ///< overrides the file's
-  /// Of a moving body: each becomes a body called NAME/PART behind it. The axis of a part goes where the
-  /// model's transforms take its direction; under a mirroring scale it turns right-handed about that still.
+  /// The parts of a moving body. Each becomes a body called NAME/PART after it. The model's transforms turn
+  /// the direction of a part's axis. The part turns right-handed about the transformed axis, even under a
+  /// mirroring scale.
   std::vector<PartPlacement> parts;
 };
 
 struct BuildOptions {
   std::string name;
   std::optional<dvec3> origin;  ///< default: the centre of the static bounds, rounded to whole metres
-  double coplanar_distance_m =
-      1e-4;  ///< facets: triangles merge when every corner is this close to the plane
+  /// Tolerances of facets: triangles merge if every corner lies this close to the plane, and their normals
+  /// are this close.
+  double coplanar_distance_m = 1e-4;
   double coplanar_angle_rad = 1e-4;
 };
 
-/// Places the models, makes what is missing (normals, tangents), mends winding under negative scale, merges
-/// facets. Throws UserError naming model and mesh if a transformed vertex is not finite.
+/// Places the models, computes missing normals and tangents, reverses the winding under negative scale, and
+/// merges facets. Throws UserError, which names model and mesh, if a transformed vertex is not finite or a
+/// triangle loses its area. Throws UserError for an invalid pose, scale or part axis, and for more triangles,
+/// vertices or texture memory than the budgets allow.
 Scene build_scene(const std::vector<ModelPlacement>& placements, const BuildOptions& options);
 
 }  // namespace greatx::scene

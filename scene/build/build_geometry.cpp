@@ -29,8 +29,9 @@ void place_positions(const ModelPrimitive& source, const dmat4& body_from_mesh, 
   }
 }
 
-/// Normals are planes, not directions: they follow the inverse transpose. The cofactor matrix is it, times
-/// the determinant, whose sign is all that is left after normalising.
+/// Transforms the normals by the inverse transpose, since they describe planes and not directions. The
+/// cofactor matrix is the inverse transpose times the determinant, of which only the sign remains after
+/// normalization.
 void place_normals(const ModelPrimitive& source, const glm::dmat3& linear, VertexData& vertices) {
   const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1]));
@@ -63,7 +64,7 @@ dvec3 triangle_normal(const VertexData& vertices, size_t first, const std::strin
   return normal / length;
 }
 
-/// Three vertices of its own for every triangle, with the triangle's normal.
+/// Gives every triangle three vertices of its own, with the triangle's normal.
 void make_flat(VertexData& vertices, const std::string& what) {
   VertexData flat;
   const size_t count = vertices.indices.size();

@@ -11,17 +11,18 @@
 
 namespace greatx::scene {
 
-/// `source` in its body's frame: positions in fp64, normals by the inverse transpose (flat ones, with
-/// vertices of their own, where the file has none), winding mended under a negative determinant, tangents if
-/// `want_tangents`. Throws UserError starting with `what` if a position is not finite in fp32 or a triangle
-/// loses its area in fp64.
+/// Returns `source` in the frame of its body. Positions are in fp64. Normals follow the inverse transpose;
+/// where the file has none, each triangle gets vertices of its own with flat normals. The winding is reversed
+/// if the determinant is negative. Tangents are made if `want_tangents`. Throws UserError, which starts with
+/// `what`, if a position is not finite in fp32 or a triangle loses its area in fp64.
 VertexData place_primitive(const ModelPrimitive& source, const dmat4& body_from_mesh, bool want_tangents,
                            const std::string& what);
 
-/// For each primitive and vertex a number; vertices of the mesh at exactly the same place have the same one.
+/// Returns a number for each primitive and vertex. Vertices of the mesh at exactly the same place have the
+/// same number.
 std::vector<std::vector<uint32_t>> weld(const ModelMesh& mesh);
 
-/// How far rounding to fp32 in the file may have moved a corner, in metres of the body's frame.
+/// Returns how far rounding to fp32 in the file may have moved a corner, in metres of the body's frame.
 double rounding_noise(const ModelPrimitive& source, const dmat4& body_from_mesh);
 
 }  // namespace greatx::scene

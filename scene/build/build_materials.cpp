@@ -11,7 +11,7 @@
 namespace greatx::scene {
 namespace {
 
-/// A texture's name does not matter.
+/// Returns whether the textures are equal. Their names do not matter.
 bool equal(const Texture& left, const Texture& right) {
   const auto key = [](const Texture& texture) {
     return std::tie(texture.width, texture.height, texture.srgb, texture.repeat_u, texture.repeat_v,
@@ -29,7 +29,8 @@ size_t key_of(const Texture& texture) {
 
 size_t key_of(const Material& material) { return std::hash<std::string>()(material.name); }
 
-/// The index of an element equal to `element`, which is added if there is none. `known`: by key_of().
+/// Returns the index of the element equal to `element`, which is added if there is none. `known` maps
+/// key_of() to indices.
 template <typename T>
 uint32_t index_of(std::vector<T>& elements, std::unordered_multimap<size_t, uint32_t>& known,
                   const T& element) {

@@ -21,8 +21,8 @@ void sides_of(const std::vector<uint32_t>& vertices, const auto& visit) {
   }
 }
 
-/// All sides in order. Where vertices are numbered densely they are first dealt out by their lower one, which
-/// leaves few to compare with each other.
+/// Returns all sides in order. If the vertices are numbered densely, the sides are first distributed by their
+/// lower vertex, which leaves few sides to compare with each other.
 std::vector<Entry> sorted_sides(const std::vector<uint32_t>& vertices) {
   const size_t most = vertices.empty() ? 0 : size_t{*std::max_element(vertices.begin(), vertices.end())} + 1;
   std::vector<Entry> entries;

@@ -8,15 +8,15 @@
 
 namespace greatx::scene {
 
-/// For every triangle and side, the triangles that share that edge.
+/// Gives, for every triangle and side, the triangles that share that edge.
 class EdgeTable {
  public:
-  /// Three vertices a triangle: equal numbers are the same place.
+  /// `vertices` has three numbers per triangle. Equal numbers denote the same place.
   explicit EdgeTable(const std::vector<uint32_t>& vertices);
 
-  /// Those around an edge, this one among them: ascending.
+  /// The triangles around an edge, ascending, including the given one.
   struct Edge {
-    uint32_t first = 0, count = 0;  ///< into triangles(); `first` tells edges apart
+    uint32_t first = 0, count = 0;  ///< range of triangles(); `first` identifies the edge
   };
   Edge edge(uint32_t triangle, uint32_t side) const { return edges_[size_t{triangle} * 3 + side]; }
   std::span<const uint32_t> triangles(const Edge& edge) const {

@@ -14,16 +14,17 @@
 namespace greatx::scene {
 namespace {
 
-/// Normals that a thin triangle's rounding may turn further than this are compared as if it were this.
+/// The largest angle by which normals may differ, also where rounding may turn the normal of a thin triangle
+/// further.
 constexpr double most_angle_rad = 0.5;
 
-/// A plane from weighted triangles, with sums taken about a near point so that no digits are lost far from
-/// the origin.
+/// Fits a plane to weighted triangles. The sums are relative to a near point, so that they keep their
+/// precision far from the origin.
 class PlaneFit {
  public:
   explicit PlaneFit(const dvec3& about) : about_(about) {}
 
-  /// `weight`: the length of the first.
+  /// `weight` is the length of `doubled_area_normal`.
   void add(const dvec3& doubled_area_normal, double weight, const dvec3& centroid) {
     normal_sum_ += doubled_area_normal;
     centroid_sum_ += weight * (centroid - about_);
@@ -41,12 +42,12 @@ class PlaneFit {
   double weight_sum_ = 0.0;
 };
 
-/// Many triangles around one edge, by the direction of their normals about it.
+/// Sorts many triangles around one edge by the direction of their normals about the edge.
 class Fan {
  public:
-  /// What normals may turn while one answer is still good.
+  /// The angle by which the plane's normal may turn while an answer of near() remains valid, rad.
   static constexpr double margin_rad = 0.01;
-  uint64_t settled = 0;  ///< Merger::changes_ when all were last asked and none joined
+  uint64_t settled = 0;  ///< Merger::changes_ when all triangles were last tried and none joined
 
   explicit Fan(const dvec3& edge) {
     const dvec3 along = glm::normalize(edge);
@@ -63,10 +64,10 @@ class Fan {
   }
   void finish() { std::sort(by_angle_.begin(), by_angle_.end()); }
 
-  /// At least those that may join a facet with this normal, from `least_triangle` on, ascending. A triangle
-  /// is no larger than the facet that it joins (the largest are the seeds), so that it turns the sum of the
-  /// normals by no more than it then lies off it: the facet's normal before is within twice the allowed
-  /// angle.
+  /// Finds at least the triangles that may join a facet with this normal, from `least_triangle` on,
+  /// ascending. A triangle is no larger than the facet that it joins, since the largest triangles are the
+  /// seeds. It therefore turns the sum of the normals by at most the angle that remains between the new sum
+  /// and its own normal. Hence the facet's normal before the join is within twice the allowed angle.
   void near(const dvec3& normal, uint32_t least_triangle, std::vector<uint32_t>& found) const {
     found.clear();
     const double window = 2.0 * reach_ + 2.0 * margin_rad, at = angle_of(normal);
@@ -112,7 +113,7 @@ class Merger {
       double longest = 0.0;
       for (int side = 0; side < 3; ++side)
         longest = std::max(longest, glm::distance(corners[side], corners[(side + 1) % 3]));
-      const double height = entry.weight / longest;  // the least one
+      const double height = entry.weight / longest;  // the smallest height of the triangle
       entry.allowed_rad = options.coplanar_angle_rad + 2.0 * input.noise_m / height;
       const double tangent = std::tan(std::min(entry.allowed_rad, most_angle_rad));
       entry.surely_off = tangent * tangent * (1.0 + 1e-6) + 1e-24;
@@ -121,7 +122,7 @@ class Merger {
   }
 
   FacetGroups run() {
-    // Large triangles know their plane best: they seed the facets.
+    // Large triangles determine their plane best, so they seed the facets.
     std::vector<std::pair<double, uint32_t>> order;
     order.reserve(triangles_.size());
     for (uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
@@ -135,11 +136,11 @@ class Merger {
 
  private:
   struct Triangle {
-    dvec3 normal{0.0};    ///< as long as twice the area
-    double weight = 0.0;  ///< that length
+    dvec3 normal{0.0};    ///< its length is twice the area
+    double weight = 0.0;  ///< the length of `normal`
     double allowed_rad = 0.0;
-    double surely_off =
-        0.0;  ///< the square of the tangent of an angle that is beyond it, however it is rounded
+    /// Square of the tangent of an angle that is larger than allowed_rad for any rounding.
+    double surely_off = 0.0;
   };
 
   dvec3 centroid(uint32_t triangle) const {
@@ -156,27 +157,28 @@ class Merger {
 
   bool faces_along(const PlaneFit& plane, uint32_t triangle) const {
     const dvec3& normal = triangles_[triangle].normal;
-    // atan2 keeps small angles exact, where acos of a rounded cosine does not.
+    // atan2 keeps small angles exact. acos of a rounded cosine does not.
     const double angle =
         std::atan2(glm::length(glm::cross(plane.normal(), normal)), glm::dot(plane.normal(), normal));
     return angle <= std::min(triangles_[triangle].allowed_rad, most_angle_rad);
   }
 
-  /// Most neighbours face elsewhere by far, which takes no root and no angle to see.
+  /// Rejects most neighbours, which face another direction by far, without a square root or an angle.
   bool surely_faces_elsewhere(const dvec3& plane_normal, const Triangle& triangle) const {
     const double along = glm::dot(plane_normal, triangle.normal);
     const dvec3 across = glm::cross(plane_normal, triangle.normal);
     return along < 0.0 || glm::dot(across, across) > triangle.surely_off * (along * along);
   }
 
-  /// Adds `neighbour` to the facet that grows, if it belongs to it. `fixed`: the plane stays the seed's.
+  /// Adds `neighbour` to the facet that grows, if it belongs to the facet. If `fixed`, the plane remains that
+  /// of the seed.
   void join(uint32_t neighbour, bool fixed, PlaneFit& plane) {
     if (taken_[neighbour]) return;
     const Triangle& triangle = triangles_[neighbour];
     if (surely_faces_elsewhere(fixed ? plane.normal() : plane.normal_sum() + triangle.normal, triangle))
       return;
-    // The neighbour is judged by the plane that it would help to make: a small first triangle knows its own
-    // badly.
+    // The neighbour is tested against the plane that includes it, since a small first triangle determines its
+    // own plane badly.
     PlaneFit trial = plane;
     if (!fixed) trial.add(triangle.normal, triangle.weight, centroid(neighbour));
     if (!faces_along(trial, neighbour) || !lies_in(trial, neighbour)) return;
@@ -197,9 +199,9 @@ class Merger {
     return entry->second;
   }
 
-  /// What the loop over all of them would find, in its order: asked again when the plane has turned. Every
-  /// triangle of a facet that lies around the edge asks; nobody new can join as long as nothing has changed
-  /// since nobody did.
+  /// Gives the result of a loop over all triangles of the fan, in the same order, and asks the fan again when
+  /// the plane has turned. Every triangle of the facet that lies around the edge calls this function. If
+  /// nothing has changed since a call in which no triangle joined, no triangle can join now.
   void join_fan(Fan& fan, bool fixed, PlaneFit& plane) {
     if (fan.settled == changes_) return;
     const uint64_t before = changes_;
@@ -222,7 +224,8 @@ class Merger {
     }
   }
 
-  /// Into grown_ from here on. `fixed`: the plane stays the seed's; else it follows the triangles that join.
+  /// Grows a facet from `seed` and appends its triangles to grown_. If `fixed`, the plane remains that of the
+  /// seed; otherwise it follows the triangles that join.
   PlaneFit grow(uint32_t seed, bool fixed) {
     size_t next = grown_.size();
     PlaneFit plane(input_.corners[size_t{seed} * 3]);
@@ -243,7 +246,8 @@ class Merger {
     return plane;
   }
 
-  /// The plane that follows its triangles may leave early ones behind; then the seed's plane decides alone.
+  /// Grows a facet and checks it. The plane that follows its triangles may leave the tolerance of early ones.
+  /// In this case the facet grows again with the plane of the seed.
   void grow_checked(uint32_t seed) {
     const size_t first = grown_.size();
     PlaneFit plane = grow(seed, false);
@@ -257,7 +261,7 @@ class Merger {
                        static_cast<uint32_t>(grown_.size() - first)});
   }
 
-  /// Groups in order of their first triangle, and triangles in order.
+  /// Returns the groups in order of their first triangle, and the triangles of each in order.
   FacetGroups in_order() const {
     constexpr uint32_t none = 0xFFFFFFFFu;
     std::vector<uint32_t> group_of(grown_.size()), place_of(groups_.size(), none);
@@ -289,9 +293,10 @@ class Merger {
   std::vector<uint8_t> taken_;
   std::unordered_map<uint32_t, Fan> fans_;  ///< by EdgeTable::Edge::first
   std::vector<uint32_t> near_;
-  uint64_t changes_ = 0;            ///< of the plane that grows and of taken_
-  std::vector<uint32_t> grown_;     ///< triangles of one group after the other, as they joined
-  std::vector<FacetGroup> groups_;  ///< as they grew; their ranges into grown_
+  uint64_t changes_ = 0;  ///< number of changes of the growing plane and of taken_
+  /// Triangles of one group after the other, in the order in which they joined.
+  std::vector<uint32_t> grown_;
+  std::vector<FacetGroup> groups_;  ///< in the order in which they grew, with ranges into grown_
 };
 
 }  // namespace

@@ -9,11 +9,13 @@
 
 namespace greatx::scene {
 
-/// Triangles of one instance with one material, with what is needed to tell which of them touch.
+/// Holds the triangles of one instance with one material, and the numbers that tell which of them touch.
 struct FacetInput {
-  std::vector<dvec3> corners;      ///< three a triangle, in the body's frame, in winding order; no zero area
-  std::vector<uint32_t> vertices;  ///< three a triangle: equal numbers = the same place
-  double noise_m = 0.0;            ///< how far the file's fp32 may have moved a corner
+  /// Three per triangle, in the body's frame, in winding order. No triangle has zero area.
+  std::vector<dvec3> corners;
+  /// Three per triangle. Equal numbers denote the same place.
+  std::vector<uint32_t> vertices;
+  double noise_m = 0.0;  ///< how far the file's fp32 may have moved a corner
 };
 
 /// A facet of a FacetInput: its plane n . x = offset and its triangles.
@@ -25,16 +27,17 @@ struct FacetGroup {
 
 struct FacetGroups {
   std::vector<FacetGroup> groups;
-  std::vector<uint32_t> triangles;  ///< of one group after the other, ascending in each
+  std::vector<uint32_t> triangles;  ///< triangles of one group after the other, ascending in each group
 };
 
 /// Merges edge-connected triangles that face the same way and whose corners all lie within
-/// `options.coplanar_distance_m` of the facet's plane: its area-weighted normal through its area-weighted
-/// centroid. Normals may differ by `options.coplanar_angle_rad`, plus what `noise_m` can do to a thin
-/// triangle's. Every triangle ends in exactly one facet; facets come in order of their first triangle. No
-/// binning: planes are compared with the facet that grows, so that nothing can fall across the edge of a bin.
-/// Of many triangles around one edge those are compared alone whose normals are near enough, so that a fan of
-/// n takes n log n. `crowd`: from so many triangles around an edge on; what comes out does not depend on it.
+/// `options.coplanar_distance_m` of the plane of the facet. This plane has the area-weighted normal and
+/// contains the area-weighted centroid. Normals may differ by `options.coplanar_angle_rad`, plus the angle by
+/// which `noise_m` may turn the normal of a thin triangle. Every triangle belongs to exactly one facet.
+/// Facets come in the order of their first triangle. The function compares triangles with the growing facet
+/// and does not sort planes into bins, whose edges could separate equal planes.
+/// If at least `crowd` triangles share an edge, only those whose normals are near enough are compared, so
+/// that a fan of n triangles takes n log n steps. The result does not depend on `crowd`.
 FacetGroups merge_coplanar(const FacetInput& input, const BuildOptions& options, uint32_t crowd = 16);
 
 }  // namespace greatx::scene

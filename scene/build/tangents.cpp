@@ -7,8 +7,9 @@
 namespace greatx::scene {
 namespace {
 
-/// d position / d u of a triangle and whether its map is mirrored. glTF's v points down the picture and the
-/// bitangent w n x t points up it, so a picture seen the right way round has a negative area in (u, v).
+/// Holds d position / d u of a triangle, and whether its map is mirrored. glTF's v points down the picture,
+/// and the bitangent w n x t points up the picture. A picture that is not mirrored therefore has a negative
+/// area in (u, v).
 struct TriangleFrame {
   dvec3 tangent{0.0};
   bool mirrored = false;

@@ -9,20 +9,21 @@
 
 namespace greatx::scene {
 
-/// Vertices of one primitive, ready for upload.
+/// Holds the vertices of one primitive, ready for upload.
 struct VertexData {
   std::vector<dvec3> positions;
   std::vector<vec3> normals;
   std::vector<vec4> tangents;  ///< empty: none wanted
   std::vector<vec2> uvs;
-  std::vector<uint32_t> source;  ///< index of the model's vertex that each one came from
+  std::vector<uint32_t> source;  ///< index of the model's vertex from which each vertex comes
   std::vector<uint32_t> indices;
 };
 
-/// Makes tangents from positions, normals and uvs: per vertex the sum of its triangles' d position / d u,
-/// weighed by their angle at the vertex, made perpendicular to the normal; w = -1 where the map is mirrored.
-/// A vertex between mirrored and plain triangles is doubled (as MikkTSpace does). Triangles without area in
-/// uv give no tangent of their own; a vertex that only has such gets any perpendicular of its normal.
+/// Computes tangents from positions, normals and uvs. The tangent of a vertex is the sum of d position / d u
+/// of its triangles, weighted by their angles at the vertex and made perpendicular to the normal. w is -1
+/// where the map is mirrored. A vertex between mirrored and plain triangles is duplicated (as in MikkTSpace).
+/// Triangles without area in uv contribute no tangent. A vertex that has only such triangles gets an
+/// arbitrary perpendicular of its normal.
 void make_tangents(VertexData& vertices);
 
 }  // namespace greatx::scene

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of boxes of everything on the host that asks a question of its own: triangles near a segment,
-// facets within a beam, pieces of a facet within a tube. Trees with a layout of their own are elsewhere:
-// EchoTracer (eight children side by side), TargetImages (points, four side by side), StaticTree (for
-// shaders).
+// Defines a tree of boxes for searches on the host: triangles near a segment, facets within a beam, pieces of
+// a facet within a tube. These trees have their own layout and are elsewhere: EchoTracer (eight children side
+// by side), TargetImages (points, four side by side), and StaticTree (for shaders).
 #pragma once
 
 #include <cstdint>
@@ -15,16 +14,17 @@
 
 namespace greatx::scene {
 
-/// Boxes, halved by their centres along the axis in which these lie farthest apart.
+/// A binary tree of boxes. A node is halved by the centres of its boxes, along the axis on which the centres
+/// are farthest apart.
 class BoxTree {
  public:
   BoxTree() = default;
   explicit BoxTree(std::span<const Bounds> boxes);
   bool empty() const { return nodes_.empty(); }
 
-  /// Calls visit(index) for every box that lies in a leaf whose own box, and those of all nodes above it,
-  /// outside(box) is false for: all boxes that are not outside, and some more. The order depends on the boxes
-  /// alone. A visit that returns true ends it; so does visit_until, then.
+  /// Calls visit(index) for every box in each leaf for which outside(box) is false for the boxes of the leaf
+  /// and of all nodes above it. These are all boxes that are not outside, and some more. Their order depends
+  /// on the boxes alone. If visit returns true, the search ends and visit_until returns true.
   template <typename Outside, typename Visit>
   bool visit_until(const Outside& outside, const Visit& visit) const {
     uint32_t stack[64], size = 0;
@@ -57,7 +57,8 @@ class BoxTree {
  private:
   struct Node {
     Bounds bounds;
-    /// Of order_. An inner node has count 0 and its children at `first` and `first` + 1.
+    /// A leaf's range of order_. An inner node has count 0, and its children are the nodes `first` and
+    /// `first` + 1.
     uint32_t first = 0, count = 0;
   };
   void split(uint32_t node, std::span<const Bounds> boxes);

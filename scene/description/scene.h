@@ -93,19 +93,19 @@ struct Instance {
 /// it turns about `axis`.
 struct Joint {
   uint32_t owner = 0;         ///< the carrier: an earlier body that is not a part itself
-  dvec3 position{0.0};        ///< of the part's origin in its owner's frame, metres
+  dvec3 position{0.0};        ///< origin of the part in its owner's frame, metres
   dvec3 axis{0.0, 0.0, 1.0};  ///< unit, in both frames
   /// Returns owner_from_part when the part has turned by `angle`, rad, right-handed about the axis.
   Pose pose(double angle) const { return {position, glm::angleAxis(angle, axis)}; }
 };
 
 struct Body {
-  std::string name;  ///< "static", or the node's name, or of a part NODE/PART
+  std::string name;  ///< "static", or the node's name; for a part: NODE/PART
   uint32_t first_primitive = 0, primitive_count = 0;
   Bounds bounds;               ///< in the body's frame
-  std::optional<Joint> joint;  ///< of a part
-  /// The bounds of a body with parts: its own and those of all parts, however they are turned. They are empty
-  /// for other bodies.
+  std::optional<Joint> joint;  ///< set for a part
+  /// For a body with parts, the bounds of the body and of all parts in any turn. They are empty for other
+  /// bodies.
   Bounds reach;
 };
 
@@ -121,10 +121,10 @@ struct PunctualLight {
   uint32_t body = 0;
 };
 
-/// Holds the plane n . x = offset in the body's frame (body 0: local coordinates), in fp64 from the file's
-/// own numbers.
+/// A plane n . x = offset in the body's frame (body 0: local coordinates), computed in fp64 from the numbers
+/// of the file.
 struct Facet {
-  dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the side that the triangles' winding faces
+  dvec3 normal{0.0, 0.0, 1.0};  ///< unit; on the side that the winding of the triangles faces
   double offset = 0.0;
   uint32_t body = 0;
   uint32_t material = 0;
@@ -159,7 +159,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<PunctualLight> lights;
-  Bounds bounds;                   ///< of body 0
+  Bounds bounds;                   ///< bounds of body 0
   std::vector<std::string> notes;  ///< the repairs and choices of the loader, for `greatx scene info`
 
   dvec3 to_local(const dvec3& world) const { return world - origin; }

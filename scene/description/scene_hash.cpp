@@ -9,7 +9,7 @@
 namespace greatx::scene {
 namespace {
 
-/// Feeds values without the padding that structs may have. Lists and texts are preceded by their length.
+/// Feeds values into the hash without the padding that structs may have. The length precedes lists and texts.
 class Feeder {
  public:
   template <typename... Values>
@@ -38,12 +38,12 @@ class Feeder {
 
 void feed(Feeder& feeder, const Bounds& bounds) { feeder.values(bounds.min, bounds.max); }
 
-// A material's members are bound by position, so that the struct is the one list of them: a new one changes
-// `==` by itself and is a compiler's error here, until it is decided how it goes into the hash.
+// A material's members are bound by position, so that the struct is their only list. A new member enters `==`
+// by itself and is a compile error here until code decides how the member enters the hash.
 
 void feed(Feeder& feeder, const RadioMedium& medium) {
   const auto& [source, rows, extrapolate] = medium;
-  static_cast<void>(source);  // says where the rows come from
+  static_cast<void>(source);  // only names the source of the rows
   feeder.values(static_cast<uint32_t>(extrapolate)).count(rows.size());
   for (const RadioRow& row : rows) {
     const auto& [a, b, c, d, min_hz, max_hz] = row;
@@ -81,7 +81,7 @@ void feed(Feeder& feeder, const PbrMaterial& pbr) {
 
 void feed(Feeder& feeder, const Material& material) {
   const auto& [name, pbr, radio, reflectance_905nm, reflectance_1550nm] = material;
-  static_cast<void>(name);  // nothing that is computed depends on it
+  static_cast<void>(name);  // no computation depends on the name
   feed(feeder, pbr);
   feeder.values(reflectance_905nm.value_or(-1.0f), reflectance_1550nm.value_or(-1.0f));
   feeder.values(!radio ? 0u : radio->foliage ? 2u : 1u);

@@ -20,8 +20,9 @@ struct NamePattern {
 
 using enum SemanticClass;
 
-// The first word of a name that is in this table decides; names are split at punctuation, digits and changes
-// of case. Words are compared whole, so that "car" does not find "cardboard". docs/materials.md lists them.
+// The first word of a name that is in this table determines the class. Names are split at punctuation, digits
+// and changes of case. Words are compared whole, so that "car" does not match "cardboard". docs/materials.md
+// lists the words.
 constexpr NamePattern patterns[] = {
     {"ground", ground},
     {"plane", ground},
@@ -91,7 +92,7 @@ constexpr NamePattern patterns[] = {
     {"human", person},
 };
 
-// Holds two words that together mean something else than the first word.
+// Two words that together have another meaning than the first word alone.
 struct PairPattern {
   std::string_view first, second;
   SemanticClass semantic_class;

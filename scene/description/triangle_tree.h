@@ -10,7 +10,7 @@
 
 namespace greatx::scene {
 
-/// Boxes around triangles. It finds the triangles that a segment may touch.
+/// A tree of the boxes of triangles. It finds the triangles that a segment may touch.
 class TriangleTree {
  public:
   explicit TriangleTree(std::span<const FacetTriangle> triangles);

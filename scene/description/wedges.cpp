@@ -23,7 +23,7 @@ auto key(const dvec3& point) { return std::tuple(point.x, point.y, point.z); }
 
 /// Describes a side of a facet's triangle across which no other triangle of the facet continues.
 struct Side {
-  dvec3 a, b;  ///< key(a) < key(b)
+  dvec3 a, b;  ///< whether the triangle is on the left of a to b, seen from the facet's front
   bool left;   ///< of a to b, seen from the facet's front: the side of the triangle
 };
 
@@ -58,7 +58,8 @@ struct Contact {
   bool along_tangent = false, against_tangent = false;
 };
 
-/// Returns the part between the edge's start and its end that the triangle has on its outline or inside.
+/// Returns the part of the edge between start and end that lies on the outline of the triangle or inside the
+/// triangle.
 std::optional<Contact> contact_of(const FacetTriangle& triangle, uint32_t index, const Facet& facet,
                                   const dvec3& start, const dvec3& edge, double length, double weld) {
   const dvec3 across = glm::cross(facet.normal, edge);
@@ -113,7 +114,7 @@ std::optional<Piece> widest_gap(std::vector<Direction>& around, const dvec3& a, 
     return std::tuple(x.angle, x.facet) < std::tuple(y.angle, y.facet);
   });
   const size_t count = around.size();
-  const auto turn = [&](size_t from, size_t to) {  // from one direction on to a later one
+  const auto turn = [&](size_t from, size_t to) {  // angle from one direction to a later one
     const double angle = around[to].angle - around[from].angle;
     return to > from ? angle : angle + 2.0 * pi;
   };
@@ -156,9 +157,9 @@ class EdgeFinder {
   }
 
  private:
-  /// Returns the sides of all outlines. If facets share a side, it is there once: the facets along it are the
-  /// same for each of them, and around an edge of very many facets asking for each would take the square of
-  /// the time.
+  /// Returns the sides of all outlines. A side that several facets share appears once, since the facets along
+  /// it are the same for each of them. Processing it for each facet would take quadratic time around an edge
+  /// of very many facets.
   std::vector<Side> sides() const {
     std::vector<Side> all;
     for (const uint32_t facet : facets_)
@@ -285,7 +286,7 @@ class Joiner {
   Joiner(const Scene& scene, const WedgeOptions& options) : scene_(scene), options_(options) {}
 
   void join(std::vector<Piece> pieces, std::vector<Wedge>& wedges) {
-    // The longest piece has the most exact line.
+    // The longest piece determines the line best.
     std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
       return std::tuple(-x.length(), key(x.a), key(x.b)) < std::tuple(-y.length(), key(y.a), key(y.b));
     });

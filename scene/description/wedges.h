@@ -42,19 +42,19 @@ struct WedgeOptions {
   double weld_distance_m = 1e-4;
 };
 
-/// Finds every wedge of the scene, in a canonical order (body, facets, position). The facets around an edge
-/// in the same body decide about it:
+/// Finds every wedge of the scene, in a canonical order (body, facets, position). The facets of one body
+/// around an edge decide as follows:
 /// - A facet that ends at the edge goes off in one direction, and one that contains the edge goes off in two.
 ///   A box that stands on a ground, with or without common vertices, therefore has no wedge along its foot,
 ///   and neither has a storey on a wider one.
-/// - Between neighbouring directions at most one gap is wider than pi. The wedge is there, with the two
-///   facets beside the gap, however many facets meet. If there is no such gap, there is no wedge (roofs of
-///   two houses that touch, corner to corner).
+/// - Between neighbouring directions at most one gap is wider than pi. If there is such a gap, there is a
+///   wedge between the two facets beside the gap, however many facets meet. Otherwise there is no wedge
+///   (roofs of two houses that touch, corner to corner).
 /// - Of facets in the same place (duplicates, two sides of one sheet) the lowest index counts.
 /// - A single direction makes a free edge.
-/// Edges need no common vertices. Pieces, however each side is split, are compared where they overlap. They
-/// are joined again into one wedge per straight run between the same two facets. Facets in different bodies
-/// make no wedge. `too_short` receives the number of wedges that were left out for their length.
+/// Edges need no common vertices. Pieces are compared where they overlap, however each side is split, and are
+/// joined again into one wedge per straight run between the same two facets. Facets of different bodies make
+/// no wedge. `too_short` receives the number of wedges that are left out because they are too short.
 std::vector<Wedge> find_wedges(const Scene& scene, const WedgeOptions& options = {},
                                uint64_t* too_short = nullptr);
 

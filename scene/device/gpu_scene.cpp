@@ -59,7 +59,7 @@ bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.o
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const GpuSceneOptions& options)
     : device_(&device), scene_(&scene), options_(options) {
-  // Without textures the table still has a layout, with which pipelines are built.
+  // Without textures the table still has a layout, which pipelines need.
   textures_ = GpuTextures(device, options.textures ? std::span(scene.textures) : std::span<const Texture>(),
                           scene.materials);
   upload_geometry();

@@ -28,8 +28,8 @@ struct GpuSceneOptions {
   bool acceleration_structure = true;  ///< some pass traces rays
   bool textures = true;                ///< some pass samples textures (cameras; alpha masks for LiDAR)
   Tracer tracer = Tracer::automatic;
-  /// Tables that grow with the triangles and are larger than this are read by their address. So are tables
-  /// that the device does not let a shader see at once. Tests lower it.
+  /// Tables that grow with the triangles and are larger than this are read by their address, and so are
+  /// tables larger than the device's limit for a storage buffer. Tests lower this value.
   uint64_t most_table_bytes = ~uint64_t{0};
 };
 
@@ -55,7 +55,7 @@ class GpuScene {
   /// Returns the descriptors of set 0 that all passes share: scene addresses, TLAS (if there is one), and
   /// this tick's bodies.
   std::vector<gpu::Descriptor> descriptors() const;
-  /// Returns their bindings, for building pipelines. If `trace`, they include the TLAS.
+  /// Returns the bindings of these descriptors, for building pipelines. If `trace`, they include the TLAS.
   static std::vector<gpu::Binding> bindings(bool trace);
   /// Adds the tracer of a pipeline to its specialization constants. The shader's own constants have lower
   /// numbers and are already there. The tree is built when the first pass is to use it, and from then on
@@ -64,7 +64,7 @@ class GpuScene {
   void specialize_tracer(std::vector<uint32_t>& specialization);
   /// Returns whether a pass traces through the tree.
   bool has_tree() const { return has_tree_; }
-  /// Returns the same without the TLAS, for raster passes.
+  /// Returns the descriptors without the TLAS, for raster passes.
   std::vector<gpu::Descriptor> raster_descriptors() const;
 
  private:
@@ -78,12 +78,12 @@ class GpuScene {
   gpu::Buffer positions_, normals_, tangents_, uvs_, indices_, primitives_, materials_, facet_of_triangle_,
       addresses_;
   GpuTextures textures_;
-  std::vector<gpu::Blas> blas_;      ///< of the bodies that have triangles
-  std::vector<uint32_t> blas_body_;  ///< body of each
+  std::vector<gpu::Blas> blas_;      ///< one for each body that has triangles
+  std::vector<uint32_t> blas_body_;  ///< body of each element of blas_
   gpu::Tlas tlas_;
-  gpu::Buffer tree_;  ///< of one quadruple until a pass needs it
+  gpu::Buffer tree_;  ///< a single quadruple until a pass needs the tree
   bool has_tree_ = false;
-  gpu::Slice bodies_;  ///< of the tick being recorded
+  gpu::Slice bodies_;  ///< slice of the tick that is being recorded
   std::vector<Pose> last_poses_;
 };
 

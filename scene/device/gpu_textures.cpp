@@ -15,7 +15,7 @@ namespace greatx::scene {
 
 namespace {
 
-/// The memory that laying textures side by side may cost.
+/// Maximum memory for textures laid side by side.
 constexpr uint64_t most_tiled_bytes = 48u << 20;
 
 gpu::Image upload(gpu::Device& device, const TextureLayers::Array& array, std::span<const Texture> textures,
@@ -45,8 +45,8 @@ gpu::Image upload(gpu::Device& device, const TextureLayers::Array& array, std::s
 
 GpuTextures::GpuTextures(gpu::Device& device, std::span<const Texture> textures,
                          std::span<const Material> materials) {
-  // A CPU driver asks an image that the compiled shader knows once for all lanes, and any other image once
-  // for each lane.
+  // A CPU driver calls its sampling code once for all lanes if the compiled shader knows the image, and once
+  // for each lane otherwise.
   const bool cpu = device.info().type == "cpu";
   TextureLayerLimits limits;
   limits.layers = std::min(device.limits().maxImageArrayLayers, shared::texture_most_layers);

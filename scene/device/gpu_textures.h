@@ -21,13 +21,13 @@ class GpuTextures {
   /// Uploads the textures that `materials` name.
   GpuTextures(gpu::Device& device, std::span<const Texture> textures, std::span<const Material> materials);
 
-  /// The arrays: sampler2DArray [arrays] in set 1, binding 0.
+  /// Returns the array images: sampler2DArray [arrays] in set 1, binding 0.
   const gpu::TextureTable& table() const { return table_; }
   /// Returns the textures of a material (index into Scene::materials).
   const MaterialTextures& of_material(size_t material) const { return materials_[material]; }
-  /// Returns the arrays that hold the textures of one use, a bit each, for a specialization constant
-  /// (shaders/lib/textures.glsl). The shader asks for them one by one. With 0 the shader picks an array by a
-  /// number that differs between its lanes.
+  /// Returns the arrays that hold the textures of one use, one bit each, for a specialization constant
+  /// (shaders/lib/textures.glsl). The shader then tests them one by one. With 0 the shader selects an array
+  /// by a number that differs between its lanes.
   uint32_t arrays_of(TextureReference MaterialTextures::*use) const;
 
  private:

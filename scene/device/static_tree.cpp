@@ -131,7 +131,7 @@ class Builder {
     }
   };
 
-  /// Minimises the sum over both sides of area times triangles. There is no axis if all centres are one
+  /// Minimises the sum over both sides of area times triangles. The split has no axis if all centres are one
   /// point.
   Split best_split(uint32_t first, uint32_t count, const Box& centers) const {
     Split best;
@@ -145,7 +145,7 @@ class Builder {
         boxes[bin].add(boxes_[leaf]);
         ++counts[bin];
       }
-      std::array<double, bin_count> right_cost{};  // of bins from this one on
+      std::array<double, bin_count> right_cost{};  // cost of the bins from this one on
       Box right;
       uint32_t in_right = 0;
       for (size_t bin = bin_count - 1; bin > 0; --bin) {
@@ -165,8 +165,8 @@ class Builder {
     return best;
   }
 
-  /// Puts the triangles of the left side first and returns their number. It divides in the middle if the
-  /// split gives no axis, or as soon as halving alone would only just keep the tree's depth.
+  /// Moves the triangles of the left side to the front and returns their number. Divides in the middle if the
+  /// split has no axis, or if only halving can still keep the depth of the tree within its limit.
   uint32_t divide(uint32_t first, uint32_t count, uint32_t level, const Box& centers, const Split& split) {
     const auto begin = order_.begin() + first, end = begin + count;
     if (split.axis >= 0 && level + static_cast<uint32_t>(std::bit_width(count)) < shared::tree_most_depth) {
@@ -197,7 +197,8 @@ struct Frame {
   explicit Frame(const Box& box) {
     if (box.min.x > box.max.x) return;
     const vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const float least = std::max({reach.x, reach.y, reach.z, 1.0f}) * 0x1p-20f;  // flat worlds
+    // a lower limit for flat worlds
+    const float least = std::max({reach.x, reach.y, reach.z, 1.0f}) * 0x1p-20f;
     low = box.min;
     // The step is a little larger than needed, so that the last step lies beyond the box however the division
     // was rounded.

@@ -16,11 +16,13 @@ namespace greatx::scene {
 struct StaticTree {
   std::vector<uint32_t> words;  ///< quadruples, never empty
   uint32_t inner_nodes = 0, leaves = 0;
-  uint32_t triangles = 0;  ///< of body 0 that have an area; those without are never hit
-  uint32_t depth = 0;      ///< inner nodes on the longest way down; at most shared::tree_most_depth
+  /// Triangles of body 0 with an area. Triangles without area are never hit.
+  uint32_t triangles = 0;
+  /// Inner nodes on the longest path to a leaf; at most shared::tree_most_depth.
+  uint32_t depth = 0;
 };
 
-/// Makes a binary tree, split by the surface area heuristic (sixteen bins an axis: I. Wald, "On fast
+/// Makes a binary tree, split by the surface area heuristic with sixteen bins per axis (I. Wald, "On fast
 /// construction of SAH-based bounding volume hierarchies", IEEE Symposium on Interactive Ray Tracing 2007).
 /// Boxes are rounded outwards to 1/65535 of the scene's extent. The code is serial; 150,000 triangles take a
 /// quarter of a second.

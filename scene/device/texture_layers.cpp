@@ -35,7 +35,7 @@ bool same_metallic_everywhere(const Texture& metallic_roughness) {
   return true;
 }
 
-/// Returns whether a material's roughness may stand in the alpha of its base colour.
+/// Returns whether a material's roughness may be stored in the alpha of its base colour.
 bool roughness_fits_alpha(const PbrMaterial& pbr, std::span<const Texture> textures) {
   if (pbr.base_color_texture < 0 || pbr.metallic_roughness_texture < 0 || pbr.alpha_mode != AlphaMode::opaque)
     return false;
@@ -46,8 +46,8 @@ bool roughness_fits_alpha(const PbrMaterial& pbr, std::span<const Texture> textu
   return alike && (pbr.metallic == 0.0f || same_metallic_everywhere(rough));
 }
 
-/// The mips of a texture laid side by side are its own mips side by side if both sides halve exactly down to
-/// one texel.
+/// Returns whether copies of `small` side by side fill `large`, and have the mips of `small` side by side as
+/// their mips. This requires that both sides halve exactly down to one texel.
 bool tiles_into(const Kind& small, const Kind& large) {
   const auto fits = [](uint32_t a, uint32_t b) {
     return std::has_single_bit(a) && b % a == 0 && std::has_single_bit(b / a) &&
@@ -57,8 +57,8 @@ bool tiles_into(const Kind& small, const Kind& large) {
          fits(small.width, large.width) && fits(small.height, large.height);
 }
 
-/// Returns the kind that the layers of each kind are made into, which is the kind itself if none is larger.
-/// It is the largest kind that the bytes allow, and those that cost least go first.
+/// Returns the kind into which the layers of each kind are made: the largest kind that the bytes allow, or
+/// the kind itself if none is larger. Moves that cost least go first.
 std::map<Kind, Kind> sizes_of(const std::map<Kind, uint64_t>& counts, uint64_t bytes_left) {
   std::map<Kind, Kind> result;
   for (const auto& [kind, count] : counts) result.emplace(kind, kind);
@@ -75,7 +75,7 @@ std::map<Kind, Kind> sizes_of(const std::map<Kind, uint64_t>& counts, uint64_t b
     return std::tuple(b.to.bytes(), a.bytes, a.from, a.to) < std::tuple(a.to.bytes(), b.bytes, b.from, b.to);
   });
   for (const Move& move : moves) {
-    // A kind moves once, into one that stays. Otherwise the kinds that moved into it already would have to
+    // A kind moves once, into a kind that stays. Otherwise the kinds that had moved into it would have to
     // follow.
     const bool free = result.at(move.from) == move.from && result.at(move.to) == move.to &&
                       std::none_of(result.begin(), result.end(), [&](const auto& entry) {
@@ -92,7 +92,7 @@ uint32_t log_ratio(uint32_t large, uint32_t small) {
   return static_cast<uint32_t>(std::countr_zero(large / small));
 }
 
-/// Collects layers, and gives each the reference by which it is known.
+/// Collects layers and assigns each its reference.
 class Planner {
  public:
   Planner(std::span<const Texture> textures, const TextureLayerLimits& limits)
@@ -147,7 +147,7 @@ TextureLayers plan_texture_layers(std::span<const Texture> textures, std::span<c
     return result;
   }
   Planner planner(textures, limits);
-  std::vector<int32_t> in_alpha;  // for each material, the texture whose roughness goes there
+  std::vector<int32_t> in_alpha;  // for each material, the texture whose roughness goes into the alpha
   for (const Material& material : materials) {
     const PbrMaterial& pbr = material.pbr;
     in_alpha.push_back(roughness_fits_alpha(pbr, textures) ? pbr.metallic_roughness_texture : -1);

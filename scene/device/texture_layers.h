@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plans the images that a scene's textures become. Textures of one size, colour space and wrapping are layers
-// of one array image. Two rules make these images few, and make one look-up for a surface instead of two:
+// Plans the images that hold a scene's textures. Textures of one size, colour space and wrapping are layers
+// of one array image. Two rules keep the number of these images small and reduce two look-ups for a surface
+// to one:
 //   - A small texture that repeats is laid side by side until it is as large as a larger one. (A CPU driver
 //     calls its sampling code once for every array image that a group of pixels needs.)
-//   - The roughness of an opaque surface stands in the alpha of its base colour.
-// Both rules give the texels that the textures gave, at every mip level.
+//   - The roughness of an opaque surface is stored in the alpha of its base colour.
+// Both rules preserve the texels of the textures at every mip level.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +18,16 @@
 
 namespace greatx::scene {
 
-/// The name of a texture in shaders (shaders/shared/scene.h, texture_array_shift): its array, how often it
-/// lies side by side, and its layer; -1: none.
+/// Identifies a texture in shaders (shaders/shared/scene.h, texture_array_shift): its array, how often it is
+/// laid side by side, and its layer; -1: none.
 using TextureReference = int32_t;
 
 /// Holds the textures of a material.
 struct MaterialTextures {
   TextureReference base_color = -1, metallic_roughness = -1, normal = -1, emissive = -1;
-  /// The roughness stands in the alpha of the base colour. metallic_roughness is then -1.
+  /// Whether the roughness is stored in the alpha of the base colour. metallic_roughness is then -1.
   bool roughness_in_alpha = false;
-  float metallic = 1.0f;  ///< with roughness_in_alpha: that of the whole texture, a factor
+  float metallic = 1.0f;  ///< with roughness_in_alpha: the one value of the texture, a factor
 };
 
 struct TextureLayers {
@@ -36,7 +37,7 @@ struct TextureLayers {
   };
   struct Array {
     bool srgb = true, repeat_u = true, repeat_v = true;
-    uint32_t width = 0, height = 0;  ///< of a layer
+    uint32_t width = 0, height = 0;  ///< size of a layer
     std::vector<Layer> layers;
   };
   std::vector<Array> arrays;
@@ -44,9 +45,8 @@ struct TextureLayers {
 };
 
 struct TextureLayerLimits {
-  uint32_t layers = 2048;  ///< of an array, at most
-  /// The largest size of all layers that are laid side by side, without their mips; 0: none is laid side by
-  /// side.
+  uint32_t layers = 2048;  ///< most layers of an array
+  /// Maximum size of all layers that are laid side by side, without their mips; 0: no layer is.
   uint64_t tiled_bytes = 0;
 };
 

@@ -19,7 +19,8 @@ int hex_digit(char character) {
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-/// "http:", "file:", "C:": everything up to the first ':' that could be a scheme (RFC 3986, section 3.1).
+/// Returns whether the URI starts with "http:", "file:", "C:" or similar. A scheme is everything up to the
+/// first ':' that RFC 3986, section 3.1, allows.
 bool has_scheme(const std::string& uri) {
   const size_t colon = uri.find(':');
   if (colon == std::string::npos || colon == 0) return false;
@@ -36,7 +37,7 @@ std::vector<unsigned char> bytes_of(const InputFile& input) {
   return bytes;
 }
 
-/// `inside` is `folder` or below it; both canonical.
+/// Returns whether `inside` is `folder` or lies below it. Both are canonical.
 bool is_below(const std::filesystem::path& inside, const std::filesystem::path& folder) {
   const auto [end_of_folder, position] =
       std::mismatch(folder.begin(), folder.end(), inside.begin(), inside.end());

@@ -10,17 +10,19 @@
 
 namespace greatx::scene {
 
-/// The folder of one glTF file: what its URIs may name, and nothing else.
+/// Reads files from the folder of one glTF file. The URIs of the file may name files in this folder and no
+/// others.
 class AssetFolder {
  public:
-  /// `asset` is the glTF file; an empty path stands for an asset in memory, which may name no external file
-  /// at all. `files`: what all of them may come to.
+  /// `asset` is the glTF file. An empty path stands for an asset in memory, which may name no external file.
+  /// `files` limits the total size of the files.
   explicit AssetFolder(const std::filesystem::path& asset, const Budget& files = budget::model_externals);
 
-  /// The bytes of the file that `uri` (RFC 3986, percent-encoded, relative) names. Throws UserError, starting
-  /// with `what` ("x.gltf: buffer 0"), if the URI is absolute, has a scheme, a ".." or a backslash (also
-  /// percent-encoded), if the file lies outside the folder through a symbolic link, is no regular file, or
-  /// cannot be read; or if this and all read before are too much.
+  /// Returns the bytes of the file that `uri` (RFC 3986, percent-encoded, relative) names. Throws UserError,
+  /// which starts with `what` ("x.gltf: buffer 0"),
+  /// - if the URI is absolute, or has a scheme, a ".." or a backslash (also percent-encoded);
+  /// - if the file lies outside the folder through a symbolic link, is not a regular file, or cannot be read;
+  /// - if this file and all files read before exceed the budget.
   std::vector<unsigned char> read(const std::string& uri, const std::string& what);
 
  private:
@@ -30,11 +32,11 @@ class AssetFolder {
   Spending read_;
 };
 
-/// Percent-decodes; throws UserError starting with `what` on a broken escape or a NUL.
+/// Decodes percent escapes. Throws UserError, which starts with `what`, for an invalid escape or a NUL.
 std::string decode_uri(const std::string& uri, const std::string& what);
 
-/// The whole file. Throws UserError starting with `what` if it is no regular file, cannot be read, or is too
-/// large.
+/// Returns the bytes of the whole file. Throws UserError, which starts with `what`, if it is not a regular
+/// file, cannot be read, or is too large.
 std::vector<unsigned char> read_regular_file(const std::filesystem::path& file, const std::string& what,
                                              const Budget& budget);
 

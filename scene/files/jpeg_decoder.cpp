@@ -15,10 +15,10 @@
 namespace greatx::scene {
 namespace {
 
-/// A progressive file may repeat its scans at no cost in bytes, and each one passes over the whole picture.
+/// A progressive file may repeat its scans almost without bytes, and each scan processes the whole picture.
 constexpr int most_scans = 500;
 
-/// a b / 255, rounded.
+/// Returns a b / 255, rounded.
 uint8_t scaled(unsigned a, unsigned b) {
   const unsigned t = a * b + 128;
   return static_cast<uint8_t>((t + (t >> 8)) >> 8);
@@ -38,7 +38,7 @@ class JpegDecoder : public PictureDecoder {
     jpeg_.client_data = this;
     if (setjmp(jump_) != 0) return false;
     jpeg_create_decompress(&jpeg_);
-    jpeg_.client_data = this;  // jpeg_create_decompress() keeps it; said again since that is not promised
+    jpeg_.client_data = this;  // set again, since jpeg_create_decompress() keeps it but does not promise to
     jpeg_mem_src(&jpeg_, file_.data(), file_.size());
     jpeg_read_header(&jpeg_, TRUE);
     width_ = jpeg_.image_width;
@@ -47,7 +47,7 @@ class JpegDecoder : public PictureDecoder {
   }
 
   uint64_t own_bytes() const override {
-    // All coefficients, of 16 bits, until the last scan has come.
+    // libjpeg holds all coefficients, of 16 bits, until the last scan has arrived.
     return jpeg_.progressive_mode || jpeg_.comps_in_scan < jpeg_.num_components
                ? uint64_t{width_} * height_ * 2 * static_cast<uint64_t>(jpeg_.num_components)
                : 0;
@@ -78,7 +78,7 @@ class JpegDecoder : public PictureDecoder {
     return false;
   }
 
-  /// Adobe writes 255 less the ink.
+  /// Adobe stores 255 minus the ink.
   void rgba_from_cmyk(uint8_t* row) const {
     for (size_t x = 0; x < width_; ++x) {
       uint8_t* pixel = row + 4 * x;
@@ -95,8 +95,8 @@ class JpegDecoder : public PictureDecoder {
     std::snprintf(decoder.message_, sizeof(message_), "%s", text);
     longjmp(decoder.jump_, 1);
   }
-  /// libjpeg fills in grey for what is damaged or missing and warns; such a picture is refused. Bytes between
-  /// markers are harmless, and cameras write them.
+  /// Rejects a picture for which libjpeg replaces damaged or missing data by grey and warns. Extra bytes
+  /// between markers are harmless, and cameras write them.
   static void on_message(j_common_ptr jpeg, int level) {
     if (level < 0 && jpeg->err->msg_code != JWRN_EXTRANEOUS_DATA && jpeg->err->msg_code != JWRN_JFIF_MAJOR)
       on_error(jpeg);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures from files that nobody vouches for: by libpng and libjpeg-turbo, never by stb_image, which
+// Decodes pictures from untrusted files with libpng and libjpeg-turbo. It does not use stb_image, which
 // overruns an array on a damaged JPEG (Debian's 2.27).
 #pragma once
 
@@ -16,16 +16,17 @@ namespace greatx::scene {
 
 inline constexpr uint32_t most_picture_side = 16384;
 
-/// RGBA8, top row first.
+/// An RGBA8 image, top row first.
 struct DecodedPicture {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgba;
 };
 
-/// PNG: every colour type and depth, interlaced or not; of 16 bits the upper 8 are kept, gamma and profiles
-/// are not applied. JPEG: baseline and progressive, grey, YCbCr, RGB, and CMYK as Adobe writes it. The size
-/// is read from the header and planned in `memory` before pixels are allocated. Throws UserError "`what`:
-/// ...": neither PNG nor JPEG, damaged, cut off, more than 16384 pixels a side, beyond the budget.
+/// Decodes a picture. PNG: every colour type and depth, interlaced or not; of 16 bits the upper 8 are kept;
+/// gamma and profiles are not applied. JPEG: baseline and progressive, grey, YCbCr, RGB, and CMYK as Adobe
+/// writes it. The size is read from the header and planned in `memory` before pixels are allocated. Throws
+/// UserError, which starts with `what`, if the file is neither PNG nor JPEG, damaged, truncated, larger than
+/// 16384 pixels on a side, or beyond the budget.
 DecodedPicture decode_picture(std::span<const unsigned char> file, const std::string& what, Spending& memory);
 
 }  // namespace greatx::scene

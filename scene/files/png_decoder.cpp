@@ -23,7 +23,7 @@ class PngDecoder : public PictureDecoder {
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
     if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, on_read);
-    // Profiles and texts are not wanted, and packed ones may grow a thousandfold: they are passed over
+    // Profiles and texts are not needed, and decompression may enlarge them a thousandfold. They are skipped
     // unread.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, ignored_chunks, ignored_count);
     png_read_info(png_, info_);

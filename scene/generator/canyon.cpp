@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two plain scenes for radio: a street between two rows of houses, and a closed room.
+// Writes two plain scenes for radio: a street between two rows of houses, and a closed room.
 #include "scene/generator/canyon.h"
 
 #include <array>
@@ -19,12 +19,12 @@ namespace greatx::scene::generator {
 namespace {
 
 constexpr double carriageway = 5.0;  // half width
-constexpr double frontage = 9.0;     // the houses' line, from the middle of the street
-constexpr double yard = 27.0;        // edge of the scene, from the middle of the street
+constexpr double frontage = 9.0;     // distance of the fronts of the houses from the middle of the street
+constexpr double yard = 27.0;        // distance of the edge of the scene from the middle of the street
 constexpr double pavement_z = 0.15;
-constexpr double foundation = -0.45;  // about the pavement: nothing ends in its plane
+constexpr double foundation = -0.45;  // below the pavement, so that no face ends in its plane
 
-/// The street's cross-section (x, z), clockwise seen from -y, and what each of its sides is made of.
+/// One side of the cross-section (x, z) of the street. The section runs clockwise as seen from -y.
 struct Section {
   dvec2 from, to;
   const char* material;
@@ -51,7 +51,7 @@ void add_ground(SceneWriter& writer, double half_length) {
     meshes[s.node].quad(material(s.material), {s.from.x, -half_length, s.from.y},
                         {s.to.x, -half_length, s.to.y}, {s.to.x, half_length, s.to.y},
                         {s.from.x, half_length, s.from.y});
-  // The ends, with every corner of the section, so that the ground stays closed.
+  // The ends have every corner of the section, so that the ground stays closed.
   const double z = pavement_z;
   std::vector<dvec3> end;
   for (const dvec2& p : std::vector<dvec2>{{-yard, -1},
@@ -78,7 +78,7 @@ void add_ground(SceneWriter& writer, double half_length) {
         {.name = names[i], .mesh = writer.add_mesh(names[i], meshes[i]), .semantic_class = classes[i]});
 }
 
-/// A house about the middle of its front, which looks along +x; bay windows stick out of it.
+/// Makes a house about the middle of its front, which faces +x. Bay windows stand out of the front.
 MeshBuilder make_house(double width, double depth, int floors, RandomStream& random) {
   static constexpr std::array<const char*, 6> facades{"facade_brick_red",     "facade_plaster_cream",
                                                       "facade_concrete_grey", "facade_plaster_white",
@@ -123,7 +123,7 @@ void write_canyon(SceneWriter& writer, double size_m, uint64_t seed) {
                        .position = {side * (frontage + back), snap(y + 0.5 * width), pavement_z},
                        .yaw = side < 0.0 ? 0.0 : pi,
                        .semantic_class = SemanticClass::building});
-      y += width + snap(random.uniform(1.5, 6.0));  // an alley: houses do not share a wall
+      y += width + snap(random.uniform(1.5, 6.0));  // an alley, since houses do not share a wall
     }
   }
 }
@@ -132,7 +132,7 @@ void write_room(SceneWriter& writer) {
   MeshBuilder mesh;
   const double x = 6.0, y = 4.0, z = 3.2;
   const int wall = material("blind_plaster"), glass = material("shopfront"), stone = material("concrete");
-  mesh.quad(wall, {-x, -y, 0}, {-x, y, 0}, {-x, y, z}, {-x, -y, z});  // each looks inwards
+  mesh.quad(wall, {-x, -y, 0}, {-x, y, 0}, {-x, y, z}, {-x, -y, z});  // each wall faces inwards
   mesh.quad(glass, {x, -y, 0}, {x, -y, z}, {x, y, z}, {x, y, 0});
   mesh.quad(wall, {-x, -y, 0}, {-x, -y, z}, {x, -y, z}, {x, -y, 0});
   mesh.quad(wall, {-x, y, 0}, {x, y, 0}, {x, y, z}, {-x, y, z});

@@ -22,7 +22,7 @@ using namespace generator;
 
 struct Kind {
   const char* name;
-  double min_size_m, max_size_m;  ///< 0: has no size
+  double min_size_m, max_size_m;  ///< both 0: the kind has no size
   std::vector<std::string> variants;
 };
 

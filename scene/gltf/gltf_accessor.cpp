@@ -11,7 +11,7 @@
 namespace greatx::scene {
 namespace {
 
-/// A checked run of elements inside a buffer.
+/// A checked range of elements inside a buffer.
 struct Elements {
   const unsigned char* data = nullptr;
   uint64_t count = 0, stride = 0;
@@ -33,8 +33,8 @@ uint64_t component_size(int component_type, const std::string& what) {
   }
 }
 
-/// Every byte of `count` elements of `element_size` bytes lies within the view and the view within its
-/// buffer.
+/// Returns `count` elements of `element_size` bytes. Checks that they lie within the view and that the view
+/// lies within its buffer.
 Elements checked_elements(const GltfFile& file, int view_index, uint64_t offset, uint64_t count,
                           uint64_t element_size, bool may_stride, const std::string& what) {
   const auto& views = file.model.bufferViews;
@@ -48,7 +48,7 @@ Elements checked_elements(const GltfFile& file, int view_index, uint64_t offset,
                      view_index, buffers.size());
   }
   const auto& bytes = buffers[static_cast<size_t>(view.buffer)].data;
-  // Unsigned 64-bit sums could wrap: compare against what is left instead.
+  // Unsigned 64-bit sums could wrap around, so the code compares with the remaining length instead.
   if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
     throw_user_error("{}: buffer view {} (offset {}, length {}) exceeds its buffer of {} bytes", what,
                      view_index, view.byteOffset, view.byteLength, bytes.size());
@@ -84,7 +84,7 @@ T load(const unsigned char* bytes) {
 }
 
 float to_float(const unsigned char* bytes, int component_type, bool normalized) {
-  // glTF 2.0, section 3.11.1: signed normalized integers are clamped at -1.
+  // Signed normalized integers are clamped at -1 (glTF 2.0, section 3.11.1).
   const auto unsigned_value = [&](auto value, float scale) {
     return normalized ? static_cast<float>(value) / scale : static_cast<float>(value);
   };
@@ -121,7 +121,7 @@ uint32_t to_index(const unsigned char* bytes, int component_type, const std::str
   }
 }
 
-/// Where the sparse part of an accessor writes, and from where.
+/// The sparse part of an accessor: the elements that it replaces, and their values.
 struct SparseValues {
   std::vector<uint64_t> targets;
   Elements values;
@@ -173,8 +173,9 @@ void for_each_element(const GltfFile& file, const tinygltf::Accessor& accessor, 
   }
 }
 
-/// Checks the range of the dense part and the memory before anything is allocated for `count` elements.
-/// `bytes_each`: in memory. An accessor without a buffer view is all zeros, however long it says it is.
+/// Checks the range of the dense part, and the memory budget, before memory for `count` elements is
+/// allocated. `bytes_each` is the size of an element in memory. An accessor without a buffer view is all
+/// zeros, and its count is bounded by nothing in the file.
 void check_count(const GltfFile& file, const tinygltf::Accessor& accessor, uint64_t element_size,
                  uint64_t bytes_each, const std::string& what, GeometryMemory& memory) {
   const uint64_t planned = saturating_product({accessor.count, bytes_each});

@@ -11,19 +11,20 @@
 
 namespace greatx::scene {
 
-/// What has been read of a model's geometry so far.
+/// Sums up the memory that a model's geometry has taken so far.
 struct GeometryMemory {
   Spending all{budget::model_geometry}, zeros{budget::model_zeros};
 };
 
-/// `count` elements of `components` floats each, normalized integers mapped to [0, 1] or [-1, 1] (glTF 2.0,
-/// section 3.11), sparse values laid over. Throws UserError starting with `what` if the accessor's index,
-/// type, component type or any byte that it reads is out of range, or the model's geometry becomes too large.
-/// `components` is 2, 3 or 4 (VEC2 … VEC4).
+/// Returns `count` elements of `components` floats each; `components` is 2, 3 or 4 (VEC2 to VEC4). Normalized
+/// integers are mapped to [0, 1] or [-1, 1] (glTF 2.0, section 3.11). Sparse values replace dense ones.
+/// Throws UserError, which starts with `what`, if the accessor's index, type or component type is wrong, if a
+/// byte that it reads is out of range, or if the model's geometry becomes too large.
 std::vector<float> read_floats(const GltfFile& file, int accessor, int components, const std::string& what,
                                GeometryMemory& memory);
 
-/// The same for indices: SCALAR of unsigned bytes, shorts or ints.
+/// Returns the elements of an accessor of indices: SCALAR of unsigned bytes, shorts or ints. Throws as
+/// read_floats does.
 std::vector<uint32_t> read_indices(const GltfFile& file, int accessor, const std::string& what,
                                    GeometryMemory& memory);
 

@@ -24,7 +24,7 @@ constexpr uint32_t glb_magic = 0x46546C67, chunk_json = 0x4E4F534A, chunk_bin = 
 constexpr int max_json_depth = 128;
 constexpr std::string_view external_token = "greatx-external-";
 
-/// The parts of a file: its JSON text and, in a .glb, the binary chunk.
+/// Holds the parts of a file: its JSON text and, for a .glb, the binary chunk.
 struct Container {
   std::string_view text;
   std::span<const unsigned char> binary;
@@ -40,7 +40,7 @@ std::string_view text_of(std::span<const unsigned char> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// glTF 2.0, section 4.4: header of 12 bytes, then chunks of length, type, data.
+/// Splits a .glb: a header of 12 bytes, then chunks of length, type, data (glTF 2.0, section 4.4).
 Container split_glb(const std::string& name, std::span<const unsigned char> bytes) {
   if (bytes.size() < 20)
     throw_user_error("{}: truncated .glb: {} bytes, expected 20 at least", name, bytes.size());
@@ -74,7 +74,7 @@ Container split_glb(const std::string& name, std::span<const unsigned char> byte
   return container;
 }
 
-/// Deep nesting would overflow the stack of tinygltf's recursive reader.
+/// Limits the nesting, since deep nesting would overflow the stack of tinygltf's recursive reader.
 void check_depth(const std::string& name, std::string_view text) {
   int depth = 0;
   bool in_string = false;
@@ -136,7 +136,8 @@ bool is_known_data_uri(const std::string& uri) {
                      [&](const char* prefix) { return uri.starts_with(prefix); });
 }
 
-/// Reads what every URI of `list` names and puts a token in its place, so that tinygltf never sees a path.
+/// Reads the file of every URI in `list` and puts a token in place of the URI, so that tinygltf never sees a
+/// path. Returns whether the document has changed.
 bool take_externals(const std::string& name, json& document, const char* list, const char* singular,
                     AssetFolder& folder, std::vector<Bytes>& externals) {
   if (!document.contains(list)) return false;
@@ -156,7 +157,7 @@ bool take_externals(const std::string& name, json& document, const char* list, c
     Bytes bytes = folder.read(uri, what);
     if (bytes.empty()) throw_user_error("{}: file '{}' is empty", what, uri);
     if (element.contains("byteLength")) {
-      // Files may be padded beyond what the buffer declares (glTF 2.0, section 3.6.1).
+      // Files may be padded beyond the length that the buffer declares (glTF 2.0, section 3.6.1).
       const uint64_t length = element["byteLength"];
       if (bytes.size() < length) {
         throw_user_error("{}: byteLength {}, but file '{}' has {} bytes", what, length, uri, bytes.size());
@@ -177,7 +178,7 @@ uint64_t unsigned_member(const json& object, const char* key, uint64_t fallback)
   return found->get<uint64_t>();
 }
 
-/// tinygltf hands out pointers into buffers for images without looking at the ranges: look at them first.
+/// Checks the ranges of images in buffers, since tinygltf takes pointers to them without a check.
 void check_image_views(const std::string& name, const json& document) {
   if (!document.contains("images")) return;
   const json empty = json::array();
@@ -220,7 +221,8 @@ Bytes make_glb(const std::string& text, std::span<const unsigned char> binary) {
   return glb;
 }
 
-// What tinygltf may "open": the tokens that take_externals left, and nothing else.
+// tinygltf's file functions follow. They open the tokens that take_externals has put into the document, and
+// nothing else.
 const Bytes* external_of(const std::string& path, void* user) {
   const size_t token = path.find(external_token);
   if (token == std::string::npos) return nullptr;
@@ -246,7 +248,7 @@ bool refuse_write(std::string* error, const std::string& path, const Bytes&, voi
   return false;
 }
 
-/// Keeps the encoded bytes; only the images that a material uses are decoded later.
+/// Keeps the encoded bytes. Only the images that a material uses are decoded later.
 bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                         const unsigned char* bytes, int size, void*) {
   image->image.assign(bytes, bytes + size);
@@ -307,7 +309,7 @@ GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> byte
   } catch (const std::exception& exception) {  // type errors deep inside the JSON
     error = exception.what();
   }
-  // tinygltf goes on after some of its complaints; this loader does not.
+  // tinygltf continues after some of its errors. This loader does not.
   if (!parsed || !error.empty()) throw_user_error("{}: not valid glTF: {}", name, one_line(error));
   return file;
 }

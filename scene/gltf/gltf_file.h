@@ -14,19 +14,20 @@
 
 namespace greatx::scene {
 
-/// A parsed glTF 2.0 file whose buffers are in memory. Indices and ranges inside are not checked yet.
+/// Holds a parsed glTF 2.0 file whose buffers are in memory. Indices and ranges in the file are not checked
+/// yet.
 struct GltfFile {
   std::string name;       ///< for messages
   tinygltf::Model model;  ///< images hold their encoded bytes (PNG, JPEG)
-  nlohmann::json json;    ///< the same document: extensions and extras in full
+  nlohmann::json json;    ///< the same document, with extensions and extras in full
 
-  /// The JSON object of element `index` of the top-level list `list`.
+  /// Returns the JSON object of element `index` of the top-level list `list`.
   const nlohmann::json& element(const char* list, size_t index) const { return json.at(list).at(index); }
 };
 
 /// Parses .gltf or .glb from `bytes`. External files come from `folder` alone; tinygltf itself opens no file.
-/// Throws UserError starting with `name`: not glTF 2.0, truncated, URI out of bounds, unsupported required
-/// extension.
+/// Throws UserError, which starts with `name`, if the file is not glTF 2.0 or is truncated, if a URI is not
+/// allowed, or if a required extension is not supported.
 GltfFile parse_gltf(const std::string& name, std::span<const unsigned char> bytes, AssetFolder& folder);
 
 }  // namespace greatx::scene

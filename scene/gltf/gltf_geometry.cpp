@@ -27,7 +27,7 @@ std::vector<Vec> read_vectors(const GltfFile& file, int accessor, const std::str
   return vectors;
 }
 
-/// glTF 2.0, section 3.7.2.1: strips and fans as triangles with the same winding.
+/// Turns strips and fans into triangles with the same winding (glTF 2.0, section 3.7.2.1).
 std::vector<uint32_t> unroll(std::vector<uint32_t> corners, int mode, const std::string& what,
                              GeometryMemory& memory) {
   if (mode == TINYGLTF_MODE_TRIANGLES || corners.size() < 3) return corners;
@@ -46,13 +46,13 @@ std::vector<uint32_t> unroll(std::vector<uint32_t> corners, int mode, const std:
   return triangles;
 }
 
-/// Zero area in exact terms: the differences of floats are exact in double here, and so is a product that
-/// vanishes.
+/// Returns whether the area is exactly zero. The differences of floats are exact in double here, and so is a
+/// product that is zero.
 bool is_degenerate(const vec3& a, const vec3& b, const vec3& c) {
   return glm::cross(dvec3(b) - dvec3(a), dvec3(c) - dvec3(a)) == dvec3(0.0);
 }
 
-/// Returns how many triangles were dropped.
+/// Returns the number of triangles that were dropped.
 size_t drop_degenerate(ModelPrimitive& primitive) {
   size_t kept = 0;
   auto& indices = primitive.indices;
@@ -67,8 +67,8 @@ size_t drop_degenerate(ModelPrimitive& primitive) {
   return dropped;
 }
 
-/// The set of texture coordinates that the material's maps use; several sets in one material are not
-/// supported.
+/// Returns the set of texture coordinates that the material's maps use. Several sets in one material are not
+/// supported; a note says so.
 int uv_set_of(const GltfFile& file, int material, const std::string& what, std::vector<std::string>& notes) {
   if (material < 0 || static_cast<size_t>(material) >= file.model.materials.size()) return 0;
   const tinygltf::Material& source = file.model.materials[static_cast<size_t>(material)];
@@ -125,7 +125,7 @@ std::vector<uint32_t> read_corners(const GltfFile& file, const tinygltf::Primiti
   return corners;
 }
 
-/// Unit length; a primitive with a normal of length zero gets flat ones instead.
+/// Normalizes the normals. A primitive with a normal of length zero gets flat normals instead.
 void normalize_normals(ModelPrimitive& primitive, const std::string& what, std::vector<std::string>& notes) {
   for (vec3& normal : primitive.normals) {
     const double length = glm::length(dvec3(normal));
@@ -150,7 +150,7 @@ ModelPrimitive read_primitive(const GltfFile& file, const tinygltf::Primitive& s
   if (count == 0) throw_user_error("{}: it has no vertices", what);
   primitive.normals = read_optional<vec3>(file, source, "NORMAL", count, what, memory);
   normalize_normals(primitive, what, notes);
-  // Without normals, given tangents are to be ignored (glTF 2.0, section 3.7.2.1).
+  // Without normals, given tangents must be ignored (glTF 2.0, section 3.7.2.1).
   if (!primitive.normals.empty())
     primitive.tangents = read_optional<vec4>(file, source, "TANGENT", count, what, memory);
   const std::string uv_name = fmt::format("TEXCOORD_{}", uv_set_of(file, source.material, what, notes));

@@ -11,12 +11,12 @@
 
 namespace greatx::scene {
 
-/// The name that messages give a mesh: its own, or "mesh N".
+/// Returns the name that messages give a mesh: its own, or "mesh N".
 std::string mesh_name(const GltfFile& file, size_t mesh);
 
-/// The triangles of mesh `mesh`, checked: every index in range, every number finite, exactly degenerate
-/// triangles dropped with a note. `ModelPrimitive::material` is the file's material index, or `no_material`.
-/// Throws UserError naming file, mesh and primitive. Points and lines are skipped with a note.
+/// Reads the triangles of mesh `mesh` and checks them: every index is in range, every number is finite.
+/// Exactly degenerate triangles, points and lines are skipped with a note. `ModelPrimitive::material` is the
+/// file's material index, or `no_material`. Throws UserError, which names file, mesh and primitive.
 ModelMesh read_mesh(const GltfFile& file, size_t mesh, std::vector<std::string>& notes,
                     GeometryMemory& memory);
 

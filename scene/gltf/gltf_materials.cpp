@@ -40,7 +40,7 @@ Vec color_of(const std::vector<double>& factor, const std::string& what) {
   return color;
 }
 
-/// The object of extension `name` of a material; null if it has none.
+/// Returns the object of extension `name` of a material, or null if there is none.
 const json* extension_of(const json& material, const char* name) {
   const auto extensions = material.find("extensions");
   if (extensions == material.end() || !extensions->is_object()) return nullptr;
@@ -60,7 +60,7 @@ float emissive_strength(const json& material, const std::string& what) {
   return static_cast<float>(value);
 }
 
-/// KHR_materials_transmission's factor; 0: none.
+/// Returns the factor of KHR_materials_transmission; 0: none.
 float transmission_of(const json& material, const std::string& what) {
   const json* extension = extension_of(material, "KHR_materials_transmission");
   if (!extension || !extension->is_object() || !extension->contains("transmissionFactor")) return 0.0f;
@@ -77,8 +77,8 @@ void read_alpha(const tinygltf::Material& source, PbrMaterial& pbr, const std::s
   if (source.alphaMode == "MASK") {
     pbr.alpha_mode = AlphaMode::mask;
   } else if (source.alphaMode == "BLEND") {
-    // A textured blend is foliage or a decal, whose holes matter; a plain one is a pane, which must not
-    // vanish.
+    // A textured blend is foliage or a decal, whose holes matter. An untextured blend is a pane, which must
+    // not vanish.
     const bool textured = pbr.base_color_texture >= 0;
     pbr.alpha_mode = textured ? AlphaMode::mask : AlphaMode::opaque;
     pbr.alpha_cutoff = 0.5f;
@@ -120,7 +120,8 @@ PbrMaterial read_pbr(const tinygltf::Material& source, const json& document, con
   return pbr;
 }
 
-/// Name, then extension, then sidecar, each laid over the one before (docs/materials.md).
+/// Reads the radio properties: from the name, then from the extension, then from the sidecar. Later fields
+/// replace earlier ones (docs/materials.md).
 void read_radio(Material& material, const json& document, const std::string& what,
                 const RadioSidecar& sidecar) {
   RadioSources sources;
@@ -136,10 +137,10 @@ void read_radio(Material& material, const json& document, const std::string& wha
   material.reflectance_1550nm = sources.reflectance_1550nm;
 }
 
-/// A material that a mesh uses and that says nothing about radio.
+/// A material without radio properties that a mesh uses.
 struct MissingRadio {
   std::string material;
-  std::string mesh;  ///< one that uses it
+  std::string mesh;  ///< a mesh that uses the material
 };
 
 std::string yaml_quoted(const std::string& name) {
@@ -169,7 +170,7 @@ std::string yaml_quoted(const std::string& name) {
       hints);
 }
 
-/// File index -> first mesh that uses it; `no_material` sorts last.
+/// Returns a map from file index to the first mesh that uses the material. `no_material` sorts last.
 std::map<uint32_t, std::string> used_materials(const Model& model) {
   std::map<uint32_t, std::string> used;
   for (const ModelMesh& mesh : model.meshes) {

@@ -7,9 +7,10 @@
 
 namespace greatx::scene {
 
-/// Reads the materials that the model's meshes use (their `material` is the file's index or `no_material` and
-/// becomes an index into Model::materials), with textures and radio properties. Throws one UserError that
-/// lists every used material without radio properties, unless `options.optical_only`.
+/// Reads the materials that the model's meshes use, with textures and radio properties. Before the call
+/// `ModelPrimitive::material` is the file's index or `no_material`; the call replaces it by an index into
+/// Model::materials. Unless `options.optical_only`, throws one UserError that lists every used material
+/// without radio properties.
 void read_materials(const GltfFile& file, const LoadOptions& options, Model& model);
 
 }  // namespace greatx::scene

@@ -18,12 +18,12 @@ namespace {
 
 using nlohmann::json;
 
-/// glTF has y up, x to the left of -z: x_east = x, y_north = -z, z_up = y.
+/// Returns the rotation from glTF's axes (y up) to z up: x_east = x, y_north = -z, z_up = y.
 dmat4 z_up_from_y_up() {
   return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, 1, 0), dvec4(0, -1, 0, 0), dvec4(0, 0, 0, 1));
 }
 
-/// A node still to visit.
+/// A node that is still to be visited.
 struct Visit {
   int node = -1;
   dmat4 model_from_parent{1.0};
@@ -46,7 +46,8 @@ class NodeReader {
       stack.pop_back();
       this->visit(visit, stack);
     }
-    // Of a node without children, itself; then each one's last descendant ends its parent too.
+    // A node without descendants ends at itself. Going backwards, the end of each node also extends its
+    // parent.
     for (size_t i = model_.nodes.size(); i-- > 0;) {
       model_.nodes[i].end = std::max(model_.nodes[i].end, static_cast<uint32_t>(i + 1));
       if (parents_[i] >= 0) {
@@ -69,7 +70,8 @@ class NodeReader {
     return fmt::format("node_{}", index);
   }
 
-  /// The default scene's roots; without scenes, every node that is nobody's child (glTF 2.0, section 3.5.1).
+  /// Returns the roots of the default scene. Without scenes these are all nodes that are not a child (glTF
+  /// 2.0, section 3.5.1).
   std::vector<int> root_nodes() {
     const auto& scenes = file_.model.scenes;
     if (!scenes.empty()) {
@@ -166,7 +168,8 @@ class NodeReader {
     return transform;
   }
 
-  /// "greatx_class" of the extras, else the node's and its mesh's name, else the parent's class.
+  /// Returns the class by "greatx_class" of the extras, else by the name of the node or of its mesh, else the
+  /// class of the parent.
   std::optional<SemanticClass> class_of(size_t index, std::optional<SemanticClass> inherited,
                                         const std::string& what) const {
     const json& document = file_.element("nodes", index);
@@ -205,7 +208,7 @@ class NodeReader {
                                 static_cast<uint32_t>(model_.nodes.size() - 1)});
   }
 
-  /// KHR_lights_punctual: a light shines along its node's -z.
+  /// Adds the light of a node (KHR_lights_punctual). It shines along the node's -z.
   void add_light(size_t index, const dmat4& model_from_node, const std::string& what) {
     const json& document = file_.element("nodes", index);
     const auto pointer = json::json_pointer("/extensions/KHR_lights_punctual/light");

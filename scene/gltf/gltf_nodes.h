@@ -7,9 +7,10 @@
 
 namespace greatx::scene {
 
-/// Walks the default scene's nodes: fills Model::instances (`mesh` is the file's index), Model::lights and
-/// notes. Throws UserError naming the node: index out of range, a node reached twice (a cycle), a transform
-/// that is not finite, singular or of the wrong length, an unknown "greatx_class".
+/// Walks the nodes of the default scene and fills Model::nodes, Model::instances (`mesh` is the file's
+/// index), Model::lights and the notes. Throws UserError, which names the node, for an index out of range, a
+/// node that is reached twice (a cycle), a transform that is singular, not finite or of the wrong length, and
+/// an unknown "greatx_class".
 void read_nodes(const GltfFile& file, Model& model);
 
 }  // namespace greatx::scene

@@ -17,7 +17,8 @@ using nlohmann::json;
 
 enum class Kind { index, size, number, boolean, text, object, numbers, indices, index_map };
 
-/// Where a field stands ('/' between members, '*' for every element of a list) and what it has to be.
+/// Gives the place of a field ('/' between members, '*' for every element of a list) and the kind that it
+/// must have.
 struct Rule {
   std::string_view path;
   Kind kind;
@@ -161,7 +162,7 @@ const char* expectation(Kind kind) {
   return "?";
 }
 
-/// Where the walk stands, for the message: built only when something is wrong.
+/// The position of the walk in the document. Its text is made only for an error message.
 struct Trail {
   const Trail* parent = nullptr;
   std::string_view member;

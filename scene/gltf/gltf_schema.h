@@ -8,9 +8,9 @@
 
 namespace greatx::scene {
 
-/// Checks the types of every glTF field that this loader reads: tinygltf takes a default, without a word,
-/// where an optional field has the wrong type, and cuts integers to 32 bits. Throws UserError naming file and
-/// field.
+/// Checks the type of every glTF field that this loader reads. tinygltf does not: where an optional field has
+/// the wrong type it silently takes a default, and it truncates integers to 32 bits. Throws UserError, which
+/// names file and field.
 void check_gltf_types(const std::string& name, const nlohmann::json& document);
 
 }  // namespace greatx::scene

@@ -14,15 +14,15 @@
 
 namespace greatx::scene {
 
-/// Decodes the images that materials use, each once per use as colour (sRGB) or data (linear) and wrapping.
+/// Decodes the images that materials use. Each image is decoded once for each combination of use (colour,
+/// sRGB, or data, linear) and wrapping.
 class TextureReader {
  public:
   TextureReader(const GltfFile& file, Model& model) : file_(file), model_(model) {}
 
-  /// Index into Model::textures of the file's texture `texture`; -1 if `texture` is -1. `what` starts
-  /// messages
-  /// ("x.glb: material 'wall', base colour"). Throws UserError: index out of range, image not PNG or JPEG, or
-  /// too large.
+  /// Returns the index into Model::textures of the file's texture `texture`, or -1 if `texture` is -1. `what`
+  /// starts messages ("x.glb: material 'wall', base colour"). Throws UserError if an index is out of range,
+  /// or the image is not PNG or JPEG or is too large.
   int32_t read(int texture, bool srgb, const std::string& what);
 
  private:

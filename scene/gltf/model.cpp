@@ -20,7 +20,7 @@
 namespace greatx::scene {
 namespace {
 
-/// Reads the meshes that nodes place; a mesh of points or lines alone takes its instances with it (noted).
+/// Reads the meshes that nodes place. Instances of a mesh without triangles are removed with a note.
 void read_placed_meshes(const GltfFile& file, Model& model) {
   constexpr uint32_t skipped = 0xFFFFFFFFu;
   std::map<uint32_t, uint32_t> new_index;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One glTF 2.0 file, parsed, checked and flattened. z is up here already; transforms are fp64.
+// Defines the content of one glTF 2.0 file, parsed, checked and flattened. Transforms are in fp64 and lead to
+// a frame with z up.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +16,10 @@ namespace greatx::scene {
 
 struct ModelPrimitive {
   std::vector<vec3> positions;    ///< in the mesh's own frame, glTF axes (y up), as in the file
-  std::vector<vec3> normals;      ///< empty: flat normals are to be made
+  std::vector<vec3> normals;      ///< empty: flat normals are to be computed
   std::vector<vec4> tangents;     ///< may be empty
   std::vector<vec2> uvs;          ///< may be empty
-  std::vector<uint32_t> indices;  ///< triangles; strips and fans are unrolled, missing indices filled in
+  std::vector<uint32_t> indices;  ///< triangles; strips and fans are unrolled, missing indices are filled in
   uint32_t material = 0;
 };
 
@@ -27,11 +28,11 @@ struct ModelMesh {
   std::vector<ModelPrimitive> primitives;
 };
 
-/// A node of the file, with a mesh or without.
+/// A node of the file, with or without a mesh.
 struct ModelNode {
   std::string name;  ///< the file's, else its mesh's, else "node_" and its number; may not be unique
   dmat4 model_from_node{1.0};  ///< includes y-up to z-up
-  uint32_t end = 0;            ///< its descendants follow it, up to this one
+  uint32_t end = 0;            ///< its descendants are the nodes after it, up to but excluding this index
 };
 
 /// A node with a mesh, placed in the model's frame (x east, y north, z up).
@@ -46,7 +47,7 @@ struct ModelInstance {
 struct Model {
   std::filesystem::path file;
   std::vector<ModelMesh> meshes;
-  std::vector<ModelNode> nodes;  ///< that the scene reaches, parents before their children, depth first
+  std::vector<ModelNode> nodes;  ///< those that the scene reaches, depth first, parents before their children
   std::vector<ModelInstance> instances;
   std::vector<Material> materials;
   std::vector<Texture> textures;
@@ -55,19 +56,19 @@ struct Model {
   std::vector<std::string> notes;
 };
 
-/// The names of a model's nodes, each once, as many as a message bears: "hull, wheel and 3 more".
+/// Returns the names of a model's nodes for messages, each once, at most 20: "hull, wheel and 3 more".
 std::string node_names(const Model& model);
 
 struct LoadOptions {
-  /// YAML that maps material names or globs to radio properties; empty: none.
+  /// A YAML file that maps material names or globs to radio properties; empty: none.
   std::filesystem::path radio_materials;
-  /// Accept materials without radio properties (scenes for cameras and LiDAR alone).
+  /// Accepts materials without radio properties (scenes for cameras and LiDAR alone).
   bool optical_only = false;
 };
 
-/// Loads .gltf or .glb. Throws UserError naming file and mesh or material.
+/// Loads a .gltf or .glb file. Throws UserError, which names the file and the mesh or material.
 Model load_model(const std::filesystem::path& file, const LoadOptions& options);
-/// The same from memory (.glb only): the embedded assets. `name` stands for the file in messages.
+/// Loads a .glb from memory (the embedded assets). `name` stands for the file in messages.
 Model load_model(const std::string& name, std::span<const std::byte> glb, const LoadOptions& options);
 
 }  // namespace greatx::scene

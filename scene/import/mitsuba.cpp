@@ -21,8 +21,8 @@ std::string id_of(const pugi::xml_node& node) { return node.attribute("id").valu
 /// Returns the id as messages show it.
 std::string shown_id(const pugi::xml_node& node) { return printable(node.attribute("id").value()); }
 
-/// Returns a file name as a URI. The folder's reader knows URIs, and a per cent sign in a file name is not an
-/// escape.
+/// Returns a file name as a URI. AssetFolder decodes percent escapes, so a per cent sign of the file name
+/// must be escaped.
 std::string uri_of(const std::string& filename) {
   std::string uri;
   for (const char character : filename) uri += character == '%' ? "%25" : std::string(1, character);
@@ -159,7 +159,7 @@ class MitsubaImporter {
   MitsubaXml xml_;
   AssetFolder folder_;
   std::map<std::string, pugi::xml_node> bsdfs_;  ///< top level, by id
-  std::map<std::ptrdiff_t, int> materials_;      ///< of the <bsdf> at this offset
+  std::map<std::ptrdiff_t, int> materials_;      ///< index of the material of the <bsdf> at this offset
   ImportedScene scene_;
   Spending memory_{budget::import_geometry};
 };

@@ -17,8 +17,8 @@ namespace greatx::scene {
 
 namespace {
 
-/// Checks depth and text, so that code may walk down the elements by recursion, and names may go into glTF
-/// and JSON.
+/// Checks depth and text, so that code may visit the elements by recursion, and names may go into glTF and
+/// JSON.
 class Checker : public pugi::xml_tree_walker {
  public:
   explicit Checker(const MitsubaXml& xml) : xml_(xml) {}

@@ -43,7 +43,7 @@ std::optional<Type> type_called(std::string_view name) {
 struct Property {
   std::string name;
   Type type = Type::f32;
-  std::optional<Type> count;  ///< of a list
+  std::optional<Type> count;  ///< type of the count, for a list
 };
 
 struct Element {

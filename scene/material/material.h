@@ -21,7 +21,7 @@ struct PbrMaterial {
   vec4 base_color{1.0f};
   float metallic = 1.0f;
   float roughness = 1.0f;
-  vec3 emissive{0.0f};  ///< times KHR_materials_emissive_strength; 1.0 stands for 1000 cd/m^2
+  vec3 emissive{0.0f};  ///< multiplied by KHR_materials_emissive_strength; 1.0 stands for 1000 cd/m^2
   float normal_scale = 1.0f;
   float alpha_cutoff = 0.5f;
   AlphaMode alpha_mode = AlphaMode::opaque;
@@ -62,15 +62,15 @@ struct RadioLayer {
   friend bool operator==(const RadioLayer&, const RadioLayer&) = default;
 };
 
-/// Describes leaves and twigs in a closed mesh. Foliage neither reflects nor blocks. It attenuates by the
-/// depth on the way (rf/atmosphere/foliage.h).
+/// Describes leaves and twigs in a closed mesh. Foliage neither reflects nor blocks waves, but attenuates
+/// them by the depth that they pass (rf/atmosphere/foliage.h).
 struct Foliage {
   std::optional<double> attenuation_db_per_m;  ///< at every frequency; empty: Weissberger's model
   friend bool operator==(const Foliage&, const Foliage&) = default;
 };
 
 struct RadioMaterial {
-  /// At least one layer, and none of foliage. A single layer of thickness 0 is a half-space.
+  /// At least one layer, or none for foliage. A single layer of thickness 0 is a half-space.
   std::vector<RadioLayer> layers;
   /// A volume instead of a surface. The fields below then have no meaning.
   std::optional<Foliage> foliage;
@@ -78,7 +78,7 @@ struct RadioMaterial {
   ScatteringPattern pattern = ScatteringPattern::lambertian;
   double pattern_exponent = 4.0;      ///< alpha_R of the directive pattern
   double backscatter_exponent = 4.0;  ///< alpha_I
-  double backscatter_share = 0.5;     ///< 1 - Lambda
+  double backscatter_share = 0.5;     ///< 1 - Lambda, the part of the energy in the backscattering lobe
   double cross_polarization = 0.0;    ///< K_x in [0, 1]
   double roughness_m = 0.0;           ///< rms height
   friend bool operator==(const RadioMaterial&, const RadioMaterial&) = default;
@@ -89,7 +89,7 @@ struct Material {
   PbrMaterial pbr;
   std::optional<RadioMaterial> radio;  ///< empty only in scenes loaded as optical only
   /// Lambertian reflectance at 905 nm and 1550 nm. Where the file gives none, it is the luminance of the base
-  /// colour. The documentation says so, and `greatx scene info` prints it.
+  /// colour (documented, and printed by `greatx scene info`).
   std::optional<float> reflectance_905nm, reflectance_1550nm;
   friend bool operator==(const Material&, const Material&) = default;
 };

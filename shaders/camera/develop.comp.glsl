@@ -25,7 +25,9 @@ layout(constant_id = develop_spec_flat_field) const bool flat_field_on = true;
 layout(constant_id = develop_spec_noise) const bool noise_on = true;
 
 // Each element holds two pixels.
-layout(set = 0, binding = develop_color_binding, scalar) readonly buffer ColorBlock { uvec4 picture_color[]; };
+layout(set = 0, binding = develop_color_binding, scalar) readonly buffer ColorBlock {
+  uvec4 picture_color[];
+};
 layout(set = 0, binding = develop_seen_binding, scalar) readonly buffer SeenBlock { uvec4 picture_seen[]; };
 layout(set = 0, binding = develop_triangle_ids_binding, scalar) readonly buffer TriangleIdsBlock {
   uint64_t triangle_ids[];
@@ -91,8 +93,9 @@ void main() {
   if (want_rgb) {
     [[unroll]] for (uint w = 0u; w < 3u; ++w) {
       uint k = 8u * w;
-      Words(picture.rgb).v[3u * group + w] = pair(four_bytes(bytes[k], bytes[k + 1u], bytes[k + 2u], bytes[k + 3u]),
-                                                  four_bytes(bytes[k + 4u], bytes[k + 5u], bytes[k + 6u], bytes[k + 7u]));
+      Words(picture.rgb).v[3u * group + w] =
+          pair(four_bytes(bytes[k], bytes[k + 1u], bytes[k + 2u], bytes[k + 3u]),
+               four_bytes(bytes[k + 4u], bytes[k + 5u], bytes[k + 6u], bytes[k + 7u]));
     }
   }
   if (want_hdr) {
@@ -110,11 +113,13 @@ void main() {
   if (want_semantic) {
     uint c[develop_pixels];
     [[unroll]] for (uint i = 0u; i < develop_pixels; ++i) c[i] = codes[i] & 255u;
-    Words(picture.semantic).v[group] = pair(four_bytes(c[0], c[1], c[2], c[3]), four_bytes(c[4], c[5], c[6], c[7]));
+    Words(picture.semantic).v[group] = pair(four_bytes(c[0], c[1], c[2], c[3]),
+                                            four_bytes(c[4], c[5], c[6], c[7]));
   }
   if (want_material) {
     uint c[pairs];
-    [[unroll]] for (uint w = 0u; w < pairs; ++w) c[w] = codes[2u * w] >> 16 | (codes[2u * w + 1u] & 0xffff0000u);
+    [[unroll]] for (uint w = 0u; w < pairs; ++w)
+      c[w] = codes[2u * w] >> 16 | (codes[2u * w + 1u] & 0xffff0000u);
     Words(picture.material).v[2u * group] = pair(c[0], c[1]);
     Words(picture.material).v[2u * group + 1u] = pair(c[2], c[3]);
   }

@@ -51,10 +51,12 @@ float reach(Seen seen, vec3 ray, vec3 step) {
 }
 
 ivec2 step_to(int k) { return ivec2(k == 0 ? -1 : k == 1 ? 1 : 0, k == 2 ? -1 : k == 3 ? 1 : 0); }
-uint neighbor(ivec2 at, int k) { return picture_element(clamp(at + step_to(k), ivec2(0), picture_size() - 1)); }
+uint neighbor(ivec2 at, int k) {
+  return picture_element(clamp(at + step_to(k), ivec2(0), picture_size() - 1));
+}
 
-/// Returns the pixel after the triangles of those neighbours whose bits are set in `differing` got their
-/// share of it.
+/// Returns the pixel, mixed with the triangles of those neighbours whose bits are set in `differing`, each by
+/// the share that it covers.
 Shaded smoothed(ivec2 at, uvec2 mine, uint differing, Shaded pixel) {
   vec3 ray = pixel_ray(pinhole_place(at));
   Shaded across = Shaded(vec4(0.0), 0.0), down = across;

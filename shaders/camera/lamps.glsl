@@ -24,12 +24,14 @@ uint cluster_of(vec3 p) {
   vec2 tile = place * vec2(lamp_float(lamps_across_word), lamp_float(lamps_down_word));
   uint column = whole(clamp(tile.x, 0.0, lamp_float(lamps_last_column_word)));
   uint row = whole(clamp(tile.y, 0.0, lamp_float(lamps_last_row_word)));
-  uint slice = whole(clamp(lamp_slices_per_octave * log2(depth) + lamp_slice_of_1m, 0.0, float(lamp_slices - 1u)));
+  uint slice =
+      whole(clamp(lamp_slices_per_octave * log2(depth) + lamp_slice_of_1m, 0.0, float(lamp_slices - 1u)));
   return lamps_header_words + 2u * ((slice * rows + row) * columns + column);
 }
 
 /// Returns the radiance towards the eye by the lamps (KHR_lights_punctual's attenuation). Rough dielectrics
-/// show no highlight of a lamp. They give as diffuse light the part that their specular lobe would reflect.
+/// show no highlight of a lamp. They reflect diffusely the part of the light that their specular lobe would
+/// reflect.
 vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
   uint cluster = cluster_of(p_eye);
   uint entry = lamp_words[cluster], end = entry + lamp_words[cluster + 1u];
@@ -44,14 +46,16 @@ vec3 reflect_lamps(Reflectance r, vec3 n, vec3 v, vec3 p_eye, bool shiny) {
     vec3 l = to_lamp * nearness;
     float cone = clamp(light.w - dot(l, axis.xyz) * axis.w, 0.0, 1.0);
     float ratio = d2 * place.w;
-    float attenuation = directional ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) * nearness * nearness;
+    float attenuation =
+        directional ? 1.0 : cone * cone * clamp(1.0 - ratio * ratio, 0.0, 1.0) * nearness * nearness;
     float n_dot_l = dot(n, l);
     vec3 illuminance = light.rgb * (attenuation * max(n_dot_l, 0.0));
     diffuse += illuminance;
     bool highlight = specular_on && shiny && attenuation > 0.0 && n_dot_l > 0.0;
     if (highlight) {
       vec3 h = normalize(l + v);
-      mirrored += illuminance * specular_brdf(r, n_dot_l, clamp(dot(n, h), 0.0, 1.0), clamp(dot(l, h), 0.0, 1.0));
+      mirrored +=
+          illuminance * specular_brdf(r, n_dot_l, clamp(dot(n, h), 0.0, 1.0), clamp(dot(l, h), 0.0, 1.0));
     }
   }
   vec3 albedo = r.diffuse + (shiny ? vec3(0.0) : r.albedo);

@@ -78,9 +78,10 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
   float visible = 1.0;
   if (!static_shadows_on && !moving_shadows_on) return visible;
   float pixel_m = dot(camera.forward, p_eye) * length(camera.ray_x);
-  vec3 n = vec3(dot(lighting.light_x, normal), dot(lighting.light_y, normal), dot(lighting.sun_direction, normal));
-  vec3 p = camera.light_eye +
-           vec3(dot(lighting.light_x, p_eye), dot(lighting.light_y, p_eye), dot(lighting.sun_direction, p_eye));
+  vec3 n =
+      vec3(dot(lighting.light_x, normal), dot(lighting.light_y, normal), dot(lighting.sun_direction, normal));
+  vec3 p = camera.light_eye + vec3(dot(lighting.light_x, p_eye), dot(lighting.light_y, p_eye),
+                                   dot(lighting.sun_direction, p_eye));
   if (static_shadows_on) {
     vec3 q = shadow_point(p, n, lighting.static_texel_m);
     float depth = clamp(q.z * lighting.static_depth_scale + lighting.static_depth_offset, 0.0, 1.0);
@@ -90,7 +91,8 @@ float sun_visibility(vec3 p_eye, vec3 normal) {
   }
   if (moving_shadows_on) {
     // The common bounds of the tiles stand at fixed places, so one load serves all lanes.
-    bool near = all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
+    bool near =
+        all(greaterThan(p.xy, shadow_tiles_header.min)) && all(lessThan(p.xy, shadow_tiles_header.max));
     if (near) {
       for (uint i = 0u; i < shadow_tiles_header.count; ++i) visible *= tile_visibility(i, p, n, pixel_m);
     }
@@ -119,7 +121,8 @@ float sky_share(vec3 p_eye, vec3 n) {
   vec4 view = textureLod(sky_view, p.xy * lighting.sky_view_uv.xy + lighting.sky_view_uv.zw, 0.0);
   float height = max(p.z - lighting.sky_view_floor - view.x, 0.0);
   float low = mix(view.y, view.z, min(height * (1.0 / sky_view_middle), 1.0));
-  float share = mix(low, view.w, clamp((height - sky_view_middle) * (1.0 / (sky_view_top - sky_view_middle)), 0.0, 1.0));
+  float share = mix(low, view.w,
+                    clamp((height - sky_view_middle) * (1.0 / (sky_view_top - sky_view_middle)), 0.0, 1.0));
   share = height >= sky_view_top ? mix(view.w, 1.0, min(height * (1.0 / sky_view_top) - 1.0, 1.0)) : share;
   return min(share * mix(2.0, 1.0, abs(n.z)), 1.0);
 }

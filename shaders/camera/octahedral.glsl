@@ -13,7 +13,7 @@ vec3 octahedral_direction(vec2 p) {
   d.y += d.y >= 0.0 ? -fold : fold;
   return normalize(d);
 }
-/// Does the same for a word of two signed fractions.
+/// Returns the unit direction of a place in a word of two signed fractions.
 vec3 octahedral_direction(uint word) { return octahedral_direction(unpackSnorm2x16(word)); }
 
 /// Returns a map's coordinates, in [0, 1]^2, of a unit direction.

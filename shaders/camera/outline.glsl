@@ -14,9 +14,9 @@ const float outline_slack = 1.0 / 256.0;
 
 struct Outline {
   float side;      // sign that makes its edge functions positive inside
-  float offset;    // of its plane: depth = offset / sum of the edge functions
-  vec3 slope;      // of each edge function, per pixel
-  float nearest;   // of its corners' planar depths, not nearer than the near plane
+  float offset;    // offset of its plane: depth = offset / sum of the edge functions
+  vec3 slope;      // slope of each edge function, per pixel
+  float nearest;   // least planar depth of its corners, not nearer than the near plane
   float farthest;
   bool thin;       // less than a pixel across
 };
@@ -37,7 +37,8 @@ Outline outline_of(Seen seen) {
        down = edge_functions(seen, outline.side, camera.ray_y);
   outline.slope = sqrt(across * across + down * down);
   // Takes the depth of each corner beside the edge that the corner does not lie on.
-  vec3 depths = dot(camera.forward, seen.p0) + vec3(dot(camera.forward, seen.e1), dot(camera.forward, seen.e2), 0.0);
+  vec3 depths =
+      dot(camera.forward, seen.p0) + vec3(dot(camera.forward, seen.e1), dot(camera.forward, seen.e2), 0.0);
   outline.nearest = max(min(depths.x, min(depths.y, depths.z)), camera.near_m);
   outline.farthest = max(depths.x, max(depths.y, depths.z));
   // At its corner an edge function is offset / depth. Divided by the slope, it is the corner's distance from
@@ -56,7 +57,8 @@ float outline_depth(Outline outline, vec3 f) {
 /// Returns whether a ray meets the triangle beyond the near plane.
 bool outline_covers(Outline outline, vec3 f) {
   float sum = f.x + f.y + f.z;
-  return all(greaterThanEqual(f, -outline_slack * outline.slope)) && sum > 0.0 && outline.offset >= camera.near_m * sum;
+  return all(greaterThanEqual(f, -outline_slack * outline.slope)) && sum > 0.0 &&
+         outline.offset >= camera.near_m * sum;
 }
 
 /// Returns the edge functions where the way from a place outside (`from`) to one inside (`to`) enters.

@@ -31,7 +31,9 @@ uint visible_at(ivec2 at, uint s) {
 #include "camera/through_lens.glsl"
 layout(set = 0, binding = shade_color_binding, scalar) buffer ColorBlock { uvec2 picture_color[]; };
 layout(set = 0, binding = shade_seen_binding, scalar) writeonly buffer SeenBlock { uvec2 picture_seen[]; };
-layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock { float picture_luminance[]; };
+layout(set = 0, binding = shade_luminance_binding, scalar) buffer LuminanceBlock {
+  float picture_luminance[];
+};
 
 /// Returns the radiance towards the eye of the triangle around the ray.
 vec3 surface_radiance(Seen seen, vec3 ray) {
@@ -45,13 +47,14 @@ vec3 surface_radiance(Seen seen, vec3 ray) {
     radiance += direct * sun_visibility(s.p, s.geometric);
   }
   if (sky_on) radiance += reflect_sky(r, s.n, s.v, s.roughness, s.p);
-  if (lights_on) radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
+  if (lights_on)
+    radiance += reflect_lamps(r, s.n, s.v, s.p, s.roughness < lamp_most_roughness || s.metallic > 0.5);
   if (haze_on) radiance = through_haze(radiance, -s.v, length(s.p));
   return radiance;
 }
 
-/// Takes the triangle for the one that the centre sees if it covers the centre and is nearer than the one
-/// found so far.
+/// Makes the triangle the one that the centre sees, if it covers the centre and is nearer than the one found
+/// so far.
 void look(inout Center center, Seen seen, vec3 ray) {
   float facing = dot(ray, seen.normal);
   float depth = dot(seen.p0, seen.normal) / facing;

@@ -47,7 +47,8 @@ vec3 starlight(vec3 direction, PixelSpan span) {
     ivec2 cell = clamp(first + ivec2(i & 1, i >> 1), ivec2(0), ivec2(int(star_cells) - 1));
     GpuStar star = stars[uint(cell.y) * star_cells + uint(cell.x)];
     vec2 light = unpackHalf2x16(star.light);
-    vec3 to_star = octahedral_direction(2.0 * (vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells) - 1.0);
+    vec3 to_star =
+        octahedral_direction(2.0 * (vec2(cell) + unpackUnorm2x16(star.place)) / float(star_cells) - 1.0);
     // The colour has luminance 1 and goes from bluish white to orange.
     vec3 color = mix(vec3(0.88, 0.99, 1.45), vec3(1.42, 0.93, 0.45), light.y);
     sum += color * (light.x * 1e-6 * pixel_share(span, to_star - direction));
@@ -79,7 +80,8 @@ vec3 sky_radiance(vec3 ray) {
   // The map contains the haze above the horizon. Below the horizon and beyond the scene, haze hides
   // everything.
   vec3 radiance = haze_on && direction.z <= 0.0 ? airlight(direction) : environment_radiance(direction, 0.0);
-  if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius) radiance += lighting.sun_disc;
+  if (sun_on && dot(direction, lighting.sun_direction) > lighting.sun_cos_radius)
+    radiance += lighting.sun_disc;
   if (night_sky_on && direction.z > 0.0) {
     PixelSpan span = pixel_span(direction, inverse_length);
     radiance += starlight(direction, span) + moonlight(direction, span);

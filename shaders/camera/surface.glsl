@@ -13,7 +13,9 @@ layout(set = 0, binding = material_records_binding, scalar) readonly buffer Mate
   uvec4 material_records[];
 };
 
-uvec4 material_record(uint material, uint quad) { return material_records[material * material_record_quads + quad]; }
+uvec4 material_record(uint material, uint quad) {
+  return material_records[material * material_record_quads + quad];
+}
 
 /// Holds the place where textures are read, and the width of a pixel there.
 struct Footprint {
@@ -25,7 +27,7 @@ vec4 texel(uint arrays, uint texture_plus_1, Footprint at) {
 }
 
 struct Surface {
-  vec3 p, v;          // from the eye; unit towards it
+  vec3 p, v;          // position from the eye; unit vector towards the eye
   vec3 geometric, n;  // unit, on the eye's side
   vec3 base_color, glow;
   float metallic, roughness;

@@ -27,7 +27,8 @@ Sample nearest_sample(ivec2 at, vec2 pixel) {
   Sample nearest = Sample(vec2(at) + 0.5, 0u);
   uint number = 0u;
   if (sample_count > 1u) {  // Vulkan's standard places of four
-    const vec2 places[4] = vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+    const vec2 places[4] =
+        vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
     float least = 1e9;
     for (uint s = 0u; s < 4u; ++s) {
       vec2 away = vec2(at) + places[s] - pixel;
@@ -49,7 +50,7 @@ Sample nearer(Sample a, Sample b, vec2 pixel) {
   return a;
 }
 
-/// `pixel` is the ray's place in the pinhole picture.
+/// Returns the view along a ray. `pixel` is the ray's place in the pinhole picture.
 Center through_lens(vec2 pixel, vec3 ray) {
   const Center nothing = Center(uintBitsToFloat(0x7f800000u), 0u);
   ivec2 first = ivec2(pixel - 0.5);

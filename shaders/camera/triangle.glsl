@@ -25,7 +25,7 @@ uvec4 triangle_record(uint triangle, uint quad) {
 struct Seen {
   uint triangle;
   uint body, material;
-  vec3 p0, e1, e2;  // from the eye, local axes
+  vec3 p0, e1, e2;  // corner from the eye and two edges, local axes
   vec3 normal;      // not unit
   vec3 u_numerator, v_numerator;
   uvec2 vertex_normals;  // octahedral, of the first two corners
@@ -34,7 +34,8 @@ struct Seen {
 Seen see(uint triangle) {
   Seen seen;
   seen.triangle = triangle;
-  uvec4 r0 = triangle_record(triangle, 0u), r1 = triangle_record(triangle, 1u), r2 = triangle_record(triangle, 2u);
+  uvec4 r0 = triangle_record(triangle, 0u), r1 = triangle_record(triangle, 1u),
+        r2 = triangle_record(triangle, 2u);
   seen.body = r0.w >> 16;
   seen.material = r0.w & 0xffffu;
   vec3 a = uintBitsToFloat(r0.xyz);

@@ -71,8 +71,8 @@ vec2 distorted_difference(vec2 n, vec2 by) {
   float r2 = dot(n, n), s = dot(2.0 * n + by, by), q2 = r2 + s;  // q: radius of m
   float radial = 1.0 + q2 * (k1 + q2 * (k2 + q2 * k3));
   float radial_difference = s * (k1 + k2 * (r2 + q2) + k3 * (r2 * r2 + r2 * q2 + q2 * q2));
-  float product = n.x * by.y + m.y * by.x;           // of xy
-  vec2 squares = (2.0 * n + by) * by;                // of x^2, y^2
+  float product = n.x * by.y + m.y * by.x;           // difference of xy
+  vec2 squares = (2.0 * n + by) * by;                // differences of x^2, y^2
   vec2 tangential = vec2(2.0 * p1 * product + p2 * (s + 2.0 * squares.x),
                          p1 * (s + 2.0 * squares.y) + 2.0 * p2 * product);
   return by * radial + n * radial_difference + tangential;
@@ -108,7 +108,8 @@ void main() {
     Words(camera.depth_ray).v[pixel] = sky ? infinity_bits : floatBitsToUint(depth * length(ray));
 
   uint body = 0u;
-  if (moving && (want_flow || want_normals) && !sky) body = scene_primitive(triangle_primitives[seen.y - 1u]).body;
+  if (moving && (want_flow || want_normals) && !sky)
+    body = scene_primitive(triangle_primitives[seen.y - 1u]).body;
   if (want_normals) {
     vec3 n = vec3(0.0);
     if (!sky) n = surface_normal(seen.y - 1u, body, ray);

@@ -10,7 +10,9 @@
 #include "lib/linear.glsl"
 
 layout(local_size_x = event_group_size) in;
-layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock { float luminances[]; };
+layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock {
+  float luminances[];
+};
 layout(set = 0, binding = event_previous_binding, scalar) buffer PreviousBlock { float previous[]; };
 layout(push_constant, scalar) uniform Constants { DifferenceConstants difference; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint v[]; };

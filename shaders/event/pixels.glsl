@@ -23,15 +23,21 @@ layout(constant_id = event_spec_adaptive) const uint adaptive = 0u;
 layout(set = 0, binding = event_model_binding, scalar) readonly buffer ModelBlock { EventModel model; };
 layout(set = 0, binding = event_control_binding, scalar) buffer ControlBlock { EventControl control; };
 layout(set = 0, binding = event_runs_binding, scalar) buffer RunsBlock { EventRun runs[]; };
-layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock { float luminances[]; };
+layout(set = 0, binding = event_luminance_binding, scalar) readonly buffer LuminanceBlock {
+  float luminances[];
+};
 layout(set = 0, binding = event_seen_binding, scalar) readonly buffer SeenBlock { uint64_t seen_by_pixel[]; };
 layout(set = 0, binding = event_pixel_binding, scalar) buffer PixelBlock { uint64_t states[]; };
 layout(set = 0, binding = event_extra_binding, scalar) buffer ExtraBlock { uint64_t extras[]; };
 layout(set = 0, binding = event_before_binding, scalar) buffer BeforeBlock { uint64_t befores[]; };
 layout(set = 0, binding = event_awake_binding, scalar) buffer AwakeBlock { int awakes[]; };
-layout(set = 0, binding = event_threshold_binding, scalar) readonly buffer ThresholdBlock { uint64_t thresholds[]; };
+layout(set = 0, binding = event_threshold_binding, scalar) readonly buffer ThresholdBlock {
+  uint64_t thresholds[];
+};
 layout(set = 0, binding = event_objects_binding, scalar) readonly buffer ObjectsBlock { uvec2 objects[]; };
-layout(set = 0, binding = event_motion_binding, scalar) readonly buffer MotionBlock { EventMotion motions[]; };
+layout(set = 0, binding = event_motion_binding, scalar) readonly buffer MotionBlock {
+  EventMotion motions[];
+};
 layout(push_constant, scalar) uniform Constants { EventConstants interval; };
 
 ivec2 pair(uint64_t words) { return ivec2(unpack32(words)); }
@@ -85,7 +91,10 @@ void draw_shot(inout Shot shot, int after_ns, int dt_ns) {
   if (lane == 0u)
     shot.words = random_bits(interval.noise_seed, interval.noise_stream, interval.noise_sample, shot.pixel,
                              interval.index * shot_blocks_per_step + (shot.drawn >> 2));
-  uint word = lane == 0u ? shot.words.x : lane == 1u ? shot.words.y : lane == 2u ? shot.words.z : shot.words.w;
+  uint word = lane == 0u   ? shot.words.x
+              : lane == 1u ? shot.words.y
+              : lane == 2u ? shot.words.z
+                           : shot.words.w;
   shot.drawn += 1u;
   shot.on = (word & 1u) != 0u;
   int gap = shot_gap_ns(word, shot.mean_ns);

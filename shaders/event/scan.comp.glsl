@@ -15,7 +15,8 @@ shared uint sums[event_scan_size], blocks[event_scan_size / block];
 /// its rate.
 void plan_next() {
   float measured = uintBitsToFloat(control.measured);
-  float dt = float(this_step(control.last_ns, control.leaked_last).dt_ns), moved = measured, per_ns = measured;
+  float dt = float(this_step(control.last_ns, control.leaked_last).dt_ns), moved = measured,
+        per_ns = measured;
   if (adaptive == adaptive_flow)
     moved *= dt;
   else

@@ -30,8 +30,8 @@ float flow_at(uvec2 at, uint pixel) {
 void look(uint pixel, int signal, ivec2 nominal) {
   int reference = signal;
   if (leak_on) {
-    // The reference begins at a random distance below the signal, since all pixels would otherwise leak at
-    // once.
+    // The reference begins at a random distance below the signal. Otherwise all pixels would leak at the same
+    // time.
     uint phase = random_bits(model.pattern_seed, model.pattern_stream, 0u, pixel, 0u).z;
     reference -= int(uint64_t(thresholds_at(pixel, nominal).x) * uint64_t(phase) >> 32);
   }
@@ -79,10 +79,12 @@ void main() {
     if (bandwidth_on || refractory_on) extra = pair(extras[pixel]);
     int seen = signal;
     if (bandwidth_on)
-      signal = low_pass(before.y, extra.x, seen,
-                        float(step.dt_ns) * model.angular_cutoff * relative_intensity(luminance, model.bright));
+      signal =
+          low_pass(before.y, extra.x, seen,
+                   float(step.dt_ns) * model.angular_cutoff * relative_intensity(luminance, model.bright));
     ivec2 c = thresholds_at(pixel, nominal);
-    if (adaptive == adaptive_brightness) measured = max(measured, float(abs(signal - before.y)) / float(min(c.x, c.y)));
+    if (adaptive == adaptive_brightness)
+      measured = max(measured, float(abs(signal - before.y)) / float(min(c.x, c.y)));
     int leak = leak_on ? leak_between(step.leaked_from, step.leaked_to, c.x) : 0;
     int to = signal + leak;
     int crossings = count_crossings(before.x, to, c.x, c.y);
@@ -91,7 +93,8 @@ void main() {
     Shot shot = no_shot();
     if (shot_on) shot = begin_shot(pixel, luminance, step.dt_ns);
     if (refractory_on) {
-      count = count_events(walk_crossings(before.y, to, before.x, crossings, c.x, c.y, step.dt_ns, alive), shot, alive);
+      count = count_events(walk_crossings(before.y, to, before.x, crossings, c.x, c.y, step.dt_ns, alive),
+                           shot, alive);
     } else if (shot_on && shot.next_ns != never_ns) {
       do {
         count += 1u;
@@ -113,5 +116,6 @@ void main() {
   runs[run].fired = fired;
   // The bits of floats >= 0 are ordered like the floats, so the maximum does not depend on the order of the
   // pixels.
-  if (adaptive != 0u && floatBitsToUint(measured) > control.measured) atomicMax(control.measured, floatBitsToUint(measured));
+  if (adaptive != 0u && floatBitsToUint(measured) > control.measured)
+    atomicMax(control.measured, floatBitsToUint(measured));
 }

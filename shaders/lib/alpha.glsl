@@ -11,14 +11,16 @@
 vec2 hit_uv(uint triangle, vec2 barycentric) {
   uint first = 3u * triangle;
   return (1.0 - barycentric.x - barycentric.y) * scene_uv(scene_index(first)) +
-         barycentric.x * scene_uv(scene_index(first + 1u)) + barycentric.y * scene_uv(scene_index(first + 2u));
+         barycentric.x * scene_uv(scene_index(first + 1u)) +
+         barycentric.y * scene_uv(scene_index(first + 2u));
 }
 
 /// Returns the linear base colour and alpha at a hit, from mip 0.
 vec4 hit_base_color(GpuMaterial material, uint triangle, vec2 barycentric) {
   vec4 color = material.base_color;
   if (material.base_color_texture >= 0)
-    color *= texture_of_level_0(base_color_arrays, uint(material.base_color_texture), hit_uv(triangle, barycentric));
+    color *= texture_of_level_0(base_color_arrays, uint(material.base_color_texture),
+                                hit_uv(triangle, barycentric));
   return color;
 }
 

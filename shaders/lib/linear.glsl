@@ -7,5 +7,6 @@
 // the shader has declared it. Groups extend along one axis only.
 #ifndef GREATX_LIB_LINEAR_GLSL
 #define GREATX_LIB_LINEAR_GLSL
-#define linear_invocation (gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x)
+#define linear_invocation \
+  (gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x)
 #endif

@@ -12,8 +12,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec4Buffer { vec4 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vec2Buffer { vec2 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer UintBuffer { uint v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PrimitiveBuffer { GpuPrimitive v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialBuffer { GpuMaterial v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PrimitiveBuffer {
+  GpuPrimitive v[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialBuffer {
+  GpuMaterial v[];
+};
 
 layout(set = 0, binding = scene_binding, scalar) readonly buffer SceneBlock { GpuSceneAddresses scene; };
 layout(set = 0, binding = bodies_binding, scalar) readonly buffer BodiesBlock { GpuBody bodies[]; };

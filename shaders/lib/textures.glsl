@@ -17,10 +17,13 @@ uint texture_array(uint reference) { return reference >> texture_array_shift; }
 /// Returns the scale from a texture's own coordinates to those of its layer, in which it may lie side by
 /// side. The scale is a power of two.
 vec2 texture_scale(uint reference) {
-  uvec2 tiles = uvec2(reference >> texture_tiles_u_shift, reference >> texture_tiles_v_shift) & texture_most_log_tiles;
+  uvec2 tiles =
+      uvec2(reference >> texture_tiles_u_shift, reference >> texture_tiles_v_shift) & texture_most_log_tiles;
   return uintBitsToFloat((127u - tiles) << 23);
 }
-vec3 texture_place(uint reference, vec2 uv) { return vec3(uv, float(reference & (texture_most_layers - 1u))); }
+vec3 texture_place(uint reference, vec2 uv) {
+  return vec3(uv, float(reference & (texture_most_layers - 1u)));
+}
 
 /// Samples trilinearly, by gradients, so that the lanes may differ in the texture.
 vec4 texture_by_gradient(uint arrays, uint reference, vec2 uv, vec2 dx, vec2 dy) {

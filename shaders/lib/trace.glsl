@@ -48,7 +48,7 @@ struct Hit {
   float t;          // along the direction, in its lengths
   uint primitive;   // index into the scene's primitives
   uint triangle;    // index into the scene's triangles
-  vec2 barycentric; // of the second and third corner
+  vec2 barycentric; // weights of the second and third corner
   bool front;       // seen from the side the winding faces
 };
 
@@ -72,10 +72,12 @@ Hit committed_hit(rayQueryEXT query, Hit hit) {
 }
 Hit committed_hit(rayQueryEXT query, float t_max) { return committed_hit(query, no_hit(t_max)); }
 
-/// For trace_tree. Puts the answer of the tree into `hit` and leaves in `mask` the bodies that the tree does
+/// For trace_tree: stores the answer of the tree in `hit` and leaves in `mask` the bodies that the tree does
 /// not hold. Returns whether the driver need not be asked. `body`, `facet` and `masks` are as below.
-bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks, inout uint mask, inout Hit hit) {
-  if ((mask & static_mask) != 0u && body != 0u) hit = tree_closest(origin, t_min, direction, hit.t, facet, masks);
+bool tree_answers(vec3 origin, float t_min, vec3 direction, uint body, uint facet, bool masks,
+                  inout uint mask, inout Hit hit) {
+  if ((mask & static_mask) != 0u && body != 0u)
+    hit = tree_closest(origin, t_min, direction, hit.t, facet, masks);
   mask &= moving_mask;
   return mask == 0u || !tree_near_moving(origin, t_min, direction, hit.t, body);
 }
@@ -99,10 +101,11 @@ Hit trace_closest(vec3 origin, float t_min, vec3 direction, float t_max) {
   return committed_hit(query, hit);
 }
 
-/// Does the same without the triangles of one body, its parts included, and of one facet (no_body, no_facet:
-/// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else stands
-/// at the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
-Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
+/// Returns the first triangle that is not of `body`, its parts included, nor of `facet` (no_body, no_facet:
+/// none). The exclusion is exactly by name: these triangles are passed over one by one, whatever else is at
+/// the same distance. If `masks`, masked texels are passed over as well (GREATX_TRACE_ALPHA).
+Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet,
+                         bool masks) {
   Hit hit = no_hit(t_max);
   uint mask = GREATX_TRACE_MASK;
   if (trace_tree && tree_answers(origin, t_min, direction, body, facet, masks, mask, hit)) return hit;
@@ -113,7 +116,9 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
     uint triangle = candidate_triangle(query, primitive);
     bool solid = primitive.owner != body && (facet == no_facet || scene_facet(triangle) != facet);
 #ifdef GREATX_TRACE_ALPHA
-    if (masks) solid = solid && alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false));
+    if (masks)
+      solid = solid && alpha_is_solid(primitive, triangle,
+                                      rayQueryGetIntersectionBarycentricsEXT(query, false));
 #endif
     if (solid) rayQueryConfirmIntersectionEXT(query);
   }
@@ -122,7 +127,8 @@ Hit trace_closest_except(vec3 origin, float t_min, vec3 direction, float t_max, 
 
 /// Returns the first triangle of one moving body, without those of one facet (no_facet: none). `masks` is as
 /// above.
-Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet, bool masks) {
+Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max, uint body, uint facet,
+                          bool masks) {
   rayQueryEXT query;
   rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, moving_mask, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {
@@ -131,7 +137,9 @@ Hit trace_closest_of_body(vec3 origin, float t_min, vec3 direction, float t_max,
     uint triangle = candidate_triangle(query, primitive);
     bool solid = facet == no_facet || scene_facet(triangle) != facet;
 #ifdef GREATX_TRACE_ALPHA
-    if (masks) solid = solid && alpha_is_solid(primitive, triangle, rayQueryGetIntersectionBarycentricsEXT(query, false));
+    if (masks)
+      solid = solid && alpha_is_solid(primitive, triangle,
+                                      rayQueryGetIntersectionBarycentricsEXT(query, false));
 #endif
     if (solid) rayQueryConfirmIntersectionEXT(query);
   }
@@ -157,10 +165,11 @@ Hit trace_closest_masked(vec3 origin, float t_min, vec3 direction, float t_max) 
 }
 #endif
 
-/// Returns the given ray, then two beside it. At every distance they lie some rounding errors of the
-/// traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's coordinates, which is 0.05 mm
-/// at 100 m. The two stand at a right angle, so that one of them leaves any edge that the first ray runs
-/// along. They point towards no axis in particular, since edges follow the axes.
+/// One of the looks of a ray: the given ray, then two rays beside it. At every distance these are some
+/// rounding errors of the traversal away: 2^-21 of the distance to the side plus 2^-22 of the origin's
+/// coordinates, which is 0.05 mm at 100 m. The two are at a right angle to each other, so that one of them
+/// leaves any edge that the first ray follows. They point towards no axis in particular, since edges follow
+/// the axes.
 struct Ray {
   vec3 origin, direction;
 };
@@ -191,20 +200,22 @@ Hit trace_closest_watertight(vec3 origin, float t_min, vec3 direction, float t_m
   return hit;
 }
 
-/// Returns whether anything stands between t_min and t_max. Triangles of two facets do not count (those at
-/// the ends of a segment; no_facet: none). Masked texels count as solid.
+/// Returns whether anything lies between t_min and t_max. Triangles of two facets do not count (those at the
+/// ends of a segment; no_facet: none). Masked texels count as solid.
 bool trace_any(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
-                        origin, t_min, direction, t_max);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
+                        GREATX_TRACE_MASK, origin, t_min, direction, t_max);
   while (rayQueryProceedEXT(query)) {
     uint triangle = candidate_triangle(query, scene_primitive(candidate_primitive(query)));
     uint facet = scene_facet(triangle);
-    if (facet == no_facet || (facet != skip_facet_a && facet != skip_facet_b)) rayQueryConfirmIntersectionEXT(query);
+    if (facet == no_facet || (facet != skip_facet_a && facet != skip_facet_b))
+      rayQueryConfirmIntersectionEXT(query);
   }
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
-bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a, uint skip_facet_b) {
+bool trace_any_watertight(vec3 origin, float t_min, vec3 direction, float t_max, uint skip_facet_a,
+                          uint skip_facet_b) {
   for (uint which = 0u; which < looks; ++which) {
     Ray ray = look(origin, direction, which);
     if (trace_any(ray.origin, t_min, ray.direction, t_max, skip_facet_a, skip_facet_b)) return true;

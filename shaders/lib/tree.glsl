@@ -39,7 +39,8 @@ struct TreeHit {
 };
 
 /// Keeps the triangle of the three quadruples from `quad` on if it is hit before `best`.
-void tree_triangle(uint quad, vec3 origin, TreeShear shear, float t_min, uint facet, bool masks, inout TreeHit best) {
+void tree_triangle(uint quad, vec3 origin, TreeShear shear, float t_min, uint facet, bool masks,
+                   inout TreeHit best) {
   uvec4 first = tree[quad], second = tree[quad + 1u], third = tree[quad + 2u];
   vec3 a = uintBitsToFloat(first.xyz) - origin, b = uintBitsToFloat(second.xyz) - origin,
        c = uintBitsToFloat(third.xyz) - origin;
@@ -121,7 +122,8 @@ Hit tree_closest(vec3 origin, float t_min, vec3 direction, float t_max, uint fac
       }
     }
     if (node != tree_none) {
-      uint quad = node & (tree_most_quads - 1u), end = quad + 3u * (node >> tree_count_shift & tree_most_in_leaf);
+      uint quad = node & (tree_most_quads - 1u),
+           end = quad + 3u * (node >> tree_count_shift & tree_most_in_leaf);
       for (; quad < end; quad += 3u) tree_triangle(quad, origin, shear, t_min, facet, masks, best);
       --waiting;
       node = later[waiting];
@@ -149,8 +151,8 @@ bool tree_near_moving(vec3 origin, float t_min, vec3 direction, float t_max, uin
     // The cross product is used, since differences of squares of hundreds of metres would lose the body.
     vec3 to = center - origin, side = cross(to, direction);
     float along = dot(to, direction), reach = radius * size;
-    meets = meets || (whose.y != owner && dot(side, side) <= reach * reach && along + reach >= t_min * squared &&
-                      along - reach <= t_max * squared);
+    meets = meets || (whose.y != owner && dot(side, side) <= reach * reach &&
+                      along + reach >= t_min * squared && along - reach <= t_max * squared);
   }
   return meets;
 }

@@ -25,12 +25,16 @@ layout(set = 0, binding = lidar_poses_binding, scalar) readonly buffer PosesBloc
 layout(set = 0, binding = lidar_echoes_binding, scalar) writeonly buffer EchoesBlock { LidarEcho echoes[]; };
 layout(set = 0, binding = lidar_sub_rays_binding, scalar) readonly buffer SubRaysBlock { vec2 offsets[]; };
 layout(set = 0, binding = lidar_panes_binding, scalar) readonly buffer PanesBlock { LidarPane panes[]; };
-layout(set = 0, binding = lidar_targets_binding, scalar) readonly buffer TargetsBlock { LidarTarget targets[]; };
+layout(set = 0, binding = lidar_targets_binding, scalar) readonly buffer TargetsBlock {
+  LidarTarget targets[];
+};
 layout(set = 0, binding = lidar_motions_binding, scalar) readonly buffer MotionsBlock { GpuBody motions[]; };
 
 layout(push_constant, scalar) uniform Constants { LidarConstants constants; };
 
-vec3 turned(GpuBody body, vec3 d) { return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d)); }
+vec3 turned(GpuBody body, vec3 d) {
+  return vec3(dot(body.row0.xyz, d), dot(body.row1.xyz, d), dot(body.row2.xyz, d));
+}
 vec3 moved(GpuBody body, vec3 p) { return turned(body, p) + vec3(body.row0.w, body.row1.w, body.row2.w); }
 
 /// Describes a hit, and the motion that took the ray to where its body stands at the tick. The data of a
@@ -43,10 +47,10 @@ struct ShotHit {
 /// Returns the first surface among the bodies of `trace_mask` where they stand at the tick. `behind` is the
 /// facet that the ray leaves.
 Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
-  // Through the tree there is one way for all cases: there it costs nothing to pass over triangles.
+  // The tree takes the same path in all cases, since passing over triangles costs it nothing.
   if (trace_tree || (glass && behind != no_facet))
-    return trace_closest_except(origin, t_min, direction, constants.max_range, exclude_body ? constants.excluded_body : no_body,
-                                behind, alpha_mask);
+    return trace_closest_except(origin, t_min, direction, constants.max_range,
+                                exclude_body ? constants.excluded_body : no_body, behind, alpha_mask);
   Hit hit;
 #ifdef GREATX_TRACE_ALPHA
   if (alpha_mask)
@@ -56,8 +60,8 @@ Hit first_surface(vec3 origin, float t_min, vec3 direction, uint behind) {
     hit = trace_closest(origin, t_min, direction, constants.max_range);
   // Only beams that meet the own body pay for looking at every triangle on their way.
   if (exclude_body && hit.hit && scene_primitive(hit.primitive).owner == constants.excluded_body)
-    hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body, no_facet,
-                               alpha_mask);
+    hit = trace_closest_except(origin, t_min, direction, constants.max_range, constants.excluded_body,
+                               no_facet, alpha_mask);
   return hit;
 }
 
@@ -105,7 +109,7 @@ float reflectance_at(Hit hit, GpuMaterial material) {
   return near ? material.reflectance_905nm : material.reflectance_1550nm;
 }
 
-/// Holds the shares of the light on a pane that the pane gives back and lets through.
+/// Holds the fractions of the light on a pane that the pane returns and transmits.
 struct PaneLight {
   float back, through;
 };
@@ -113,7 +117,7 @@ PaneLight pane_light(LidarPane pane, vec3 normal, vec3 direction, float cosine, 
   float mirrored = pane_reflectance(cosine, constants.refractive_index, pane.sheets);
   float rest = 1.0 - mirrored;
   float back = rest * pane.scattering * cosine;
-  // Returns whether the mirrored beam finds back depends on the beam's own axis.
+  // The axis of the beam decides whether the mirrored beam returns to the receiver.
   float axis_cosine = min(abs(dot(normal, axis)), 1.0);
   if (constants.half_divergence > 0.0 && axis_cosine > 0.5)
     back += mirrored * glare_intensity(length(cross(normal, axis)), axis_cosine, constants.half_divergence);
@@ -166,11 +170,12 @@ void main() {
     } else {
       back = reflectance_at(found.hit, scene_material(primitive.material)) * cosine;
     }
-    // A clean pane gives nothing back and makes no echo. The last slot is kept for the surface that ends the
+    // A clean pane returns nothing and makes no echo. The last slot is kept for the surface that ends the
     // ray.
     if (pane.sheets == 0.0 || (back > 0.0 && written + 1u < lidar_glass_slots)) {
-      echoes[written * stride + slot] = LidarEcho(found.hit.t, carried * carried * back, carried * (1.0 - through),
-                                                  primitive.instance + 1u, primitive.material + 1u);
+      echoes[written * stride + slot] =
+          LidarEcho(found.hit.t, carried * carried * back, carried * (1.0 - through),
+                    primitive.instance + 1u, primitive.material + 1u);
       ++written;
     }
     if (through <= 0.0) break;

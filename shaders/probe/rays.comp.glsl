@@ -19,7 +19,8 @@ void main() {
   ProbeRay ray = rays[i];
   Hit hit = push.excluded_body == no_body
                 ? trace_closest(ray.origin, 0.0, ray.direction, 1e30)
-                : trace_closest_except(ray.origin, 0.0, ray.direction, 1e30, push.excluded_body, no_facet, false);
+                : trace_closest_except(ray.origin, 0.0, ray.direction, 1e30, push.excluded_body, no_facet,
+                                       false);
   hits[i].t = hit.hit ? hit.t : uintBitsToFloat(0x7f800000u);
   hits[i].primitive = hit.hit ? hit.primitive + 1u : 0u;
 }

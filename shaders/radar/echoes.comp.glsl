@@ -14,7 +14,9 @@ layout(constant_id = 1) const bool has_own_body = true;
 
 layout(local_size_x = radar_group) in;
 
-layout(set = 0, binding = radar_directions_binding, scalar) readonly buffer DirectionsBlock { vec3 directions[]; };
+layout(set = 0, binding = radar_directions_binding, scalar) readonly buffer DirectionsBlock {
+  vec3 directions[];
+};
 layout(set = 0, binding = radar_hits_binding, scalar) writeonly buffer HitsBlock { uint hits[]; };
 
 layout(push_constant, scalar) uniform Constants { EchoConstants constants; };
@@ -31,8 +33,8 @@ Hit next_hit(vec3 origin, vec3 direction, uint facet) {
 
 bool sees_receiver(vec3 start, uint facet) {
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK, start,
-                        0.0, constants.receiver - start, 1.0);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
+                        GREATX_TRACE_MASK, start, 0.0, constants.receiver - start, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     if (primitive.owner == constants.source_body || primitive.owner == constants.receiver_body) continue;

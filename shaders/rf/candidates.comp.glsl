@@ -22,7 +22,9 @@ layout(constant_id = 4) const bool counts_left_out = false;
 
 layout(local_size_x = candidates_group) in;
 
-layout(set = 0, binding = candidates_directions_binding, scalar) readonly buffer DirectionsBlock { vec3 directions[]; };
+layout(set = 0, binding = candidates_directions_binding, scalar) readonly buffer DirectionsBlock {
+  vec3 directions[];
+};
 layout(set = 0, binding = candidates_kinds_binding, scalar) readonly buffer KindsBlock { uint kinds[]; };
 layout(set = 0, binding = candidates_keys_binding, scalar) writeonly buffer KeysBlock { uint keys[]; };
 
@@ -35,16 +37,16 @@ struct Way {
   vec3 origin, direction;
   uint left_facet;
   uint met;            // facets reflected at or passed, <= max_depth
-  uint reflections;    // of them: words of the key
-  uint transmissions;  // of them
+  uint reflections;    // facets reflected at: words of the key
+  uint transmissions;  // walls passed
 };
 
 /// Returns the next hit of a way. Foliage is passed over.
 Hit next_hit(Way way) {
   if (!has_foliage) return trace_leaving(way.origin, way.direction, infinite_range, way.left_facet);
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, way.origin, 0.0, way.direction,
-                        infinite_range);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, way.origin, 0.0,
+                        way.direction, infinite_range);
   while (rayQueryProceedEXT(query)) {
     uint facet = scene_facet(candidate_triangle(query, scene_primitive(candidate_primitive(query))));
     if (facet != way.left_facet && kinds[facet] < facet_kind_foliage) rayQueryConfirmIntersectionEXT(query);
@@ -104,7 +106,8 @@ void go_both_ways(uint ray, Way way) {
     if (way.reflections > known) {
       if (written < constants.slots) {
         uint first = row(ray, written);
-        for (uint i = 0u; i < constants.max_depth; ++i) keys[first + i] = i < way.reflections ? key[i] : rf_none;
+        for (uint i = 0u; i < constants.max_depth; ++i)
+          keys[first + i] = i < way.reflections ? key[i] : rf_none;
         ++written;
       } else {
         ++left_out;

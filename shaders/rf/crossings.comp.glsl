@@ -20,9 +20,15 @@ layout(local_size_x = crossings_group) in;
 layout(constant_id = 0) const bool has_walls = true;
 layout(constant_id = 1) const bool has_foliage = true;
 
-layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer SegmentsBlock { GpuSegment segments[]; };
-layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock { GpuFacetPlane planes[]; };
-layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock { GpuFoliageBox foliage[]; };
+layout(set = 0, binding = crossings_segments_binding, scalar) readonly buffer SegmentsBlock {
+  GpuSegment segments[];
+};
+layout(set = 0, binding = crossings_planes_binding, scalar) readonly buffer PlanesBlock {
+  GpuFacetPlane planes[];
+};
+layout(set = 0, binding = crossings_foliage_binding, scalar) readonly buffer FoliageBlock {
+  GpuFoliageBox foliage[];
+};
 layout(set = 0, binding = crossings_results_binding, scalar) buffer ResultsBlock { uint results[]; };
 layout(set = 0, binding = crossings_leaders_binding, scalar) readonly buffer LeadersBlock { uint leaders[]; };
 
@@ -44,7 +50,8 @@ GpuFacetPlane posed_plane(uint facet, uint body) {
 }
 
 bool lies_on(vec3 end, GpuFacetPlane plane) {
-  return abs(dot(plane.normal, end - plane.point)) <= visibility_tolerance(max(largest(end), largest(plane.point)));
+  return abs(dot(plane.normal, end - plane.point)) <=
+         visibility_tolerance(max(largest(end), largest(plane.point)));
 }
 
 /// Holds the walls met so far, each once.
@@ -66,15 +73,16 @@ void add_crossing(inout Depth depth, GpuFacetPlane plane, vec3 direction, float 
   depth.sum += entering ? behind : -behind;
   depth.net += entering ? 1 : -1;
 }
-/// From outside to outside, a line leaves closed volumes as often as it enters them. A line that does not has
-/// slipped through an edge, or has met it twice.
+/// Returns whether the line leaves closed volumes as often as it enters them. From outside to outside it
+/// must. A line that does not has slipped through an edge, or has met an edge twice.
 bool is_closed(Depth depth) { return depth.net == 0 && depth.sum >= 0; }
 
-/// Returns whether two walls are passed in one place. Parallel walls are if they lie in one plane, which a
-/// segment passes only once (neighbours, duplicates). Other walls are if the segment meets their common edge.
-/// The three looks run beside each other, which shifts the points where they meet a wall. Four times their
-/// offset allows for 60 degrees from the normal of both walls.
-bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance, float reach) {
+/// Returns whether a segment passes two walls in one place. Parallel walls are in one place if they lie in
+/// one plane, which a segment passes only once (neighbours, duplicates). Other walls are if the segment meets
+/// their common edge. The three looks run side by side, which shifts the points where they meet a wall. Four
+/// times their offset allows for 60 degrees from the normal of both walls.
+bool same_place(uint first, float first_distance, GpuFacetPlane second_plane, float second_distance,
+                float reach) {
   GpuFacetPlane first_plane = posed_plane(first, planes[first].body);
   vec3 sine = cross(first_plane.normal, second_plane.normal);
   if (dot(sine, sine) < 1e-6) return lies_on(second_plane.point, first_plane);
@@ -101,12 +109,13 @@ bool add_wall(inout Walls walls, uint most, uint facet, GpuFacetPlane plane, flo
 
 /// Returns whether the surface met at `at` along a ray, 0 to 1, ends the segment. Walls and foliage that do
 /// not end it are added.
-bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at, inout Walls walls,
-           inout Depth depth) {
+bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint triangle, float at,
+           inout Walls walls, inout Depth depth) {
   if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) return false;
   uint facet = scene_facet(triangle);
   if (facet == rf_none) return true;
-  if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a || facet == segment.other_b)
+  if (facet == segment.facet_a || facet == segment.facet_b || facet == segment.other_a ||
+      facet == segment.other_b)
     return false;
   GpuFacetPlane plane = posed_plane(facet, primitive.body);
   if (has_foliage && plane.kind == facet_kind_foliage) {
@@ -123,8 +132,8 @@ bool stops(GpuSegment segment, vec3 direction, GpuPrimitive primitive, uint tria
 bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth depth) {
   depth = Depth(0, 0);
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT, GREATX_TRACE_MASK,
-                        ray.origin, 0.0, ray.direction, 1.0);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT,
+                        GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     float at = has_walls || has_foliage ? rayQueryGetIntersectionTEXT(query, false) : 0.0;
@@ -134,9 +143,9 @@ bool blocked_along(GpuSegment segment, Ray ray, inout Walls walls, out Depth dep
   return rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
-/// Returns whether the segment is blocked. `depth` is that of the last look that is closed. The first look
-/// counts least: it meets crowns in their very top more often than by chance, and the other looks go past the
-/// top.
+/// Returns whether the segment is blocked. `depth` is the depth of the last look that is closed. The first
+/// look counts least: it meets the very tops of crowns more often than by chance, and the other looks pass
+/// beside the tops.
 bool blocked(GpuSegment segment, vec3 direction, out Walls walls, out Depth depth) {
   walls.count = 0u;
   depth = Depth(0, 1);
@@ -170,7 +179,8 @@ bool ends_in_foliage(GpuSegment segment, vec3 direction) {
     GpuFoliageBox box = foliage[i];
     if (box.body == 0u || box.owner == segment.body_a || box.owner == segment.body_b) continue;
     vec2 inside = inside_box(box, segment.a, direction);
-    if (inside.x <= inside.y && ((inside.x <= 0.0 && inside.y >= 0.0) || (inside.x <= 1.0 && inside.y >= 1.0)))
+    if (inside.x <= inside.y &&
+        ((inside.x <= 0.0 && inside.y >= 0.0) || (inside.x <= 1.0 && inside.y >= 1.0)))
       return true;
   }
   return false;
@@ -191,7 +201,8 @@ vec2 line_through_foliage(GpuSegment segment, vec3 d) {
 Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   Depth depth = Depth(0, 0);
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0, ray.direction, 1.0);
+  rayQueryInitializeEXT(query, tlas, gl_RayFlagsNoOpaqueEXT, GREATX_TRACE_MASK, ray.origin, 0.0,
+                        ray.direction, 1.0);
   while (rayQueryProceedEXT(query)) {
     GpuPrimitive primitive = scene_primitive(candidate_primitive(query));
     if (primitive.owner == segment.body_a || primitive.owner == segment.body_b) continue;
@@ -203,8 +214,8 @@ Depth depth_along(GpuSegment segment, Ray ray, vec2 part) {
   return depth;
 }
 
-/// Returns the same for the whole line, from outside of all foliage to outside, beyond both ends of the
-/// segment. Ends inside a volume or on its surface then need no rule of their own.
+/// Returns the depth of foliage along the whole line, from outside of all foliage to outside, beyond both
+/// ends of the segment. Ends inside a volume or on its surface then need no rule of their own.
 Depth depth_on_line(GpuSegment segment, vec3 direction) {
   vec2 part = line_through_foliage(segment, direction);
   vec3 origin = segment.a + part.x * direction;
@@ -224,7 +235,7 @@ void main() {
     return;
   }
   vec3 direction = segment.b - segment.a;
-  if (direction == vec3(0.0)) {  // nothing fits between a point and itself
+  if (direction == vec3(0.0)) {  // a segment without length has no obstacles
     results[row] = 0u;
     if (has_foliage) results[row + 1u] = 0u;
     return;

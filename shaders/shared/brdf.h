@@ -69,7 +69,8 @@ GREATX_FUNCTION vec2 specular_albedo_terms(float n_dot_v, float roughness) {
   float e1 = dot(p, vec4(21.557946f, -109.687165f, 156.616098f, -70.463709f));
   float e2 = dot(p, vec4(-25.609111f, 154.674327f, -241.176599f, 114.568377f));
   float e3 = dot(p, vec4(8.961386f, -64.118487f, 106.530581f, -52.509684f));
-  float whole = 1.0f + r * r * (e0 + n_dot_v * (e1 + n_dot_v * (e2 + n_dot_v * e3)));  // of a white conductor
+  // the albedo of a white conductor
+  float whole = 1.0f + r * r * (e0 + n_dot_v * (e1 + n_dot_v * (e2 + n_dot_v * e3)));
   float y5 = dot(p, vec4(1.616073f, -3.050597f, -0.256109f, 1.814167f));
   float y2 = dot(p, vec4(-0.261276f, 1.749049f, -2.617528f, 1.128633f));
   float y1 = dot(p, vec4(0.072480f, -0.461911f, 0.730696f, -0.340329f));
@@ -96,14 +97,14 @@ GREATX_FUNCTION Reflectance reflectance_of(vec3 base_color, float metallic, floa
   vec2 terms = specular_albedo_terms(r.n_dot_v, roughness);
   r.gain = vec3(1.0f) + r.f0 * (1.0f / (terms.x + terms.y) - 1.0f);
   r.albedo = (r.f0 * terms.x + vec3(terms.y)) * r.gain;
-  // Under the diffuse part lies the dielectric's lobe, whatever share of the surface is metal.
+  // The dielectric's lobe lies over the diffuse part, whatever fraction of the surface is metal.
   float dielectric =
       (dielectric_f0 * terms.x + terms.y) * (1.0f + dielectric_f0 * (1.0f / (terms.x + terms.y) - 1.0f));
   r.diffuse = base_color * ((1.0f - metallic) * (1.0f - dielectric));
   return r;
 }
 
-/// Returns the same without a specular lobe: a Lambertian surface.
+/// Returns the reflectance of a Lambertian surface, without a specular lobe.
 GREATX_FUNCTION Reflectance lambertian_reflectance(vec3 base_color) {
   Reflectance r;
   r.n_dot_v = 1.0f;

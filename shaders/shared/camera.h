@@ -56,7 +56,7 @@ const uint spec_base_color_arrays = 17u;  // lib/textures.glsl
 const uint spec_metallic_roughness_arrays = 18u;
 const uint spec_normal_arrays = 19u;
 const uint spec_emissive_arrays = 20u;
-const uint spec_moving_bodies = 21u;  // of the visibility pass; off: it draws the bodies that never move
+const uint spec_moving_bodies = 21u;  // visibility pass; off: it draws the bodies that never move
 // The records of triangles may be larger than the part of a buffer that a shader sees at once. Their address
 // is then bound.
 const uint spec_triangle_address = 22u;
@@ -111,7 +111,7 @@ const uint triangle_record_quads = 6u;
 /// A texture is stored as its reference (scene/device/texture_layers.h) + 1, or 0 if there is none.
 const uint material_record_quads = 3u;
 const uint roughness_in_texture = 1u;  ///< metallic-roughness texture
-const uint roughness_in_alpha = 2u;    ///< of the base-colour texture
+const uint roughness_in_alpha = 2u;    ///< alpha of the base-colour texture
 
 const uint shade_group_width = 8u;
 const uint shade_group_height = 8u;
@@ -141,9 +141,9 @@ struct CameraConstants {
   vec3 light_eye;  ///< the eye in the sun's frame (GpuLighting::light_x, light_y, sun_direction)
   float near_m;
   float exposure;  ///< stored value = exposure times radiance in cd/m^2
-  float weight;    ///< of this part of the exposure time; 1: the whole
+  float weight;    ///< fraction of the exposure time of this part; 1: the whole
   uint first;      ///< whether it is the first part
-  uint size;       ///< of the picture: width | height << 16
+  uint size;       ///< size of the picture: width | height << 16
 };
 
 /// Holds the lighting, which is set at construction: key light (sun or moon), sky, haze, the static shadow
@@ -151,7 +151,7 @@ struct CameraConstants {
 /// 0.7152 G + 0.0722 B is the illuminance or luminance.
 struct GpuLighting {
   vec3 sun_direction;         ///< unit, to the key light, local frame; also the third axis of its frame
-  float sun_cos_radius;       ///< of the disc, cosine
+  float sun_cos_radius;       ///< cosine of the angular radius of the disc
   vec3 sun_illuminance;       ///< on a surface facing the sun
   float static_texel_m;       ///< edge of a texel of the static shadow map
   vec3 sun_disc;              ///< radiance of the disc; 0 if the key light is the moon
@@ -202,9 +202,9 @@ struct ShadowTilesHeader {
 /// Holds the shadow of one moving body: a square of the sun's frame around it, and the place of that square
 /// in the atlas.
 struct GpuShadowTile {
-  vec3 center;  ///< of the body's bounding sphere, the sun's frame
+  vec3 center;  ///< centre of the body's bounding sphere, in the sun's frame
   float radius;
-  vec2 uv_center;   ///< of the tile
+  vec2 uv_center;   ///< centre of the tile
   float uv_radius;  ///< half of its edge, without the margin
   float texel_m;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes linear light to eight bits by a tone curve and sRGB. C++ tests and shaders read the same pure
+// Converts linear light to eight bits by a tone curve and sRGB. C++ tests and shaders read the same pure
 // functions.
 #ifndef GREATX_SHADERS_SHARED_DEVELOP_H
 #define GREATX_SHADERS_SHARED_DEVELOP_H
@@ -18,10 +18,10 @@ using std::sqrt;
 
 GREATX_SHARED_BEGIN
 
-/// The response of film to light. It is 1 - exp(-2.2 x) of the brightest channel, which lifts the middle and
-/// has no end. The other channels keep their ratio to the brightest, and fade towards white as it saturates
-/// (as in Khronos' PBR Neutral tone mapper, 2024). Input and output are linear Rec. 709, from [0, inf) to
-/// [0, 1].
+/// Applies the response of film to light: 1 - exp(-2.2 x) of the brightest channel, which lifts the mid-tones
+/// and never quite reaches 1. The other channels keep their ratio to the brightest, and fade towards white as
+/// it saturates (as in Khronos' PBR Neutral tone mapper, 2024). Input and output are linear Rec. 709, from
+/// [0, inf) to [0, 1].
 GREATX_FUNCTION vec3 tone_map(vec3 color) {
   const float response = 2.2f;
   const float desaturation = 0.15f;

@@ -33,7 +33,7 @@ GREATX_SHARED_BEGIN
 
 /// 1.0 of a natural logarithm.
 const int log_one = 16777216;
-/// The time of no event. It is later than any interval lasts.
+/// The time that stands for no event. It is later than the end of any interval.
 const int never_ns = 0x7fffffff;
 /// The longest duration of an interval.
 const int longest_interval_ns = 2000000000;
@@ -48,8 +48,8 @@ GREATX_FUNCTION int whole_part(float x) {
   return x < 0.0f ? -int(size) : int(size);
 }
 
-/// Returns a whole number beside x, 0 <= x < 2^23: the nearest, or, on a device that rounds towards zero, the
-/// one below.
+/// Returns a whole number next to x, 0 <= x < 2^23: the nearest one, or the one below on a device that rounds
+/// towards zero.
 GREATX_FUNCTION int near_whole(float x) { return int(floatBitsToUint(x + 8388608.0f) & 0x7fffffu); }
 
 /// Returns ln(x) * 2^24 of a normal x > 0, within 5 units (3e-7). It adds ln 2 times the exponent, which is
@@ -96,8 +96,8 @@ GREATX_FUNCTION int low_pass(int y0, int u0, int u1, float x) {
 GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) {
   int above = signal - reference;
   int size = abs(above), c = above > 0 ? on : off;
-  // The quotient is found without the division of integers, which vector units lack. From floats it is one
-  // off at most.
+  // The quotient is computed in floats, since vector units lack the division of integers. It is off by one at
+  // most.
   int n = near_whole(float(size) / float(c));
   int rest = size - n * c;
   n += (rest >= c ? 1 : 0) - (rest < 0 ? 1 : 0);
@@ -109,8 +109,8 @@ GREATX_FUNCTION int count_crossings(int reference, int signal, int on, int off) 
 GREATX_FUNCTION int part_time(uint part, uint whole, float inverse, int dt_ns) {
   uint64_t product = uint64_t(part) * uint64_t(dt_ns);
   // The division takes two steps of floats, since vector units lack the division of integers. The first
-  // quotient is too small, by some 3000 at most. The second is one off at most, which comparisons of integers
-  // put right.
+  // quotient is too small by some 3000 at most. The second is off by one at most, which comparisons of
+  // integers correct.
   uint first = uint(whole_part(float(part) * (float(dt_ns) * inverse) * (1.0f - 9.5367432e-7f)));
   uint64_t left = product - uint64_t(first) * uint64_t(whole);
   uint second = uint(near_whole((float(uint(left >> 32)) * 4294967296.0f + float(uint(left))) * inverse));
@@ -118,8 +118,8 @@ GREATX_FUNCTION int part_time(uint part, uint whole, float inverse, int dt_ns) {
   return int(first + second) + (rest > int64_t(0) ? 1 : 0) + (rest > int64_t(whole) ? 1 : 0);
 }
 
-/// Returns the same for a signal that goes from `from` to `to` and reaches `level`, which lies between them
-/// and is not `from`.
+/// Returns the time after the step's start, in ns, at which a signal that goes from `from` to `to` reaches
+/// `level`. The level lies between them and is not `from`.
 GREATX_FUNCTION int crossing_time(int from, int to, int level, int dt_ns) {
   uint whole = uint(abs(to - from));
   return part_time(uint(abs(level - from)), whole, 1.0f / float(whole), dt_ns);
@@ -153,12 +153,12 @@ GREATX_FUNCTION int shot_gap_ns(uint bits, float mean_ns) {
 /// Holds the crossings of one pixel within one step, one after the other in order of time.
 struct EventWalk {
   int dt_ns;        ///< length of the step
-  uint whole;       ///< size of the signal's change during it
+  uint whole;       ///< size of the signal's change during the step
   float inverse;    ///< 1 / whole
-  uint part;        ///< of it until the next crossing
-  int stride;       ///< from one crossing to the next, signed
+  uint part;        ///< size of the change from the start of the step to the next crossing
+  int stride;       ///< change from one crossing to the next, signed
   int left;         ///< crossings still to come
-  int crossing_ns;  ///< the next; never_ns: none
+  int crossing_ns;  ///< time of the next crossing; never_ns: none
   int alive_ns;     ///< the pixel is refractory before this time: no event
 };
 
@@ -184,7 +184,7 @@ GREATX_FUNCTION EventWalk begin_walk(int from, int to, int reference, int on, in
                         alive_ns);
 }
 
-/// Takes the next crossing off the walk and returns its time.
+/// Removes the next crossing from the walk and returns its time.
 GREATX_FUNCTION int take_crossing(GREATX_INOUT(EventWalk) walk) {
   int t = walk.crossing_ns;
   walk.left -= 1;
@@ -194,14 +194,16 @@ GREATX_FUNCTION int take_crossing(GREATX_INOUT(EventWalk) walk) {
   return t;
 }
 
-/// Returns whether an event at `t_ns` is let through. If it is, the pixel is refractory from then on.
+/// Returns whether an event at `t_ns` passes the refractory time. If it does, the pixel is refractory from
+/// then on.
 GREATX_FUNCTION bool pass_refractory(GREATX_INOUT(EventWalk) walk, int t_ns, int refractory_ns) {
   if (t_ns < walk.alive_ns) return false;
   walk.alive_ns = t_ns > never_ns - refractory_ns ? never_ns : t_ns + refractory_ns;
   return true;
 }
 
-/// Where dimension blocks of the shot noise's random words begin: step * this + the block of four arrivals.
+/// Shot noise takes its random words from the dimension blocks step * shot_blocks_per_step + n, where n
+/// counts blocks of four arrivals.
 const uint shot_blocks_per_step = 65536u;
 
 // ---- data that the passes share --------------------------------------------------------------------------
@@ -219,7 +221,7 @@ const uint event_awake_binding = 11u;     // storage: int: end of the refractory
 const uint event_threshold_binding = 8u;  // storage: ivec2: on, off
 const uint event_objects_binding = 9u;    // storage: uvec2 [triangles]: instance + 1, body
 const uint event_motion_binding = 10u;    // storage: EventMotion [bodies]
-const uint event_previous_binding = 0u;   // of the difference pass: storage: float, the picture before
+const uint event_previous_binding = 0u;   // storage, difference pass: float, the picture before
 
 // Specialization constants. An effect that is off is not compiled.
 const uint event_spec_mismatch = 0u;
@@ -233,8 +235,8 @@ const uint event_spec_count = 7u;
 const uint adaptive_flow = 1u;
 const uint adaptive_brightness = 2u;
 
-/// A run is the pixels of a row that one invocation handles one after the other. Runs are numbered row by
-/// row.
+/// A run consists of pixels of a row that one invocation handles one after the other. Runs are numbered row
+/// by row.
 const uint run_pixels = 16u;
 const uint event_group_size = 64u;
 const uint event_scan_size = 256u;
@@ -251,38 +253,39 @@ struct EventModel {
   float angular_cutoff;  ///< 2 pi times the bandwidth in bright light, rad/ns
   float shot_rate_hz;
   int refractory_ns;
-  uint capacity;  ///< events a picture interval
+  uint capacity;  ///< most events per picture interval
   float fx;       ///< pixels; for the flow
   float fy;
   float cx;
   float cy;
-  /// Of adaptive steps: pixels of motion, or change over the threshold, from picture to picture.
+  /// For adaptive steps, the wanted change from picture to picture: pixels of motion, or change over the
+  /// threshold.
   float wanted;
-  uint pattern_seed;  ///< of the numbers that are drawn once for each pixel
+  uint pattern_seed;  ///< seed of the numbers that are drawn once for each pixel
   uint pattern_stream;
 };
 
 /// Describes a run of pixels in one step.
 struct EventRun {
-  uint first;  ///< the events before it in the interval; of the last step's scan
-  uint count;  ///< its own
+  uint first;  ///< events before the run in the interval, from the last step's scan
+  uint count;  ///< events of the run
   uint fired;  ///< bit i: pixel i of the run has events
 };
 
 /// Holds the head of the buffer. It is kept from tick to tick.
 struct EventControl {
   uint64_t leaked_last;  ///< thresholds leaked at the last picture taken, 32.32
-  uint64_t leaked_from;  ///< and at the one before it
-  uint events;           ///< so far in this interval, those beyond the capacity included
+  uint64_t leaked_from;  ///< thresholds leaked at the picture before the last one
+  uint events;           ///< events of this interval so far, including those beyond the capacity
   uint last;             ///< grid index of the last picture taken
-  uint measured;         ///< bits of the largest flow (px/ns) or change (thresholds) since then
-  uint allowed;          ///< bits of the time to the next picture that these allow, ns
-  uint pictures;         ///< in this interval
-  uint coarse;           ///< of those, how many moved or changed more than wanted
+  uint measured;         ///< bits of the largest flow (px/ns) or change (thresholds) since the last picture
+  uint allowed;          ///< bits of the time to the next picture that the pictures so far allow, ns
+  uint pictures;         ///< pictures of this interval
+  uint coarse;           ///< pictures of this interval that moved or changed more than wanted
   uint largest;          ///< bits of the largest motion or change between two pictures of this interval
-  int last_ns;           ///< the last picture's time
-  int from_ns;           ///< and of the one before it
-  uint due[65];          ///< by grid index: whether a picture is taken then
+  int last_ns;           ///< time of the last picture
+  int from_ns;           ///< time of the picture before the last one
+  uint due[65];          ///< by grid index: whether a picture is taken
 };
 const uint event_due_offset = 52u;  ///< bytes
 
@@ -294,19 +297,19 @@ struct EventMotion {
 };
 
 struct EventConstants {
-  uint64_t leaked_from;  ///< thresholds leaked at the instant before, 32.32
-  uint64_t leaked_to;    ///< and at this one
+  uint64_t leaked_from;  ///< thresholds leaked at the previous instant, 32.32
+  uint64_t leaked_to;    ///< thresholds leaked at this instant
   /// Address of uvec2 [capacity]: ns after the interval's start; row << 15 | column << 1 | p.
   uint64_t events;
   uint64_t instances;  ///< address of uint [capacity]
-  int from_ns;         ///< the instant before, after the interval's start
-  int to_ns;           ///< this one
+  int from_ns;         ///< previous instant, after the interval's start
+  int to_ns;           ///< this instant
   uint interval_ns;
   uint grid;   ///< instants of the interval
-  uint index;  ///< of this one, 1 to grid; 0: the first picture, which sets the reference
+  uint index;  ///< index of this instant, 1 to grid; 0: the first picture, which sets the reference
   uint noise_seed;
   uint noise_stream;
-  uint noise_sample;  ///< of the sensor
+  uint noise_sample;  ///< sample number of the sensor
 };
 
 struct DifferenceConstants {

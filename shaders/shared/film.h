@@ -50,9 +50,9 @@ const uint develop_pixels = 8u;
 struct SensorConstants {
   float full_well;   ///< electrons of light 1 (L_max)
   float read_noise;  ///< electrons, rms
-  float levels;      ///< of the converter, less 1
+  float levels;      ///< levels of the converter, less 1
   uint tick;
-  uvec2 key;  ///< of (seed, sensor, sequence)
+  uvec2 key;  ///< key made of (seed, sensor, sequence)
 };
 
 struct DevelopConstants {
@@ -106,7 +106,7 @@ struct MeterConstants {
   uint step;               ///< pixels from sample to sample
   float stored_luminance;  ///< cd/m^2 of a stored 1
   float compensation_ev;
-  uint width;  ///< of the picture
+  uint width;  ///< width of the picture
 };
 
 /// Below this mean number of electrons the shot noise is Poisson's law itself; above it, a corrected normal
@@ -179,7 +179,7 @@ GREATX_FUNCTION float sensed(float light, SensorConstants sensor, uint bits) {
   return clamp(number, 0.0f, sensor.levels) / sensor.levels;
 }
 
-/// Returns the same for a pixel; `pixel` is row * width + column.
+/// Returns the digital numbers of a pixel's three channels; `pixel` is row * width + column.
 GREATX_FUNCTION vec3 sensed_color(vec3 light, SensorConstants sensor, uint pixel) {
   uvec4 bits = random_bits(sensor.key.x, sensor.key.y, sensor.tick, pixel, 0u);
   return vec3(sensed(light.x, sensor, bits.x), sensed(light.y, sensor, bits.y),

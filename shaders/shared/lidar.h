@@ -39,11 +39,11 @@ const uint lidar_base_color_arrays_id = 6u;     // sweep_textured: lib/textures.
 const uint lidar_no_object = 0u;
 // The LidarTarget::first_motion of a body that stays where it is at the tick.
 const uint lidar_still = 0xffffffffu;
-// A ray may pass this many panes; the next one ends it. Clear glass lets 0.92^32 = 7 % of the light there and
-// back.
+// The most panes that a ray may pass; the next one ends it. Clear glass transmits 0.92^32 = 7 % of the light
+// on the way there and back.
 const uint lidar_most_panes = 16u;
-// A ray may have this many echoes: of the first panes that give light back, and of the surface that ends the
-// ray.
+// The most echoes of a ray. They come from the first panes that return light, and from the surface that ends
+// the ray.
 const uint lidar_glass_slots = 5u;
 
 struct LidarBeam {
@@ -62,22 +62,22 @@ struct LidarConstants {
   uint wavelength_nm;      // 905 or 1550
   float min_range;         // m
   float max_range;         // m
-  float refractive_index;  // of glass
+  float refractive_index;  // refractive index of glass
   float half_divergence;   // rad, to 1/e^2; 0: no width
 };
 
 struct LidarEcho {
   float range;      // m along the beam
   float intensity;  // the returned part of all light that the ray carries (docs/lidar.md)
-  float share;      // of the ray's energy, the part that goes no further than this surface
+  float share;      // part of the ray's energy that goes no further than this surface
   uint instance;    // index + 1; 0: none, and none in the slots behind
   uint material;    // index + 1; 0: none
 };
 
 // Describes a material that lets light through.
 struct LidarPane {
-  float sheets;      // of glass one behind the other; 0: opaque
-  float clearness;   // of the light that is not reflected, the part that goes through
+  float sheets;      // number of glass sheets one behind the other; 0: opaque
+  float clearness;   // transmitted part of the light that is not reflected
   float scattering;  // diffuse reflectance: dirt, frosting
 };
 

@@ -15,8 +15,8 @@ const uint radar_directions_binding = first_pass_binding;  // vec3[rays], unit, 
 const uint radar_hits_binding = first_pass_binding + 1u;
 const uint radar_group = 64u;
 
-// A hit is its facet, a flag that the receiver is seen from there, and a flag that it is seen over the first
-// surface (which the host sets). radar_none says that nothing is met.
+// A hit consists of its facet, a flag that the facet sees the receiver, and a flag that it sees the receiver
+// over the first surface (which the host sets). radar_none means that the ray hits nothing.
 const uint radar_none = 0xffffffffu;
 const uint radar_sees_receiver = 0x80000000u;
 const uint radar_sees_over = 0x40000000u;

@@ -23,7 +23,7 @@ const uint candidates_group = 64u;
 struct CandidateConstants {
   vec3 source;  // local coordinates
   uint first_ray;
-  uint rays;  // of this dispatch
+  uint rays;  // rays of this dispatch
   uint max_depth;
   uint slots;
 };
@@ -43,11 +43,12 @@ const uint crossings_leaders_binding = first_pass_binding + 4u;  // uint[]: resu
 const uint crossings_group = 64u;
 const uint crossings_max = 8u;  // walls on a segment, at most
 
-// A row of the results begins with crossings_blocked (also if the segment that it hangs on is blocked), and
-// the rest is undefined. Otherwise it holds the number of walls (plus crossings_foliage_open), then, if the
-// pass has foliage, the share of the segment inside it, then, if it has walls, the facets passed.
+// A row of the results begins with crossings_blocked if the segment is blocked (also if the segment on which
+// it depends is blocked); the rest is undefined. Otherwise it holds the number of walls (plus
+// crossings_foliage_open), then, if the pass has foliage, the fraction of the segment inside it, then, if it
+// has walls, the facets passed.
 const uint crossings_blocked = 0xffffffffu;
-// This flag says that the line leaves foliage more or less often than it enters.
+// Flag: the line leaves foliage more or less often than it enters.
 const uint crossings_foliage_open = 0x100u;
 const uint crossings_foliage_one = 1u << 24;  // the whole segment, once
 
@@ -58,8 +59,9 @@ struct GpuSegment {
   uint facet_a, facet_b;
   uint body_a, body_b;
   uint other_a, other_b;
-  uint walls;  // that it may pass, <= crossings_max; plus crossings_end_in_foliage
-  // A row of the leaders' part. If that segment is blocked, so is this one, without a look; rf_none: none.
+  uint walls;  // most walls that it may pass, <= crossings_max; plus crossings_end_in_foliage
+  // Row of the leaders' part, or rf_none. If the segment of that row is blocked, so is this one, without a
+  // test.
   uint only_if;
 };
 

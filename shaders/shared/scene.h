@@ -11,8 +11,8 @@ GREATX_SHARED_BEGIN
 
 const uint material_flag_alpha_mask = 1u;
 const uint material_flag_double_sided = 2u;
-// The flags say that the file states the reflectance. Without the flag the reflectance is the luminance of
-// the base colour.
+// These flags are set if the file states the reflectance. Otherwise the reflectance is the luminance of the
+// base colour.
 const uint material_flag_reflectance_905nm = 4u;
 const uint material_flag_reflectance_1550nm = 8u;
 
@@ -24,7 +24,7 @@ const uint moving_mask = 2u;
 // the driver.
 const uint trace_tree_id = 15u;
 
-/// The arrays of textures that a shader may ask for one by one (scene/device/gpu_textures.h).
+/// The most texture arrays that a shader tests one by one (scene/device/gpu_textures.h).
 const uint most_tried_arrays = 24u;
 /// The reference of a texture (scene/device/texture_layers.h). It holds its layer in the lowest 12 bits, then
 /// the binary logarithms of how often it lies side by side in the layer along u and v, then its array.
@@ -55,7 +55,7 @@ struct GpuPrimitive {
   uint instance;
   uint semantic_class;
   uint body;
-  uint owner;  ///< scene::Scene::owner_of(body), which a sensor compares that does not see its own body
+  uint owner;  ///< scene::Scene::owner_of(body); a sensor that does not see its own body compares it
 };
 
 /// Holds the place of a body at this tick: the rows of local_from_body, and those of the tick before (for

@@ -7,7 +7,9 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = trace_test_rays_binding, scalar) readonly buffer RaysBlock { TraceTestRay rays[]; };
-layout(set = 0, binding = trace_test_results_binding, scalar) writeonly buffer ResultsBlock { TraceTestResult results[]; };
+layout(set = 0, binding = trace_test_results_binding, scalar) writeonly buffer ResultsBlock {
+  TraceTestResult results[];
+};
 layout(push_constant, scalar) uniform Constants { uint count; };
 
 uint triangle_or_none(Hit hit) { return hit.hit ? hit.triangle : trace_test_none; }
@@ -21,8 +23,11 @@ void main() {
   Hit hit = trace_closest_watertight(ray.origin, ray.t_min, ray.direction, ray.t_max);
   result.triangle = triangle_or_none(hit);
   result.t = hit.t;
-  result.any = trace_any_watertight(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_facet, no_facet) ? 1u : 0u;
-  Hit except = trace_closest_except(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_body, ray.skip_facet, false);
+  result.any = trace_any_watertight(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_facet, no_facet)
+                   ? 1u
+                   : 0u;
+  Hit except = trace_closest_except(ray.origin, ray.t_min, ray.direction, ray.t_max, ray.skip_body,
+                                    ray.skip_facet, false);
   result.except_triangle = triangle_or_none(except);
   result.except_t = except.t;
   result.next_triangle = trace_test_none;
@@ -47,7 +52,8 @@ void main() {
     result.start = offset_origin(point, normal);
     vec3 reflected = ray.direction - 2.0 * dot(ray.direction, normal) * normal;
     result.bounce_triangle = triangle_or_none(trace_closest(result.start, 0.0, reflected, 1e30));
-    result.leaving_triangle = triangle_or_none(trace_leaving(result.start, reflected, 1e30, scene_facet(hit.triangle)));
+    result.leaving_triangle =
+        triangle_or_none(trace_leaving(result.start, reflected, 1e30, scene_facet(hit.triangle)));
   }
   results[index] = result;
 }

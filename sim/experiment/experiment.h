@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that a run is made of, before there is a device: the scenario, the world that it loads and the
-// plan that both call for. It is made once and handed on whole.
+// Defines everything that a run needs and that exists without a device: the scenario, the world loaded for
+// it, and the effect plan that follows from both. It is made once and passed on as a whole.
 #pragma once
 
 #include <memory>
@@ -13,19 +13,21 @@
 
 namespace greatx::sim {
 
-/// Nobody changes it once it is made, and it outlives all that is built on it.
+/// Holds a scenario with its world and plan. It is not changed after it is made, and outlives everything that
+/// is built on it.
 struct Experiment {
   Scenario scenario;
-  std::shared_ptr<const World> world;  ///< never null; experiments that differ in the rest share it
+  std::shared_ptr<const World> world;  ///< never null; experiments may share a world
   EffectPlan plan;
 
   const scene::Scene& scene() const { return world->scene; }
 };
 
-/// Loads the world. Throws UserError like load_world() and make_effect_plan().
+/// Loads the world and makes the plan. Throws UserError like load_world() and make_effect_plan().
 Experiment make_experiment(Scenario scenario);
 
-/// The same in a world that is loaded already and fits the scenario. `points` is make_effect_plan()'s.
+/// Does the same with a world that is already loaded and fits the scenario. make_effect_plan() describes
+/// `points`.
 Experiment make_experiment(Scenario scenario, std::shared_ptr<const World> world,
                            const scene::Bounds& points = {});
 

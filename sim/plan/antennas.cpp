@@ -28,8 +28,9 @@ void describe_layout(const rf::AntennaArray& array, nlohmann::json& json) {
   json["port_order"] = "(row * columns + column) * polarizations + polarization";
 }
 
-/// [zeniths * azimuths] of one part of one component, or nothing if it is zero throughout. As one text:
-/// dataset.json is written with a line for every item of a list, and a table has some 100,000.
+/// Adds one part of one component, [zeniths * azimuths], unless it is zero throughout. The values are one
+/// text, because dataset.json is written with one line for each item of a list, and a table has some 100,000
+/// items.
 void describe_part(const rf::PatternTable& table, const char* name, double (*part)(const rf::Jones&),
                    nlohmann::json& json) {
   std::vector<double> values;

@@ -13,7 +13,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// Where an antenna can ever be, world coordinates.
+/// Returns a box, world coordinates, that an antenna never leaves.
 scene::Bounds reach_of(const Scenario& scenario, const std::string& name) {
   const auto [node, sensor] = sensor_place(scenario, name);
   scene::Bounds bounds;
@@ -33,9 +33,10 @@ double far_field_of(const Scenario& scenario, const ChannelConfig& channel, size
       antenna_array(scenario, channel.receivers[receiver], channel.carrier_hz), channel.carrier_hz);
 }
 
-/// The link that may come deepest into its near field.
+/// Describes the link with the smallest ratio of distance to far-field distance.
 struct Nearest {
-  double far_m = 0.0, distance_m = 0.0;  ///< its far field's beginning; the least that its ends can be apart
+  /// The far-field distance, and the least distance that the ends can have.
+  double far_m = 0.0, distance_m = 0.0;
   std::string transmitter, receiver;
   bool near() const { return distance_m < far_m; }
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a wave that meets an array may be taken for plane.
+// Decides whether a wave that arrives at an array may be taken as plane.
 #pragma once
 
 #include "rf/antenna/antenna.h"
@@ -9,20 +9,22 @@
 
 namespace greatx::sim {
 
-/// Whether the trajectories may bring the link nearer than its far field (rf::far_field_distance_m).
+/// Returns whether the trajectories may bring the ends of the link nearer to each other than the far-field
+/// distance of their arrays (rf::far_field_distance_m).
 bool may_be_near(const Scenario& scenario, const ChannelConfig& channel, size_t transmitter, size_t receiver);
 
-/// `every_element` of the scenario's effects.
+/// Returns the switch `every_element` of the scenario.
 Switch every_element_asked(const Scenario& scenario);
 
-/// A link shorter than this, metres, is solved element by element by a run; elsewhere a plane wave passes
-/// over each array. The one rule of runs, tools and Python: with `every_element: off`, candidates from rays,
-/// or one element at both ends there is no such link (0), with `on` all links are (infinity), with `auto`
-/// those nearer than their far field.
+/// Returns the distance, metres, below which a link is solved for every pair of elements. At longer distances
+/// a plane wave passes over each array. The distance is 0 (no link) with `every_element: off`, with
+/// candidates from rays, and with one element at both ends. Otherwise it is infinity (all links) with `on`,
+/// and the far-field distance with `auto`. Runs, tools and Python all use this rule.
 double every_element_within_m(const Scenario& scenario, const ChannelConfig& channel,
                               const rf::AntennaArray& transmitter, const rf::AntennaArray& receiver);
 
-/// Decides EffectPlan::every_element: on where some link of an array may be nearer than its far field.
+/// Decides EffectPlan::every_element: on if the ends of some link between arrays may be nearer than their far
+/// field.
 void plan_arrays(EffectPlan& plan, const Planner& planner, const Scenario& scenario);
 
 }  // namespace greatx::sim

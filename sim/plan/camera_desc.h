@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a camera of a scenario to what renderer/ is told to build.
+// Converts a camera of a scenario to the descriptions that renderer/ takes.
 #pragma once
 
 #include "renderer/camera/camera.h"
@@ -10,7 +10,7 @@
 
 namespace greatx::sim {
 
-/// Size and intrinsics, which every description of a picture calls the same.
+/// Copies size and intrinsics, whose members have the same names in every description of a picture.
 template <typename Picture>
 void set_intrinsics(Picture& to, const PinholeConfig& from) {
   to.width = from.width;
@@ -20,16 +20,18 @@ void set_intrinsics(Picture& to, const PinholeConfig& from) {
   to.cx = from.cx;
   to.cy = from.cy;
 }
-/// Of a camera or an event camera: size, intrinsics, lens; null: another sensor.
+/// Returns size, intrinsics and lens of a camera or an event camera; null for any other sensor.
 const PinholeConfig* pinhole_config(const SensorConfig& sensor);
-/// What cameras and event cameras share: intrinsics, the nearest depth, antialiasing, the lens's distortion.
+/// Sets the members that cameras and event cameras share: intrinsics, nearest depth, antialiasing, lens
+/// distortion.
 void set_pinhole(render::CameraDesc& desc, const PinholeConfig& config);
 
-/// `body`: that carries the camera; 0: none.
+/// Returns the description of a camera. `body` is the body that carries the camera; 0: none.
 render::CameraDesc camera_desc(const Scenario& scenario, const NodeConfig& node, const SensorConfig& sensor,
                                uint32_t body);
+/// Returns the outputs of a camera that need a TruthPass: normals, depth along the ray, flow.
 render::TruthOutputs truth_outputs(const CameraConfig& config);
-/// Whether events need what pixels see: their instances, or how it moves.
+/// Returns whether the event camera needs the instance that each pixel sees, or its motion.
 bool needs_seen(const EventCameraConfig& config);
 
 }  // namespace greatx::sim

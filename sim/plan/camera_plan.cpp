@@ -18,13 +18,13 @@ namespace greatx::sim {
 
 namespace {
 
-/// Enough digits for sunlight and starlight alike.
+/// Formats an illuminance with enough digits for sunlight and starlight alike.
 std::string digits(double lux) {
   return lux >= 10.0 ? fmt::format("{:.0f}", lux) : fmt::format("{:.2g}", lux);
 }
 
-/// Illuminance that a lamp throws on the ground below it, lux: E = I / h^2, with h its height but at least 1
-/// m (a lamp nearer to a surface than that lights a spot of its own size only).
+/// Returns the illuminance, lux, that a lamp gives the ground below it: E = I / h^2. The height h is at least
+/// 1 m, since a lamp nearer to a surface lights only a spot of its own size.
 double lamp_illuminance(const scene::PunctualLight& light, double ground) {
   if (light.type == scene::PunctualLight::Type::directional) return light.intensity;
   const double height = std::max(1.0, light.position.z - ground);
@@ -111,7 +111,7 @@ std::string haze_reason(const Environment& environment) {
 
 namespace {
 
-/// Decides what shades pixels: without colour there is none of it.
+/// Decides effects of shading. They are off if no camera delivers colour.
 class Shading {
  public:
   Shading(const Planner& planner, bool color) : planner_(planner), color_(color) {}
@@ -154,15 +154,15 @@ void plan_outputs(EffectPlan& plan, const Planner& planner, const CameraAsks& as
                                          : "event cameras step evenly");
 }
 
-/// A lens must be invertible over its whole picture and pass light everywhere; said here, before anything is
-/// built.
+/// Throws UserError unless every lens is invertible over its whole picture and passes light everywhere. The
+/// check comes before anything is built.
 void check_lenses(const Scenario& scenario) {
   for (const NodeConfig& node : scenario.nodes)
     for (const SensorConfig& sensor : node.sensors) {
       const PinholeConfig* camera = pinhole_config(sensor);
       if (camera == nullptr) continue;
       const auto* of_light = std::get_if<CameraConfig>(&sensor.config);
-      // A natural one cannot fail.
+      // Natural vignetting passes light everywhere.
       const bool vignetting =
           of_light != nullptr && of_light->vignetting.any() && !of_light->vignetting.natural;
       if (!camera->distortion.any() && !vignetting) continue;
@@ -178,7 +178,7 @@ void check_lenses(const Scenario& scenario) {
     }
 }
 
-/// What a lens, an exposure and a sensor of light do to a picture.
+/// Decides the effects of lens, exposure and sensor on a picture.
 void plan_lens(EffectPlan& plan, const Planner& planner, const CameraAsks& asks) {
   const auto asked = [&](Effect& effect, bool wanted, const char* bound = "") {
     planner.decide(effect, wanted,
@@ -206,14 +206,15 @@ void plan_surfaces(EffectPlan& plan, const Planner& planner, const Shading& shad
                  !camera             ? "no camera"
                  : offers.alpha_mask ? "materials have holes"
                                      : "no material has holes");
-  // What shines less than a white surface in this light is switched off, as lamps and windows are by day.
+  // Emission weaker than the light that a white surface reflects is switched off, as lamps and windows are by
+  // day.
   const double white = ground_lux / pi;
   shading.decide(plan.emissive, offers.emissive && offers.brightest_cd_m2 > white, "materials glow",
                  offers.emissive ? "daylight drowns what glows" : "no material glows",
                  offers.emissive ? fmt::format("up to {} cd/m^2 against {} of a white surface",
                                                digits(offers.brightest_cd_m2), digits(white))
                                  : "");
-  // Lamps matter once they add more than 1 % to what the sun and the sky give the ground.
+  // Lamps are on if they add more than 1 % to the illuminance of the ground by sun and sky.
   constexpr double tolerance = 0.01;
   const bool lamps = offers.lights > 0 && offers.lamp_illuminance_lux > tolerance * ground_lux;
   shading.decide(

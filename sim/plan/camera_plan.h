@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cameras' part of the effect plan, and what every part of it looks at.
+// Decides the effects of cameras. The other parts of the effect plan use the same summaries of scene and
+// scenario.
 #pragma once
 
 #include <string>
@@ -11,34 +12,38 @@
 
 namespace greatx::sim {
 
-/// What the scene has that some effect needs.
+/// Summarizes the properties of the scene that effects depend on.
 struct Offers {
   bool triangles = false, static_triangles = false, moving_triangles = false;
   bool textures = false, normal_maps = false, reflectance_textures = false, alpha_mask = false,
        emissive = false;
-  double brightest_cd_m2 = 0.0;  ///< that a material emits
+  double brightest_cd_m2 = 0.0;  ///< the highest luminance that a material emits
   size_t lights = 0;
-  double lamp_illuminance_lux = 0.0;  ///< the most that a lamp throws on the ground, see lamp_illuminance
+  /// The highest illuminance that a single lamp gives the ground.
+  double lamp_illuminance_lux = 0.0;
 };
 
-/// What the scenario asks for.
+/// Summarizes what the scenario asks of cameras, event cameras and LiDARs.
 struct CameraAsks {
   size_t cameras = 0, event_cameras = 0, lidars = 0;
-  size_t shared_pixels = 0;  ///< event cameras that share a camera's
+  size_t shared_pixels = 0;  ///< event cameras that share the pixels of a camera
   bool rgb = false, depth = false, ids = false, hdr = false;
   bool depth_ray = false, normals = false, flow = false, boxes = false;
   bool smooth_edges = false, distortion = false, vignetting = false, noise = false, motion_blur = false,
        automatic_exposure = false, adaptive_events = false;
   bool color() const { return rgb || hdr || event_cameras > 0; }
+  /// Whether the shots of some LiDAR are spread over time.
   bool sweep = false;
 };
 
 Offers offers_of(const scene::Scene& scene);
 CameraAsks camera_asks_of(const Scenario& scenario);
 
-/// "fog and rain leave N m of visibility"
+/// Returns "fog and rain leave N m of visibility".
 std::string haze_reason(const Environment& environment);
 
+/// Decides the effects of cameras. Throws UserError if a lens is not invertible over its picture, or passes
+/// no light somewhere in it.
 void plan_camera(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const Offers& offers,
                  const CameraAsks& asks);
 

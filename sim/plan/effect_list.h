@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every effect is declared once. The members of EffectPlan, their names under `effects:`, their order and
+// Declares every effect once. The members of EffectPlan, their names under `effects:`, their order and
 // docs/effects.md follow from these rows (tests/apps/check_docs_effects.py --write makes the page).
 //
 //   X(name, switchable, passed, documentation)
 //
-// switchable: whether a scenario may switch the effect; the others follow from its sensors.
-// passed: the struct of switches that has a member of the same name, which is set from the plan: `camera`
+// switchable: whether a scenario may switch the effect. An effect that it may not switch follows from the
+// sensors.
+// passed: the struct of switches with a member of the same name, which is set from the plan: `camera`
 // (render::CameraEffects), `radio` (rf::RadioEffects), `field` (rf::FieldEffects), or `none`.
 #pragma once
 

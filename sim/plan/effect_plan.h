@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Only the effects that the scene calls for: what the scene offers, what the scenario asks, and what can
-// matter within the tolerance decide each effect before anything is built. What is off is not compiled, not
-// recorded and not run.
+// Decides which effects a run needs, before anything is built. The decision depends on the contents of the
+// scene, on the requests of the scenario, and on the tolerance, below which an effect does not matter. An
+// effect that is off is not compiled, not recorded and not run.
 #pragma once
 
 #include <string>
@@ -15,33 +15,34 @@
 
 namespace greatx::sim {
 
-/// One effect, and the decision about it.
+/// Describes one effect and the decision about it.
 struct Effect {
   std::string name;        ///< as written under `effects:` in a scenario
-  bool switchable = true;  ///< false: it follows from the sensors
+  bool switchable = true;  ///< false: the effect follows from the sensors
   bool on = false;
   std::string reason;  ///< why it is on or off, one line
-  std::string bound;   ///< how much leaving it off can change, or how much keeping it on costs; may be empty
+  /// The change that leaving the effect off can cause, or the cost of keeping it on; may be empty.
+  std::string bound;
   explicit operator bool() const { return on; }
 };
 
-/// A member for each row of sim/plan/effect_list.h.
+/// Holds one member for each row of sim/plan/effect_list.h.
 struct EffectPlan {
 #define GREATX_MEMBER(name, switchable, passed, documentation) Effect name{#name, switchable, false, {}, {}};
   GREATX_EFFECTS(GREATX_MEMBER)
 #undef GREATX_MEMBER
 
-  /// Every effect, in the order of the rows.
+  /// Returns every effect in the order of the rows.
   std::vector<const Effect*> all() const;
 };
 
-/// Decides every effect. Bodies other than 0 count as moving. `points`: a box, world coordinates, around
-/// receivers that the scenario does not have (`--receivers`, the cells of a map, Python); empty: none. Throws
-/// UserError for a name under `effects:` that is none, or one that cannot be switched.
+/// Decides every effect. Bodies other than 0 count as moving. `points` is a box, world coordinates, around
+/// receivers that the scenario does not contain (`--receivers`, the cells of a map, points given in Python);
+/// empty: none. Throws UserError if a name under `effects:` is not an effect, or cannot be switched.
 EffectPlan make_effect_plan(const Scenario& scenario, const scene::Scene& scene,
                             const scene::Bounds& points = {});
 
-/// Whether both have the same effects on, whatever their bounds.
+/// Returns whether both plans have the same effects on. Their reasons and bounds may differ.
 bool same_effects(const EffectPlan& a, const EffectPlan& b);
 
 }  // namespace greatx::sim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the parts of the effect plan decide: what is needed, then what the scenario switches.
+// Combines the two inputs of every decision: whether an effect is needed, and how the scenario switches it.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ class Planner {
  public:
   explicit Planner(const Scenario& scenario) : scenario_(scenario) {}
 
-  /// `needed`: whether the scenario and the scene call for the effect. Throws UserError if the scenario
-  /// switches an effect that it cannot switch.
+  /// Decides an effect. `needed` says whether the scenario and the scene call for it. Throws UserError if the
+  /// scenario switches an effect that cannot be switched.
   void decide(Effect& effect, bool needed, const std::string& reason, const std::string& bound = "") const {
     const auto it = scenario_.effects.find(effect.name);
     const Switch wish = it == scenario_.effects.end() ? Switch::automatic : it->second;
@@ -38,7 +38,7 @@ class Planner {
   const Scenario& scenario_;
 };
 
-/// The radio part of the plan (sim/plan/radio_plan.cpp); `points` as make_effect_plan()'s.
+/// Decides the effects of radio (sim/plan/radio_plan.cpp). make_effect_plan() describes `points`.
 void plan_radio(EffectPlan& plan, const Planner& planner, const Scenario& scenario, const scene::Scene& scene,
                 const scene::Bounds& points);
 

@@ -14,14 +14,15 @@ namespace greatx::sim {
 
 namespace {
 
-/// What the scenario's LiDARs ask for, all together.
+/// Summarizes the requests of all LiDARs of the scenario.
 struct LidarAsks {
   size_t lidars = 0;
-  double sweep_s = 0.0;     ///< the longest
-  uint32_t rings = 0;       ///< the most
-  double widest_m = 0.0;    ///< a beam with rings, at its greatest range
-  double farthest_m = 0.0;  ///< of all ranges
-  double gate_m = 0.0;      ///< the longest range resolution of those that detect
+  double sweep_s = 0.0;  ///< the longest
+  uint32_t rings = 0;    ///< the most
+  /// The greatest width of a beam with rings at its maximum range.
+  double widest_m = 0.0;
+  double farthest_m = 0.0;  ///< the greatest maximum range
+  double gate_m = 0.0;      ///< the coarsest range resolution of LiDARs with detection
   bool detection = false;
   double range_std_m = 0.0, rise_m = 0.0;
   std::set<uint32_t> wavelengths_nm;
@@ -48,7 +49,7 @@ LidarAsks lidar_asks(const Scenario& scenario) {
   return asks;
 }
 
-/// The first material that is a pane; none: empty.
+/// Returns the first material that is a pane; empty: there is none.
 std::string first_pane(const scene::Scene& scene, const LidarAsks& asks) {
   for (const scene::Primitive& primitive : scene.primitives)
     for (const uint32_t wavelength : asks.wavelengths_nm)

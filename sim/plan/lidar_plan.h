@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The LiDARs' part of the effect plan.
+// Decides the effects of LiDARs.
 #pragma once
 
 #include "sim/plan/camera_plan.h"

@@ -17,16 +17,16 @@ namespace {
 
 constexpr double astronomical_unit_m = 149597870700.0, mean_moon_distance_m = 384400e3;
 
-/// A body's place and the light that it gives in clear air.
+/// Describes the position of sun or moon and its light in clear air.
 struct Lamp {
   double azimuth = 0.0, elevation = -0.5 * pi, true_elevation = -0.5 * pi;
-  double level_lux = 0.0;   ///< disc and the sky that it lights, on level ground
-  double direct_lux = 0.0;  ///< disc alone, on a surface that faces it
+  double level_lux = 0.0;   ///< on level ground, from the disc and the sky that it lights
+  double direct_lux = 0.0;  ///< from the disc alone, on a surface that faces it
   double sky_lux() const { return level_lux - direct_lux * std::max(0.0, std::sin(true_elevation)); }
 };
 
-/// Splits level_lux as the model of the air does. Below a degree the disc's light goes to 0 with the
-/// elevation.
+/// Splits level_lux into the light of the disc and of the sky, in the proportion of the model of the
+/// atmosphere. Below an elevation of one degree the light of the disc decreases to 0 with the elevation.
 void split(Lamp& lamp, const Environment& environment) {
   if (lamp.true_elevation <= 0.0 || lamp.level_lux <= 0.0) return;
   const double at_least = std::max(lamp.true_elevation, radians(1.0));
@@ -65,7 +65,7 @@ Bodies bodies_of(const Environment& environment) {
       bodies.moon_phase_angle = moon->phase_angle.value_or(pi - apart);
     }
   }
-  // Below the horizon what the model gives is starlight in the end, which no distance changes.
+  // Far below the horizon the model gives starlight, which does not depend on the distance of the sun.
   bodies.sun.level_lux =
       render::natural_night_lux +
       sun_scale * (render::sunlight_lux(bodies.sun.true_elevation) - render::natural_night_lux);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the environment as written to the light that falls on the scene: where sun and moon are, how bright
-// they and the sky are, what fog and rain leave of it (docs/light.md).
+// Computes the light that falls on the scene from the environment of a scenario: positions and brightness of
+// sun and moon, the brightness of the sky, and the attenuation by fog and rain (docs/light.md).
 #pragma once
 
 #include <algorithm>
@@ -13,27 +13,33 @@
 
 namespace greatx::sim {
 
+/// Describes the light of an environment.
 struct ResolvedLight {
-  render::Lighting lighting;  ///< all that SceneLighting takes; local axes are the world's
-  render::KeyLight key;       ///< what casts shadows, above fog and rain; Body::none: nothing does
-  render::LayerLight
-      below;  ///< what fog and rain leave of the key light (facing it) and of the sky, on the ground
-  double sun_elevation = 0.0,
-         moon_elevation = 0.0;  ///< rad, with refraction; the moon's -pi/2 if there is none
-  bool haze = false;            ///< fog or rain is there
-  bool night_sky =
-      false;  ///< stars or the moon's disc can be seen: no clouds, the sun 6 degrees down or the moon up
+  render::Lighting lighting;  ///< the input of SceneLighting; local axes are those of the world
+  /// The source that casts shadows, above fog and rain; Body::none: there is none.
+  render::KeyLight key;
+  /// The light on the ground below fog and rain: the key light on a surface that faces it, and the light of
+  /// the sky.
+  render::LayerLight below;
+  /// rad, with refraction. The moon's elevation is -pi/2 if there is no moon.
+  double sun_elevation = 0.0, moon_elevation = 0.0;
+  bool haze = false;  ///< there is fog or rain
+  /// Stars or the disc of the moon can be seen: there are no clouds, and the sun is more than 6 degrees below
+  /// the horizon or the moon is up.
+  bool night_sky = false;
 
-  /// On level ground, all together.
+  /// Returns the total illuminance of level ground.
   double ground_lux() const { return below.direct_lux * std::max(0.0, key.direction.z) + below.sky_lux; }
 };
 
-/// Illuminances that the scenario leaves open follow from the positions: with a place and a time, or when the
-/// sun is below the horizon, or under clouds, by the models of renderer/daylight/twilight.h; with a sun by
-/// hand above the horizon they are 100 000 lux (sun) and 15 000 lux (sky) whatever its height.
+/// Resolves the light of an environment. Illuminances that the scenario does not give follow from the
+/// positions of sun and moon by the models of renderer/daylight/twilight.h if there is a place and a time, if
+/// the sun is below the horizon, or if the sky is overcast. With a given sun above the horizon and a clear
+/// sky they are 100 000 lux (sun) and 15 000 lux (sky), whatever the sun's elevation.
 ResolvedLight resolve(const Environment& environment);
 
-/// Of fog and rain, 1/m, one way: for cameras and LiDAR alike.
+/// Returns the extinction coefficient of fog and rain, 1/m, for one way. Cameras and LiDARs use the same
+/// value.
 double haze_extinction(const Environment& environment);
 
 }  // namespace greatx::sim

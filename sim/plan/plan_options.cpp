@@ -18,7 +18,7 @@ struct Passed {
   rf::RadioEffects radio;
 };
 
-// Each row of the effects' table sets the member of its name in the struct that it is passed to.
+// Each row of the table of effects sets the member of the same name in the struct that the row names.
 #define GREATX_PASS_none(name)
 #define GREATX_PASS_camera(name) passed.camera.name = plan.name.on;
 #define GREATX_PASS_radio(name) passed.radio.name = plan.name.on;
@@ -27,8 +27,9 @@ struct Passed {
 
 Passed passed_by(const EffectPlan& plan) {
   Passed passed;
+  // scattering takes power from reflections
   GREATX_EFFECTS(GREATX_PASS)
-  passed.radio.field.scattering = plan.scattering.on;  // a part of what is reflected is scattered instead
+  passed.radio.field.scattering = plan.scattering.on;
   return passed;
 }
 

@@ -12,7 +12,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// What the scenario's radars ask for, all together.
+/// Summarizes the requests of all radars of the scenario.
 struct RadarAsks {
   size_t radars = 0;
   double shortest_wavelength_m = 1e9;
@@ -37,9 +37,9 @@ RadarAsks radar_asks(const Scenario& scenario) {
   return asks;
 }
 
-/// What the scene's surfaces offer.
+/// Summarizes the properties of surfaces that matter to radars.
 struct RadarOffers {
-  double roughness_m = 0.0;  ///< the largest
+  double roughness_m = 0.0;  ///< the largest of all materials
   std::string roughest;
   bool scattering = false;
 };
@@ -69,15 +69,14 @@ void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenar
     planner.decide(effect, radar && needed, !radar ? "no radar" : needed ? yes : no, bound);
   };
   planner.decide(plan.radar, radar, radar ? fmt::format("{} of them", asks.radars) : "no radar");
-  // Ament's factor of both fields at normal incidence, the most there can be.
+  // Ament's factor for both fields at normal incidence is the upper bound.
   const double most_db =
       offers.roughness_m > 0.0 ? rf::most_roughness_db(offers.roughness_m, asks.shortest_wavelength_m) : 0.0;
   decide(plan.radar_roughness, most_db > scenario.tolerance_db,
          fmt::format("surfaces are rough: {} has {:g} mm rms", offers.roughest, 1e3 * offers.roughness_m),
          offers.roughness_m > 0.0 ? "rough surfaces are smooth at these wavelengths" : "no material is rough",
          radar && offers.roughness_m > 0.0 ? fmt::format("at most {:.3g} dB an echo", most_db) : "");
-  // Rough ground answers everywhere, in many times as many echoes as targets have: who wants clutter asks for
-  // it.
+  // Clutter must be asked for, because rough ground returns many times as many echoes as targets do.
   planner.decide(
       plan.radar_clutter, false,
       !radar ? "no radar"

@@ -6,7 +6,7 @@
 
 namespace greatx::sim {
 
-/// The radars' part of the plan.
+/// Decides the effects of radars.
 void plan_radar(EffectPlan& plan, const Planner& planner, const Scenario& scenario,
                 const scene::Scene& scene);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which radio effects a scenario calls for, each with a bound on what it can change.
+// Decides which radio effects a scenario calls for, each with a bound on the change that it causes.
 #include "sim/plan/radio_plan.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// What the channels ask for, and the largest of each.
+/// Summarizes the requests of all channels, with the extremes of their numbers.
 struct RadioAsks {
   size_t channels = 0;
   uint32_t max_depth = 0, walls = 0, time_samples = 1;
@@ -33,12 +33,12 @@ struct RadioAsks {
   double longest_record_s = 0.0, highest_hz = 0.0, lowest_hz = std::numeric_limits<double>::infinity();
 };
 
-/// What the scene's surfaces are to radio.
+/// Summarizes the properties of surfaces that matter to radio.
 struct RadioSurfacesSeen {
   bool triangles = false, moving = false, foliage = false, scattering = false, edges = false;
   size_t walls = 0;            ///< materials that let waves pass (rf::dark_wall_db)
-  double least_loss_db = 0.0;  ///< of them, at normal incidence and the lowest carrier
-  std::string clearest;        ///< the material that has it
+  double least_loss_db = 0.0;  ///< the least loss of these, at normal incidence and the lowest carrier
+  std::string clearest;        ///< the material with the least loss
   double roughness_m = 0.0;
 };
 
@@ -91,8 +91,8 @@ scene::Bounds widened(const scene::Bounds& bounds, double by_m) {
   return bounds.empty() ? bounds : scene::Bounds{bounds.min - by_m, bounds.max + by_m};
 }
 
-/// Where the elements of a channel's arrays can ever be: their mounts and their places in the array turn with
-/// the node.
+/// Adds a box that the elements of a channel's arrays never leave. The mounts, and the positions of the
+/// elements in the array, turn with the node.
 void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene::Bounds& bounds) {
   for (const auto* names : {&channel.transmitters, &channel.receivers})
     for (const std::string& name : *names) {
@@ -109,11 +109,12 @@ void add_elements(const Scenario& scenario, const ChannelConfig& channel, scene:
     }
 }
 
-/// By how far a mesh that moves can stick out of its node's course, however it is turned.
+/// Returns the largest distance by which a moving mesh extends beyond the course of its node, in any
+/// attitude.
 double largest_body_m(const scene::Scene& scene) {
   double largest = 0.0;
   for (uint32_t body = 1; body < scene.bodies.size(); ++body) {
-    if (scene.bodies[body].joint) continue;  // within its owner's reach
+    if (scene.bodies[body].joint) continue;  // included in the reach of its owner
     const scene::Bounds& reach = scene.reach_of(body);
     if (!reach.empty())
       largest = std::max(largest, glm::length(glm::max(glm::abs(reach.min), glm::abs(reach.max))));
@@ -121,8 +122,8 @@ double largest_body_m(const scene::Scene& scene) {
   return largest;
 }
 
-/// No path is longer: each of its segments stays in the box around the scene, the trajectories, all elements
-/// of antennas, what moves and reflects, and the points given from outside.
+/// Returns an upper bound of the length of a path. Each segment of a path lies in the box around the scene,
+/// the trajectories, all antenna elements, the moving reflectors, and the points given from outside.
 double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint32_t max_depth,
                       bool moving_reflectors, const scene::Bounds& points) {
   scene::Bounds courses;
@@ -137,13 +138,13 @@ double longest_path_m(const Scenario& scenario, const scene::Scene& scene, uint3
   return (max_depth + 1.0) * glm::length(bounds.size());
 }
 
-/// The parts of the decision that every function below needs.
+/// Holds the inputs that all functions below need.
 struct Radio {
   const Planner& planner;
   const RadioAsks& asks;
   const RadioSurfacesSeen& surfaces;
   bool on() const { return asks.channels > 0; }
-  /// `reason`, unless there is no channel.
+  /// Returns `reason`, or "no channel" if there is none.
   std::string why(const std::string& reason) const { return on() ? reason : "no channel"; }
 };
 
@@ -188,13 +189,14 @@ void plan_transmission(EffectPlan& plan, const Radio& radio) {
             : "");
 }
 
-/// Asked for, but there is nothing for it to act on.
+/// Switches off an effect that is asked for but has nothing to act on.
 void deny(Effect& effect) {
   effect.on = false;
   effect.reason = "asked for, but nothing to act on" + effect.reason.substr(effect.reason.find(" ("));
 }
 
-/// Effects that cost a search or thousands of paths, and that a scenario therefore asks for by name.
+/// Decides the effects that cost a search or thousands of paths. They are on only if a scenario asks for them
+/// by name.
 void plan_on_request(EffectPlan& plan, const Radio& radio) {
   const bool deep = radio.on() && radio.asks.max_depth > 0;
   const bool edges = deep && radio.surfaces.edges;
@@ -218,10 +220,10 @@ void plan_on_request(EffectPlan& plan, const Radio& radio) {
                        radio.why("not asked for (effects: {dispersion: on}): materials as at the carrier"));
 }
 
-/// The most that the air does to any path of any channel.
+/// Describes the largest attenuation by the air on any path of any channel.
 struct Most {
-  double db = 0.0, carrier_hz = 0.0;  ///< of the channel that it does it to
-  double outside_hz = 0.0;            ///< a carrier that the recommendation does not cover; 0: none
+  double db = 0.0, carrier_hz = 0.0;  ///< the attenuation, and the carrier where it is largest
+  double outside_hz = 0.0;            ///< a carrier outside the recommendation; 0: none
 };
 using AirBound = double (*)(const rf::Weather&, double frequency_hz, double distance_m);
 
@@ -233,14 +235,15 @@ Most most_of(const RadioAsks& asks, const rf::Weather& weather, double distance_
       most.outside_hz = carrier;
       continue;
     }
-    // Attenuation by gas has lines: the highest carrier need not be the one that loses most.
+    // Gases have absorption lines, so the highest carrier need not have the largest attenuation.
     const double db = bound(weather, carrier, distance_m);
     if (most.carrier_hz == 0.0 || db > most.db) most.db = db, most.carrier_hz = carrier;
   }
   return most;
 }
 
-/// Gas, rain, fog. Outside its recommendation's range an effect has no bound: it stays off, and says so.
+/// Decides one of gas, rain and fog. Outside the frequency range of its recommendation an effect has no
+/// bound. It then stays off, and its reason says so.
 void plan_air(Effect& effect, const Radio& radio, const Most& most, double longest_m, double tolerance,
               const std::string& none, const char* source) {
   const bool needed = radio.on() && most.db > tolerance;
@@ -263,7 +266,7 @@ void plan_air(Effect& effect, const Radio& radio, const Most& most, double longe
                      effect.name, source, most.outside_hz * 1e-9);
 }
 
-/// Effects that a bound decides.
+/// Decides the effects that are on if their bound exceeds the tolerance.
 void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scenario, double longest_m) {
   const double tolerance = scenario.tolerance_db;
   const rf::Weather weather = weather_of(scenario.environment);
@@ -293,7 +296,7 @@ void plan_attenuation(EffectPlan& plan, const Radio& radio, const Scenario& scen
                                          rough_db, asks.max_depth, tolerance));
 }
 
-/// Speeds are not known before the run: the Doppler bound is stated per m/s.
+/// Decides the Doppler effect. Speeds are not known before the run, so the bound is given per m/s.
 void plan_doppler(EffectPlan& plan, const Radio& radio) {
   const bool doppler = radio.on() && radio.asks.time_samples > 1;
   radio.planner.decide(

@@ -7,7 +7,7 @@
 
 namespace greatx::sim {
 
-/// The environment's weather, for rf/.
+/// Returns the weather of the environment as rf/ describes it.
 rf::Weather weather_of(const Environment& environment);
 
 }  // namespace greatx::sim

@@ -10,7 +10,8 @@ namespace greatx::sim {
 
 namespace {
 
-/// Smooth ways bulge: each of their segments lies in the hull of its four control points.
+/// Adds a trajectory of way-points. Each segment of a smooth one lies in the convex hull of its four control
+/// points.
 void add_way(const WayPointTrajectory& way, scene::Bounds& bounds) {
   for (const WayPoint& point : way.points) bounds.add(point.position_m);
   if (!way.smooth || way.points.size() < 2) return;
@@ -22,17 +23,18 @@ void add_way(const WayPointTrajectory& way, scene::Bounds& bounds) {
   }
 }
 
-/// How far beyond its end the run sees a curve, in units of how long the curve lasts.
+/// Returns how long the run continues beyond the end of a curve, as a multiple of the curve's duration.
 double overrun(const Scenario& scenario) {
   const double last = static_cast<double>(scenario.ticks - 1);
   const double end = static_cast<double>(scenario.curve_ticks() - 1);
   return end > 0.0 ? std::max(0.0, last / end - 1.0) : 0.0;  // a curve of one tick rests
 }
 
-/// The box of its control points, whatever is drawn, and the way with B'(1) = 3 (P3 - P2) beyond the end.
+/// Adds the box of the control points, whatever is drawn, and the straight continuation beyond the end, along
+/// B'(1) = 3 (P3 - P2).
 void add_curve(const BezierTrajectory& curve, double beyond, scene::Bounds& bounds) {
   scene::Bounds box;
-  dvec3 last_edge;  // the most that P3 - P2 can be, along each axis
+  dvec3 last_edge;  // the upper bound of |P3 - P2| along each axis
   if (curve.control_points) {
     for (const dvec3& point : *curve.control_points) box.add(point);
     last_edge = glm::abs((*curve.control_points)[3] - (*curve.control_points)[2]);
@@ -45,11 +47,11 @@ void add_curve(const BezierTrajectory& curve, double beyond, scene::Bounds& boun
   bounds.add(box.max + 3.0 * beyond * last_edge);
 }
 
-/// Half the width and half the height to either side, whichever way the line goes; beyond its end at its one
-/// speed.
+/// Adds the centre line, widened by half the width and half the height in every direction, since a leg may
+/// have any direction. Beyond its end the trajectory continues at its constant speed.
 void add_corridor(const CorridorTrajectory& corridor, double beyond, scene::Bounds& bounds) {
   const double across = corridor.width_m + corridor.height_m;
-  double longest = corridor.legs * across;  // every leg from one side to the other
+  double longest = corridor.legs * across;  // if every leg crosses the corridor
   for (size_t i = 0; i + 1 < corridor.center_line_m.size(); ++i)
     longest += glm::distance(corridor.center_line_m[i], corridor.center_line_m[i + 1]);
   const dvec3 room(0.5 * across + beyond * longest);

@@ -7,8 +7,9 @@
 
 namespace greatx::sim {
 
-/// Adds a box, world coordinates, that the trajectory never leaves, whatever is drawn, up to the run's last
-/// tick: a run longer than the curves (Scenario::trajectory_ticks) sees them go straight on.
+/// Adds to `bounds` a box, world coordinates, that the trajectory never leaves up to the last tick of the
+/// run, whatever is drawn. If the run is longer than the curves (Scenario::trajectory_ticks), the box
+/// includes their straight continuation.
 void add_trajectory(const Scenario& scenario, const Trajectory& trajectory, scene::Bounds& bounds);
 
 }  // namespace greatx::sim

@@ -17,14 +17,14 @@ constexpr VkDeviceSize first_upload_bytes = 4u << 20, first_readback_bytes = 16u
 
 }  // namespace
 
-/// A tick that was submitted and not yet collected.
+/// Describes a tick that is submitted and not yet collected.
 struct Simulator::InFlight {
   const gpu::TickSlot* slot = nullptr;
   int64_t tick = 0;
   std::vector<Due> due;
 };
 
-/// Adds the wall time of its life to a row of RunStatistics::host, if samples are kept.
+/// Adds the wall time of its lifetime to a row of RunStatistics::host, if samples are kept.
 class Simulator::HostScope {
  public:
   HostScope(Simulator& simulator, const char* doing, const std::string& sensor = {}) {
@@ -84,7 +84,7 @@ void Simulator::start(uint32_t sequence, int64_t first_tick) {
   replay(next_tick_);
 }
 
-/// Takes the sensors that remember through the ticks before `end`; nothing is written.
+/// Runs the sensors that remember through the ticks before `end`, without writing anything.
 void Simulator::replay(int64_t end) {
   int64_t before = 0;
   for (int64_t tick = schedule_.next(0, end); tick < end; tick = schedule_.next(tick + 1, end)) {
@@ -124,7 +124,7 @@ bool Simulator::step(RecordSink& sink) {
   ring_.submit(slot);
   ++statistics_.ticks;
 
-  drain(sink);  // the tick before, while the GPU works on this one
+  drain(sink);  // collects the tick before, while the GPU works on this one
   pending_ = std::make_unique<InFlight>(InFlight{&slot, tick, std::move(due)});
   return true;
 }

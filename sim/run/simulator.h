@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One tick: poses ─► scene update ─► the due sensors' passes ─► ONE submission; meanwhile the tick before is
-// collected into a packet. Nothing but the simulator's own state changes in a tick.
+// Runs a scenario tick by tick: poses ─► scene update ─► the passes of the sensors that are due ─► ONE
+// submission. While the GPU works on a tick, the host collects the tick before into a packet. A tick changes
+// nothing but the simulator's own state.
 #pragma once
 
 #include <functional>
@@ -24,46 +25,49 @@
 
 namespace greatx::sim {
 
-/// GPU time of one pass, or the host's of one of its doings, over the run so far.
+/// Holds the GPU time of one pass, or the wall time of one activity of the host, over the run so far.
 struct PassTotal {
   uint64_t count = 0;
   double milliseconds = 0.0;
   std::vector<double> samples;  ///< ms, kept only if asked for (benchmarks)
 };
 
+/// Holds counts and times of a run so far.
 struct RunStatistics {
-  int64_t ticks = 0;                        ///< at which something was due, recorded and submitted
-  int64_t packets = 0;                      ///< complete, handed to the sink
+  int64_t ticks = 0;                        ///< ticks at which something was due, as submitted
+  int64_t packets = 0;                      ///< complete packets handed to the sink
   std::map<std::string, int64_t> records;   ///< by sensor
   std::map<std::string, PassTotal> passes;  ///< by scope name
-  /// Wall time of "record NAME" and "collect NAME" of each sensor (the latter while the GPU works on the tick
-  /// after), of "wait" for the GPU ("wait to look ahead" if a sensor does), of "compare" (the check of one
-  /// world) and of "hand over" to the sink; only if samples are kept.
+  /// Wall times of the host by activity, only if samples are kept: "record NAME" and "collect NAME" of each
+  /// sensor (the latter while the GPU works on the next tick), "wait" for the GPU ("wait to look ahead" if a
+  /// sensor looks ahead), "compare" (the consistency check), and "hand over" to the sink.
   std::map<std::string, PassTotal> host;
-  std::map<std::string, uint64_t> counters;  ///< what sensors count: paths, candidates, overflows
-  std::vector<std::pair<std::string, std::string>>
-      notes;  ///< (name, text): how candidates were found, what holds
-  std::vector<std::string>
-      warnings;             ///< data that was lost; `greatx generate` prints them even when it is quiet
-  Consistency consistency;  ///< of the run, by figure
-  std::vector<ConsistencyRow> rows;  ///< the same by record, of what is written
+  std::map<std::string, uint64_t> counters;  ///< counts of the sensors: paths, candidates, overflows
+  /// (name, text) pairs: how candidates were found, and which guarantees hold.
+  std::vector<std::pair<std::string, std::string>> notes;
+  /// Messages about lost data. `greatx generate` prints them even when it is quiet.
+  std::vector<std::string> warnings;
+  Consistency consistency;           ///< errors of the run, by figure
+  std::vector<ConsistencyRow> rows;  ///< errors by record, of the figures that are written
 };
 
+/// Runs the sequences of an experiment on a device.
 class Simulator {
  public:
-  /// Uploads the scene and builds the pipelines of the plan. Both arguments outlive the simulator.
+  /// Uploads the scene and builds the pipelines of the plan. Both arguments must outlive the simulator.
   Simulator(gpu::Device& device, const Experiment& experiment);
   ~Simulator();
 
-  /// What the packets will hold; index = Record::sensor.
+  /// Returns what each sensor delivers; index = Record::sensor.
   const std::vector<SensorSpec>& sensors() const { return specs_; }
 
-  /// Begins a sequence at its first tick, or later (`first_tick`) to finish an interrupted one.
+  /// Starts a sequence at its first tick, or at the first due tick from `first_tick` on, to continue an
+  /// interrupted one.
   void start(uint32_t sequence, int64_t first_tick = 0);
-  /// Records and submits the next tick that is due and hands the packet of the one before to `sink`.
-  /// False: nothing is left; the last packet has been handed over.
+  /// Records and submits the next tick that is due, and hands the packet of the tick before to `sink`.
+  /// Returns false if no tick is left; the last packet has then been handed over.
   bool step(RecordSink& sink);
-  /// Hands over what is in flight (before stopping early).
+  /// Hands over the packet of the tick in flight. Called before a run stops early.
   void drain(RecordSink& sink);
 
   int64_t next_tick() const { return next_tick_; }  ///< the tick that step() will record
@@ -95,7 +99,7 @@ class Simulator {
   std::unique_ptr<InFlight> pending_;
   uint32_t sequence_ = 0;
   int64_t next_tick_ = 0;
-  int64_t due_ticks_ = 0;  ///< of the sequence, before next_tick_
+  int64_t due_ticks_ = 0;  ///< due ticks of the sequence before next_tick_
   bool looks_ahead_ = false;
   bool keep_samples_ = false;
   RunStatistics statistics_;

@@ -87,7 +87,7 @@ TEST(InputFile, ASparseFileOfAHundredGibibytesIsRefusedBeforeItIsRead) {
               testing::AllOf(HasSubstr("sparse.csv"), HasSubstr("256 MiB"), HasSubstr("100 GiB")));
 }
 
-/// Each figure stands in docs/limits.md.
+/// docs/limits.md must state each of the limits.
 TEST(Budget, TheDocumentSaysTheSame) {
   std::ifstream file(GREATX_LIMITS);
   const std::string document((std::istreambuf_iterator<char>(file)), {});

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""No source reads or writes numbers by the process's locale: Python, and any program that loads the module,
-may have set one whose decimal sign is a comma."""
+"""Checks that no source reads or writes numbers by the locale of the process. Python, and any program that
+loads the module, may have set a locale whose decimal sign is a comma."""
 import pathlib
 import re
 import sys
@@ -10,7 +10,8 @@ import sys
 root = pathlib.Path(sys.argv[1])
 folders = ["core", "gpu", "scene", "renderer", "rf", "io", "sim", "assets", "apps", "python/src"]
 banned = re.compile(
-    r"\b(?:std::)?(strtod|strtof|strtold|atof|stod|stof|stold|sscanf|fscanf|as_double|as_float|setlocale)\s*\("
+    r"\b(?:std::)?(strtod|strtof|strtold|atof|stod|stof|stold|sscanf|fscanf"
+    r"|as_double|as_float|setlocale)\s*\("
     r"|std::(locale)\b|\{[^{}\"]*:[^{}\"]*(L)\}"
 )
 faults = []

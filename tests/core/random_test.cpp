@@ -9,7 +9,7 @@
 namespace greatx {
 namespace {
 
-// Known answers of Random123's kat_vectors for philox4x32-10.
+// known answers from Random123's kat_vectors for philox4x32-10
 TEST(Philox, MatchesKnownAnswers) {
   EXPECT_EQ(shared::philox4x32(glm::uvec4(0u), glm::uvec2(0u)),
             glm::uvec4(0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u));

@@ -63,7 +63,7 @@ TEST(Text, NumbersDoNotFollowTheLocale) {
   const std::string before = std::setlocale(LC_NUMERIC, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"})
     if (std::setlocale(LC_NUMERIC, locale) != nullptr)
-      break;  // none there: check_locale.py says that none matters
+      break;  // if no such locale is installed, check_locale.py shows that none matters
   EXPECT_EQ(parse_number("1.5"), 1.5);
   EXPECT_FALSE(parse_number("1,5").has_value());
   std::setlocale(LC_NUMERIC, before.c_str());
@@ -74,7 +74,7 @@ TEST(Activity, MemoryThatIsNotThereNamesWhatWasDone) {
   const auto ask = [] {
     const Activity outer("loading a model");
     const Activity inner("building the scene");
-    std::get_new_handler()();  // as operator new does; a sanitizer's own would end the test
+    std::get_new_handler()();  // as operator new does; a sanitizer's own operator new would end the test
   };
   EXPECT_THROW(ask(), std::bad_alloc);
   EXPECT_EQ(out_of_memory(), "out of memory while building the scene");

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Long work that is watched: it can be stopped from any of its threads' loops, and says how far it is.
+// Checks the watch of long work: it can stop the work from a loop of any thread, and it receives the
+// progress.
 #include "core/watch.h"
 
 #include <string>
@@ -14,7 +15,7 @@
 namespace greatx {
 namespace {
 
-/// Says enough at the `stop_at`th look.
+/// Interrupts the work at the `stop_at`th check.
 class CountingWatch : public Watch {
  public:
   explicit CountingWatch(int stop_at) : stop_at_(stop_at) {}
@@ -81,7 +82,7 @@ TEST(Watch, HearsWhatIsDoneAndHowFarItIs) {
       {
         WorkStage stage("search");
         stage.add(3);
-        WorkStage inner("part of it");  // of which nobody hears
+        WorkStage inner("part of it");  // the watch receives nothing of this stage
         inner.add(100);
         stage.expect(12.0);
         never_ends();

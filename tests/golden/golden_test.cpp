@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of one small scene against those kept beside this file (goldens.yaml). Other tests say what is
-// right; these say that nothing changed unseen. They are rewritten by
+// Compares pictures of one small scene with the pictures beside this file (goldens.yaml). Other tests check
+// that results are right; these tests check that no result changes unnoticed. Only
 //     cmake --build BUILD --target update-goldens
-// alone: look at what changed before it is committed.
+// rewrites the pictures. Look at the changes before you commit them.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -23,8 +23,9 @@
 namespace greatx::test {
 namespace {
 
-const std::filesystem::path folder = GREATX_GOLDEN_FOLDER;      ///< goldens and scenarios
-const std::filesystem::path findings = GREATX_GOLDEN_FINDINGS;  ///< what failed, in the build folder
+const std::filesystem::path folder = GREATX_GOLDEN_FOLDER;  ///< goldens and scenarios
+const std::filesystem::path findings =
+    GREATX_GOLDEN_FINDINGS;  ///< pictures of failed comparisons, in the build folder
 
 bool updating() { return std::getenv("GREATX_UPDATE_GOLDENS") != nullptr; }
 
@@ -35,11 +36,11 @@ Array golden(const std::string& name) {
   return io::decode_png(io::read_file(file), file.string());
 }
 
-/// How far two pictures are apart by a row's measure, and a picture of where.
+/// Holds the difference of two pictures by the measure of a row, and a picture of the places that differ.
 struct Comparison {
   double value = 0.0;
   Array where;
-  size_t foreign = 0;  ///< ids that do not belong where they are; none is ever right
+  size_t foreign = 0;  ///< ids that do not occur around their pixel in the golden; every one is a failure
 };
 
 Comparison compare_by_flip(const Array& expected, const Array& actual) {
@@ -68,8 +69,8 @@ Comparison compare_codes(const Array& expected, const Array& actual, int step) {
   return result;
 }
 
-/// Ids: a pixel at an outline, that is one whose golden has another id among its eight neighbours, may have
-/// any of these ids; all others have exactly their own.
+/// Compares ids. A pixel at an outline has another id among its eight neighbours in the golden and may have
+/// any of these ids. All other pixels must have exactly the id of the golden.
 template <typename T>
 Comparison compare_ids(const Array& expected, const Array& actual) {
   const int64_t height = expected.shape[0], width = expected.shape[1];
@@ -95,7 +96,7 @@ Comparison compare_ids(const Array& expected, const Array& actual) {
   return result;
 }
 
-/// A row has one of these.
+/// Returns the measure of a row; each row has exactly one.
 std::string measure_of(const YAML::Node& row) {
   for (const char* measure : {"flip", "ids", "share"})
     if (row[measure]) return measure;
@@ -119,7 +120,7 @@ bool within_tolerance(const YAML::Node& row, const Comparison& found) {
 
 bool same_shape(const Array& a, const Array& b) { return a.dtype == b.dtype && a.shape == b.shape; }
 
-/// What an update changes, in words; a golden that cannot be read is no obstacle.
+/// Describes the change by an update in words. An unreadable golden is no error.
 std::string change(const std::string& name, const YAML::Node& row, const Array& actual) try {
   if (!std::filesystem::exists(folder / (name + ".png"))) return "new";
   const Array before = golden(name);
@@ -138,7 +139,7 @@ void update(const std::string& name, const YAML::Node& row, const Array& actual)
 
 void check(const std::string& name, const YAML::Node& row, const Array& actual) {
   for (const char* what : {"_expected.png", "_actual.png", "_difference.png"})
-    std::filesystem::remove(findings / (name + what));  // of an earlier run
+    std::filesystem::remove(findings / (name + what));  // files of an earlier run
   const Array expected = golden(name);
   const auto keep = [&](const char* what, const Array& picture) {
     std::filesystem::create_directories(findings);
@@ -228,9 +229,9 @@ TEST(GoldenGuard, IdsDifferAtOutlinesAlone) {
   };
   EXPECT_TRUE(passes({}, 0));
   EXPECT_TRUE(passes({5 * 40 + 19, 6 * 40 + 19, 8 * 40 + 19, 9 * 40 + 19}, 2));  // 4 of 800
-  EXPECT_FALSE(passes({19, 59, 99, 139, 179}, 2));                               // more than half a percent
-  EXPECT_FALSE(passes({5 * 40 + 19}, 3));                                        // nobody's
-  EXPECT_FALSE(passes({5 * 40 + 18}, 2));                                        // a pixel from the outline
+  EXPECT_FALSE(passes({19, 59, 99, 139, 179}, 2));                               // more than 0.5 %
+  EXPECT_FALSE(passes({5 * 40 + 19}, 3));                                        // an id that does not exist
+  EXPECT_FALSE(passes({5 * 40 + 18}, 2));  // the neighbour of an outline pixel
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace greatx::test {
 
 namespace {
 
-constexpr int64_t lidar_rings = 32, lidar_steps = 256;           // day.yaml's
-constexpr double focal_px = 80.0, center_u = 80, center_v = 60;  // of its cameras
+constexpr int64_t lidar_rings = 32, lidar_steps = 256;           // those of day.yaml
+constexpr double focal_px = 80.0, center_u = 80, center_v = 60;  // intrinsics of its cameras
 
 uint16_t centimetres(float metres) {
   return static_cast<uint16_t>(std::lround(std::min(100.0f * metres, 65535.0f)));
@@ -43,13 +43,13 @@ Array flow_picture(const Array& flow) {
   return picture;
 }
 
-/// 128 codes a factor of two, from 2^-30 cd/m^2 on.
+/// Codes a luminance with 128 codes per factor of two, starting at 2^-30 cd/m^2.
 uint16_t stops(float radiance) {
   if (!(radiance > 0.0f)) return 0;
   return static_cast<uint16_t>(std::lround(std::clamp(128.0 * (30.0 + std::log2(radiance)), 1.0, 65535.0)));
 }
 
-/// Of every second pixel of every second row: a file as small as the others.
+/// Takes every second pixel of every second row, so that the file is as small as the others.
 Array radiance_picture(const Array& hdr) {
   const int64_t height = hdr.shape[0] / 2, width = hdr.shape[1] / 2;
   Array picture(DType::u16, {3 * height, width});
@@ -61,7 +61,7 @@ Array radiance_picture(const Array& hdr) {
   return picture;
 }
 
-/// The twelve edges of a box; not those that reach behind the camera.
+/// Draws the twelve edges of a box, except edges that reach behind the camera.
 void draw_edges(io::Canvas& canvas, const Pose& sensor_from_box, const float* size, io::Color color) {
   const auto corner = [&](int bits) {
     const dvec3 side((bits & 1) - 0.5, (bits >> 1 & 1) - 0.5, (bits >> 2) - 0.5);
@@ -78,7 +78,7 @@ void draw_edges(io::Canvas& canvas, const Pose& sensor_from_box, const float* si
     }
 }
 
-/// Twice as large as the camera's.
+/// Draws the boxes at twice the resolution of the camera.
 template <typename Get>
 Array boxes_picture(const Get& get) {
   const Array& rgb = get("rgb");  // for the size

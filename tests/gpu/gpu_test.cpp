@@ -110,8 +110,8 @@ TEST(Validation, AMessageIsCaught) {
   EXPECT_FALSE(device.validation_log()->take().empty()) << "validation is not on";
 }
 
-/// An error between a submission and its wait takes everything down that the submission works with, in the
-/// order in which scopes end; the validation layer calls out what dies too early.
+/// An error between a submission and its wait destroys everything that the submission uses, in the order in
+/// which scopes end. The validation layer reports objects that are destroyed too early.
 TEST(Ticks, NothingDiesBeforeTheSubmissionThatUsesIt) {
   Device& device = test::device();
   const auto run = [&](bool next_begun) {

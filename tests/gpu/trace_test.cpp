@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays against triangles: the hard cases 1-10 of the catalogue, through shaders/lib/trace.glsl.
+// Checks rays against triangles through shaders/lib/trace.glsl: the hard cases 1-10 of the catalogue.
 #include <cmath>
 #include <cstring>
 
@@ -28,7 +28,7 @@ TEST(Trace, HitsWhatItShould) {
   const auto results =
       trace(tiny.build(), std::vector{through, skipping, ray({3, 0, 0}, {0, 0, 1}), short_one});
   EXPECT_EQ(results[0].triangle, 0u);
-  EXPECT_FLOAT_EQ(results[0].t, 2.5f);  // along the direction, in its lengths
+  EXPECT_FLOAT_EQ(results[0].t, 2.5f);  // in units of the length of the direction
   EXPECT_EQ(results[0].next_triangle, 2u);
   EXPECT_FLOAT_EQ(results[0].next_t, 3.5f);
   EXPECT_EQ(results[0].any, 1u);
@@ -43,7 +43,7 @@ TEST(Trace, HitsWhatItShould) {
 }
 
 TEST(Trace, PassesOverABodyExactly) {
-  // The body's face and a wall stand at the same place: only the wall may be seen.
+  // A body's face and a wall are at the same place. The ray may hit the wall only.
   TinyScene tiny;
   tiny.object("wall").quad({-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5});
   const uint32_t body = tiny.body("drone");
@@ -101,7 +101,7 @@ TEST(HardCase, N02_VertexOfAClosedFanIsHitExactlyOnce) {
 }
 
 TEST(HardCase, N03_TwoStaticObjectsThatShareAnEdgeDoNotLeak) {
-  // Two instances of the scene, one body: one acceleration structure, whose edges are watertight.
+  // Two instances belong to one body and so to one acceleration structure, whose edges are watertight.
   TinyScene tiny;
   tiny.object("left").triangle({-3, 0, 0.5}, {0, -5, 0}, {0, 5, 0});
   tiny.object("right").triangle({3, 0, 0.7}, {0, 5, 0}, {0, -5, 0});
@@ -138,7 +138,7 @@ TEST(HardCase, N04_DegenerateTrianglesAreNeverHit) {
 }
 
 TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
-  // A box whose lid is made of strips 1e-4 m wide next to wide ones.
+  // The lid of the box is made of strips 1e-4 m wide next to wide ones.
   TinyScene tiny;
   tiny.quad({-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1})
       .quad({-1, -1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1})
@@ -155,7 +155,7 @@ TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
   std::vector<TraceTestRay> rays;
   for (int i = 0; i < 16384; ++i) {
     const dvec3 from(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9));
-    // A third into the slivers, a third along their edges, a third anywhere.
+    // A third of the rays go into the slivers, a third along their edges, and a third anywhere.
     const double cut = cuts[random.below(static_cast<uint32_t>(cuts.size()))];
     const dvec3 to(i % 3 == 0 ? cut + random.uniform(0, 1e-4) : cut, random.uniform(-0.999, 0.999), 1);
     rays.push_back(i % 3 == 2 ? ray(from, random_direction(random)) : ray_towards(from, to));
@@ -166,7 +166,8 @@ TEST(HardCase, N05_SliversOfAClosedMeshDoNotLeak) {
 }
 
 TEST(Trace, RaysInGeneralDirectionsDoNotLeakThroughTheDriver) {
-  // A closed room of 2400 tiles from inside: what the LiDAR and the search for candidates rely on.
+  // The rays start inside a closed room of 2400 tiles. The LiDAR and the candidate search rely on this
+  // property.
   TinyScene tiny;
   const auto tiles = [&](const dvec3& corner, const dvec3& u, const dvec3& v) {
     for (int i = 0; i < 20; ++i)
@@ -205,8 +206,8 @@ TEST(HardCase, N06_RaysInTheTrianglesPlaneAreFiniteAndDoNotLeak) {
                        {std::cos(azimuth), std::sin(azimuth), 0}));
   }
   for (const TraceTestResult& result : trace(tiny.build(), rays)) {
-    ASSERT_NE(result.triangle, none);  // the box's wall,
-    ASSERT_LT(result.triangle, 12u);   // not the quad in whose plane it runs
+    ASSERT_NE(result.triangle, none);  // the wall of the box
+    ASSERT_LT(result.triangle, 12u);   // not the quad in whose plane the ray runs
     ASSERT_GE(result.t, 0.6f - 1e-6f);
     ASSERT_LE(result.t, 2.0f);
     ASSERT_TRUE(std::isfinite(result.start.x + result.start.y + result.start.z));
@@ -218,7 +219,7 @@ TEST(HardCase, N07_SceneAtUtmCoordinatesGivesTheSameBytes) {
   RandomStream random(7, 1);
   TinyScene here, there;
   for (int i = 0; i < 200; ++i) {
-    // Coordinates in steps of 2^-20 m, which fp64 holds at 5e6 m as well.
+    // Coordinates are multiples of 2^-20 m, which fp64 holds exactly at 5e6 m as well.
     const auto grid = [&](double reach) {
       return std::round(random.uniform(-reach, reach) * 0x1p20) * 0x1p-20;
     };
@@ -252,7 +253,7 @@ TEST(HardCase, N08_ATinyPartBesideAHugeTileIsStillHit) {
 }
 
 TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
-  // At 5e5 m without a local origin the usual integer offset moves it by 8 m.
+  // At 5e5 m without a local origin, the usual integer offset moves the point by 8 m.
   const dvec3 far(5e5, 4e5, 0);
   TinyScene tiny;
   tiny.quad(far + dvec3(-50, -50, 0), far + dvec3(50, -50, 0), far + dvec3(50, 50, 40),
@@ -264,13 +265,13 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
                                far + dvec3(random.uniform(-40, 40), 10.0, 24.0)));
   for (const TraceTestResult& result : trace(tiny.build(), rays)) {
     ASSERT_NE(result.triangle, none);
-    // Seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m where a rounding is 0.03
-    // m.
+    // The bound is seven roundings of coordinates of 5e5 m, projected on the normal: below 0.3 m, where a
+    // rounding is 0.03 m.
     ASSERT_LE(glm::length(result.start - result.point), 0.3f);
     ASSERT_GT(glm::length(result.start - result.point), 0.0f);
     ASSERT_EQ(result.leaving_triangle, none);
   }
-  // Near the local origin it is microns.
+  // Near the local origin the offset is a few micrometres.
   TinyScene near;
   near.quad({-5, -5, 1}, {5, -5, 1}, {5, 5, 2}, {-5, 5, 2});
   const auto results = trace(near.build(), std::vector{ray({1, 1, 9}, {0, 0, -1})});
@@ -278,8 +279,8 @@ TEST(HardCase, N09_AStartPointIsMovedByItsErrorAndNoMore) {
 }
 
 TEST(HardCase, N10_SelfHitSweep) {
-  // Convex solids from a millimetre to ten kilometres, some off the origin: a ray that is reflected off one
-  // from outside meets nothing.
+  // Convex solids have sizes from a millimetre to ten kilometres, some off the origin. A ray that is
+  // reflected off a solid from outside meets nothing.
   RandomStream random(10, 1);
   for (const double radius : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
     for (const double offset : {0.0, 20.0}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays through shaders/tests/trace.comp.glsl, and what they are shot at.
+// Sends rays through shaders/tests/trace.comp.glsl, and makes the scenes that they meet.
 #pragma once
 
 #include <cmath>
@@ -26,12 +26,12 @@ inline TraceTestRay ray(const dvec3& origin, const dvec3& direction, double t_ma
   return {vec3(origin), 0.0f, vec3(direction), static_cast<float>(t_max), none, none};
 }
 
-/// Towards `target`, one unit of t away.
+/// Makes a ray towards `target`, which is one unit of t away.
 inline TraceTestRay ray_towards(const dvec3& origin, const dvec3& target) {
   return {vec3(origin), 0.0f, vec3(target) - vec3(origin), 1e30f, none, none};
 }
 
-/// What a shader of shaders/tests/trace_test.h answers to each ray.
+/// Returns the result of a shader of shaders/tests/trace_test.h for each ray.
 template <typename Result>
 std::vector<Result> answers_of(const char* shader, scene::GpuScene& gpu_scene,
                                std::span<const TraceTestRay> rays, const std::vector<Pose>& bodies,
@@ -80,7 +80,7 @@ inline dmat3 random_rotation(RandomStream& random) {
   return glm::mat3_cast(glm::angleAxis(random.uniform(0.0, 6.28), random_direction(random)));
 }
 
-/// A unit sphere's triangles: an octahedron split `levels` times.
+/// Returns the triangles of a sphere: an octahedron subdivided `levels` times.
 inline std::vector<Triangle> sphere(int levels, double radius, const dvec3& center) {
   std::vector<Triangle> triangles;
   const dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);

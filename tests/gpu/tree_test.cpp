@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree of the static world (scene/device/static_tree.h, shaders/lib/tree.glsl): against the driver's ray
-// queries, and along the edges and vertices of closed meshes, where there is no other answer than a hit.
+// Checks the tree of the static world (scene/device/static_tree.h, shaders/lib/tree.glsl) against the
+// driver's ray queries, and along the edges and vertices of closed meshes, where every ray must hit.
 #include "shaders/shared/tree.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<TreeTestResult> hits(const scene::Scene& scene, std::span<const Trac
   return answers_of<TreeTestResult>("tests/tree.comp", gpu_scene, rays, bodies, specialization);
 }
 
-/// Triangles of all sizes and directions, some of them in clusters.
+/// Makes triangles of all sizes and directions, some of them in clusters.
 TinyScene clutter(RandomStream& random, int count, double reach) {
   TinyScene tiny;
   for (int i = 0; i < count; ++i) {
@@ -57,8 +57,8 @@ std::vector<TraceTestRay> random_rays(RandomStream& random, int count, double re
   return rays;
 }
 
-/// Where a ray meets a triangle's plane, in fp64, and what fp32 may make of it: roundings of the coordinates,
-/// the more the flatter the ray meets it.
+/// The t in fp64 at which a ray meets the plane of a triangle, and a bound of the fp32 error. The bound is a
+/// few roundings of the coordinates, and grows as the ray meets the plane at a flatter angle.
 struct Exact {
   double t = 0.0, bound = 0.0;
 };
@@ -75,8 +75,8 @@ Exact exact_hit(const scene::Scene& scene, const std::vector<Pose>& bodies, cons
   return {t, 0x1p-21 * (glm::length(origin) + glm::length(corners[0]) + glm::length(corners[1])) / speed};
 }
 
-/// The same triangle at the t of its plane, on the same side; but for as many rays as `grazing`, which pass
-/// within roundings of an edge.
+/// Expects the same triangle from both tracers, at the t of its plane and on the same side. Up to `grazing`
+/// rays, which pass an edge within rounding errors, may differ.
 void expect_same(const scene::Scene& scene, std::span<const TraceTestRay> rays, size_t grazing,
                  const std::vector<Pose>& bodies = {Pose{}}) {
   const auto tree = hits(scene, rays, Tracer::tree, bodies),
@@ -106,7 +106,7 @@ TEST(Tree, AgreesWithTheDriverOnRandomRays) {
 }
 
 TEST(Tree, AgreesFarFromTheOrigin) {
-  // Coordinates of 5e5 m, as of a scene without a local origin of its own.
+  // Coordinates are 5e5 m, as in a scene without a local origin.
   RandomStream random(22, 1);
   TinyScene tiny;
   const dvec3 far(5e5, -4e5, 100.0);
@@ -119,7 +119,7 @@ TEST(Tree, AgreesFarFromTheOrigin) {
   std::vector<TraceTestRay> rays;
   for (int i = 0; i < 4096; ++i)
     rays.push_back(ray(far + 500.0 * random_direction(random), random_direction(random)));
-  // A coordinate is rounded to 0.03 m: rays that pass an edge by less may go either way.
+  // A coordinate is rounded to 0.03 m. Rays that pass an edge by less may differ.
   expect_same(tiny.build(), rays, 8);
 }
 
@@ -157,8 +157,8 @@ TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
     for (int i = 0; i < 16384; ++i) {
       const Triangle& t = mesh[random.below(static_cast<uint32_t>(mesh.size()))];
       const double along = i % 3 == 0 ? 0.0 : random.uniform(0.0, 1.0);
-      // From inside, half of them from the very centre, which edges of an octahedron see in planes of the
-      // axes.
+      // Rays start inside. Half of them start at the exact centre, from which the edges of an octahedron lie
+      // in planes of the axes.
       const dvec3 from = center + (i % 2 == 0 ? 0.0 : 3.0) * random_direction(random);
       rays.push_back(ray_towards(from, t[0] + along * (t[1] - t[0])));
     }
@@ -170,10 +170,10 @@ TEST(Tree, DoesNotLeakAlongEdgesAndVertices) {
 }
 
 TEST(Tree, DoesNotLeakOutOfABoxAlongTheAxes) {
-  // Rays along edges' directions and exactly onto edges and corners: directions with zeros, boxes met on
-  // their faces.
+  // Rays go along the directions of edges and exactly onto edges and corners. Directions have zeros, and rays
+  // meet boxes on their faces.
   TinyScene tiny;
-  for (int i = 0; i < 4; ++i)  // walls in strips, so that there are boxes of the tree side by side
+  for (int i = 0; i < 4; ++i)  // walls in strips, so that boxes of the tree lie side by side
     for (int j = 0; j < 4; ++j)
       for (const int side : {0, 4}) {
         const auto quad = [&](auto p) { tiny.quad(p(i, j), p(i + 1, j), p(i + 1, j + 1), p(i, j + 1)); };
@@ -218,7 +218,7 @@ TEST(Tree, OneTriangleNoneAndThoseWithoutArea) {
 TEST(Tree, ManyAtOnePlaceStayWithinTheDepth) {
   TinyScene tiny;
   for (int i = 0; i < 300; ++i) tiny.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  // Each a quarter of the one before: every split by area takes one off the end.
+  // Each triangle is a quarter of the one before, so every split by area separates one at the end.
   for (int i = 0; i < 60; ++i) {
     const double size = std::ldexp(1.0, -2 * i);
     tiny.triangle({10 * size, 0, 0}, {12 * size, size, 0}, {10 * size, size, size});
@@ -255,7 +255,7 @@ TEST(Tree, BoxesHoldWhatIsBelowThemAndEveryTriangleIsThereOnce) {
         const uint32_t* words = &tree.words[4 * (quad + side)];
         const dvec3 min(words[0] & 0xffff, words[0] >> 16, words[1] & 0xffff),
             max(words[1] >> 16, words[2] & 0xffff, words[2] >> 16);
-        // Corners come apart again at the steps of the parent, whatever way they were rounded.
+        // The box is decoded from whole steps of the tree's frame, in fp64.
         visits.push_back({words[3], low + step * min, low + step * max});
       }
       continue;

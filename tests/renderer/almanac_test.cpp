@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sun and moon against the worked examples of the books, and against published almanacs' figures.
+// Checks the sun and the moon against worked examples in textbooks and against figures of published almanacs.
 #include "renderer/daylight/almanac.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace greatx::render;
 
-/// Julian ephemeris day to UTC seconds, near enough for the examples (Delta T of the year).
+/// Converts a Julian ephemeris day to UTC seconds. Delta T of the year is accurate enough for the examples.
 double unix_of(double jde, double year) { return (jde - 2440587.5) * 86400.0 - delta_t(year); }
 
 double compass_deg(const Sighting& sighting) {
@@ -37,7 +37,7 @@ TEST(Almanac, MoonOfMeeusExample47a) {
   EXPECT_NEAR(degrees(moon.longitude), 133.162655, 1e-6);
   EXPECT_NEAR(degrees(moon.latitude), -3.229126, 1e-6);
   EXPECT_NEAR(moon.distance_m, 368409.7e3, 50.0);
-  EXPECT_NEAR(degrees(moon.right_ascension), 134.688470, 1e-4);  // the main terms of nutation: 0.5"
+  EXPECT_NEAR(degrees(moon.right_ascension), 134.688470, 1e-4);  // nutation has only its main terms: 0.5"
   EXPECT_NEAR(degrees(moon.declination), 13.768368, 5e-5);
 }
 
@@ -60,9 +60,9 @@ TEST(Almanac, SunOfTheSolarPositionAlgorithmsExample) {
 }
 
 TEST(Almanac, EquinoxesAndSolsticesOfMeeusTable) {
-  // Meeus, ch. 27: example 27.a, June solstice 1962 at JDE 2437837.39245 (longitude 90), and table 27.E, 1996
-  // to 2000 in dynamical time. A minute of time is 4e-5 rad of longitude: 0.01 degrees is a quarter of an
-  // hour.
+  // Meeus, ch. 27: example 27.a is the June solstice 1962 at JDE 2437837.39245 (longitude 90), and table 27.E
+  // lists 1996 to 2000 in dynamical time. The longitude of the sun grows by 0.0007 degrees per minute: 0.01
+  // degrees are a quarter of an hour.
   const auto longitude_deg = [](double jde) {
     return std::fmod(degrees(sun_from_earth(jde).longitude) + 360.0, 360.0);
   };
@@ -76,22 +76,22 @@ TEST(Almanac, EquinoxesAndSolsticesOfMeeusTable) {
 }
 
 TEST(Almanac, FullMoonAndTotalEclipse) {
-  // 2024 April 8, 18:17:18 UT, 25.286 N 104.139 W: greatest eclipse (Espenak, NASA): the discs are
-  // concentric, the sun's altitude is 69.8 degrees, azimuth 149 degrees.
+  // Greatest eclipse of 2024 April 8, 18:17:18 UT, 25.286 N 104.139 W (Espenak, NASA): the discs are
+  // concentric, the altitude of the sun is 69.8 degrees and its azimuth 149 degrees.
   const SunAndMoon dark =
       sun_and_moon(1712600238.0, {.latitude = radians(25.286), .longitude = radians(-104.139)});
   EXPECT_NEAR(degrees(dark.sun.elevation), 69.8, 0.06);
   EXPECT_NEAR(compass_deg(dark.sun), 149.4, 0.5);
   const double apart = std::acos(glm::dot(dark.sun.direction(), dark.moon.direction()));
   EXPECT_LT(degrees(apart), 0.02);
-  EXPECT_NEAR(dark.moon.angular_radius / dark.sun.angular_radius, 1.0566, 0.004);  // the eclipse's magnitude
+  EXPECT_NEAR(dark.moon.angular_radius / dark.sun.angular_radius, 1.0566, 0.004);  // magnitude of the eclipse
   EXPECT_NEAR(degrees(dark.moon_phase_angle), 180.0, 1.0);
-  // Full moon 2000 January 21, 04:40 UT, a total lunar eclipse: phase angle near 0.
+  // The full moon of 2000 January 21, 04:40 UT, is a total lunar eclipse: the phase angle is near 0.
   EXPECT_LT(degrees(sun_and_moon(948429600.0, {}).moon_phase_angle), 1.0);
 }
 
 TEST(Almanac, AzimuthTurnsFromEastToNorth) {
-  // Over the northern tropic the sun rises in the east (x), culminates in the south (-y), sets in the west.
+  // North of the tropics, the sun rises in the east (x), culminates in the south (-y) and sets in the west.
   const Observer paris{.latitude = radians(48.8566), .longitude = radians(2.3522)};
   const double noon =
       1773446400.0 + 43200.0 - 564.0 + 540.0;  // 2026-03-14, local noon by the equation of time
@@ -105,8 +105,8 @@ TEST(Almanac, AzimuthTurnsFromEastToNorth) {
 }
 
 TEST(Almanac, MoonsParallaxIsADegreeAtTheHorizon) {
-  // Seen from the place below it the moon is 1.7 % nearer than from where it rises, and almost a degree lower
-  // there.
+  // Where the moon is at the zenith, it is 1.7 % nearer than where it rises. At the horizon, the parallax
+  // lowers the moon by almost a degree.
   double highest = -1.0, lowest_gap = 1.0, widest_gap = 0.0;
   for (int hour = 0; hour < 25; ++hour) {
     const double t = unix_of(2448724.5, 1992.3) + 3600.0 * hour;
@@ -117,13 +117,13 @@ TEST(Almanac, MoonsParallaxIsADegreeAtTheHorizon) {
     widest_gap = std::max(widest_gap, gap / 6378e3);
   }
   EXPECT_GT(highest, 80.0);
-  EXPECT_GT(widest_gap, 0.97);  // an Earth's radius nearer at the zenith
+  EXPECT_GT(widest_gap, 0.97);  // nearer by an Earth radius at the zenith
   EXPECT_LT(lowest_gap, -0.5);
 }
 
 TEST(Almanac, RefractionOfThePublishedTable) {
-  // Meeus, example 16.a: 28.754' where the apparent altitude is 30', that is, the true one 1.246'; 34' at the
-  // horizon.
+  // Meeus, example 16.a: the refraction is 28.754' at an apparent altitude of 30', that is, a true one of
+  // 1.246'. It is 34' at the horizon.
   const auto minutes = [](double true_deg) {
     return 60.0 * degrees(refraction(radians(true_deg), 1010.0, 283.0));
   };

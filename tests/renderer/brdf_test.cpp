@@ -22,17 +22,18 @@ struct Sums {
   double specular = 0.0, with_diffuse = 0.0;
 };
 
-/// Integral of the BRDF times the cosine over the hemisphere, in a white world: the share of light sent on.
+/// Returns the integral of the BRDF times the cosine over the hemisphere. This is the share of light that the
+/// surface reflects in a white world.
 Sums directional_albedo(const Reflectance& r) {
   constexpr int rings = 1000, sectors = 96;
   const double sin_v = std::sqrt(1.0 - double(r.n_dot_v) * r.n_dot_v);
   Sums sums;
   for (int i = 0; i < rings; ++i) {
-    // Denser towards the horizon's opposite, where a smooth surface's lobe is narrow: equal steps of the
-    // angle.
+    // Equal steps of the angle are dense in solid angle near the normal, where the lobe of a smooth surface
+    // is narrow.
     const double theta = 0.5 * pi * (i + 0.5) / rings, sine = std::sin(theta), cosine = std::cos(theta);
     for (int k = 0; k < sectors; ++k) {
-      const double phi = pi * (k + 0.5) / sectors;  // the other half is its mirror image
+      const double phi = pi * (k + 0.5) / sectors;  // the other half is the mirror image of this one
       const dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine), v(-sin_v, 0.0, r.n_dot_v);
       const dvec3 h = glm::normalize(l + v);
       const float f = shared::specular_brdf(r, float(cosine), float(h.z), float(glm::dot(l, h))).x;
@@ -57,8 +58,8 @@ TEST(Brdf, DistributionIsNormalised) {
 }
 
 TEST(Brdf, SendsOnNoMoreThanItReceives) {
-  // The albedo is an analytic fit (a few per cent); beyond that no angle and roughness may gain energy, and
-  // white surfaces lose little: the multiple-scattering terms are there.
+  // The albedo is an analytic fit with errors of a few per cent. Apart from these, no angle and roughness may
+  // gain energy, and white surfaces lose little because the BRDF includes multiple scattering.
   for (const float metallic : {0.0f, 1.0f})
     for (const float roughness : {0.3f, 0.5f, 0.8f, 1.0f})
       for (const float n_dot_v : {0.2f, 0.5f, 0.8f, 1.0f}) {
@@ -94,7 +95,7 @@ TEST(Develop, IsMonotoneAndEndsBelowWhite) {
 }
 
 TEST(Develop, SrgbBytes) {
-  // IEC 61966-2-1: 18 % grey is 118, the linear part's end 10.
+  // IEC 61966-2-1: 18 % grey is code 118, and the linear segment ends at code 10.
   EXPECT_EQ(shared::srgb_byte(0.18f), 118u);
   EXPECT_EQ(shared::srgb_byte(0.0031308f), 10u);
   EXPECT_EQ(shared::srgb_byte(0.0f), 0u);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene, its light and one camera, ready to take pictures in a test.
+// Provides a rig for camera tests: a scene, its lighting and one camera that takes pictures.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace greatx::test {
 
-/// A square pinhole camera of 90 degrees that delivers everything.
+/// Returns a square pinhole camera with a field of view of 90 degrees. It delivers all its outputs.
 inline render::CameraDesc plain_camera(uint32_t size = 64, uint32_t msaa = 1) {
   render::CameraDesc desc;
   desc.width = desc.height = size;
@@ -28,7 +28,7 @@ inline render::CameraDesc plain_camera(uint32_t size = 64, uint32_t msaa = 1) {
   return desc;
 }
 
-/// Small shadow maps, so that tests are quick.
+/// Returns the light of the sun. The shadow maps are small to keep the tests quick.
 inline render::Lighting plain_light(double sun_azimuth_deg = 0.0, double sun_elevation_deg = 90.0) {
   render::Lighting lighting;
   lighting.sun_direction = render::Lighting::direction(radians(sun_azimuth_deg), radians(sun_elevation_deg));
@@ -53,7 +53,7 @@ inline scene::Material optical_material(const std::string& name, float gray, flo
   return material;
 }
 
-/// Looks along x (yaw 0); pitch is positive downwards.
+/// Returns a pose at `position`. A yaw of 0 looks along x; a positive pitch looks downwards.
 inline Pose look(const dvec3& position, double yaw_deg = 0.0, double pitch_deg = 0.0, double roll_deg = 0.0) {
   return {position, orientation_from_yaw_pitch_roll(radians(yaw_deg), radians(pitch_deg), radians(roll_deg))};
 }
@@ -84,7 +84,7 @@ class CameraRig {
     ring_.wait(slot);
     return camera_.collect(slot);
   }
-  /// `moving`: poses of bodies 1, 2, ...
+  /// Takes one picture. `moving` holds the poses of bodies 1, 2, ...
   render::CameraImages shoot(const Pose& sensor, const std::vector<Pose>& moving = {}) {
     return collect(record(sensor, moving));
   }
@@ -104,7 +104,8 @@ inline double luminance_at(const render::CameraImages& images, size_t pixel) {
       dvec3(images.hdr[3 * pixel], images.hdr[3 * pixel + 1], images.hdr[3 * pixel + 2]));
 }
 
-/// The ray through a pixel's centre in the sensor's frame (x forward, y left, z up), planar depth 1.
+/// Returns the ray through the centre of a pixel in the sensor's frame (x forward, y left, z up), with planar
+/// depth 1.
 inline dvec3 pixel_ray(const render::CameraDesc& desc, uint32_t column, uint32_t row) {
   return {1.0, -(column + 0.5 - desc.cx) / desc.fx, -(row + 0.5 - desc.cy) / desc.fy};
 }

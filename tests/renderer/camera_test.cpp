@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Geometry of the camera: depth, ids, samples, slots, what is built.
+// Checks the geometry of the camera: depth, ids, samples, ticks in flight and the set of pipelines it builds.
 #include "renderer/camera/camera.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Planar depth of the plane n . x = offset (local frame) through a pixel's centre.
+/// Returns the planar depth of the plane n . x = offset (local frame) through the centre of a pixel.
 double plane_depth(const render::CameraDesc& desc, const Pose& sensor, uint32_t column, uint32_t row,
                    const dvec3& n, double offset) {
   return (offset - glm::dot(n, sensor.position)) / glm::dot(n, sensor.rotate(pixel_ray(desc, column, row)));
@@ -42,7 +42,7 @@ size_t sky_pixels(const render::CameraImages& images) {
 }
 
 TEST(Camera, DepthOfATiltedPlaneAtEveryPixel) {
-  // z = 0.3 x - 0.2 y + 5 over 60 m, seen from above at an angle.
+  // The plane z = 0.3 x - 0.2 y + 5 extends over 60 m and is seen obliquely from above.
   const auto z = [](double x, double y) { return 0.3 * x - 0.2 * y + 5.0; };
   const auto p = [&](double x, double y) { return dvec3(x, y, z(x, y)); };
   const dvec3 n = glm::normalize(dvec3(-0.3, 0.2, 1.0));
@@ -51,7 +51,7 @@ TEST(Camera, DepthOfATiltedPlaneAtEveryPixel) {
     desc.height = 47;
     desc.fx = 71.3;
     desc.fy = 64.7;
-    desc.cx = 20.25;  // well off the middle
+    desc.cx = 20.25;  // far from the middle
     desc.cy = 30.5;
     TinyScene tiny;
     tiny.quad(p(-60, -60), p(60, -60), p(60, 60), p(-60, 60));
@@ -64,7 +64,8 @@ TEST(Camera, DepthOfATiltedPlaneAtEveryPixel) {
 }
 
 TEST(Camera, DepthOfWideGroundThatPassesUnderTheEye) {
-  // One triangle pair of 2 km under an eye 1.6 m up: clipped at the near plane, seen to the horizon.
+  // Two triangles with a side of 2 km lie 1.6 m below the eye. They are clipped at the near plane and reach
+  // to the horizon.
   TinyScene tiny;
   tiny.quad({-1000, -1000, 0}, {1000, -1000, 0}, {1000, 1000, 0}, {-1000, 1000, 0});
   const render::CameraDesc desc = plain_camera(128, 4);
@@ -76,8 +77,9 @@ TEST(Camera, DepthOfWideGroundThatPassesUnderTheEye) {
 }
 
 TEST(HardCase, N57_DepthFromADecimetreToTenKilometres) {
-  // Far 1e4, near .1. Walls one behind the other: reversed Z in fp32 tells 1 km from 1 km + 1 mm, and 10 km
-  // from 10 km + 10 cm; the planar depth is good to 7e-5 m at 1 km.
+  // The near plane is at 0.1 m, the far one at 1e4 m. Two walls stand one behind the other: reversed Z in
+  // fp32 distinguishes 1 km from 1 km + 1 mm, and 10 km from 10 km + 10 cm. The planar depth is accurate to
+  // 7e-5 m at 1 km.
   for (const auto& [distance, gap] :
        {std::pair{1000.0, 1e-3}, std::pair{10000.0, 0.1}, std::pair{0.2, 1e-6}}) {
     TinyScene tiny;
@@ -93,7 +95,7 @@ TEST(HardCase, N57_DepthFromADecimetreToTenKilometres) {
         EXPECT_NEAR(images.depth[i], distance, 7e-8 * distance) << i;
         EXPECT_EQ(images.instance[i], 1u) << i;
       }
-      // Turned away: nothing but sky.
+      // A camera that looks the other way sees only the sky.
       const render::CameraImages behind = rig.shoot(look({0, 0, 0}, 180.0));
       EXPECT_EQ(sky_pixels(behind), behind.depth.size());
     }
@@ -113,7 +115,7 @@ TEST(HardCase, N64_EmptySceneIsSkyAndFinite) {
   }
 }
 
-/// Boxes at odd places, and the answer of a ray tracer on the CPU.
+/// Holds boxes at irregular places and traces rays through them on the CPU.
 struct Boxes {
   struct Box {
     dvec3 low, high;
@@ -134,7 +136,7 @@ struct Boxes {
     scene.instances[2].semantic_class = scene::SemanticClass::pole;
     return scene;
   }
-  /// Index + 1 of the box that the ray meets first, and its parameter.
+  /// Returns the index + 1 of the first box that the ray meets, and the ray parameter of the intersection.
   std::pair<uint32_t, double> trace(const dvec3& origin, const dvec3& direction) const {
     std::pair<uint32_t, double> nearest{0, 1e300};
     for (uint32_t i = 0; i < boxes.size(); ++i) {
@@ -169,10 +171,11 @@ TEST(Camera, IdsAndDepthAreThoseOfTheRayThroughThePixel) {
         const uint32_t classes[] = {0, 5, 12, 9};
         EXPECT_EQ(images.semantic[i], classes[expected]);
         EXPECT_EQ(images.material[i],
-                  expected == 0 ? 0u : expected + 1);  // material 0 is the tiny scene's own
+                  expected == 0 ? 0u : expected + 1);  // material 0 is the default one of TinyScene
       }
     for (const size_t count : seen) EXPECT_GT(count, 50u);
-    // With four samples a triangle may cover the centre and none of them: at corners, a handful.
+    // With four samples, a triangle may cover the centre of a pixel but none of the samples. This happens to
+    // a few pixels at corners.
     EXPECT_LE(wrong, msaa == 1 ? 0u : 4u);
   }
 }
@@ -201,8 +204,8 @@ TEST(Camera, OneAndFourSamplesAgreeInside) {
 }
 
 TEST(Camera, FourSamplesBlendAtAnEdge) {
-  // A white emitting half plane against black: pixels on the slanted edge are in between with four samples
-  // only.
+  // A white emitting half plane stands before black. Only with four samples do the pixels on the slanted edge
+  // have values in between.
   TinyScene tiny;
   scene::Material glow = optical_material("glow", 0.0f);
   glow.pbr.emissive = vec3(1.0f);
@@ -238,7 +241,7 @@ TEST(Camera, MovingBodyMovesAndCanBeExcluded) {
   };
   for (const dvec3& at : {dvec3(5, 0, 0), dvec3(5, 2, 1), dvec3(5, -2, -1)}) {
     const dvec2 seen = middle(rig.shoot(look({0, 0, 0}), {Pose{at, {1, 0, 0, 0}}}));
-    EXPECT_NEAR(seen.x, 32.0 - 32.0 * at.y / 4.5, 1.0);  // its face is 4.5 m away
+    EXPECT_NEAR(seen.x, 32.0 - 32.0 * at.y / 4.5, 1.0);  // the face of the box is 4.5 m away
     EXPECT_NEAR(seen.y, 32.0 - 32.0 * at.z / 4.5, 1.0);
   }
   desc.excluded_body = body;
@@ -247,7 +250,8 @@ TEST(Camera, MovingBodyMovesAndCanBeExcluded) {
 }
 
 TEST(Camera, FarFromTheOriginNothingJitters) {
-  // The eye 50 km out in local coordinates: positions are taken from the eye before they are rounded.
+  // The eye is 50 km away from the local origin. Positions are taken relative to the eye before they are
+  // rounded.
   TinyScene tiny;
   const uint32_t body = tiny.body("plate");
   tiny.object("plate", body).quad({0, 8, -8}, {0, -8, -8}, {0, -8, 8}, {0, 8, 8});
@@ -271,14 +275,15 @@ TEST(Camera, SameBytesTwiceAndInTwoSlots) {
   EXPECT_FALSE(same(a, b));
   EXPECT_TRUE(same(a, rig.shoot(first)));
   EXPECT_TRUE(same(a, again.shoot(first)));
-  // Both in flight at once.
+  // Both pictures are in flight at once.
   gpu::TickSlot& slot_a = rig.record(first);
   gpu::TickSlot& slot_b = rig.record(second);
   EXPECT_TRUE(same(a, rig.collect(slot_a)));
   EXPECT_TRUE(same(b, rig.collect(slot_b)));
 }
 
-// More triangles than the device lets a shader see at once: their records are read by address.
+// The scene has more triangles than the device lets a shader bind at once: shaders read their records by
+// address.
 TEST(Camera, TablesReadByTheirAddressGiveTheSamePicture) {
   const Boxes boxes;
   const Pose eye = look({0, 0, 0});
@@ -303,7 +308,7 @@ TEST(Camera, AlphaMaskLetsSeeThrough) {
   texture.height = 8;
   texture.rgba.assign(8 * 8 * 4, 255);
   for (size_t i = 0; i < 64; ++i)
-    if (i % 8 >= 4) texture.rgba[4 * i + 3] = 0;  // the right half (u > 0.5) is cut away
+    if (i % 8 >= 4) texture.rgba[4 * i + 3] = 0;  // the mask cuts the right half (u > 0.5) away
   scene::Material leaf = optical_material("leaf", 1.0f);
   leaf.pbr.base_color_texture = int32_t(tiny.texture(texture));
   leaf.pbr.alpha_mode = scene::AlphaMode::mask;
@@ -312,12 +317,12 @@ TEST(Camera, AlphaMaskLetsSeeThrough) {
   tiny.object("wall", 0, wall_id).quad({6, 9, -9}, {6, -9, -9}, {6, -9, 9}, {6, 9, 9});
   for (const bool textures : {true, false}) {
     render::CameraEffects effects;
-    effects.textures = textures;  // the mask does not depend on the colours being wanted
+    effects.textures = textures;  // the mask works without colour textures
     CameraRig rig(tiny.build(), plain_light(), plain_camera(64, 1), effects);
     const render::CameraImages images = rig.shoot(look({0, 0, 0}));
     for (size_t row = 0; row < 64; ++row)
       for (size_t column = 0; column < 64; ++column) {
-        if (column >= 28 && column < 36) continue;  // where the filter blends
+        if (column >= 28 && column < 36) continue;  // the texture filter blends here
         EXPECT_EQ(images.instance[row * 64 + column], column < 32 ? 1u : 2u) << row << " " << column;
       }
   }
@@ -348,7 +353,7 @@ TEST(Camera, EffectsThatAreOffAreNotBuiltAndChangeNothingElse) {
                                    "camera visibility of bodies", "camera shade", "camera develop"));
   render::CameraEffects none{};
   none.sun = none.sky = none.textures = none.normal_maps = none.alpha_mask = none.emissive = false;
-  none.punctual_lights = none.specular = false;  // shadows go with the sun
+  none.punctual_lights = none.specular = false;  // shadows go off with the sun
   EXPECT_THAT(pipelines_of(none, {}, unshadowed),
               testing::ElementsAre("camera visibility", "camera visibility of bodies", "camera shade",
                                    "camera develop"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light levels, fog and rain: published figures and conservation.
+// Checks light levels, fog and rain against published figures and conservation of energy.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ namespace {
 using namespace greatx::render;
 
 TEST(Twilight, PublishedLevels) {
-  // Circular 171 and the Explanatory Supplement: lux on level ground.
+  // Circular 171 and the Explanatory Supplement list these illuminances of level ground, lux.
   EXPECT_NEAR(sunlight_lux(radians(90.0)), 1.29e5, 0.01e5);
   EXPECT_NEAR(sunlight_lux(0.0), 759.0, 8.0);
-  EXPECT_NEAR(sunlight_lux(radians(-6.0)), 3.41, 0.03);     // civil twilight ends
+  EXPECT_NEAR(sunlight_lux(radians(-6.0)), 3.41, 0.03);     // end of civil twilight
   EXPECT_NEAR(sunlight_lux(radians(-12.0)), 8.1e-3, 1e-4);  // nautical
   EXPECT_NEAR(sunlight_lux(radians(-18.0)), 6.5e-4, 1e-5);  // astronomical
   EXPECT_EQ(sunlight_lux(radians(-60.0)), natural_night_lux);
@@ -30,7 +30,7 @@ TEST(Twilight, PublishedLevels) {
 }
 
 TEST(Twilight, ContinuousAndRising) {
-  // In steps of a thousandth of a degree nothing jumps by more than a slope of 0.6 decades a degree allows.
+  // The level changes by less than 0.6 decades per degree, here in steps of a thousandth of a degree.
   const double step = 1e-3, most = std::pow(10.0, 0.6 * step) - 1.0 + 1e-12;
   for (double h = -20.0; h < 90.0; h += step) {
     const double a = sunlight_lux(radians(h)), b = sunlight_lux(radians(h + step));
@@ -48,7 +48,7 @@ TEST(Haze, PublishedVisibilities) {
     EXPECT_NEAR(visibility_m(fog_extinction(water)) / (27.0 * std::pow(water, -0.88)), 1.0, 2e-3);
     EXPECT_NEAR(std::exp(-fog_extinction(water) * visibility_m(fog_extinction(water))), 0.02, 1e-12);
   }
-  // ITU-R P.1814: 25 mm/h weigh 9.3 dB/km.
+  // ITU-R P.1814: rain of 25 mm/h attenuates by 9.3 dB/km.
   EXPECT_NEAR(-10.0 * std::log10(std::exp(-1000.0 * rain_extinction(25.0))), 1.076 * std::pow(25.0, 0.67),
               1e-9);
   EXPECT_EQ(fog_extinction(0.0), 0.0);
@@ -58,7 +58,7 @@ TEST(Haze, PublishedVisibilities) {
 
 TEST(Haze, ALayerLosesOnlyWhatGoesBackUp) {
   const double sine = 0.6, direct = 9e4, sky = 1.5e4;
-  // Nothing there: nothing changes. Over a white ground nothing can get lost.
+  // An empty layer changes nothing. Over white ground no light is lost.
   EXPECT_DOUBLE_EQ(through_layer(direct, sine, sky, 0.0, 0.15).direct_lux, direct);
   EXPECT_DOUBLE_EQ(through_layer(direct, sine, sky, 0.0, 0.15).sky_lux, sky);
   double before = direct * sine + sky;
@@ -72,7 +72,7 @@ TEST(Haze, ALayerLosesOnlyWhatGoesBackUp) {
     EXPECT_LT(total, before);
     before = total;
   }
-  // Light from below the horizon is none.
+  // A sun below the horizon sends no direct light through the layer.
   EXPECT_EQ(through_layer(direct, -0.1, sky, 1.0, 0.0).direct_lux, 0.0);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Development on the GPU against the same functions on the host, and the meter against closed forms.
+// Checks development on the GPU against the same functions on the host, and the exposure meter against closed
+// forms.
 #include "renderer/camera/develop.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 using render::CameraDesc;
 using render::CameraImages;
 
-/// Boxes of several greys in the sun, sky above: dark to bright, of a width that is no multiple of anything.
+/// Returns boxes of several greys in the sun below the sky, from dark to bright.
 TinyScene boxes() {
   TinyScene tiny;
   for (int i = 0; i < 6; ++i) {
@@ -47,14 +48,14 @@ CameraImages shoot(const CameraDesc& desc, const render::FrameNumber& frame = {}
   return rig.collect(rig.record(look({0, 0, 0}), {}, frame));
 }
 
-/// Light over L_max of a pixel, as stored.
+/// Returns the stored light of a pixel relative to L_max.
 vec3 light_of(const CameraImages& images, size_t pixel, double saturation) {
   vec3 light;
   for (int c = 0; c < 3; ++c) light[c] = static_cast<float>(images.hdr[3 * pixel + size_t(c)] / saturation);
   return light;
 }
 
-/// Fraction of the bytes that differ from those of `develop(pixel)`, and by how much at most.
+/// Holds the fraction of bytes that differ from the developed `light(pixel)`, and the largest difference.
 struct Difference {
   double fraction = 0.0;
   int most = 0;
@@ -78,7 +79,7 @@ TEST(Develop, BytesAreThoseOfTheHostsFunctions) {
   const CameraImages images = shoot(desc);
   const double saturation = render::saturation_luminance(desc.exposure_ev100);
   const Difference d = difference(images, [&](size_t i) { return light_of(images, i, saturation); });
-  EXPECT_LE(d.most, 1);  // a tie may fall either way
+  EXPECT_LE(d.most, 1);  // a tie may round either way
   EXPECT_LE(d.fraction, 1e-3);
   EXPECT_EQ(images.ev100, 15.0f);
 }
@@ -112,7 +113,7 @@ TEST(Develop, NoiseIsTheHostsFunctionOfSeedSensorTickAndPixel) {
   const Difference d = difference(images, [&](size_t i) {
     return shared::sensed_color(light_of(images, i, saturation), sensor, static_cast<uint32_t>(i));
   });
-  // Logarithms and roots differ by a few ulp between devices: a digital number may then fall to its
+  // Logarithms and roots differ by a few ulp between devices, so that a digital number may become its
   // neighbour.
   EXPECT_LE(d.fraction, 2e-3);
 
@@ -125,7 +126,7 @@ TEST(Develop, NoiseIsTheHostsFunctionOfSeedSensorTickAndPixel) {
   other = desc;
   other.noise->seed = 6;
   EXPECT_NE(shoot(other, frame).rgb, images.rgb);
-  // Radiance, depth and ids stay as they are without noise.
+  // Radiance, depth and ids equal those without noise.
   CameraDesc clean = desc;
   clean.noise.reset();
   const CameraImages without = shoot(clean, frame);
@@ -134,7 +135,7 @@ TEST(Develop, NoiseIsTheHostsFunctionOfSeedSensorTickAndPixel) {
   EXPECT_NE(without.rgb, images.rgb);
 }
 
-/// A picture of a sky of the same luminance everywhere.
+/// Takes a picture of a sky of uniform luminance.
 CameraImages uniform(double luminance, const std::function<void(CameraDesc&)>& change = {}) {
   render::Lighting light = plain_light();
   light.sky_model = render::SkyModel::uniform;
@@ -151,7 +152,7 @@ TEST(Meter, AUniformPictureGetsTheExposureOfItsLuminance) {
   for (const double luminance : {0.02, 1.0, 250.0, 8000.0}) {
     const CameraImages images = uniform(luminance);
     EXPECT_NEAR(images.ev100, render::metered_ev100(luminance), 0.02) << luminance;
-    // The mean goes to 12.5 / 120 of L_max.
+    // The exposure maps the mean to 12.5 / 120 of L_max.
     const uint32_t expected = shared::srgb_byte(shared::tone_map(vec3(12.5f / 120.0f)).x);
     EXPECT_NEAR(images.rgb[0], expected, 2.0);
     EXPECT_NEAR(luminance_at(images, 0), luminance, 2e-3 * luminance);
@@ -183,17 +184,17 @@ TEST(Meter, IsTheTrimmedMeanOfLogarithmsOverItsGrid) {
   double mean = 0.0;
   for (size_t i = cut; i < logs.size() - cut; ++i) mean += logs[i];
   mean /= double(logs.size() - 2 * cut);
-  // Within a bin of a sixth of a stop the trimming does not know the order.
+  // The trimming does not know the order within a bin of a sixth of a stop.
   EXPECT_NEAR(images.ev100, render::metered_ev100(std::exp2(mean)), 0.03);
-  // And a second picture is the same.
+  // A second picture is equal.
   const CameraImages again = shoot(desc);
   EXPECT_EQ(again.ev100, images.ev100);
   EXPECT_EQ(again.rgb, images.rgb);
 }
 
 TEST(Meter, AutomaticExposureStoresRadianceForTheLight) {
-  // Day and night in the same formats: what is stored keeps three digits from a thousandth of the mean to a
-  // thousand times it.
+  // The same formats serve day and night: stored radiance keeps three digits from a thousandth of the mean to
+  // a thousand times the mean.
   EXPECT_NEAR(render::anchor_luminance(100000.0), 1.2 * 8.0 * 0.18 / pi * 100000.0, 1.0);
   EXPECT_EQ(render::anchor_luminance(0.0), render::anchor_luminance(1.0));
   const double night = render::anchor_luminance(0.0);

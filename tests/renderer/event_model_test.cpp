@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pixel of an event camera: the shader's own text, run on the CPU, against closed forms.
+// Runs the shader source of an event camera's pixel on the CPU and checks it against closed forms.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -43,7 +43,8 @@ TEST(EventModel, RampGivesAsManyEventsAsThresholdsFit) {
 }
 
 TEST(EventModel, ManyThresholdsAddUpExactly) {
-  // Ten thresholds of 0.1 make 1, a million times over: floats lose one in the first ten already.
+  // Ten thresholds of 0.1 make 1, a million times over. With floats, one event of the first ten is already
+  // lost.
   const int32_t on = fixed(0.1);
   int32_t reference = 0;
   int64_t ups = 0, downs = 0;
@@ -64,7 +65,7 @@ TEST(EventModel, HardCaseN53BlackToBlackGivesNothing) {
   const float tiny = 1e-6f;
   const int black = event_signal(0.0f, tiny);
   EXPECT_EQ(black, event_signal(-0.0f, tiny));
-  EXPECT_EQ(black, event_signal(-1e-9f, tiny));  // the rounding of a renderer
+  EXPECT_EQ(black, event_signal(-1e-9f, tiny));  // rounding error of a renderer
   EXPECT_TRUE(std::isfinite(black * unit));
   EXPECT_EQ(count_crossings(black, event_signal(0.0f, tiny), fixed(0.01), fixed(0.01)), 0);
   EventWalk walk = begin_walk(black, black, black, fixed(0.01), fixed(0.01), 1000, 0);
@@ -78,7 +79,7 @@ TEST(EventModel, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
     EXPECT_EQ(count_crossings(0, sign * (c - 1), c, c), 0);
     EXPECT_EQ(count_crossings(0, sign * c, c, c), sign);
     EXPECT_EQ(count_crossings(0, sign * 3 * c, c, c), 3 * sign);
-    // Having fired there, staying there or going on by less than a threshold fires no more.
+    // After the event, no further event follows as long as the signal changes by less than a threshold.
     EXPECT_EQ(count_crossings(sign * c, sign * c, c, c), 0);
     EXPECT_EQ(count_crossings(sign * c, sign * (2 * c - 1), c, c), 0);
     EXPECT_EQ(count_crossings(sign * c, sign, c, c), 0);
@@ -90,7 +91,7 @@ TEST(EventModel, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
 TEST(EventModel, HardCaseN55NothingIsDividedByNoChange) {
   EventWalk walk = begin_walk(5, 5, 5, 100, 100, 1000, 0);
   EXPECT_EQ(walk.left, 0);
-  // The smallest step there is.
+  // The smallest possible step.
   walk = begin_walk(99, 100, 0, 100, 100, 1000, 0);
   ASSERT_EQ(walk.left, 1);
   EXPECT_EQ(take_crossing(walk), 1000);
@@ -116,7 +117,7 @@ TEST(EventModel, CrossingTimesAreTheQuotientRoundedUp) {
 TEST(EventModel, QuotientsOfIntegersFromFloatsAreExact) {
   uint32_t drawn = 0;
   const auto random = [&] { return random_bits(3, 0, 0, drawn++, 0).x; };
-  const auto up_to = [&](uint32_t bits, uint32_t most) {  // of any size: from 1 on
+  const auto up_to = [&](uint32_t bits, uint32_t most) {  // at least 1, of all magnitudes
     return std::min(most, 1 + (random() & ((1u << (1 + random() % bits)) - 1)));
   };
   for (int i = 0; i < 100000; ++i) {
@@ -125,7 +126,7 @@ TEST(EventModel, QuotientsOfIntegersFromFloatsAreExact) {
     const auto dt = static_cast<int32_t>(up_to(31, uint32_t{longest_interval_ns}));
     const auto quotient = static_cast<int32_t>((uint64_t{part} * uint32_t(dt) + whole - 1) / whole);
     ASSERT_EQ(part_time(part, whole, 1.0f / float(whole), dt), quotient) << part << "/" << whole;
-    // A division that is right to three units in the last place is good enough: a GPU's.
+    // A reciprocal that is accurate to three units in the last place, as on a GPU, is sufficient.
     const float less = std::nextafter(std::nextafter(std::nextafter(1.0f / float(whole), 0.0f), 0.0f), 0.0f),
                 more = std::nextafter(std::nextafter(std::nextafter(1.0f / float(whole), 2.0f), 2.0f), 2.0f);
     ASSERT_EQ(part_time(part, whole, less, dt), quotient) << part << "/" << whole;
@@ -156,7 +157,7 @@ TEST(EventModel, HardCaseN56TiesAreInOrderOfRowColumnPolarity) {
   for (const uint32_t step : {0u, 1u})
     for (uint32_t y = 0; y < 40; ++y)
       for (uint32_t x = 0; x < 40; ++x)
-        for (const uint32_t k : {2u, 0u, 1u})  // of one pixel and time: the later polarity first
+        for (const uint32_t k : {2u, 0u, 1u})  // unsorted: a later event of the pixel comes first
           events.push_back({1000000 * step + 7 * ((x * y + k / 2) % 13) + 1, place(y, x, k == 2 ? 1 : k)});
   std::vector<ListedEvent> sorted = events;
   std::stable_sort(sorted.begin(), sorted.end());
@@ -183,7 +184,8 @@ TEST(EventModel, LowPassAnswersStepAndRampAsTheDifferentialEquation) {
     return out * unit;
   };
   for (const double h : {0.003, 0.1, 1.0, 6.0}) {
-    // Constant input: exponential decay; ramp: u - tau + (y0 + tau) e^(-t/tau). Exact whatever the step.
+    // A constant input yields an exponential decay, a ramp yields u - tau + (y0 + tau) e^(-t/tau). Both are
+    // exact for any step.
     EXPECT_NEAR(run(
                     h, [](double) { return 1.0; }, 5.0),
                 1.0 + 4.0 * std::exp(-2.0), 2e-4)
@@ -194,7 +196,7 @@ TEST(EventModel, LowPassAnswersStepAndRampAsTheDifferentialEquation) {
         << h;
   }
   EXPECT_EQ(low_pass(17, 17, 17, 0.5f), 17);
-  EXPECT_EQ(low_pass(0, 0, 1000, 1e9f), 1000);  // nothing is left of the past
+  EXPECT_EQ(low_pass(0, 0, 1000, 1e9f), 1000);  // no trace of the past remains
 }
 
 TEST(EventModel, LeakOfManyStepsIsTheLeakOfOne) {
@@ -207,7 +209,8 @@ TEST(EventModel, LeakOfManyStepsIsTheLeakOfOne) {
 }
 
 TEST(EventModel, RefractoryPixelLetsNothingThrough) {
-  // 10 crossings, 100 ns apart, dead for 250 ns after each event: the 1st, 4th, 7th and 10th get through.
+  // Ten crossings are 100 ns apart and the pixel is dead for 250 ns after each event: crossings 1, 4, 7 and
+  // 10 pass.
   EventWalk walk = begin_walk(0, 1000, 0, 100, 100, 1000, 0);
   std::vector<int> times;
   while (walk.left > 0) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Noise, mismatch, refractory period and bandwidth against their laws. Draws are fixed, so a test passes or
-// fails for good; limits of 4 standard deviations would fail one in 16 000 fair draws.
+// Checks noise, mismatch, refractory period and bandwidth against their laws. The draws are fixed, so that a
+// test always passes or always fails. A limit of 4 standard deviations would reject one in 16 000 fair draws.
 #include <cmath>
 #include <numeric>
 
@@ -53,13 +53,13 @@ TEST(EventNoise, ShotNoiseIsPoissonAtTheStatedRate) {
       const double rate = 12.0 * (1.0 - 0.75 * intensity), expected = rate * 1.0 * w * h;
       EXPECT_LT(std::abs(double(c.all()) - expected) / std::sqrt(expected), limit) << luminance;
       EXPECT_LT(std::abs(double(c.on) - double(c.off)) / std::sqrt(expected), limit) << luminance;
-      // Index of dispersion over pixels: chi square with w h - 1 degrees of freedom.
+      // The index of dispersion over pixels is chi-square with w h - 1 degrees of freedom.
       double chi = 0.0;
       const double mean = double(c.all()) / (w * h);
       for (const size_t n : c.by_pixel) chi += std::pow(double(n) - mean, 2) / mean;
       const double freedom = w * h - 1;
       EXPECT_LT(std::abs(chi - freedom) / std::sqrt(2.0 * freedom), limit) << luminance;
-      // Times are uniform over the interval, seams of the steps included.
+      // Times are uniform over the interval, also across the boundaries of steps.
       std::vector<double> bins(20);
       for (const EventFrame& frame : frames)
         for (const uint32_t t : frame.t_ns) ++bins[std::min<size_t>(19, (t - 1) / (5 * ms / 2))];
@@ -89,24 +89,24 @@ TEST(EventNoise, DrawsDependOnSeedSensorAndSequenceAlone) {
 TEST(EventNoise, LeakGivesOnEventsAtItsRateAndNotInStep) {
   constexpr uint32_t w = 64, h = 32;
   EventDesc desc = plain_events(w, h, 0.2);
-  desc.threshold_sigma = 0.04;  // the rate is the same whatever the pixel's threshold
+  desc.threshold_sigma = 0.04;  // the rate does not depend on the threshold of the pixel
   desc.leak_rate_hz = 3.3;
   desc.substeps = 3;
   EventRig rig(desc, [](uint32_t, uint32_t, double) { return 50.0; });
   const std::vector<EventFrame> frames = rig.run(100 * ms, 21);
   const Count c = count(frames, w, h);
   EXPECT_EQ(c.off, 0u);
-  // 6.6 events a pixel: 6 or 7, by the pixel's phase.
+  // 6.6 events per pixel are expected: 6 or 7, depending on the phase of the pixel.
   const double mean = 3.3 * 2.0, fraction = mean - std::floor(mean);
   for (const size_t n : c.by_pixel) EXPECT_TRUE(n == 6 || n == 7) << n;
   EXPECT_LT(std::abs(double(c.all()) - mean * w * h) / std::sqrt(fraction * (1 - fraction) * w * h), limit);
-  // Phases are uniform: so are counts over the intervals.
+  // Phases are uniform; so the counts over the intervals are uniform, too.
   double chi = 0.0;
   const double expected = double(c.all()) / 20;
   for (size_t k = 1; k < frames.size(); ++k)
     chi += std::pow(double(frames[k].size()) - expected, 2) / expected;
   EXPECT_LT(chi, 19.0 + limit * std::sqrt(38.0));
-  // A pixel's own events are 1 / rate apart.
+  // The events of one pixel are 1 / rate apart.
   for (const uint32_t x : {0u, 13u, 63u}) {
     const std::vector<PixelEvent> events = events_of(frames, 100 * ms, x, 7);
     for (size_t i = 1; i < events.size(); ++i)
@@ -119,7 +119,7 @@ TEST(EventNoise, MismatchIsGaussianAndStays) {
   EventDesc desc = plain_events(w, h, 0.2);
   desc.threshold_sigma = 0.03;
   desc.substeps = 4;
-  // 16 up, then 16 down: about 80 events of each polarity a pixel.
+  // The logarithm rises by 16, then falls by 16: about 80 events of each polarity per pixel.
   EventRig rig(desc, [](uint32_t, uint32_t, double t) {
     return std::exp(t < 0.1 ? 160.0 * t - 8.0 : 24.0 - 160.0 * t);
   });
@@ -127,7 +127,7 @@ TEST(EventNoise, MismatchIsGaussianAndStays) {
   const std::vector<EventFrame> frames = rig.run(10 * ms, 21);
   for (const EventFrame& frame : frames)
     for (size_t i = 0; i < frame.size(); ++i) ++(frame.p[i] ? up : down)[size_t(frame.y[i]) * w + frame.x[i]];
-  // On the way down the reference begins below the signal, by half a threshold on average.
+  // On the way down, the reference starts below the signal, by half a threshold on average.
   const auto path = [&](const std::vector<size_t>& counts) { return &counts == &up ? 16.0 : 15.9; };
   const auto statistics = [&](const std::vector<size_t>& counts) {
     double mean = 0.0, square = 0.0;
@@ -143,7 +143,7 @@ TEST(EventNoise, MismatchIsGaussianAndStays) {
     EXPECT_NEAR(mean, 0.2, limit * 0.03 / std::sqrt(w * h) + 2e-4);
     EXPECT_NEAR(sigma, 0.03, limit * 0.03 / std::sqrt(2.0 * w * h) + 3e-4);
   }
-  // ON and OFF thresholds are drawn apart.
+  // ON and OFF thresholds are drawn independently.
   double covariance = 0.0;
   const auto [mean_up, sigma_up] = statistics(up);
   const auto [mean_down, sigma_down] = statistics(down);
@@ -177,18 +177,18 @@ TEST(EventNoise, RefractoryPixelsRest) {
       EXPECT_TRUE(before < 0 || t - before >= 2500000);
       before = t;
     }
-  // A Poisson process behind a dead time: rate / (1 + rate dead), the variance less by the square of that
-  // (Mueller 1973).
+  // A Poisson process with a dead time has the rate r / (1 + r dead), and its variance is smaller by (1 + r
+  // dead)^2 (Mueller 1973).
   const double rate = 400.0 * (1.0 - 0.75 * 20.0 / 275.0), slow = 1.0 + rate * 2.5e-3;
   const double expected = rate / slow * 0.5 * 48 * 48;
-  const double start =
-      0.5 * std::pow(rate * 2.5e-3 / slow, 2) * 48 * 48;  // pixels are awake at the beginning
+  // All pixels are awake at the beginning.
+  const double start = 0.5 * std::pow(rate * 2.5e-3 / slow, 2) * 48 * 48;
   EXPECT_LT(std::abs(double(events) - expected - start) / std::sqrt(expected / (slow * slow)), limit + 1.0);
 }
 
 TEST(EventNoise, RefractoryCrossingsAreLostNotDelayed) {
-  // One fast edge: 20 thresholds within 1 ms, dead for 10 ms: one event, and none when the pixel wakes up. A
-  // later edge of one threshold is seen again.
+  // One fast edge crosses 20 thresholds within 1 ms, and the pixel is dead for 10 ms: it sends one event, and
+  // none when it wakes up. It sees a later edge of one threshold again.
   EventDesc desc = plain_events(1, 1, 0.1);
   desc.refractory_s = 0.01;
   EventRig rig(desc, [](uint32_t, uint32_t, double t) {
@@ -201,8 +201,8 @@ TEST(EventNoise, RefractoryCrossingsAreLostNotDelayed) {
 }
 
 TEST(EventNoise, BandwidthSlowsByBrightness) {
-  // A step of ten thresholds: through a first-order low pass, event k comes at -tau ln(1 - k / 10.5), tau
-  // shorter in bright light.
+  // A first-order low pass delays a step of ten thresholds: event k comes at -tau ln(1 - k / 10.5). The time
+  // constant tau is shorter in bright light.
   for (const double luminance : {20.0, 2000.0}) {
     EventDesc desc = plain_events(1, 1, 0.1);
     desc.cutoff_hz = 30.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An event pass that is fed luminance from a formula, without a camera.
+// Drives an event pass with luminance from a formula, without a camera.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace greatx::test {
 
-/// Luminance in cd/m^2 of a pixel at a time in seconds.
+/// Returns the luminance of a pixel, cd/m^2, at a time in seconds.
 using LuminanceAt = std::function<double(uint32_t column, uint32_t row, double t)>;
 
 inline render::EventDesc plain_events(uint32_t width, uint32_t height, double threshold) {
@@ -38,7 +38,7 @@ class EventRig {
         luminance_(std::move(luminance)),
         picture_(device(), sizeof(float) * desc.width * desc.height, gpu::Memory::device, "luminance") {}
 
-  /// Samples at 0, 1, ... times interval_ns: the frames of `count` of them.
+  /// Takes `count` samples at the times 0, 1, 2, ... times `interval_ns` and returns their frames.
   std::vector<render::EventFrame> run(int64_t interval_ns, int64_t count, uint32_t sequence = 0) {
     pass_.restart();
     std::vector<render::EventFrame> frames;
@@ -55,7 +55,7 @@ class EventRig {
     return frames;
   }
 
-  /// The logarithm that the pass sees, from the same rounded luminance.
+  /// Returns the logarithm of luminance that the pass works with, from the same rounded luminance.
   double signal(uint32_t column, uint32_t row, double t) const {
     return std::log(static_cast<double>(static_cast<float>(luminance_(column, row, t))) +
                     pass_.desc().dark_cd_m2);
@@ -85,7 +85,7 @@ class EventRig {
   gpu::Buffer picture_;
 };
 
-/// A pixel's events over all frames, absolute times.
+/// Holds an event of one pixel at an absolute time.
 struct PixelEvent {
   int64_t t_ns;
   bool on;

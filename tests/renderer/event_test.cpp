@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Events on the GPU, from luminance given by a formula, against closed forms.
+// Checks events on the GPU, from luminance given by a formula, against closed forms.
 #include <cmath>
 #include <map>
 
@@ -39,7 +39,8 @@ void expect_same(const std::vector<EventFrame>& a, const std::vector<EventFrame>
 }
 
 TEST(Events, RampHasTheExactCountAndTimes) {
-  // ln L = 8 + slope t: event k is at k C / |slope|. 35 columns: more than two runs, the last one short.
+  // With ln L = 8 + slope t, event k is at k C / |slope|. 35 columns make more than two runs of pixels, the
+  // last one shorter.
   const auto slope = [](uint32_t column, uint32_t row) {
     return (double(column) - 17.0) * (row == 0 ? 0.7 : 2.3);
   };
@@ -58,7 +59,7 @@ TEST(Events, RampHasTheExactCountAndTimes) {
           ASSERT_EQ(events.size(), std::floor(std::abs(change) / c + 1e-6)) << column << " " << row;
           for (size_t k = 0; k < events.size(); ++k) {
             EXPECT_EQ(events[k].on, s > 0);
-            // Two logarithms, and k thresholds rounded to 2^-24.
+            // The tolerance covers two logarithms and k thresholds rounded to 2^-24.
             EXPECT_NEAR(1e-9 * double(events[k].t_ns), double(k + 1) * c / std::abs(s),
                         1e-9 + (7e-7 + 6e-8 * double(k + 1)) / std::abs(s));
           }
@@ -67,7 +68,7 @@ TEST(Events, RampHasTheExactCountAndTimes) {
 }
 
 TEST(Events, TenthsAddUpToOne) {
-  // From 1 to e in one step: ten thresholds of 0.1, not the nine of a sum in single precision.
+  // A step from 1 to e crosses ten thresholds of 0.1. A sum in single precision would find only nine.
   EventRig rig(plain_events(1, 1, 0.1),
                [](uint32_t, uint32_t, double t) { return (t > 0 ? 2.7182818 : 1.0) - 1e-6; });
   EXPECT_EQ(total(rig.run(10 * millisecond_ns, 3)), 10u);
@@ -120,7 +121,7 @@ TEST(Events, HardCaseN56StreamIsInOrderOfTimeRowColumnPolarity) {
 }
 
 TEST(Events, HalvingTheStepQuartersTheErrorOfTimes) {
-  // A grating that moves and brightens: ln L rises all the time, by no straight line.
+  // A grating moves and brightens: ln L rises all the time, but not linearly.
   constexpr double c = 0.15;
   const auto signal = [](double x, double t) { return 2.0 + 100.0 * t + 0.9 * std::sin(60.0 * t + 0.8 * x); };
   const auto exact = [&](double x, double level) {
@@ -144,7 +145,7 @@ TEST(Events, HalvingTheStepQuartersTheErrorOfTimes) {
     }
     errors.push_back(std::sqrt(sum / double(count)));
   }
-  // Second order: the error of a chord.
+  // The error of a chord is of second order.
   for (size_t i = 1; i < errors.size(); ++i)
     EXPECT_THAT(errors[i - 1] / errors[i], testing::AllOf(testing::Ge(i == 1 ? 2.5 : 3.4), testing::Le(4.8)))
         << i << ": " << errors[i];
@@ -159,7 +160,8 @@ TEST(Events, HardCaseN53BlackToBlackGivesNoEvent) {
 }
 
 TEST(Events, HardCaseN54ExactlyOnTheThresholdFiresOnce) {
-  // ln 2 and the threshold are the same fixed-point number, bit for bit: the steps 1, 2, 2, 4, 2.
+  // ln 2 and the threshold are the same fixed-point number, bit for bit. The luminance steps are 1, 2, 2, 4,
+  // 2.
   EventDesc desc = plain_events(1, 1, double(shared::fixed_log(2.0f)) / shared::log_one);
   desc.dark_cd_m2 = 1e-6;
   const auto levels = [](uint32_t, uint32_t, double t) {
@@ -203,7 +205,8 @@ TEST(Events, DifferenceImageHasThreeValues) {
   desc.differences = true;
   desc.difference_on_cd_m2 = 10.0;
   desc.difference_off_cd_m2 = 20.0;
-  // Changes of -30, -20, ..., 30 cd/m^2 from sample to sample; the row's brightness does not matter.
+  // The luminance changes by -30, -20, ..., 30 cd/m^2 between samples, independently of the brightness of the
+  // row.
   EventRig rig(desc, [](uint32_t x, uint32_t y, double t) {
     return 1000.0 * (y + 1) + 10.0 * (double(x) - 3.0) * std::round(t * 100);
   });
@@ -217,7 +220,7 @@ TEST(Events, DifferenceImageHasThreeValues) {
 }
 
 TEST(Events, AdaptiveStepsByBrightness) {
-  // Calm, then 60 thresholds within some 30 ms, then calm again.
+  // The signal is calm, then crosses 60 thresholds within about 30 ms, then is calm again.
   const auto luminance = [](uint32_t x, uint32_t, double t) {
     return std::exp(3.0 + 0.001 * x + 6.0 / (1.0 + std::exp(-(t - 0.055) * 200.0)) + t);
   };
@@ -225,23 +228,23 @@ TEST(Events, AdaptiveStepsByBrightness) {
   desc.substeps = 16;
   const std::vector<EventFrame> fixed = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
   desc.steps = EventSteps::by_brightness;
-  desc.wanted = 1e-6;  // never enough: every instant is taken, and nothing differs
+  desc.wanted = 1e-6;  // never reached: every instant is rendered, and nothing differs
   const std::vector<EventFrame> all = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
   expect_same(fixed, all);
   desc.wanted = 2.0;
   const std::vector<EventFrame> some = EventRig(desc, luminance).run(20 * millisecond_ns, 6);
   expect_same(some, EventRig(desc, luminance).run(20 * millisecond_ns, 6));
   EXPECT_EQ(all[2].pictures, 16u);
-  EXPECT_EQ(some[1].pictures, 5u);  // at first nothing is known: steps of 1, 2, 4, 8 and the rest
+  EXPECT_EQ(some[1].pictures, 5u);  // without a history the steps are 1, 2, 4, 8 and the rest
   EXPECT_LE(some[2].pictures, 4u);
   EXPECT_GE(some[3].pictures, 10u);
   EXPECT_LE(some[5].pictures, 8u);
   EXPECT_LT(some[1].pictures + some[2].pictures + some[3].pictures + some[4].pictures + some[5].pictures,
             40u);
-  // Pictures are never much too far apart, as the change comes gradually.
+  // The change comes gradually, so that pictures are never much too far apart.
   for (size_t k = 1; k < some.size(); ++k) EXPECT_LT(some[k].largest, 5.0) << k;
   EXPECT_GT(some[3].coarse, 0u);
-  for (size_t k = 1; k < some.size(); ++k)  // the level follows whatever the steps are
+  for (size_t k = 1; k < some.size(); ++k)  // the level follows the signal for any steps
     EXPECT_EQ(some[k].size(), fixed[k].size()) << k;
 }
 

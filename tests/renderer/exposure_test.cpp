@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Smooth edges, and exposures that last.
+// Checks smooth edges and exposures of finite duration.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace greatx::test {
 namespace {
 
-/// A glowing half plane before the dark, 10 m away; its edge leans by `slope`.
+/// Returns a glowing half plane in the dark, 10 m away. `slope` is the inclination of its edge.
 scene::Scene half_plane(double slope) {
   TinyScene tiny;
   scene::Material glow = optical_material("glow", 0.0f);
@@ -31,8 +31,8 @@ render::CameraDesc hdr_camera(uint32_t size, uint32_t msaa, bool smooth) {
   return desc;
 }
 
-/// Root of the mean square of (radiance / glow - the share of the pixel that the plate covers), over the
-/// edge's pixels.
+/// Returns the root mean square of (radiance / glow - share of the pixel that the plate covers) over the
+/// pixels of the edge.
 double coverage_error(double slope, uint32_t msaa, bool smooth) {
   constexpr uint32_t size = 96;
   render::Lighting dark = plain_light(0.0, -30.0);
@@ -61,7 +61,7 @@ double coverage_error(double slope, uint32_t msaa, bool smooth) {
 TEST(Edges, SmoothOnesComeNearTheShareThatAPixelCovers) {
   for (const double slope : {0.07, 0.4, 0.9}) {
     const double plain = coverage_error(slope, 1, false), smooth = coverage_error(slope, 1, true);
-    EXPECT_GT(plain, 0.2) << slope;  // a step against a ramp: 1 / sqrt(12)
+    EXPECT_GT(plain, 0.2) << slope;  // a step compared with a ramp: 1 / sqrt(12)
     EXPECT_LT(smooth, 0.09) << slope;
     EXPECT_LT(smooth, coverage_error(slope, 4, false) + 0.03) << slope;
   }
@@ -95,7 +95,7 @@ class Blur : public ::testing::Test {
     light_ = plain_light(0.0, -30.0);
     light_.sky_illuminance_lux = 0.0;
   }
-  /// Pictures from these places, added up.
+  /// Returns the mean of pictures from these positions.
   render::CameraImages expose(const std::vector<dvec3>& eyes) {
     render::SceneLighting lighting(gpu_, light_, {});
     render::CameraDesc desc = hdr_camera(64, 1, false);
@@ -128,7 +128,7 @@ TEST_F(Blur, IsTheMeanOfItsInstants) {
   }
   size_t between = 0;
   for (size_t i = 0; i < mean.size(); ++i) {
-    EXPECT_NEAR(blurred.hdr[i], mean[i], 0.2);  // of 100 cd/m^2, in halves, three times rounded
+    EXPECT_NEAR(blurred.hdr[i], mean[i], 0.2);  // of 100 cd/m^2, rounded to fp16 three times
     between += mean[i] > 20.0 && mean[i] < 80.0;
   }
   EXPECT_GT(between, 500u);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sensor's noise and the tone curve as functions. Tests of significance reject at 1e-4 a test, with draws
-// that are the same at every run: a test that passes does so for good.
+// Tests the sensor noise and the tone curve as functions. Tests of significance reject at a level of 1e-4
+// each. Their draws are the same in every run, so that a test that passes always passes.
 #include "shaders/shared/film.h"
 
 #include <algorithm>
@@ -19,12 +19,13 @@
 namespace greatx::shared {
 namespace {
 
-/// |z| of a normal variable that is exceeded once in 1e4.
+/// The absolute value of a standard normal variable exceeds this with a probability of 1e-4.
 constexpr double rare = 3.891;
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// What chi-squared of `degrees` exceeds once in 1e4 (Wilson and Hilferty 1931).
+/// Returns the value that chi-squared of `degrees` degrees of freedom exceeds with a probability of 1e-4
+/// (Wilson and Hilferty 1931).
 double rare_chi_squared(double degrees) {
   const double a = 2.0 / (9.0 * degrees);
   return degrees * std::pow(1.0 - a + 3.719 * std::sqrt(a), 3.0);
@@ -61,7 +62,7 @@ std::vector<double> electrons(float mean, float read_noise, uint count, uint tic
 TEST(Film, BytesAreWithinAHundredthOfTheExactCurve) {
   double worst = 0.0;
   uint last = 0;
-  for (uint32_t half = 0; half <= 0x3c00u; ++half) {  // every half from 0 to 1
+  for (uint32_t half = 0; half <= 0x3c00u; ++half) {  // every half-precision number from 0 to 1
     const float c = glm::unpackHalf1x16(uint16_t(half));
     const double exact = c <= 0.0031308f ? 12.92 * c : 1.055 * std::pow(double(c), 1.0 / 2.4) - 0.055;
     const uint byte = srgb_byte(c);
@@ -98,8 +99,8 @@ TEST(Film, NormalQuantileInvertsTheNormalLaw) {
 }
 
 TEST(Film, PhotonTransfer) {
-  // Mean and variance of electrons at levels of grey: the mean is the light's, the variance is the mean plus
-  // that of reading.
+  // Checks the mean and the variance of electrons at several levels of grey. The mean is that of the light,
+  // the variance is the mean plus the variance of the read noise.
   constexpr uint count = 60000;
   for (const float read_noise : {0.0f, 2.5f}) {
     for (const float mean : {0.0f, 0.3f, 1.0f, 5.0f, 15.9f, 16.0f, 40.0f, 500.0f, 9000.0f}) {
@@ -111,7 +112,7 @@ TEST(Film, PhotonTransfer) {
         continue;
       }
       EXPECT_LT(std::abs(m.mean - mean), rare * std::sqrt(variance / count)) << mean << " " << read_noise;
-      // Fourth central moment of Poisson plus normal: 3 v^2 + mean.
+      // The fourth central moment of Poisson plus normal is 3 v^2 + mean.
       const double spread = std::sqrt((3.0 * variance * variance + mean - variance * variance) / count);
       EXPECT_LT(std::abs(m.variance - variance), rare * spread) << mean << " " << read_noise;
     }
@@ -119,7 +120,7 @@ TEST(Film, PhotonTransfer) {
 }
 
 TEST(Film, VarianceOverMeanIsTheGain) {
-  // In digital numbers the slope of the photon transfer curve is 1 / gain, its offset read noise and
+  // In digital numbers, the slope of the photon transfer curve is 1 / gain. Its offset is read noise and
   // quantisation.
   const SensorConstants s = sensor(4.0f, 20000.0f, 10);
   const double per_electron = double(s.levels) / s.full_well;
@@ -143,7 +144,7 @@ TEST(Film, FewElectronsFollowPoissonsLaw) {
       ASSERT_EQ(e, std::floor(e));
       ++seen[std::min<size_t>(size_t(e), 64)];
     }
-    // Chi-squared over counts that are expected at least ten times, the tail in one.
+    // Chi-squared over counts with an expectation of at least ten; the tail is one count.
     double chi = 0.0, left = 1.0, probability = std::exp(-double(mean));
     uint used = 0, left_seen = count;
     for (uint k = 0; k < 64 && left * count > 20.0; ++k) {
@@ -161,7 +162,8 @@ TEST(Film, FewElectronsFollowPoissonsLaw) {
 }
 
 TEST(Film, ManyElectronsAreCloseToPoissonPlusReading) {
-  // The distribution function where the laws change, worst of all: against Poisson's sum of normal laws.
+  // Compares the distribution function with a sum of normal laws with Poisson weights. The difference is
+  // largest where the model changes its law.
   for (const auto& [mean, bound] : {std::pair{16.0, 2e-3}, {100.0, 4e-4}, {1000.0, 1e-4}}) {
     const double read_noise = 2.5;
     double worst = 0.0;
@@ -189,12 +191,12 @@ TEST(Film, FewElectronsWithReadingAreTheExactLaw) {
                normal_cdf((values[i] - k) / read_noise);
     distance = std::max(distance, std::abs(below - (double(i) + 0.5) / double(values.size())));
   }
-  // Kolmogorov and Smirnov at 1e-4: 2.225 / sqrt(n).
+  // The limit of the test of Kolmogorov and Smirnov at 1e-4 is 2.225 / sqrt(n).
   EXPECT_LT(distance, 2.225 / std::sqrt(50000.0));
 }
 
 TEST(Film, QuantisationErrorIsUniform) {
-  // 4 bits of 1000 electrons: a step is 67 electrons, the noise many of them wide.
+  // With 4 bits for 1000 electrons, a step is 67 electrons and the noise is several steps wide.
   SensorConstants s = sensor(200.0f, 1000.0f, 4);
   std::array<double, 10> bins{};
   constexpr uint count = 50000;

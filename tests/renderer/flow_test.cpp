@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Optical flow against fp64 by other ways: points found by rays, moved and projected anew; closed forms.
+// Checks optical flow against independent fp64 methods (points found by rays, moved and projected again) and
+// closed forms.
 #include <cmath>
 #include <optional>
 
@@ -14,7 +15,8 @@
 namespace greatx::test {
 namespace {
 
-/// The largest error of the flow against points found by fp64 rays, moved and projected; pixels compared.
+/// Holds the largest difference of the flow from points that are found by fp64 rays, moved and projected, and
+/// the number of compared pixels by kind.
 struct FlowError {
   double largest = 0.0;
   int surfaces = 0, sky = 0, hidden = 0;
@@ -28,7 +30,7 @@ FlowError flow_error(TruthRig& rig, const CameraDesc& desc, const Moment& now, c
       const dvec3 ray = now.camera.rotate(pixel_ray(desc, column, row));
       const std::optional<Hit> hit = cast(rig.scene(), now.bodies, now.camera.position, ray);
       const uint32_t instance = hit ? rig.scene().primitives[hit->primitive].instance + 1 : 0;
-      if (instance != picture.images.instance[pixel]) continue;  // on an edge
+      if (instance != picture.images.instance[pixel]) continue;  // a pixel on an edge
       const dvec2 flow(picture.truth.flow[2 * pixel], picture.truth.flow[2 * pixel + 1]);
       dvec3 there;
       if (hit)
@@ -60,8 +62,8 @@ TEST(Flow, OfAStaticSceneIsThePointProjectedAnew) {
 
 TEST(Flow, IsAsGoodFarFromTheOrigin) {
   const CameraDesc desc = truth_camera(96);
-  // A local origin that is not where the scene is: vertices are floats of 1/32 m there, and are what they
-  // are.
+  // The scene is far from its local origin. Vertices there are floats with a step of 1/32 to 1/16 m; the
+  // reference uses the same rounded vertices.
   const dvec3 far(524288.0, 4194304.0 / 8.0, 128.0);
   TruthRig rig(street(far).build(), desc);
   const FlowError error = flow_error(rig, desc, {look(far + dvec3(0.3, -0.2, 0.1), 3, 2, 5)},
@@ -93,7 +95,7 @@ TEST(Flow, OfMovingBodiesFollowsThem) {
   const FlowError error = flow_error(rig, desc, now, next);
   EXPECT_GT(error.surfaces, 3000);
   EXPECT_LT(error.largest, 1e-4);
-  // The body itself was looked at: its flow is another one than that of the world behind it.
+  // The body itself is visible: its flow differs from that of the world behind it.
   const Picture picture = rig.shoot(now, next), still = rig.shoot(now, {next.camera, now.bodies});
   int moved = 0;
   for (size_t i = 0; i < picture.images.instance.size(); ++i) {
@@ -160,8 +162,8 @@ TEST(Flow, BehindALensGoesThroughItTwice) {
       const std::optional<Hit> hit = cast(rig.scene(), now.bodies, now.camera.position, ray);
       const uint32_t id = hit ? rig.scene().primitives[hit->primitive].instance + 1 : 0;
       if (id == 0 || id != picture.images.instance[pixel]) continue;
-      // Behind a lens the neighbour of a pixel may stand for it at the edge of a triangle: another plane
-      // then.
+      // Behind a lens, a neighbouring pixel may stand for a pixel at the edge of a triangle, which then shows
+      // another plane.
       if (std::abs(picture.images.depth[pixel] / hit->distance - 1.0) > 1e-4) {
         ++at_edges;
         continue;
@@ -185,7 +187,7 @@ TEST(Flow, IsNoNumberForWhatTheCameraPassesBy) {
   const FlowError past = flow_error(rig, desc, {look({0, 0, 0})}, {look({8.05, 0, 0})});
   EXPECT_GT(past.hidden, 50);
   EXPECT_GT(past.surfaces, 100);
-  // A half turn: the sky behind as well.
+  // After a half turn the sky lies behind the camera, too.
   const FlowError turned = flow_error(rig, desc, {look({0, 0, 0})}, {look({0, 0, 0}, 180)});
   EXPECT_EQ(turned.hidden, 64 * 64);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A white sphere in a uniformly white world cannot be seen: it sends back what comes in, at every angle at
-// once.
+// Checks that a white sphere in a uniformly white world is invisible: it reflects all incident light at every
+// angle.
 #include <array>
 #include <cmath>
 
@@ -14,8 +14,8 @@
 namespace greatx::test {
 namespace {
 
-/// Round to shading: its vertex normals are those of the sphere, so angles from 0 to 90 degrees are all
-/// there.
+/// Returns a sphere that shades as a round one: its vertex normals are those of the sphere, so that all
+/// angles from 0 to 90 degrees occur.
 scene::Scene sphere(const scene::Material& material) {
   constexpr int rings = 24, sectors = 48;
   const auto point = [](int ring, int sector) {
@@ -44,7 +44,7 @@ render::Lighting furnace() {
 }
 
 struct Contrast {
-  size_t pixels = 0;     ///< of the sphere
+  size_t pixels = 0;     ///< pixels of the sphere
   double largest = 0.0;  ///< |L / L_world - 1|
 };
 
@@ -71,7 +71,8 @@ TEST(Furnace, WhiteSphereDisappears) {
 TEST(Furnace, GreySphereDoesNot) { EXPECT_GT(contrast_of(optical_material("grey", 0.5f)).largest, 0.3); }
 
 TEST(Furnace, NothingElseGains) {
-  // Grey metal; white between dielectric and metal, which loses up to a sixth: the lobe is not linear in F0.
+  // Grey metal, and a white material between dielectric and metal. The latter loses up to a sixth because the
+  // lobe is not linear in F0.
   for (const auto& [grey, metallic, roughness] : {std::array{0.7f, 1.0f, 0.1f},
                                                   {0.7f, 1.0f, 0.5f},
                                                   {0.7f, 1.0f, 1.0f},

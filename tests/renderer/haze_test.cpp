@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fog in pictures: Koschmieder's law, the white furnace, shadows that fade.
+// Checks fog in pictures: Koschmieder's law, the white furnace and shadows that fade.
 #include "renderer/daylight/haze.h"
 
 #include <cmath>
@@ -19,7 +19,8 @@ render::CameraEffects hazy() {
   return effects;
 }
 
-/// A black wall across the view, from below the ground to 40 m, over one side of the picture only.
+/// Returns a black wall across the view, from below the ground to a height of 400 m, over one side of the
+/// picture only.
 scene::Scene black_wall(double distance) {
   TinyScene tiny;
   scene::Material black = optical_material("black", 0.0f);
@@ -29,7 +30,7 @@ scene::Scene black_wall(double distance) {
 }
 
 TEST(Haze, ContrastAgainstTheHorizonFallsAsKoschmiederSays) {
-  // C = (L_target - L_horizon) / L_horizon = -exp(-extinction d), whatever the light; 2 % at the visibility.
+  // C = (L_target - L_horizon) / L_horizon = -exp(-extinction d) for any light. C is 2 % at the visibility.
   const double extinction = render::fog_extinction(0.05);
   for (const double sun : {40.0, -3.0})
     for (const double share : {0.1, 0.5, 1.0}) {
@@ -38,7 +39,7 @@ TEST(Haze, ContrastAgainstTheHorizonFallsAsKoschmiederSays) {
       light.haze_extinction_per_m = extinction;
       light.haze_depth = 1.0;
       render::CameraDesc desc = plain_camera(17, 1);
-      desc.fx = desc.fy = 4000.0;  // so narrow that all of it is the horizon
+      desc.fx = desc.fy = 4000.0;  // the whole narrow picture is at the horizon
       CameraRig rig(black_wall(distance), light, desc, hazy());
       const render::CameraImages images = rig.shoot(look({0, 0, 1}));
       const size_t row = size_t(desc.height / 2) * desc.width;
@@ -66,8 +67,8 @@ TEST(Haze, FurnaceStaysWhite) {
 }
 
 TEST(Haze, ShadowsFadeWithTheLayersDepth) {
-  // Under a roof and beside it, from close by: the lit ground has the layer's direct and sky light, the
-  // shadow less.
+  // The camera looks at ground under a roof and beside it. The lit ground receives the direct light and the
+  // sky light that pass the layer.
   double before = 1e9;
   for (const double depth : {0.0, 1.0, 6.0}) {
     TinyScene tiny;
@@ -80,7 +81,7 @@ TEST(Haze, ShadowsFadeWithTheLayersDepth) {
     CameraRig rig(tiny.build(), light, plain_camera(32, 1), hazy());
     const render::CameraImages images = rig.shoot(look({-3, 0, 3}, 0.0, 90.0));
     const render::LayerLight below = render::through_layer(1e5, 1.0, 15000.0, depth, light.ground_albedo);
-    const double lit = luminance_at(images, size_t(28) * 32 + 16);  // behind the eye: away from the roof
+    const double lit = luminance_at(images, size_t(28) * 32 + 16);  // behind the eye, away from the roof
     EXPECT_NEAR(lit / (0.5 / pi * (below.direct_lux + below.sky_lux)), 1.0, 2e-3) << depth;
     EXPECT_LT(below.direct_lux / below.sky_lux, before);
     before = below.direct_lux / below.sky_lux;
@@ -100,7 +101,7 @@ TEST(Haze, OffLeavesTheBytesAlone) {
   const Pose sensor = look({-4, 0, 1});
   const auto expected = without.shoot(sensor).hdr;
   EXPECT_EQ(off.shoot(sensor).hdr, expected);
-  EXPECT_EQ(clear.shoot(sensor).hdr, expected);  // asked for, but there is none
+  EXPECT_EQ(clear.shoot(sensor).hdr, expected);  // the effect is on, but there is no fog
 }
 
 }  // namespace

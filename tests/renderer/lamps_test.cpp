@@ -27,8 +27,8 @@ render::CameraView view_of(uint32_t width = 640, uint32_t height = 480) {
 
 float as_float(uint32_t word) { return std::bit_cast<float>(word); }
 
-/// The lamps (first quadruples of their records) that a pixel at p looks at: shaders/camera/lamps.glsl in
-/// C++.
+/// Returns the lamps (first quadruples of their records) that a pixel at p looks up, as
+/// shaders/camera/lamps.glsl does.
 std::set<uint32_t> lamps_at(const std::vector<uint32_t>& words, const render::CameraView& view,
                             const dvec3& p) {
   const vec3 q(p);
@@ -78,7 +78,7 @@ TEST(Lamps, NoPointMissesALampThatReachesIt) {
   RandomStream random(7, 2, 0);
   size_t reached = 0;
   for (int k = 0; k < 20000; ++k) {
-    // Points that the picture shows, near and far alike.
+    // The points lie in the picture; their distances are distributed logarithmically.
     const double depth = std::exp2(9.0 * random.uniform() - 1.0);
     const dvec3 p = depth * (view.forward + view.right * (2.0 * random.uniform() - 1.0) +
                              view.down * (1.5 * random.uniform() - 0.75));
@@ -98,7 +98,7 @@ TEST(Lamps, NoPointMissesALampThatReachesIt) {
       ASSERT_TRUE(there) << "depth " << depth;
     }
   }
-  EXPECT_GT(reached, 1000u);  // the test looked at something
+  EXPECT_GT(reached, 1000u);  // the test is not empty
 }
 
 TEST(Lamps, CostFollowsWhatIsSeenNotWhatIsPlaced) {
@@ -107,7 +107,7 @@ TEST(Lamps, CostFollowsWhatIsSeenNotWhatIsPlaced) {
   render::LampCounts few, many;
   std::vector<scene::PunctualLight> lamps = random_lamps(50);
   render::cluster_lamps(view, lamps, bodies, few);
-  for (size_t i = 0; i < 1000; ++i) {  // behind the camera
+  for (size_t i = 0; i < 1000; ++i) {  // all behind the camera
     scene::PunctualLight lamp;
     lamp.position = view.eye - view.forward * (100.0 + double(i));
     lamp.range_m = 40.0f;

@@ -13,7 +13,7 @@
 namespace greatx::render {
 namespace {
 
-/// 640x480, 90 degrees across, with the principal point off the middle.
+/// Returns a picture of 640x480, 90 degrees across, with the principal point away from its centre.
 LensGeometry picture(const Distortion& distortion) {
   LensGeometry g;
   g.name = "front";
@@ -33,7 +33,7 @@ constexpr Distortion tangential{.p1 = 0.012, .p2 = -0.009};
 constexpr Distortion everything{.k1 = -0.2, .k2 = 0.05, .p1 = 0.004, .p2 = -0.003, .k3 = -0.005};
 
 TEST(Lens, DistortsAsTheModelSays) {
-  // Worked by hand: r^2 = 0.25, radial factor 1 + 0.1/4 + 0.2/16 + 0.3/64 = 1.0421875.
+  // Computed by hand: r^2 = 0.25, radial factor 1 + 0.1/4 + 0.2/16 + 0.3/64 = 1.0421875.
   const Distortion d{.k1 = 0.1, .k2 = 0.2, .p1 = 0.01, .p2 = 0.02, .k3 = 0.3};
   const dvec2 u(0.3, 0.4), seen = d.distort(u);
   EXPECT_NEAR(seen.x, 0.3 * 1.0421875 + 2 * 0.01 * 0.12 + 0.02 * (0.25 + 0.18), 1e-15);
@@ -91,7 +91,7 @@ TEST(Lens, BoundsHoldEveryRayOfThePicture) {
     for (int i = 0; i < 2; ++i) {
       EXPECT_LE(lens.bounds().least[i], least[i]);
       EXPECT_GE(lens.bounds().most[i], most[i]);
-      // ... and by less than a quarter of a pixel more, where the barrel bends most.
+      // The bounds are less than a quarter of a pixel too wide, where the barrel bends most.
       EXPECT_NEAR(lens.bounds().least[i], least[i], 0.25 / 318.0);
       EXPECT_NEAR(lens.bounds().most[i], most[i], 0.25 / 318.0);
     }
@@ -115,10 +115,11 @@ TEST(Lens, FoldRadiusIsTheFirstRootOfTheSlope) {
   EXPECT_EQ(Distortion{}.fold_radius(), INFINITY);
   EXPECT_EQ(pincushion.fold_radius(), INFINITY);
   EXPECT_NEAR((Distortion{.k1 = -1.0 / 3.0}).fold_radius(), 1.0, 1e-12);
-  // 1 - 3 s + ... with roots s = 1/2, 1, 2: (1 - 2 s)(1 - s)(1 - s/2) = 1 - 3.5 s + 3.5 s^2 - s^3.
+  // With s = r^2 the slope is 1 + 3 k1 s + 5 k2 s^2 + 7 k3 s^3. Roots at s = 1/2, 1, 2: (1 - 2 s)(1 - s)(1 -
+  // s/2) = 1 - 3.5 s + 3.5 s^2 - s^3.
   EXPECT_NEAR((Distortion{.k1 = -3.5 / 3.0, .k2 = 3.5 / 5.0, .k3 = -1.0 / 7.0}).fold_radius(), std::sqrt(0.5),
               1e-12);
-  // Touches zero at s = 2 only beyond two extrema: 1 - s/3 falls once.
+  // The only root of the slope 1 - s^3 is s = 1.
   EXPECT_NEAR((Distortion{.k3 = -1.0 / 7.0}).fold_radius(), 1.0, 1e-12);
 }
 
@@ -132,14 +133,14 @@ std::string message_of(const std::function<void()>& call) {
 }
 
 TEST(Lens, AModelThatFoldsIsRefusedByName) {
-  // Folds at r = 0.9129, where the picture shows r' = 0.6086: 194 pixels of the 400 to the corner.
+  // The model folds at r = 0.9129, where the picture shows r' = 0.6086: 194 pixels of the 400 to the corner.
   const std::string radial = message_of([] { Lens lens(picture({.k1 = -0.4})); });
   EXPECT_THAT(radial, testing::HasSubstr("camera front: distortion"));
   EXPECT_THAT(radial, testing::HasSubstr("0.91"));
   EXPECT_THAT(radial, testing::HasSubstr("194."));
   EXPECT_THAT(message_of([] { Lens lens(picture({.p1 = 0.5})); }),
               testing::HasSubstr("camera front: distortion"));
-  // The same lens over a narrow picture is fine.
+  // The same lens is accepted for a narrow picture.
   LensGeometry narrow = picture({.k1 = -0.4});
   narrow.fx = narrow.fy = 1000.0;
   EXPECT_NO_THROW(Lens{narrow});
@@ -153,7 +154,7 @@ TEST(Lens, NaturalVignettingIsTheFourthPowerOfTheCosine) {
     const double angle = std::atan(std::hypot(tx, ty));
     EXPECT_NEAR(field[size_t(y) * 640 + x], std::pow(std::cos(angle), 4.0), 1e-7);
   }
-  // Behind a distorting lens it is the angle of the ray that the pixel sees.
+  // Behind a distorting lens, the angle is that of the ray that the pixel sees.
   const Lens lens(picture(barrel));
   const std::vector<float> behind = flat_field({.natural = true}, picture(barrel));
   const dvec2 u = lens.undistorted({0.5, 0.5});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth and ids behind lenses that distort, against a ray through every pixel's centre in fp64.
+// Checks depth and ids behind distorting lenses against an fp64 ray through the centre of every pixel.
 #include <cmath>
 #include <random>
 
@@ -29,13 +29,13 @@ CameraDesc lens_camera(const Distortion& distortion, uint32_t msaa, uint32_t wid
 }
 Lens lens_of(const CameraDesc& desc) { return Lens(render::lens_geometry(desc)); }
 
-/// Local, planar depth 1, of any place in the picture.
+/// Returns the ray through a point of the picture in local coordinates, with planar depth 1.
 dvec3 lens_ray(const Lens& lens, const Pose& camera, const dvec2& pixel) {
   const dvec2 n = lens.undistorted(pixel);
   return camera.rotate(dvec3(1.0, -n.x, -n.y));
 }
 
-/// Planar depths at which a ray meets an instance, whatever stands before it.
+/// Returns the planar depths at which a ray meets an instance, including hidden ones.
 std::vector<double> depths_of(const scene::Scene& scene, const Moment& now, const dvec3& ray, uint32_t id) {
   std::vector<double> depths;
   double from = 0.0;
@@ -47,8 +47,9 @@ std::vector<double> depths_of(const scene::Scene& scene, const Moment& now, cons
   return depths;
 }
 
-/// Whether the instance has this depth within a pixel of `pixel`: between the least and the most that a grid
-/// of rays finds, give or take a step of it. Nothing (0): whether one of them meets nothing.
+/// Returns whether the instance has this depth within a pixel of `pixel`: the depth must lie between the
+/// smallest and the largest one that a grid of rays finds, within one step of the grid. For id 0, returns
+/// whether one of these rays meets nothing.
 bool is_nearby(const scene::Scene& scene, const Lens& lens, const Moment& now, const dvec2& pixel,
                uint32_t id, double depth) {
   constexpr int steps = 6;
@@ -70,10 +71,10 @@ bool is_nearby(const scene::Scene& scene, const Lens& lens, const Moment& now, c
 }
 
 struct Comparison {
-  int same = 0;                 ///< pixels that have what their ray meets
-  int near = 0;                 ///< ... what a ray within a pixel of theirs meets
-  int wrong = 0;                ///< ... anything else
-  int surfaces = 0, exact = 0;  ///< of the same: nearer than 50 m, and to 1e-5 of depth
+  int same = 0;                 ///< pixels that show what their ray meets
+  int near = 0;                 ///< pixels that show what a ray within a pixel of theirs meets
+  int wrong = 0;                ///< all other pixels
+  int surfaces = 0, exact = 0;  ///< of `same`: nearer than 50 m; of these, depth within 1e-5
 };
 Comparison compare(TruthRig& rig, const CameraDesc& desc, const Moment& now) {
   const Picture picture = rig.shoot(now, now);
@@ -113,7 +114,8 @@ Comparison compare(TruthRig& rig, const CameraDesc& desc, const Moment& now) {
   return result;
 }
 
-/// Boards at grazing angles before ground, boxes and sky: outlines where planes, gone on with, lead far away.
+/// Returns boards at grazing angles before ground, boxes and sky. An extrapolation of their planes past the
+/// outlines leads far away.
 TinyScene boards() {
   TinyScene scene = street();
   std::mt19937 draw(11);
@@ -143,15 +145,14 @@ TEST(LensTruth, DepthAndIdsAreThoseOfThePixelsRays) {
       TruthRig rig(boards().build(), desc, {.normals = false, .depth_ray = true, .flow = false});
       const Comparison found = compare(rig, desc, {look({0.3, -0.2, 0.1}, 3, 2, 5)});
       EXPECT_EQ(found.wrong, 0);
-      // What no sample of the pinhole picture sees: corners, and boards less than a pixel across.
+      // No sample of the pinhole picture sees these pixels: corners, and boards less than a pixel across.
       EXPECT_LT(found.near, 0.01 * desc.width * desc.height) << msaa;
-      EXPECT_GT(found.exact, 0.98 * found.surfaces) << msaa;  // others are grazed
+      EXPECT_GT(found.exact, 0.98 * found.surfaces) << msaa;  // the others are seen at grazing angles
       EXPECT_GT(found.surfaces, 2000);
     }
 }
 
-/// Of what is smaller than a pixel, the share of the picture is as large as the rays say: neither more nor
-/// less of it shows.
+/// The share of the picture that surfaces smaller than a pixel cover equals that of the rays.
 TEST(LensTruth, LeavesSmallerThanPixelsCoverTheirShare) {
   const CameraDesc desc = lens_camera(lenses[0], 1, 64, 48);
   TinyScene tiny;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Beams that spread, glass, and targets that move while a sweep lasts.
+// Checks beams with divergence, glass, and targets that move during a sweep.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ TEST(LidarBeam, OnAWallAcrossItIsOneReturnOfTheWholeBeam) {
   const LidarDesc desc = spreading(0.004, 4);
   const LidarScan scan = sweep(wall(50.0).build(), desc, std::vector{Pose{}}).scan;
   ASSERT_EQ(scan.size(), 1u);
-  // Rays at the angle a meet the wall at 50 / cos a: the mean of a^2 is w^2 / 2.
+  // A ray at the angle a off the axis meets the wall at 50 / cos a; the mean of a^2 is w^2 / 2.
   const double mean_square = 0.5 * 0.002 * 0.002;
   EXPECT_NEAR(scan.range_m[0], 50.0 * (1.0 + 0.5 * mean_square), 1e-5);
   EXPECT_NEAR(scan.points[0].w, 0.8, 1e-5);
@@ -41,9 +41,9 @@ TEST(LidarBeam, OnAWallAcrossItIsOneReturnOfTheWholeBeam) {
 }
 
 TEST(LidarBeam, FootprintOnASlopeHasTheBeamsWidth) {
-  // A plane through (50, 0, 0) whose normal is 80 degrees off the beam: a ray up by the tangent t meets it at
-  // x = 50 / (1 - t tan(80)); the spread of ranges is 50 tan(80) w / 2 to first order, which a resolution
-  // finer than the rays' spacing shows.
+  // The normal of a plane through (50, 0, 0) is 80 degrees off the beam. A ray that rises by the tangent t
+  // meets the plane at x = 50 / (1 - t tan(80)). To first order the spread of ranges is 50 tan(80) w / 2. A
+  // range resolution finer than the spacing of the rays shows this spread.
   TinyScene tiny;
   const double slope = std::tan(radians(80.0));
   tiny.object("slope", 0, tiny.material("paint", 0.8f))
@@ -63,13 +63,13 @@ TEST(LidarBeam, FootprintOnASlopeHasTheBeamsWidth) {
   EXPECT_NEAR(share, 1.0, 1e-5);
   const double first_order = 50.0 * slope * 0.5 * 0.001;
   EXPECT_NEAR(std::sqrt(square), first_order, 1e-3 * first_order);
-  EXPECT_NEAR(mean, 50.0 * (slope * slope + 0.5) * 0.25 * 1e-6, 2e-4);  // of t^2 tan^2 + a^2/2
-  // Told apart by no receiver it is one return.
+  EXPECT_NEAR(mean, 50.0 * (slope * slope + 0.5) * 0.25 * 1e-6, 2e-4);  // mean of 50 (t^2 tan^2 + a^2/2)
+  // A receiver that cannot separate the echoes finds one return.
   desc.returns.resolution_m = 0.3;
   EXPECT_EQ(sweep(tiny.build(), desc, std::vector{Pose{}}).scan.size(), 1u);
 }
 
-/// A plate at 20 m that ends at y = edge, before a wall at 30 m; both white.
+/// Returns a plate at 20 m that ends at y = edge, before a wall at 30 m. Both are white.
 scene::Scene step_scene(double edge) {
   TinyScene tiny = wall(30.0, 1.0f);
   tiny.object("plate", 0, 1)
@@ -89,9 +89,9 @@ TEST(HardCase, N61_LidarBeamSplitOverTwoDepthsGivesTwoReturnsWhoseEnergySumsToOn
     EXPECT_THAT(scan.instance, ElementsAre(2, 1));
     EXPECT_NEAR(scan.share[0] + scan.share[1], 1.0, 1e-6);
     EXPECT_NEAR(scan.points[0].w + scan.points[1].w, 1.0, 1e-5);  // white, seen along the normal
-    // Half a Gaussian: Phi(2 edge / w). 217 rays know it to some per cent.
+    // The share is the part of a Gaussian Phi(2 edge / w). 217 rays approximate it to some per cent.
     EXPECT_NEAR(scan.share[0], normal_cdf(2.0 * edge / w), 0.04) << edge;
-    // Each return has its share of what the whole beam would give from there.
+    // The power of each return is its share of the power that the whole beam would give from there.
     const Receiver receiver;
     EXPECT_NEAR(scan.power[0], received_power(receiver, 20.0, scan.share[0]), 1e-4 * scan.power[0]);
     EXPECT_NEAR(scan.power[1], received_power(receiver, 30.0, scan.share[1]), 1e-4 * scan.power[1]);
@@ -99,7 +99,7 @@ TEST(HardCase, N61_LidarBeamSplitOverTwoDepthsGivesTwoReturnsWhoseEnergySumsToOn
 }
 
 TEST(LidarBeam, SubRaysSpreadToAllSidesWhereverTheBeamLooks) {
-  // On a sphere of walls around the sensor, sampled by a fine box: the rays' mean direction is the axis.
+  // The sensor is in a closed room. The mean direction of the rays is the axis of the beam.
   TinyScene tiny;
   tiny.object("room", 0, tiny.material("paint", 0.8f)).box({-10, -10, -10}, {10, 10, 10});
   for (const dvec3& axis :
@@ -125,7 +125,7 @@ scene::Material glass(float transmission = 1.0f, float dirt = 0.0f) {
   return material;
 }
 
-/// A pane across x = 5 before a wall at 10 m.
+/// Returns a pane across x = 5 before a wall at 10 m.
 scene::Scene window(const scene::Material& material) {
   TinyScene tiny = wall(10.0);
   tiny.object("pane", 0, tiny.material_as(material))
@@ -142,7 +142,7 @@ TEST(LidarGlass, WhatIsBehindAPaneIsWeakenedTwice) {
   LidarDesc desc = lidar_along({{1, 0, 0}, oblique});
   desc.glass = true;
   const LidarScan scan = sweep(window(glass(0.9f)), desc, std::vector{Pose{}}).scan;
-  ASSERT_EQ(scan.size(), 2u);  // a clean pane and no width of the beam: nothing comes back from it
+  ASSERT_EQ(scan.size(), 2u);  // a clean pane returns nothing to a beam of zero width
   for (size_t i = 0; i < 2; ++i) {
     const double cosine = i == 0 ? 1.0 : oblique.x, through = (1.0 - reflectance(cosine)) * 0.9;
     EXPECT_NEAR(scan.points[i].x, 10.0, 1e-5);
@@ -150,7 +150,7 @@ TEST(LidarGlass, WhatIsBehindAPaneIsWeakenedTwice) {
     EXPECT_NEAR(scan.points[i].w, 0.8 * cosine * through * through, 1e-5);
     EXPECT_NEAR(scan.share[i], through, 1e-6);
   }
-  // Off it is a wall like others.
+  // With the effect off, a pane is an ordinary wall.
   desc.glass = false;
   EXPECT_NEAR(sweep(window(glass()), desc, std::vector{Pose{}}).scan.points[0].x, 5.0, 1e-6);
 }
@@ -178,8 +178,8 @@ TEST(LidarGlass, APaneGlaresWhereItMirrorsTheBeamBack) {
     desc.returns.mode = ReturnMode::all;
     const LidarScan scan = sweep(window(glass()), desc, std::vector{Pose{}}).scan;
     ASSERT_EQ(scan.size(), 2u) << off;
-    // 2 P R / (pi w^2) exp(-2 theta^2 / half^2) at the receiver 10 m away in the mirror, over P rho / (pi
-    // 5^2).
+    // The mirror image of the receiver is 10 m away: 2 P R / (pi w^2) exp(-2 theta^2 / half^2), relative to P
+    // rho / (pi 5^2).
     const double w = 10.0 * half;
     const double expected =
         reflectance(1.0) * 2.0 / (w * w) * std::exp(-2.0 * std::pow(off / half, 2)) * 25.0;
@@ -214,7 +214,7 @@ TEST(LidarGlass, ManyPanesOneBehindTheOther) {
   EXPECT_EQ(
       sweep(stack(static_cast<int>(shared::lidar_most_panes) + 1), desc, std::vector{Pose{}}).scan.size(),
       0u);
-  // Twelve dirty ones: four returns and what is behind them all.
+  // Twelve dirty panes give four returns, and one from the wall behind all of them.
   TinyScene dirty = wall(30.0);
   dirty.object("panes", 0, dirty.material_as(glass(1.0f, 0.02f)));
   for (int i = 0; i < 12; ++i)
@@ -226,7 +226,7 @@ TEST(LidarGlass, ManyPanesOneBehindTheOther) {
 
 // ------------------------------------------------------------------------------------------ moving targets
 
-/// A fan of 200 shots over 0.1 s towards a plate that approaches at 30 m/s, slides and turns.
+/// Describes a fan of 200 shots over 0.1 s towards a plate that approaches at 30 m/s, slides and turns.
 struct MovingPlate {
   uint32_t shots = 200;
   Pose plate_at(double t) const {
@@ -244,8 +244,7 @@ struct MovingPlate {
     scan.sweep_s = 0.1;
     return scan;
   }
-  /// The range of a beam at its own time in closed form; the plate is z = 0 of its frame turned upright: x =
-  /// 0.
+  /// Returns the range of a beam at its own time in closed form. The plate is the plane x = 0 of its frame.
   double range(const dvec3& beam, double t) const {
     const Pose plate_from_sensor = plate_at(t).inverse() * sensor_at(t);
     return -plate_from_sensor.position.x / plate_from_sensor.rotate(beam).x;
@@ -257,7 +256,7 @@ TEST(LidarMotion, MovingTargetsStandWhereTheyAreAtTheShotsTime) {
   TinyScene tiny = wall(90.0);
   const uint32_t plate = tiny.body("plate");
   tiny.object("plate", plate, 1).quad({0, 5, -5}, {0, -5, -5}, {0, -5, 5}, {0, 5, 5});
-  const uint32_t post = tiny.body("post");  // still, in front of a part of the plate
+  const uint32_t post = tiny.body("post");  // at rest, in front of a part of the plate
   tiny.object("post", post, 1).box({15, -0.05, -9}, {15.1, 0.05, 9});
   const scene::Scene scene = tiny.build();
 
@@ -273,7 +272,7 @@ TEST(LidarMotion, MovingTargetsStandWhereTheyAreAtTheShotsTime) {
     targets.bodies[0].motions.push_back(bodies[1] * moving.plate_at(t).inverse());
   }
   const LidarScan scan = sweep(scene, desc, sensor, bodies, targets).scan;
-  ASSERT_EQ(scan.size(), desc.pattern.size());  // the wall is behind it all
+  ASSERT_EQ(scan.size(), desc.pattern.size());  // the wall is behind the whole fan
   size_t on_plate = 0, on_post = 0;
   double greatest = 0.0;
   for (size_t i = 0; i < scan.size(); ++i) {
@@ -285,7 +284,7 @@ TEST(LidarMotion, MovingTargetsStandWhereTheyAreAtTheShotsTime) {
     ASSERT_NEAR(scan.range_m[i], moving.range(beam, t), 3e-5);
     const dvec3 normal = moving.plate_at(t).rotate({1, 0, 0}), world = moving.sensor_at(t).rotate(beam);
     ASSERT_NEAR(scan.points[i].w, 0.8 * std::abs(glm::dot(normal, world)), 1e-5);
-    // Put back through both poses it lies on the plate.
+    // Transformed back by both poses, the point lies on the plate.
     const dvec3 local =
         moving.plate_at(t).inverse().apply(moving.sensor_at(t).apply(dvec3(vec3(scan.points[i]))));
     ASSERT_NEAR(local.x, 0.0, 3e-5);
@@ -294,9 +293,9 @@ TEST(LidarMotion, MovingTargetsStandWhereTheyAreAtTheShotsTime) {
   }
   EXPECT_GT(on_plate, 200u);
   EXPECT_GT(on_post, 5u);
-  EXPECT_GT(greatest, 2.0);  // what the tick's poses would miss by
+  EXPECT_GT(greatest, 2.0);  // error of the poses at the tick
 
-  // Off, the plate stands where it is at the tick.
+  // With the effect off, the plate stands at its pose of the tick.
   desc.target_motion = false;
   size_t checked = 0;
   const LidarScan tick = sweep(scene, desc, sensor, bodies).scan;
@@ -335,7 +334,7 @@ TEST(LidarMotion, BodiesApartThatStandStillAreTheSameAsTogether) {
   EXPECT_GT(std::count_if(together.scan.instance.begin(), together.scan.instance.end(),
                           [](uint32_t i) { return i > 1; }),
             100);
-  // A body that is not listed is not there.
+  // The sweep leaves out a body that is not listed.
   targets.bodies.clear();
   for (const uint32_t instance :
        sweep(tiny.build(), desc, std::vector{Pose{}}, bodies, targets).scan.instance)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scan patterns, footprints, receivers and returns: numbers against closed forms, no device.
+// Checks scan patterns, footprints, receivers and returns on the host against closed forms.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST(ScanPattern, RasterGoesLineByLineAndEveryShotHasItsTime) {
 }
 
 TEST(ScanPattern, RosetteOfEqualPrismsIsALineAndOfUnequalOnesStaysInItsRing) {
-  // Equal deflections at opposite rates cancel across one axis: d (cos, sin)(wt) + d (cos, -sin)(wt) = (2 d
+  // Equal deflections at opposite rates cancel along one axis: d (cos, sin)(wt) + d (cos, -sin)(wt) = (2 d
   // cos wt, 0).
   RosetteScan scan{1000, {radians(8.0), radians(8.0)}, {50.0, -50.0}, {0.0, 0.0}, 0.1};
   for (uint32_t i = 0; const dvec3& d : scan_pattern(scan).directions) {
@@ -54,7 +54,7 @@ TEST(ScanPattern, RosetteOfEqualPrismsIsALineAndOfUnequalOnesStaysInItsRing) {
     EXPECT_NEAR(d.y, std::sin(v), 1e-12);
     EXPECT_NEAR(d.z, 0.0, 1e-12);
   }
-  // In general cos of the angle off the axis follows from |v|^2 = d1^2 + d2^2 + 2 d1 d2 cos(angle between).
+  // In general the angle off the axis is |v|, with |v|^2 = d1^2 + d2^2 + 2 d1 d2 cos(angle between).
   scan = {5000, {radians(11.0), radians(7.0)}, {121.0, -77.0}, {0.3, 1.1}, 0.1};
   const ScanPattern pattern = scan_pattern(scan, 1234.5);
   double least = 10.0, most = 0.0;
@@ -69,7 +69,7 @@ TEST(ScanPattern, RosetteOfEqualPrismsIsALineAndOfUnequalOnesStaysInItsRing) {
   }
   EXPECT_NEAR(least, radians(4.0), 1e-4);
   EXPECT_NEAR(most, radians(18.0), 1e-4);
-  // It goes on where the sweep before ended.
+  // The pattern continues where the previous sweep ended.
   EXPECT_NE(scan_pattern(scan, 0.1).directions[7], scan_pattern(scan, 0.0).directions[7]);
   EXPECT_FALSE(repeats(scan));
 }
@@ -103,10 +103,10 @@ TEST(Footprint, WeightsAreTheRingsEnergyAndMomentsTheBeams) {
     }
     EXPECT_NEAR(sum, 1.0, 1e-6);
     EXPECT_NEAR(glm::length(mean), 0.0, 1e-6 * w);
-    EXPECT_NEAR(moment, 0.5 * w * w, 1e-6 * w * w);  // of exp(-2 r^2/w^2)
-    // The disc inside of w / (2 n): 1 - exp(-2 / (2 n)^2).
+    EXPECT_NEAR(moment, 0.5 * w * w, 1e-6 * w * w);  // second moment of exp(-2 r^2/w^2)
+    // The weight of the disc of radius w / (2 n) is 1 - exp(-2 / (2 n)^2).
     EXPECT_NEAR(rays[0].weight, 1.0 - std::exp(-0.5 / (rings * rings)), 1e-7);
-    // Ring 1 of several: exp(-2 r1^2/w^2) - exp(-2 r2^2/w^2) over its six rays.
+    // A ray of ring 1 has a sixth of exp(-2 r1^2/w^2) - exp(-2 r2^2/w^2).
     if (rings > 1) {
       const double r1 = 0.5 / rings, r2 = 1.5 / rings;
       EXPECT_NEAR(rays[1].weight, (std::exp(-2 * r1 * r1) - std::exp(-2 * r2 * r2)) / 6.0, 1e-7);
@@ -119,12 +119,13 @@ TEST(Footprint, WeightsAreTheRingsEnergyAndMomentsTheBeams) {
 // --------------------------------------------------------------------------------------------------- glass
 
 TEST(Pane, ReflectanceByFresnelAndStokes) {
-  // One face at normal incidence: ((n-1)/(n+1))^2 = 0.04 for n = 1.5; a pane 2 r / (1 + r) = 1/13.
+  // One face at normal incidence reflects ((n-1)/(n+1))^2 = 0.04 for n = 1.5, a pane 2 r / (1 + r) = 1/13.
   EXPECT_NEAR(shared::pane_reflectance(1.0f, 1.5f, 1.0f), 1.0 / 13.0, 1e-7);
   EXPECT_NEAR(shared::pane_reflectance(1.0f, 1.5f, 2.0f), 4 * 0.04 / (1 + 3 * 0.04), 1e-7);
-  EXPECT_NEAR(shared::pane_reflectance(0.5f, 1.0f, 1.0f), 0.0, 1e-7);   // glass of air
-  EXPECT_NEAR(shared::pane_reflectance(1e-6f, 1.5f, 1.0f), 1.0, 1e-4);  // grazing
-  // At Brewster's angle the one polarization passes; of the other one face gives ((n^2-1)/(n^2+1))^2.
+  EXPECT_NEAR(shared::pane_reflectance(0.5f, 1.0f, 1.0f), 0.0, 1e-7);   // glass with the index of air
+  EXPECT_NEAR(shared::pane_reflectance(1e-6f, 1.5f, 1.0f), 1.0, 1e-4);  // grazing incidence
+  // At Brewster's angle one polarization passes; one face reflects ((n^2-1)/(n^2+1))^2 of the other
+  // polarization.
   const double n = 1.5, s = std::pow((n * n - 1) / (n * n + 1), 2);
   EXPECT_NEAR(shared::pane_reflectance(static_cast<float>(1.0 / std::hypot(1.0, n)), 1.5f, 1.0f),
               0.5 * 2 * s / (1 + s), 1e-6);
@@ -151,7 +152,7 @@ TEST(Pane, OfAMaterialByWhatTheFileOrRadioSays) {
   EXPECT_EQ(pane_of(glazing, 905)->sheets, 2.0f);
   EXPECT_EQ(pane_of(glazing, 905)->scattering, 0.0f);
   EXPECT_EQ(pane_of(glazing, 1550)->scattering, 0.02f);
-  glazing.pbr.base_color_texture = 0;  // a picture of a facade
+  glazing.pbr.base_color_texture = 0;  // the material has a picture of a facade
   EXPECT_FALSE(pane_of(glazing, 905));
   glazing.pbr.base_color_texture = -1;
   glazing.radio->layers[1] = layer("concrete", 0.1);
@@ -210,7 +211,7 @@ TEST(Pulses, EchoesTheReceiverCannotTellApartAreOne) {
                                    {10.2, 0.1, 0.5, 1.0, 3, 1},
                                    {20.0, 0.4, 0.8, 1.0, 7, 2}};
   const std::vector<Pulse> pulses = pulses_of(echoes, receiver, 0.35);
-  ASSERT_EQ(pulses.size(), 2u);  // 10.0, 10.2, 10.5 follow each other
+  ASSERT_EQ(pulses.size(), 2u);  // 10.0, 10.2 and 10.5 follow each other within the resolution
   const auto power = [&](double r, double weight, double intensity) {
     return weight * received_power(receiver, r, intensity);
   };
@@ -224,7 +225,7 @@ TEST(Pulses, EchoesTheReceiverCannotTellApartAreOne) {
   EXPECT_EQ(pulses[1].instance, 7u);
 }
 
-/// Echoes of one shot along x, one sub-ray each.
+/// Holds the echoes of one shot along x, with one sub-ray each.
 struct OneShot {
   ScanPattern pattern = scan_pattern(ShotTable{{{0.0, 0.0, 0.0, 0}}, "", ""});
   std::vector<shared::LidarEcho> echoes;
@@ -240,7 +241,7 @@ struct OneShot {
 
 TEST(Returns, Modes) {
   OneShot shot;
-  shot.add(10.0f, 0.1f, 0.2f, 1);  // weak, near
+  shot.add(10.0f, 0.1f, 0.2f, 1);  // weak and near
   shot.add(20.0f, 0.6f, 0.9f, 2);  // the strongest
   shot.add(30.0f, 0.2f, 0.9f, 3);
   shot.add(40.0f, 0.1f, 0.05f, 4);  // the last
@@ -259,7 +260,7 @@ TEST(Returns, Modes) {
   EXPECT_THAT(instances(ReturnMode::dual), ElementsAre(2, 4));
   EXPECT_THAT(instances(ReturnMode::all), ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(instances(ReturnMode::all, 3), ElementsAre(1, 2, 3));
-  shot.echoes[3].intensity = 20.0f;  // the strongest is the last: the second strongest beside it
+  shot.echoes[3].intensity = 20.0f;  // the last is the strongest: the second strongest goes with it
   EXPECT_THAT(instances(ReturnMode::dual), ElementsAre(2, 4));
   shot.echoes[2].intensity = 15.0f;
   EXPECT_THAT(instances(ReturnMode::dual), ElementsAre(3, 4));
@@ -288,9 +289,9 @@ TEST(Returns, DetectionHasItsProbabilityAndRangeNoiseItsDeviation) {
   const auto n = static_cast<double>(scan.size());
   EXPECT_NEAR(sum / n, 0.0, 4.0 * deviation / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), deviation, 4.0 * deviation / std::sqrt(2.0 * n));
-  // Points lie where their ranges say.
+  // The points lie at their ranges.
   for (size_t i = 0; i < scan.size(); ++i) ASSERT_FLOAT_EQ(scan.points[i].x, scan.range_m[i]);
-  // The same from any number of threads, and twice.
+  // A second call gives the same ranges.
   EXPECT_EQ(make_scan(pattern, {echoes, count, 1, 1}, model, noise).range_m, scan.range_m);
 }
 
@@ -308,7 +309,7 @@ TEST(Returns, FogAnswersNearByAndAsOftenAsItsPowerSays) {
   model.receiver.backscatter_per_m_sr = 0.03 / lidar_ratio_sr;
   model.receiver.detection = rated(model.receiver, 100.0, 0.1, 0.9, 5.0);
   const LidarScan scan = make_scan(pattern, {nothing, count, 1, 1}, model, ShotNoise(9, 1, 0, 0));
-  // In the first gates the signal is certain: everything answers from there.
+  // In the first gates the signal is certain: all returns come from there.
   const double first = received_power(model.receiver, 1.5, pi * model.receiver.backscatter_per_m_sr * 0.5) /
                        model.receiver.detection->noise_equivalent_power;
   ASSERT_GT(first, 15.0);
@@ -318,7 +319,7 @@ TEST(Returns, FogAnswersNearByAndAsOftenAsItsPowerSays) {
     ASSERT_LE(scan.range_m[i], 1.5f);
     ASSERT_EQ(scan.instance[i], 0u);
   }
-  // Thin fog: the share of shots that answer at all is 1 - prod(1 - P_k), the mean of P_k over each gate.
+  // In thin fog, the share of shots with a return is 1 - prod(1 - P_k), where P_k is the mean over each gate.
   model.receiver.backscatter_per_m_sr /= 250.0;
   const LidarScan thin = make_scan(pattern, {nothing, count, 1, 1}, model, ShotNoise(9, 1, 0, 0));
   double silent = 1.0;
@@ -337,7 +338,7 @@ TEST(Returns, FogAnswersNearByAndAsOftenAsItsPowerSays) {
   EXPECT_LT(silent, 0.9);
   EXPECT_NEAR(1.0 - static_cast<double>(thin.size()) / count, silent,
               4.0 * std::sqrt(silent * (1 - silent) / count));
-  // A wall two metres away hides what is behind it.
+  // A wall at 1.2 m hides the fog behind it.
   const std::vector<shared::LidarEcho> near(count, {1.2f, 0.5f, 1.0f, 1, 1});
   for (const uint32_t instance :
        make_scan(pattern, {near, count, 1, 1}, model, ShotNoise(9, 1, 0, 0)).instance)

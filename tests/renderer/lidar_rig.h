@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One sweep over a scene of a few triangles.
+// Runs one LiDAR sweep over a scene of a few triangles.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ inline Sweep sweep(const scene::Scene& scene, const render::LidarDesc& desc, std
   return {pass.collect(pending, noise), pass.collect_ranges(pending)};
 }
 
-/// Five channels from -20 to 20 degrees.
+/// Returns a scan of five channels from -20 to 20 degrees of elevation.
 inline render::SpinningScan small_scan() {
   render::SpinningScan scan;
   for (int i = 0; i < 5; ++i) scan.elevations.push_back(radians(-20.0 + 10.0 * i));
@@ -43,7 +43,7 @@ inline render::SpinningScan small_scan() {
   return scan;
 }
 
-/// A LiDAR that looks along one direction, or several.
+/// Returns a LiDAR with one shot along each of the directions.
 inline render::LidarDesc lidar_along(const std::vector<dvec3>& directions) {
   render::LidarDesc desc;
   desc.pattern.columns = static_cast<uint32_t>(directions.size());
@@ -54,7 +54,7 @@ inline render::LidarDesc lidar_along(const std::vector<dvec3>& directions) {
   return desc;
 }
 
-/// A wall across the x axis at x = distance, 200 m wide. The object may be followed by others.
+/// Returns a wall across the x axis at x = `distance`, 200 m wide. The caller may add further objects.
 inline TinyScene wall(double distance, float reflectance = 0.8f) {
   TinyScene tiny;
   tiny.object("wall", 0, tiny.material("paint", reflectance))

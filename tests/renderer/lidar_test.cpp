@@ -50,7 +50,7 @@ TEST(Lidar, WallInClosedForm) {
     ASSERT_NEAR(scan.points[i].x, 10.0, 2e-5);
     ASSERT_NEAR(scan.points[i].y, range * beam.y, 2e-5);
     ASSERT_NEAR(scan.points[i].z, range * beam.z, 2e-5);
-    // Intensity: rho cos(theta), corrected for the range but not for the air.
+    // The intensity is rho cos(theta), corrected for the range but not for the air.
     ASSERT_NEAR(scan.points[i].w, 0.8 * cosine * std::exp(-2e-3 * range), 1e-6);
     const double power = 0.8 * cosine * 0.04 * 0.04 * 0.7 / (4.0 * range * range) * std::exp(-2e-3 * range);
     ASSERT_NEAR(scan.power[i], power, 2e-6 * power);
@@ -73,7 +73,7 @@ TEST(Lidar, WavelengthChoosesTheReflectance) {
 
 TEST(Lidar, OnlyHitsWithinTheRangesAreReturned) {
   LidarDesc desc = small_lidar();
-  desc.max_range_m = 10.5;  // cos of elevation and azimuth above 10 / 10.5
+  desc.max_range_m = 10.5;  // passes if the cosines of elevation and azimuth multiply to more than 10 / 10.5
   const Sweep result = sweep(wall(10.0).build(), desc, std::vector{Pose{}});
   size_t expected = 0;
   for (uint32_t step = 0; step < 41; ++step) {
@@ -93,7 +93,7 @@ TEST(Lidar, OnlyHitsWithinTheRangesAreReturned) {
 }
 
 TEST(Lidar, EveryShotIsTakenFromThePoseAtItsOwnTime) {
-  // The sensor flies at 20 m/s towards the wall and yaws at 1 rad/s during the sweep.
+  // The sensor flies towards the wall at 20 m/s and yaws at 1 rad/s during the sweep.
   SpinningScan fan = small_scan();
   fan.azimuth_steps = 400;
   fan.azimuth_start = radians(-30.0);
@@ -112,12 +112,13 @@ TEST(Lidar, EveryShotIsTakenFromThePoseAtItsOwnTime) {
     const double t = step * 0.1 / 400, azimuth = azimuth_of(fan, step),
                  elevation = fan.elevations[scan.ring[i]];
     ASSERT_FLOAT_EQ(scan.time_offset_s[i], static_cast<float>(t));
-    // In the world the beam points at azimuth + yaw; the point is kept in the sensor's frame of that instant.
+    // In the world the beam points at azimuth + yaw. The point is stored in the sensor's frame at that
+    // instant.
     const double range = (50.0 - 20.0 * t) / (std::cos(elevation) * std::cos(azimuth + t));
     ASSERT_NEAR(scan.range_m[i], range, 1e-6 * range);
     ASSERT_NEAR(scan.points[i].x, range * std::cos(elevation) * std::cos(azimuth), 2e-5);
     ASSERT_NEAR(scan.points[i].y, range * std::cos(elevation) * std::sin(azimuth), 2e-5);
-    // Put back through its own pose it lies on the wall: the distortion is undone.
+    // Transformed by its own pose, the point lies on the wall: this undoes the distortion.
     ASSERT_NEAR(poses[step].apply(dvec3(vec3(scan.points[i]))).x, 50.0, 2e-5);
   }
 }
@@ -127,11 +128,11 @@ TEST(Lidar, OwnBodyIsPassedOverAndNothingElse) {
   const uint32_t drone = tiny.body("drone"), other = tiny.body("other");
   tiny.object("drone", drone)
       .box({-1, -1, -1}, {1, 1, 1})
-      .box({9, -1, -1}, {10, 1, 1});  // its nose touches the wall
+      .box({9, -1, -1}, {10, 1, 1});  // the nose touches the wall
   tiny.object("other", other).quad({0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
   const scene::Scene scene = tiny.build();
   const std::vector<Pose> bodies{Pose{}, Pose{}, Pose{{5, 0, 0}, {1, 0, 0, 0}}};
-  // 0 degrees: the other drone; 40 degrees: the wall
+  // The beam at 0 degrees meets the other drone, the beam at 40 degrees the wall.
   LidarDesc desc = test::lidar_along({{1, 0, 0}, beam_direction(radians(40.0), 0.0)});
   desc.min_range_m = 0.0;
   const LidarScan seeing = sweep(scene, desc, std::vector{Pose{}}, bodies).scan;
@@ -147,20 +148,20 @@ TEST(Lidar, OwnBodyIsPassedOverAndNothingElse) {
   EXPECT_NEAR(scan.range_m[1], 10.0 / std::cos(radians(40.0)), 1e-5);
   EXPECT_EQ(scan.instance[1], 1u);
 
-  // Straight through the nose at the wall behind it, which stands where the nose ends.
+  // The beam passes through the nose and meets the wall at its end.
   const std::vector<Pose> apart{Pose{}, Pose{}, Pose{{5, 50, 0}, {1, 0, 0, 0}}};
   const LidarScan behind = sweep(scene, desc, std::vector{Pose{}}, apart).scan;
   EXPECT_FLOAT_EQ(behind.range_m[0], 10.0f);
   EXPECT_EQ(behind.instance[0], 1u);
 }
 
-/// A masked pane at x = 5 whose left half (v below 0.5: y above 0) is a hole, before a wall at x = 10. The
-/// pane's colour is grey on the other half.
+/// Returns a masked pane at x = 5 before a wall at x = 10. The left half of the pane (u below 0.5: y above 0)
+/// is a hole; the other half is grey.
 scene::Scene pane_before_wall() {
   TinyScene tiny = wall(10.0);
   scene::Texture texture;
   texture.name = "leaf";
-  texture.width = 8;  // sampled linearly: only the texels at the border mix
+  texture.width = 8;  // linear filtering: only the texels at the border mix
   texture.height = 1;
   texture.srgb = false;
   for (int i = 0; i < 4; ++i) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, 0});
@@ -174,7 +175,7 @@ scene::Scene pane_before_wall() {
 }
 
 TEST(Lidar, HolesOfAlphaMasksLetBeamsThroughIfTheEffectIsOn) {
-  // 20 degrees: the hole; -20 degrees: the leaf
+  // The beam at 20 degrees meets the hole, the beam at -20 degrees the leaf.
   LidarDesc desc =
       test::lidar_along({beam_direction(radians(20.0), 0.0), beam_direction(radians(-20.0), 0.0)});
   const scene::Scene scene = pane_before_wall();
@@ -182,7 +183,7 @@ TEST(Lidar, HolesOfAlphaMasksLetBeamsThroughIfTheEffectIsOn) {
   ASSERT_EQ(solid.size(), 2u);
   EXPECT_NEAR(solid.points[0].x, 5.0f, 1e-5);
   EXPECT_NEAR(solid.points[1].x, 5.0f, 1e-5);
-  EXPECT_NEAR(solid.points[0].w, std::cos(radians(20.0)), 1e-5);  // the base colour's luminance is 1
+  EXPECT_NEAR(solid.points[0].w, std::cos(radians(20.0)), 1e-5);  // the luminance of the base colour is 1
 
   desc.alpha_mask = true;
   const LidarScan masked = sweep(scene, desc, std::vector{Pose{}}).scan;
@@ -196,7 +197,7 @@ TEST(Lidar, HolesOfAlphaMasksLetBeamsThroughIfTheEffectIsOn) {
   desc.textured_reflectance = true;
   const LidarScan textured = sweep(scene, desc, std::vector{Pose{}}).scan;
   EXPECT_NEAR(textured.points[0].w, 0.8 * std::cos(radians(20.0)),
-              1e-5);  // stated by the file: not modulated
+              1e-5);  // the file states this reflectance: no modulation
   EXPECT_NEAR(textured.points[1].w, 0.4 * std::cos(radians(20.0)), 1e-3);  // 102 / 255
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stars and moon: numbers, fluxes whatever the resolution, moonlit shadows.
+// Checks the number of stars, fluxes of stars and moon at any resolution, and shadows by moonlight.
 #include "renderer/light/night_sky.h"
 
 #include <cmath>
@@ -32,7 +32,7 @@ TinyScene far_below() {
   return tiny;
 }
 
-/// Illuminance that the picture's pixels bring: luminance times solid angle.
+/// Returns the illuminance from the pixels of the picture: luminance times solid angle.
 double picture_lux(const render::CameraDesc& desc, const render::CameraImages& images) {
   double sum = 0.0;
   for (uint32_t row = 0; row < desc.height; ++row)
@@ -50,7 +50,7 @@ TEST(NightSky, StarsAreAsManyAsCounted) {
         std::ranges::count_if(stars, [&](const render::Star& s) { return s.magnitude < magnitude; });
     EXPECT_NEAR(double(found), count, 1.0 + 0.01 * count) << magnitude;
   }
-  // Evenly over the sphere: half of them above the horizon, within four standard deviations.
+  // The stars are uniform on the sphere: half of them are above the horizon, within four standard deviations.
   const auto above = std::ranges::count_if(
       stars, [](const render::Star& s) { return std::isfinite(s.magnitude) && s.direction.z > 0.0; });
   EXPECT_NEAR(double(above), 2400.0, 140.0);
@@ -63,18 +63,18 @@ TEST(NightSky, StarsAreAsManyAsCounted) {
 
 TEST(NightSky, StarsKeepTheirLightAtEveryResolution) {
   const render::Lighting light = night();
-  double expected = 0.0;  // of the stars that the picture sees
+  double expected = 0.0;  // from the stars in the picture
   const auto packed = render::gpu_stars(render::draw_stars(light.star_seed), 0.0);
   const auto drawn = render::draw_stars(light.star_seed);
   for (size_t i = 0; i < drawn.size(); ++i) {
     const dvec3& d = drawn[i].direction;
-    // A camera that looks up: |x|, |y| < z, and not near the rim, where a pixel's width matters.
+    // The camera looks up and sees |x|, |y| < z. The tolerance covers stars at the rim, where the width of a
+    // pixel matters.
     if (!std::isfinite(drawn[i].magnitude) || packed[i].light == 0) continue;
     const double rim = std::max(std::abs(d.x), std::abs(d.y)) / d.z;
     if (d.z > 0.0 && rim < 1.0)
-      expected +=
-          render::magnitude_0_lux *
-          std::pow(10.0, -0.4 * (drawn[i].magnitude + 0.19 / d.z));  // air mass 1/z: 0.3 % near 45 degrees
+      // The air mass is 1/z. This approximation is good to 0.3 % at 45 degrees.
+      expected += render::magnitude_0_lux * std::pow(10.0, -0.4 * (drawn[i].magnitude + 0.19 / d.z));
   }
   for (const uint32_t size : {160u, 320u, 900u}) {
     render::CameraDesc desc = plain_camera(size, 1);
@@ -97,7 +97,7 @@ TEST(NightSky, MoonsDiscHasItsIlluminanceAtEveryPhaseAndResolution) {
       desc.exposure_ev100 = 5.0;
       render::CameraEffects effects = starry();
       CameraRig rig(far_below().build(), light, desc, effects);
-      // A little off the pixels' grid.
+      // The moon is not aligned with the grid of pixels.
       const render::CameraImages images = rig.shoot(look({0, 0, 0}, 20.0, -90.0 + 10.3 / fx));
       EXPECT_NEAR(picture_lux(desc, images) / 0.2, 1.0, fx > 1000.0 ? 0.02 : 0.1) << phase_deg << " " << fx;
     }
@@ -105,7 +105,8 @@ TEST(NightSky, MoonsDiscHasItsIlluminanceAtEveryPhaseAndResolution) {
 
 TEST(NightSky, BrightLimbLooksTowardsTheSun) {
   render::Lighting light = night();
-  light.sun_direction = render::Lighting::direction(0.0, radians(-5.0));  // down in the east (+x)
+  light.sun_direction =
+      render::Lighting::direction(0.0, radians(-5.0));  // below the horizon in the east (+x)
   light.moon_direction = render::Lighting::direction(0.5 * pi, radians(30.0));
   light.moon_illuminance_lux = 0.02;
   light.moon_phase_angle = radians(90.0);
@@ -122,7 +123,7 @@ TEST(NightSky, BrightLimbLooksTowardsTheSun) {
 }
 
 TEST(NightSky, TheMoonCastsShadows) {
-  // The same scene under a sun of the moon's light from the moon's place: the same shadow.
+  // A sun with the light and the position of the moon casts the same shadow.
   const auto shot = [](bool moon) {
     TinyScene tiny;
     tiny.object("ground", 0, tiny.material_as(optical_material("grey", 0.5f)))
@@ -148,7 +149,7 @@ TEST(NightSky, TheMoonCastsShadows) {
     dark += expected == 0.0;
   }
   EXPECT_GT(dark, 40u);
-  // Moonlight is a little warmer than sunlight from the same height.
+  // Moonlight is slightly warmer than sunlight from the same height.
   EXPECT_GT(moon.hdr[0] / moon.hdr[2], sun.hdr[0] / sun.hdr[2]);
 }
 

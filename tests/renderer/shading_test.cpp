@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What reaches the eye, against closed forms. Pictures hold half floats: 2^-11 relative.
+// Checks the light that reaches the eye against closed forms. Pictures hold half floats with a relative
+// precision of 2^-11.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ TinyScene ground(const scene::Material& material, double half = 30.0) {
 }
 
 TEST(Shading, LevelLambertianPlaneIsExact) {
-  // L = rho (E_sun sin(elevation) + E_sky) / pi at every pixel: no acne, no leak.
+  // L = rho (E_sun sin(elevation) + E_sky) / pi holds at every pixel, without shadow acne or light leaks.
   for (const double elevation : {5.0, 40.0, 90.0}) {
     CameraRig rig(ground(optical_material("grey", 0.5f)).build(), plain_light(70.0, elevation),
                   plain_camera(48, 4), lambertian());
@@ -44,7 +45,8 @@ TEST(Shading, BelowTheHorizonTheSunGivesNothing) {
 }
 
 TEST(Shading, BothSidesOfASheetAreLit) {
-  // The sun behind: a sheet shows its own side's light, whichever way it was wound.
+  // Each side of a sheet shows the light that falls on this side, for either order of the corners. The sun
+  // lights one side only.
   for (const bool turned : {false, true}) {
     TinyScene tiny;
     const uint32_t grey = tiny.material_as(optical_material("grey", 0.5f));
@@ -66,7 +68,7 @@ TEST(Shading, BothSidesOfASheetAreLit) {
 }
 
 TEST(Shading, FurnaceHasNoEdges) {
-  // A white surface in a uniformly white world sends back what comes in, at any angle, roughness and
+  // A white surface in a uniformly white world reflects all incident light at any angle, roughness and
   // metalness.
   render::Lighting furnace = plain_light();
   furnace.sky_model = render::SkyModel::uniform;
@@ -102,7 +104,7 @@ TEST(Shading, ShadowOfABoxFallsWhereGeometrySays) {
     const Pose sensor = look({0, 0, 10}, 0.0, 90.0);
     const render::CameraImages images = rig.shoot(sensor, {placed});
     const double lit = 0.5 * 1e5 * std::sin(radians(40.0)) / pi;
-    // Whether the way to the sun from p meets the box grown by `by`.
+    // Returns whether the line from p to the sun meets the box grown by `by`.
     const auto blocked = [&](const dvec3& p, double by) {
       const dvec3 a = (low + placed.position - by - p) / lighting.sun_direction,
                   b = (high + placed.position + by - p) / lighting.sun_direction;
@@ -115,7 +117,7 @@ TEST(Shading, ShadowOfABoxFallsWhereGeometrySays) {
         const size_t i = row * desc.width + column;
         if (images.instance[i] != 1) continue;
         const dvec3 p = sensor.apply(pixel_ray(desc, column, row) * double(images.depth[i]));
-        const double margin = 0.2;  // two texels of the maps and their filter
+        const double margin = 0.2;  // two texels of the shadow maps and their filter
         if (!blocked(p, margin)) {
           EXPECT_NEAR(luminance_at(images, i) / lit, 1.0, half_float) << p.x << " " << p.y;
           ++sunny;
@@ -133,7 +135,7 @@ TEST(Shading, ShadowOfABoxFallsWhereGeometrySays) {
 }
 
 TEST(Shading, NegativeScaleIsLitLikeItsMirrorImage) {
-  // A cube mirrored in x is the same cube; its light must be too.
+  // A cube mirrored in x is the same cube and must get the same light.
   TinyScene tiny;
   tiny.object("cube").box({-1, -1, -1}, {1, 1, 1});
   const scene::Scene cube = tiny.build();
@@ -200,7 +202,7 @@ TEST(Shading, PointLightFollowsTheInverseSquare) {
   scene.lights[0].range_m = 6.0f;
   check(scene, 6.0, 0.0);
   scene.lights[0].range_m = 0.0f;
-  scene.lights[0].type = scene::PunctualLight::Type::spot;  // straight down
+  scene.lights[0].type = scene::PunctualLight::Type::spot;  // points straight down
   scene.lights[0].outer_cone = 0.5f;
   scene.lights[0].inner_cone = 0.495f;
   check(scene, 0.0, 0.5);
@@ -247,12 +249,12 @@ TEST(Shading, TexturesAreDecodedFromSrgb) {
   const render::CameraImages images = rig.shoot(look({0, 0, 4}, 0.0, 90.0));
   const double texel = std::pow((118.0 / 255.0 + 0.055) / 1.055, 2.4);
   for (size_t i = 0; i < images.depth.size(); ++i)
-    EXPECT_NEAR(luminance_at(images, i) / (0.5 * texel * 115000.0 / pi), 1.0, 6e-3);  // the decoder's 8 bits
+    EXPECT_NEAR(luminance_at(images, i) / (0.5 * texel * 115000.0 / pi), 1.0,
+                6e-3);  // precision of 8-bit texels
 }
 
 TEST(Shading, NormalMapTurnsTheNormal) {
-  // Every texel leans 30 degrees towards the tangent (+x); the sun stands 30 degrees from the zenith, towards
-  // +x.
+  // Every texel leans 30 degrees towards the tangent (+x). The sun is 30 degrees from the zenith, towards +x.
   TinyScene tiny;
   scene::Material bumpy = optical_material("bumpy", 0.5f);
   const auto byte = [](double v) { return uint8_t(std::lround(255.0 * (0.5 * v + 0.5))); };

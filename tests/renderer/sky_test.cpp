@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sky's radiance at all heights of the sun: exact on level ground, and what is published of its colours
-// and levels.
+// Checks the radiance of the sky at all elevations of the sun: the exact illuminance of level ground, and
+// published colours and levels.
 #include "renderer/light/sky.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ Lighting sun_at(double elevation_deg, double azimuth = 0.3) {
   return lighting;
 }
 
-/// visit(direction, solid angle) over the upper hemisphere.
+/// Calls visit(direction, solid angle) over the upper hemisphere.
 template <typename F>
 void over_sky(F&& visit) {
   constexpr int rings = 200, sectors = 120;
@@ -45,7 +45,7 @@ double level_lux(const render::Sky& sky) {
   return sum;
 }
 
-/// CIE 1931 chromaticity of a shown colour, without the white balance.
+/// Returns the CIE 1931 chromaticity of a displayed colour, without the white balance.
 dvec2 chromaticity(const dvec3& shown) {
   const dvec3 c = shown * render::daylight_white;
   const dvec3 xyz(glm::dot(c, dvec3(0.4124, 0.3576, 0.1805)), glm::dot(c, dvec3(0.2126, 0.7152, 0.0722)),
@@ -73,8 +73,9 @@ TEST(Sky, LightsLevelGroundAsAsked) {
 }
 
 TEST(Sky, ModelOfTheAirAgreesWithMeasuredLevels) {
-  // Nothing in the model of the air was fitted to the circular's figures: a sun of 133 100 lux above the air
-  // gives level ground 0.95 to 1.3 times as much by day, 0.9 to 1.6 down to 10 degrees below the horizon.
+  // The model of the air is not fitted to the figures of the circular. A sun of 133 100 lux above the air
+  // gives level ground 0.9 to 1.3 times these figures by day, and 0.9 to 1.6 times down to 10 degrees below
+  // the horizon.
   for (const double h : {90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -8.0, -10.0}) {
     const render::Atmosphere air(2.0, radians(h), 0.15);
     const double lux =
@@ -87,8 +88,9 @@ TEST(Sky, ModelOfTheAirAgreesWithMeasuredLevels) {
 }
 
 TEST(Sky, ClearDayHasAClearDaysLuminancesAndColours) {
-  // Sun 48 degrees high, 16 000 lux of sky: a zenith of 2 to 4 thousand cd/m^2 of 10 000 K and more (x below
-  // 0.28), a horizon two to four times as bright and nearly white.
+  // With the sun at 48 degrees and 16 000 lux of sky, the zenith has 2 to 4 thousand cd/m^2 and a colour
+  // temperature of at least 10 000 K (x below 0.28). The horizon is two to four times as bright and nearly
+  // white.
   Lighting lighting = sun_at(48.0, 0.0);
   lighting.sky_illuminance_lux = 16000.0;
   const render::Sky sky(lighting, false);
@@ -117,7 +119,7 @@ TEST(Sky, EveningIsWarmAndTwilightBlue) {
   EXPECT_GT(evening.key_illuminance().x, 2.0 * evening.key_illuminance().z);
   const dvec3 zenith = dusk.radiance({0, 0, 1});
   EXPECT_GT(zenith.z, 2.0 * zenith.x);
-  // The glow stands where the sun went down, and is orange.
+  // The orange glow stands where the sun has set.
   const dvec3 glow = dusk.radiance(glm::normalize(dvec3(1.0, 0.0, 0.04))),
               opposite = dusk.radiance(glm::normalize(dvec3(-1.0, 0.0, 0.04)));
   EXPECT_GT(render::luminance(glow), 3.0 * render::luminance(opposite));
@@ -137,7 +139,7 @@ TEST(Sky, NightIsDarkButNotBlack) {
 }
 
 TEST(Sky, RadianceChangesSmoothlyThroughSunset) {
-  // Where sun, moon and airglow take over from one another: no step of the scaled picture.
+  // The radiance has no step where one of sun, moon and airglow takes over from another.
   const auto zenith = [](double h) {
     Lighting lighting = sun_at(h, 0.0);
     lighting.sky_illuminance_lux = render::sunlight_lux(radians(h));
@@ -179,11 +181,11 @@ TEST(Sky, HazeKeepsTheBalanceOnLevelGround) {
       const double below = render::luminance(sky.key_illuminance()) * sine + sky.illuminance();
       EXPECT_LT(below, above);
       EXPECT_GT(below, above / (1.0 + 0.075 * depth) * (1.0 - 1e-9));
-      // At the horizon there is nothing but haze.
+      // In the horizontal direction only haze is visible.
       const dvec3 horizon = sky.radiance({1.0, 0.0, 0.0});
       EXPECT_GE(render::luminance(horizon), render::luminance(sky.haze_ambient()) * (1.0 - 1e-9));
     }
-  // In a white world the air is white too.
+  // In a white world the air is white, too.
   Lighting white;
   white.sky_model = render::SkyModel::uniform;
   white.sun_illuminance_lux = 0.0;

@@ -12,7 +12,7 @@
 namespace greatx::test {
 namespace {
 
-/// Two rows of houses along y, `height` m high, `street` m apart, on cells of a metre.
+/// Returns two rows of houses along y, `height` m high and `street` m apart, on cells of one metre.
 render::HeightField canyon(double street, double height) {
   render::HeightField field;
   field.width = field.height = 401;
@@ -25,11 +25,11 @@ render::HeightField canyon(double street, double height) {
 }
 
 TEST(SkyView, CanyonHasTheShareOfItsClosedForm) {
-  // T. Oke, "Canyon geometry and the nocturnal urban heat island" (1981): cos(atan(2 H / W)) in the middle of
-  // the floor.
+  // T. Oke, "Canyon geometry and the nocturnal urban heat island" (1981): the share is cos(atan(2 H / W)) in
+  // the middle of the floor.
   for (const auto& [street, height] : {std::pair(20.0, 10.0), std::pair(20.0, 20.0), std::pair(40.0, 10.0)}) {
     const double expected = 1.0 / std::sqrt(1.0 + std::pow(2.0 * height / street, 2.0));
-    // The error that docs/light.md states.
+    // docs/light.md states this error.
     EXPECT_NEAR(render::sky_share(canyon(street, height), 200, 200, 0.0), expected, 0.06)
         << street << " " << height;
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures are layers of images of their size, and pictures look the same whichever way shaders pick the
-// image.
+// Textures are layers of images of their size. The tests check that pictures do not depend on the way in
+// which shaders select the image.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/scene.h"
@@ -14,7 +14,7 @@ namespace {
 using test::CameraRig;
 using test::TinyScene;
 
-/// Of one grey, linear.
+/// Returns a linear texture of one grey.
 scene::Texture grey_texture(uint32_t width, uint32_t height, uint8_t value) {
   scene::Texture texture;
   texture.name = "grey";
@@ -27,7 +27,8 @@ scene::Texture grey_texture(uint32_t width, uint32_t height, uint8_t value) {
 
 uint8_t grey_of(uint32_t strip) { return static_cast<uint8_t>(60 + 6 * strip); }
 
-/// Level strips across the view, each with a texture of a size of its own; the last has the first one's size.
+/// Returns level strips across the view. Each has a texture of a different size, except that the last one has
+/// the size of the first.
 scene::Scene strips(uint32_t count) {
   TinyScene tiny;
   const double width = 8.0 / count;
@@ -66,7 +67,7 @@ TEST(Textures, ShadersPickAmongManyImagesByNumber) {
   expect_greys(many);
 }
 
-/// Noise, sRGB.
+/// Returns a texture of noise, sRGB.
 scene::Texture noise(uint32_t width, uint32_t height, uint32_t seed) {
   scene::Texture texture = grey_texture(width, height, 255);
   texture.srgb = true;
@@ -75,7 +76,7 @@ scene::Texture noise(uint32_t width, uint32_t height, uint32_t seed) {
   return texture;
 }
 
-/// A floor of 8 m with a small texture many times over, beside a patch with another of 64 x 32 texels.
+/// Returns a floor of 8 m with a small repeated texture, beside a patch of another texture.
 scene::Scene floor_and_patch(const scene::Texture& on_floor, const scene::Texture& on_patch) {
   TinyScene tiny;
   const auto painted = [&](const scene::Texture& texture) {
@@ -89,8 +90,8 @@ scene::Scene floor_and_patch(const scene::Texture& on_floor, const scene::Textur
 }
 
 TEST(Textures, LaidSideBySideGiveTheSamePicture) {
-  // The same floor; the patch, out of sight, has a size that the floor's texture divides, or one that it does
-  // not.
+  // The floor is the same in both scenes. The patch, which is out of sight, has a size that is a multiple of
+  // the floor's texture in one scene only.
   std::vector<std::vector<float>> pictures;
   for (const uint32_t width : {64u, 68u}) {
     CameraRig rig(floor_and_patch(noise(16, 8, 1), noise(width, 32, 2)), test::plain_light(),
@@ -103,11 +104,12 @@ TEST(Textures, LaidSideBySideGiveTheSamePicture) {
     difference = std::max(difference, std::abs(double(pictures[0][i]) - pictures[1][i]));
   }
   EXPECT_GT(most, 0.0);
-  EXPECT_LT(difference, 2e-3 * most);  // halves on the way, coordinates scaled by a power of two
+  EXPECT_LT(difference, 2e-3 * most);  // rounding to fp16, and coordinates scaled by a power of two
 }
 
 TEST(Textures, RoughnessInTheAlphaOfColoursGivesTheSamePicture) {
-  // As large as the colours it goes into their alpha, twice as large it stays a texture of its own.
+  // A roughness texture of the size of the colours goes into their alpha; one twice as large remains a
+  // texture of its own.
   std::vector<std::vector<float>> pictures;
   for (const uint32_t size : {16u, 32u}) {
     TinyScene tiny;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A camera with its ground truth, and what it ought to show by other ways in fp64: rays against triangles,
-// points moved and projected anew.
+// Provides a rig for a camera with its ground truth. The expected values come from independent fp64 methods:
+// rays cast against all triangles, and points moved with their bodies and projected again.
 #pragma once
 
 #include <cmath>
@@ -69,16 +69,16 @@ inline CameraDesc truth_camera(uint32_t size = 64, uint32_t msaa = 1) {
   CameraDesc desc = plain_camera(size, msaa);
   desc.outputs.hdr = desc.outputs.rgb = false;
   desc.outputs.seen = true;
-  desc.cx += 3.25;  // not a special case
+  desc.cx += 3.25;  // keeps the camera general
   desc.fy *= 1.125;
   return desc;
 }
 
-/// What a ray meets first, fp64: triangle, point, barycentrics.
+/// Describes the first intersection of a ray with the scene, in fp64.
 struct Hit {
   uint32_t triangle = 0, primitive = 0;
   double distance = 0.0;
-  dvec3 point{0.0};  ///< local
+  dvec3 point{0.0};  ///< local coordinates, m
   dvec2 barycentrics{0.0};
 };
 
@@ -106,20 +106,21 @@ inline std::optional<Hit> cast(const scene::Scene& scene, const std::vector<Pose
   return nearest;
 }
 
-/// Where a camera shows a local point; z <= 0: nowhere.
+/// Returns the pixel coordinates of a local point and its depth. The point is not visible if z <= 0.
 inline dvec3 project(const CameraDesc& desc, const Pose& camera, const dvec3& point) {
   const dvec3 in_sensor = glm::conjugate(camera.orientation) * (point - camera.position);
   return {desc.cx - desc.fx * in_sensor.y / in_sensor.x, desc.cy - desc.fy * in_sensor.z / in_sensor.x,
           in_sensor.x};
 }
 
-/// The point at which what is at `point` now will be.
+/// Returns the point to which its body carries the surface point `hit` from `now` to `next`.
 inline dvec3 carried(const scene::Scene& scene, const Hit& hit, const Moment& now, const Moment& next) {
   const uint32_t body = scene.instances[scene.primitives[hit.primitive].instance].body;
   return body == 0 ? hit.point : next.bodies[body].apply(now.bodies[body].inverse().apply(hit.point));
 }
 
-/// Ground, a wall a kilometre away, a tilted board near by; all about `center`.
+/// Returns a scene of ground, a wall at a distance of a kilometre and a tilted board near by, all relative to
+/// `center`.
 inline TinyScene street(const dvec3& center = dvec3(0.0)) {
   TinyScene scene;
   const auto at = [&](double x, double y, double z) { return center + dvec3(x, y, z); };

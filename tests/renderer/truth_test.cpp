@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals and depth along the ray against fp64 rays and closed forms; what holds of all of a camera's ground
-// truth.
+// Checks normals and depth along the ray against fp64 rays and closed forms, and properties of the whole
+// ground truth of a camera.
 #include "renderer/camera/truth.h"
 
 #include <cmath>
@@ -22,12 +22,12 @@ TEST(Normals, AreTheInterpolatedOnesOnTheCamerasSide) {
   const uint32_t moving = tiny.body("fin");
   tiny.object("fin", moving).triangle({0, 0, 0}, {2, 1, 0}, {0, 0, 2});
   scene::Scene scene = tiny.build();
-  // Vertex normals of a curved surface, unit, to whichever side.
+  // The vertex normals are unit vectors of a curved surface and may point to either side.
   for (size_t i = 0; i < scene.normals.size(); ++i)
     scene.normals[i] =
         glm::normalize(scene.normals[i] + 0.4f * vec3(std::sin(float(i)), std::cos(3.0f * float(i)), 0.3f));
   TruthRig rig(std::move(scene), desc);
-  for (const double yaw : {20.0, 200.0}) {  // the fin from either side
+  for (const double yaw : {20.0, 200.0}) {  // the fin is seen from both sides
     const Moment now{look({0, 0, 0}, 2, 1), {{}, look({3, -0.5, -1}, yaw, 5)}};
     const Picture picture = rig.shoot(now, now);
     int seen[3] = {0, 0, 0};
@@ -84,7 +84,7 @@ TEST(DepthRay, IsTheDistanceToTheEye) {
         continue;
       }
       const double distance = glm::length(hit->point - now.camera.position);
-      // Ground that is grazed is as good as its planar depth (docs/camera.md).
+      // At grazing angles the ground is as accurate as its planar depth (docs/camera.md).
       ASSERT_NEAR(picture.truth.depth_ray[pixel], distance, (id == 1 ? 1e-4 : 1e-6) * distance);
       ASSERT_NEAR(picture.truth.depth_ray[pixel], picture.images.depth[pixel] * glm::length(ray),
                   3e-7 * distance);
@@ -133,13 +133,13 @@ TEST(Truth, SameBytesInTwoSlotsAndWhateverElseIsAsked) {
   EXPECT_TRUE(c.truth.normals.empty() && c.truth.depth_ray.empty());
 }
 
-/// Whether depth and ids of two parallel cameras are shifted against each other by fx b / z.
+/// Depth and ids of two parallel cameras are displaced against each other by fx b / z.
 TEST(Stereo, DisparityIsFxBOverZ) {
   CameraDesc desc = truth_camera(128);
   desc.cx = desc.cy = 64.0;
   desc.fx = desc.fy = 64.0;
   TinyScene tiny;
-  // 64 b / z pixels with b = 0.5: depths of whole disparities.
+  // The disparity is 64 b / z pixels with b = 0.5; the depths are chosen for whole disparities.
   for (const int disparity : {2, 4, 8}) {
     const double z = 32.0 / disparity, y = 0.45 * z - 0.2 * disparity;
     tiny.object("board").quad({z, y, -1}, {z, y - 0.6 * z, -1}, {z, y - 0.6 * z, 0.21 * z}, {z, y, 0.21 * z});
@@ -156,14 +156,14 @@ TEST(Stereo, DisparityIsFxBOverZ) {
       const double disparity = desc.fx * 0.5 / a.images.depth[pixel];
       const auto whole = static_cast<uint32_t>(std::lround(disparity));
       ASSERT_NEAR(disparity, whole, 1e-5);
-      if (whole > column || b.images.instance[pixel - whole] != id) continue;  // hidden from the other
+      if (whole > column || b.images.instance[pixel - whole] != id) continue;  // hidden from the other camera
       ASSERT_NEAR(b.images.depth[pixel - whole], a.images.depth[pixel], 1e-6 * a.images.depth[pixel]);
       ++compared;
     }
   EXPECT_GT(compared, 1000);
 }
 
-/// Every instance, looked at alone, has its own id, and no other id occurs.
+/// Every instance, seen alone, has its own id, and no other id occurs.
 TEST(Ids, AreOneToOneWithTheScenesInstances) {
   TinyScene tiny;
   const uint32_t moving = tiny.body("moving");
@@ -182,7 +182,7 @@ TEST(Ids, AreOneToOneWithTheScenesInstances) {
   for (uint32_t i = 0; i < 12; ++i) {
     const uint32_t body = rig.scene().instances[i].body;
     const dvec3 target = body == 0 ? centers[i] : pose.apply(centers[i]);
-    // From above, where nothing else is in view.
+    // Looks from above, where nothing else is in view.
     const render::CameraImages images = rig.shoot(look(target + dvec3(0, 0, 1.5), 0, 90), {pose});
     for (const uint32_t id : images.instance) {
       ASSERT_TRUE(id == 0 || id == i + 1) << id << " at instance " << i;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facets that are absent (foliage while that effect is off) are as if they were not there, on the device,
-// too.
+// Checks on the device that absent facets (foliage while its effect is off) have no influence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +15,7 @@ using test::cross;
 using test::segment;
 using test::TinyScene;
 
-/// A mirror behind a crown; kinds in that order.
+/// Returns a mirror and a crown in front of it. The facets are numbered in this order.
 TinyScene mirror_behind_a_box() {
   TinyScene tiny;
   tiny.object("mirror").quad({0, -9, -9}, {0, 9, -9}, {0, 9, 9}, {0, -9, 9});
@@ -31,10 +30,10 @@ FacetKinds kinds_with(FacetKind crown) {
 
 TEST(AbsentFacets, StandInNobodysWay) {
   const scene::Scene scene = mirror_behind_a_box().build();
-  const std::vector<Segment> segments{segment({9, 0, 0}, {1, 0, 0}),    // through it
-                                      segment({4, 0, 0}, {1, 0, 0}),    // out of it
-                                      segment({9, 0, 0}, {-1, 0, 0}),   // and through the mirror
-                                      segment({2, -9, 0}, {2, 9, 0})};  // in the plane of one of its faces
+  const std::vector<Segment> segments{segment({9, 0, 0}, {1, 0, 0}),    // through the crown
+                                      segment({4, 0, 0}, {1, 0, 0}),    // out of the crown
+                                      segment({9, 0, 0}, {-1, 0, 0}),   // through the crown and the mirror
+                                      segment({2, -9, 0}, {2, 9, 0})};  // in the plane of a face of the crown
   std::vector<bool> blocked;
   for (const Crossing& crossing : cross(scene, kinds_with(FacetKind::absent), segments)) {
     blocked.push_back(crossing.blocked);
@@ -42,7 +41,7 @@ TEST(AbsentFacets, StandInNobodysWay) {
     EXPECT_EQ(crossing.foliage_m, 0.0);
   }
   EXPECT_THAT(blocked, ::testing::ElementsAre(false, false, true, false));
-  // As walls they do stand there, as foliage they take their share.
+  // As walls the facets block, as foliage they attenuate.
   EXPECT_THAT(cross(scene, kinds_with(FacetKind::wall), segments)[0].blocked, true);
   EXPECT_NEAR(cross(scene, kinds_with(FacetKind::foliage), segments)[0].foliage_m, 4.0, 1e-3);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where elements are and what an array of them does to a plane wave.
+// Checks the positions of elements and the response of an array to a plane wave.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -10,7 +10,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Sum over the elements of e^{j 2 pi r.d / lambda}, lambda = 1 m.
+/// Returns the sum of e^{j 2 pi r.d / lambda} over the elements for lambda = 1 m.
 Complex array_factor(const AntennaArray& array, const dvec3& direction) {
   Complex sum = 0.0;
   for (uint32_t port = 0; port < array.port_count(); port += array.polarization_count())
@@ -18,7 +18,7 @@ Complex array_factor(const AntennaArray& array, const dvec3& direction) {
   return sum;
 }
 
-/// |sin(N psi/2) / sin(psi/2)|.
+/// Returns |sin(N psi/2) / sin(psi/2)|.
 double line_factor(uint32_t n, double psi) {
   const double denominator = std::sin(0.5 * psi);
   return std::abs(denominator) < 1e-12 ? n : std::abs(std::sin(0.5 * n * psi) / denominator);
@@ -41,7 +41,7 @@ TEST(AntennaArrayFactor, LinesAndRectanglesInEveryPlane) {
         EXPECT_NEAR(std::abs(factor),
                     line_factor(rows, 2.0 * pi * 2.0 * up) * line_factor(columns, 2.0 * pi * 0.5 * across),
                     1e-10);
-        EXPECT_NEAR(factor.imag(), 0.0, 1e-10);  // centred
+        EXPECT_NEAR(factor.imag(), 0.0, 1e-10);  // the array is centred
       }
     }
 }
@@ -55,8 +55,8 @@ TEST(AntennaArrayFactor, HalfWaveLineHasItsNulls) {
 }
 
 TEST(AntennaArray, GreatMcdPanel) {
-  // 4 x 8 elements of TR 38.901, slant +-45 degrees, 2 wavelengths apart vertically and half of one
-  // horizontally, in the y-z plane: 64 ports.
+  // The panel has 4 x 8 elements of TR 38.901 with slants of +-45 degrees in the y-z plane, 2 wavelengths
+  // apart vertically and half a wavelength horizontally: 64 ports.
   const double wavelength = speed_of_light / 28e9;
   AntennaArray panel;
   panel.pattern = Pattern::tr38901;
@@ -67,14 +67,14 @@ TEST(AntennaArray, GreatMcdPanel) {
   panel.column_spacing_m = 0.5 * wavelength;
   ASSERT_EQ(panel.port_count(), 64u);
   EXPECT_NEAR(panel.aperture(), wavelength * std::hypot(6.0, 3.5), 1e-15);
-  // Lowest row first, rightmost column (-y) first, +45 degrees first.
+  // The order of ports is: lowest row first, rightmost column (-y) first, +45 degrees first.
   EXPECT_NEAR(glm::distance(panel.element_position(0), dvec3(0, -1.75, -3.0) * wavelength), 0.0, 1e-15);
   EXPECT_NEAR(glm::distance(panel.element_position(2), dvec3(0, -1.25, -3.0) * wavelength), 0.0, 1e-15);
   EXPECT_NEAR(glm::distance(panel.element_position(16), dvec3(0, -1.75, -1.0) * wavelength), 0.0, 1e-15);
   EXPECT_NEAR(glm::distance(panel.element_position(63), dvec3(0, 1.75, 3.0) * wavelength), 0.0, 1e-15);
   EXPECT_EQ(panel.slant(0), pi / 4);
   EXPECT_EQ(panel.slant(63), -pi / 4);
-  // At boresight both polarizations have 8 dBi, at right angles.
+  // At boresight both polarizations have a gain of 8 dBi and are orthogonal.
   Jones fields[2];
   panel.turned_element({1, 0, 0, 0}).respond({1, 0, 0}, fields);
   for (const Jones& field : fields) EXPECT_NEAR(10.0 * std::log10(power(field)), 8.0, 1e-12);
@@ -129,7 +129,7 @@ TEST(AntennaArray, FarFieldCountsFromTheOriginThatPathsEndAt) {
   EXPECT_NEAR(far_field_distance_m(panel, panel, carrier_hz), 8.0 * d * d / wavelength, 1e-12);
   EXPECT_EQ(far_field_distance_m({}, {}, carrier_hz), 0.0);
   AntennaArray off;
-  off.positions_m = {{2.0, 0.0, 0.0}};  // one element, 2 m from where the paths end
+  off.positions_m = {{2.0, 0.0, 0.0}};  // one element, 2 m from the origin of the paths
   EXPECT_EQ(off.aperture(), 0.0);
   EXPECT_NEAR(far_field_distance_m(off, {}, carrier_hz), 2.0 * 16.0 / wavelength, 1e-9);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Element patterns and polarization models.
+// Checks element patterns and polarization models.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -15,7 +15,7 @@ constexpr Pattern analytic[] = {Pattern::isotropic, Pattern::short_dipole, Patte
                                 Pattern::tr38901};
 constexpr PolarizationModel models[] = {PolarizationModel::model_1, PolarizationModel::model_2};
 
-/// All shapes under both models, an imported one with both components among them.
+/// Returns all patterns under both models, including an imported one with both components.
 std::vector<ElementPattern> all_patterns() {
   const auto table = std::make_shared<const PatternTable>(sampled(37, 72, -pi, curly_field));
   std::vector<ElementPattern> patterns;
@@ -35,20 +35,20 @@ TEST(AntennaElement, Tr38901AtKnownAngles) {
   EXPECT_NEAR(gain_dbi(90, 0), 8.0, 1e-12);
   EXPECT_NEAR(gain_dbi(90, 65), -4.0, 1e-12);
   EXPECT_NEAR(gain_dbi(90, 32.5), 5.0, 1e-12);      // half of 65 degrees: 3 dB
-  EXPECT_NEAR(gain_dbi(90 - 32.5, 0), 5.0, 1e-12);  // up as down
+  EXPECT_NEAR(gain_dbi(90 - 32.5, 0), 5.0, 1e-12);  // symmetric in elevation
   EXPECT_NEAR(gain_dbi(90 + 32.5, 0), 5.0, 1e-12);
   EXPECT_NEAR(gain_dbi(90 + 32.5, -32.5), 2.0, 1e-12);
-  EXPECT_NEAR(gain_dbi(90, 180), -22.0, 1e-12);  // the floor, 30 dB below
+  EXPECT_NEAR(gain_dbi(90, 180), -22.0, 1e-12);  // the floor, 30 dB below the maximum
   EXPECT_NEAR(gain_dbi(90, 110), -22.0, 1e-12);
   EXPECT_NEAR(gain_dbi(30, -100), -22.0, 1e-12);  // 10.2 + 28.4 dB: the floor of the sum
-  // 12 (90/65)^2 on the z axis, where phi is 0.
+  // The attenuation on the z axis, where phi is 0, is 12 (90/65)^2 dB.
   EXPECT_NEAR(gain_dbi(0, 0), 8.0 - 12.0 * 90.0 * 90.0 / (65.0 * 65.0), 1e-12);
   EXPECT_NEAR(power(element_field(Pattern::tr38901, 0.0, {0, 0, 1})),
               power(element_field(Pattern::tr38901, 0.0, {0, 0, -1})), 1e-15);
 }
 
 TEST(AntennaElement, MeanGainOverTheSphere) {
-  // Lossless ones radiate all their power, whatever the slant; the element of TR 38.901 does not.
+  // Lossless elements radiate all their power for any slant; the element of TR 38.901 does not.
   for (const PolarizationModel model : models)
     for (const double slant : {0.0, 0.3}) {
       EXPECT_NEAR(mean_gain({Pattern::isotropic, model}, slant, 400, 8), 1.0, 1e-5);
@@ -78,7 +78,7 @@ TEST(AntennaElement, ModelsAgreeWithoutSlantAndAtBoresight) {
       const Jones one = element_field({shape, PolarizationModel::model_1}, slant, {1, 0, 0});
       const Jones two = element_field({shape, PolarizationModel::model_2}, slant, {1, 0, 0});
       EXPECT_LT(std::abs(one.theta - two.theta) + std::abs(one.phi - two.phi), 1e-15);
-      // Behind, a rolled element leans the other way.
+      // Behind the antenna, a rolled element is slanted the other way.
       const Jones behind = element_field({shape, PolarizationModel::model_1}, slant, {-1, 0, 0});
       const Jones mirrored = element_field({shape, PolarizationModel::model_2}, -slant, {-1, 0, 0});
       EXPECT_LT(std::abs(behind.theta - mirrored.theta) + std::abs(behind.phi - mirrored.phi), 1e-15);
@@ -93,7 +93,7 @@ TEST(AntennaElement, ModelOneIsEquation733) {
                  zeta = random.uniform(-pi, pi);
     const double axis = std::cos(zeta) * std::cos(theta) - std::sin(zeta) * std::sin(phi) * std::sin(theta);
     const double d = std::sqrt(1.0 - axis * axis);
-    if (d < 1e-3) continue;  // where the equation's own difference cancels
+    if (d < 1e-3) continue;  // the equation itself cancels here
     const Jones field =
         element_field({Pattern::isotropic, PolarizationModel::model_1}, zeta, direction_of(theta, phi));
     EXPECT_NEAR(field.theta.real(),
@@ -104,7 +104,8 @@ TEST(AntennaElement, ModelOneIsEquation733) {
 }
 
 TEST(AntennaElement, ModelOneIsThePolarizationOfARolledElement) {
-  // A short dipole rolled by 90 degrees as a body lies along -y; model 1 has its polarization everywhere.
+  // A roll about x by pi/3 turns a short dipole as a body. Model 1 with a slant of pi/3 has the polarization
+  // of this dipole in every direction.
   const dquat roll = orientation_from_yaw_pitch_roll(0, 0, pi / 3);
   RandomStream random(4, 3);
   for (int i = 0; i < 200; ++i) {
@@ -127,7 +128,7 @@ TEST(AntennaElement, SlantLeavesThePowerAlone) {
 }
 
 TEST(AntennaElement, CrossPolarPairsAreOrthogonal) {
-  // At boresight under both models; under model 2 everywhere.
+  // The pairs are orthogonal at boresight under both models, and everywhere under model 2.
   RandomStream random(4, 5);
   for (const ElementPattern& pattern : all_patterns())
     for (int i = 0; i < 20; ++i) {
@@ -136,8 +137,8 @@ TEST(AntennaElement, CrossPolarPairsAreOrthogonal) {
       for (const auto& [first, second] : {std::pair(0.0, pi / 2), std::pair(pi / 4, -pi / 4)}) {
         const Jones a = element_field(pattern, first, r), b = element_field(pattern, second, r);
         const double both = std::norm(a.theta) + std::norm(a.phi);
-        // Real patterns: a^H b = 0. Complex ones: the turn by 90 degrees is what is orthogonal, (-F_phi,
-        // F_theta).
+        // For real patterns a^H b = 0. For complex patterns, b is a turned by 90 degrees, (-F_phi, F_theta),
+        // so that a^T b = 0.
         const Complex inner = a.theta * b.theta + a.phi * b.phi;
         EXPECT_LT(std::abs(inner), 1e-15 * (1.0 + both));
       }
@@ -196,7 +197,7 @@ TEST(AntennaElementHardCase, N48_PolesOfAllPatterns) {
         if (pattern.shape == Pattern::short_dipole || pattern.shape == Pattern::half_wave_dipole) {
           EXPECT_EQ(power(field), 0.0);
         }
-        // A pole of the antenna's frame that is none of the world's, and the other way round.
+        // A pole of the antenna's frame that is not one of the world's frame, and vice versa.
         const dquat turn = orientation_from_yaw_pitch_roll(0.0, pi / 2, 0.0);
         for (const dvec3 world : {turn * dvec3(0, 0, z), dvec3(0, 0, z)}) {
           const Jones turned = element_field(pattern, slant, turn, world);
@@ -206,7 +207,7 @@ TEST(AntennaElementHardCase, N48_PolesOfAllPatterns) {
           }
         }
       }
-  // Along the very axis of a slanted element model 1 has no angle; its power stays.
+  // Along the axis of a slanted element, model 1 has no angle, but the power remains.
   for (const double side : {1.0, -1.0})
     EXPECT_NEAR(power(element_field({Pattern::isotropic, PolarizationModel::model_1}, pi / 2, {0, side, 0})),
                 1.0, 1e-15);
@@ -226,7 +227,8 @@ TEST(AntennaElementHardCase, N49_PatternsKeepTheirDigitsBesideThePoles) {
 }
 
 TEST(AntennaElementHardCase, N50_UprightAntennasAreContinuous) {
-  // beta = +-90 degrees: yaw and roll are one, the field is that of its neighbours.
+  // At beta = +-90 degrees, yaw and roll turn about the same axis. The field equals that of neighbouring
+  // orientations.
   RandomStream random(4, 6);
   for (const ElementPattern& pattern : all_patterns())
     for (const double pitch : {pi / 2, -pi / 2})
@@ -245,8 +247,8 @@ TEST(AntennaElementHardCase, N50_UprightAntennasAreContinuous) {
 }
 
 TEST(AntennaElementHardCase, N51_HalfTurns) {
-  // a -> -a: seen from behind after a half turn is seen from the front, for every pattern and both half
-  // turns.
+  // After a half turn, a direction seen from behind is the same as one seen from the front. This holds for
+  // every pattern and half turns about all three axes.
   RandomStream random(4, 7);
   for (const ElementPattern& pattern : all_patterns())
     for (int i = 0; i < 20; ++i) {
@@ -259,7 +261,7 @@ TEST(AntennaElementHardCase, N51_HalfTurns) {
         const Jones whole = element_field(pattern, 0.4, half * half, r);
         EXPECT_LT(std::abs(whole.theta - own.theta) + std::abs(whole.phi - own.phi), 1e-12);
       }
-      // Exactly behind, above and below.
+      // Directions exactly behind, above and below.
       for (const dvec3 d : {dvec3(-1, 0, 0), dvec3(-1, -0.0, -0.0), dvec3(-0.0, -0.0, -1)})
         EXPECT_TRUE(std::isfinite(power(element_field(pattern, 0.4, d))));
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Patterns by samples.
+// Checks patterns that are given by samples.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -11,7 +11,7 @@
 namespace greatx::rf {
 namespace {
 
-/// The largest error of F_theta and F_phi over directions between the samples.
+/// Returns the largest error of F_theta and F_phi over directions between the samples.
 double worst(const PatternTable& table, const std::function<Jones(double, double)>& field,
              double theta_low = 0.0, double theta_high = pi, double phi_low = -pi, double phi_high = pi) {
   double largest = 0.0;
@@ -42,7 +42,7 @@ TEST(PatternTable, ItsOwnSamples) {
 }
 
 TEST(PatternTable, ErrorIsWithinItsBound) {
-  // |d2/dtheta2| and |d2/dphi2| of both components of curly_field are at most 1.1 and 4.
+  // For both components of curly_field, |d2/dtheta2| is at most 2 and |d2/dphi2| at most 4.
   const auto bound = [](double dtheta, double dphi) {
     return (dtheta * dtheta * 2.0 + dphi * dphi * 4.0) / 8.0;
   };
@@ -50,7 +50,7 @@ TEST(PatternTable, ErrorIsWithinItsBound) {
     const double error = worst(sampled(n, 2 * (n - 1), -pi, curly_field), curly_field);
     const double step = pi / (n - 1);
     EXPECT_LT(error, bound(step, step));
-    EXPECT_GT(error, bound(step, step) / 10.0);  // a bound that says something
+    EXPECT_GT(error, bound(step, step) / 10.0);  // the bound is not much too large
   }
 }
 
@@ -65,7 +65,7 @@ TEST(PatternTable, SecondOrderAgainstDipoles) {
       }
       last = error;
     }
-    EXPECT_LT(last, 1.2e-4);  // in steps of 1.25 degrees
+    EXPECT_LT(last, 1.2e-4);  // for steps of 1.25 degrees
   }
 }
 
@@ -73,7 +73,7 @@ TEST(PatternTable, SecondOrderAgainstTr38901WhereItIsSmooth) {
   const auto field = [](double theta, double phi) { return analytic_field(Pattern::tr38901, theta, phi); };
   double last = 0.0;
   for (const uint32_t n : {37u, 73u, 145u}) {
-    // Within 45 degrees of boresight: clear of where A_v + A_h meets the floor.
+    // The range lies within 45 degrees of boresight, where A_v + A_h does not reach the floor.
     const double error =
         worst(sampled(n, 2 * (n - 1), -pi, field), field, pi / 4, 3 * pi / 4, -pi / 4, pi / 4);
     if (last > 0.0) {
@@ -81,13 +81,13 @@ TEST(PatternTable, SecondOrderAgainstTr38901WhereItIsSmooth) {
     }
     last = error;
   }
-  // In steps of one degree, the bend at the floor costs no more than this. Not in the first row about the
-  // poles: there this pattern depends on azimuth, and has no limit.
+  // With steps of one degree, the kink at the floor adds no larger error. The first row next to the poles is
+  // left out: there the pattern depends on azimuth and has no limit.
   EXPECT_LT(worst(sampled(181, 360, -pi, field), field, pi / 180, 179 * pi / 180), 1.2e-3);
 }
 
 TEST(PatternTable, AnElementOfSamplesIsTheElement) {
-  // The whole way, slants, models and turns included.
+  // The test covers the whole evaluation with slants, models and turns.
   const auto table =
       std::make_shared<const PatternTable>(sampled(361, 720, 0.0, [](double theta, double phi) {
         return analytic_field(Pattern::half_wave_dipole, theta, phi);

@@ -23,7 +23,7 @@ inline dvec3 random_direction(RandomStream& random) {
   return {rho * std::cos(azimuth), rho * std::sin(azimuth), z};
 }
 
-/// (1/4 pi) integral of the gain over the sphere, by the midpoint rule.
+/// Returns (1/4 pi) times the integral of the gain over the sphere, by the midpoint rule.
 inline double mean_gain(const ElementPattern& pattern, double slant, int zeniths, int azimuths) {
   double sum = 0.0;
   for (int i = 0; i < zeniths; ++i) {
@@ -35,7 +35,7 @@ inline double mean_gain(const ElementPattern& pattern, double slant, int zeniths
   return sum * pi / (2.0 * zeniths * azimuths);
 }
 
-/// Samples of F_theta = f(theta, phi), F_phi = g(theta, phi).
+/// Samples the pattern F_theta, F_phi = `field`(theta, phi) on a regular grid.
 inline PatternTable sampled(uint32_t zeniths, uint32_t azimuths, double first_azimuth,
                             const std::function<Jones(double, double)>& field) {
   std::vector<Jones> samples;
@@ -45,7 +45,8 @@ inline PatternTable sampled(uint32_t zeniths, uint32_t azimuths, double first_az
   return PatternTable({zeniths, azimuths, first_azimuth}, std::move(samples));
 }
 
-/// A pattern that uses all of a table: complex, both components, once around in azimuth.
+/// Returns a pattern that exercises a whole table: it is complex, has both components and varies with
+/// azimuth.
 inline Jones curly_field(double theta, double phi) {
   return {Complex(std::sin(theta) * std::cos(phi), 0.3 * std::cos(theta)),
           Complex(0.2 * std::sin(phi), std::sin(theta) * std::sin(theta) * std::cos(2.0 * phi))};

@@ -16,14 +16,14 @@ TEST(AntennaHardCase, N48_Poles) {
       EXPECT_NEAR(power(element_field(Pattern::isotropic, slant, dvec3(0, 0, z))), 1.0, 1e-15);
       EXPECT_EQ(power(element_field(Pattern::half_wave_dipole, slant, dvec3(0, 0, z))), 0.0);
     }
-  // Beside the poles the dipole goes to zero as sin(theta) pi/4, without noise.
+  // Near the poles, the field of the dipole goes to zero as sin(theta) pi/4, without rounding errors.
   const double tilt = 1e-9;
   const Jones near = element_field(Pattern::half_wave_dipole, 0.0, {std::sin(tilt), 0, -std::cos(tilt)});
   EXPECT_NEAR(near.theta.real() / (std::sqrt(1.6409223770) * pi / 4 * tilt), 1.0, 1e-12);
 }
 
 TEST(AntennaHardCase, N49_ThetaByAtan2) {
-  // acos(z) knows nothing below 1e-8 rad; atan2(hypot, z) does, at both poles.
+  // acos(z) cannot resolve angles below 1e-8 rad. atan2(hypot, z) can, at both poles.
   EXPECT_NEAR(theta_phi({3e-12, 4e-12, 1.0}).x / 5e-12, 1.0, 1e-15);
   EXPECT_NEAR(theta_phi({3e-9, 4e-9, -1.0}).x, pi - 5e-9, 1e-15);
   EXPECT_EQ(theta_phi({0, 0, 1}), dvec2(0, 0));
@@ -45,7 +45,7 @@ TEST(Antenna, SphericalBasisIsRightHanded) {
 }
 
 TEST(Antenna, HalfWaveDipoleRadiatesAllItsPower) {
-  // (1/4 pi) integral of the gain over the sphere is one; Gauss-free: the midpoint rule in theta converges
+  // (1/4 pi) times the integral of the gain over the sphere is one. The midpoint rule in theta converges
   // fast.
   const int steps = 20000;
   double sum = 0.0;
@@ -86,7 +86,7 @@ TEST(Antenna, ElementsAreCentredInTheYZPlane) {
   EXPECT_EQ(array.element_position(0), dvec3(0, -0.1, -0.5));
   EXPECT_EQ(array.element_position(1), array.element_position(0));    // the other polarization
   EXPECT_EQ(array.element_position(2), dvec3(0, 0.1, -0.5));          // next column along +y
-  EXPECT_EQ(array.element_position(2 * 2 * 2), dvec3(0, -0.1, 0.5));  // last row up
+  EXPECT_EQ(array.element_position(2 * 2 * 2), dvec3(0, -0.1, 0.5));  // the last row is the highest
   EXPECT_THROW(array.element_position(12), ContractError);
 }
 
@@ -104,7 +104,7 @@ TEST(Antenna, TurningTheAntennaTurnsTheField) {
     const dvec3 seen = global.theta.real() * theta_hat(world) + global.phi.real() * phi_hat(world);
     EXPECT_LT(glm::length(turned - seen), 1e-14);
   }
-  // A dipole rolled by 90 degrees about x lies along y: horizontal polarization seen from the front.
+  // A dipole rolled by 90 degrees about x lies along y: the front sees horizontal polarization.
   const Jones rolled =
       element_field(Pattern::half_wave_dipole, 0.0, orientation_from_yaw_pitch_roll(0, 0, pi / 2), {1, 0, 0});
   EXPECT_NEAR(std::abs(rolled.phi), std::sqrt(1.6409223770), 1e-12);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recall and precision of the beam search against every sequence there is, on small scenes that are hard.
+// Compares the beam search with the paths of all possible sequences on small scenes that are hard to search.
 #include "rf/search/beam_search.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ bool lists(const CandidateList& list, const FacetSequence& sequence) {
   return false;
 }
 
-/// A street along y between two rows of three houses with gaps, on a ground.
+/// Returns a street along y on a ground between two rows of three houses with gaps.
 SearchScene canyon() {
   SearchScene street;
   street.hand.ground(60.0);
@@ -84,7 +84,7 @@ TEST(BeamSearch, ThroughWallsOfAStreetCanyon) {
 }
 
 TEST(BeamSearch, WallsOneBehindTheOther) {
-  // Reflections may come before, between and behind the walls passed.
+  // Reflections may occur before, between and behind the passed walls.
   SearchScene row;
   for (const double x : {0.0, 2.0, 3.0, 5.0}) {
     row.hand.quad({x, -9, 0}, {x, 9, 0}, {x, 9, 8}, {x, -9, 8});
@@ -121,8 +121,8 @@ TEST(BeamSearch, DuplicatesInOnePlane) {
   twice.hand.ground(20.0);
   twice.hand.ground(20.0);
   twice.hand.quad({5, -9, 0}, {5, 9, 0}, {5, 9, 7}, {5, -9, 7});
-  twice.hand.quad({5, -9, 0}, {5, -9, 7}, {5, 9, 7}, {5, 9, 0});    // from behind
-  twice.hand.quad({5, -4, 2}, {5, 12, 2}, {5, 12, 9}, {5, -4, 9});  // and a part of it
+  twice.hand.quad({5, -9, 0}, {5, -9, 7}, {5, 9, 7}, {5, 9, 0});    // the same quad with the opposite normal
+  twice.hand.quad({5, -4, 2}, {5, 12, 2}, {5, 12, 9}, {5, -4, 9});  // a quad that overlaps it in part
   twice.source = {-3.0, 1.0, 2.5};
   twice.high.x = 4.9;
   EXPECT_GT(expect_perfect(twice, "duplicates")[2], 20u);
@@ -133,7 +133,8 @@ TEST(BeamSearch, DuplicatesInOnePlane) {
 }
 
 TEST(BeamSearch, TJunctionsCloseAWallAndHideWhatIsBehind) {
-  // A wall of a large panel and three beside it whose corners lie in the middle of its edge; a mirror behind.
+  // A wall consists of a large panel and of three panels beside it, whose corners lie in the middle of its
+  // edge. A mirror stands behind the wall.
   SearchScene wall;
   wall.hand.quad({0, -40, -40}, {0, 0, -40}, {0, 0, 40}, {0, -40, 40});
   wall.hand.quad({0, 0, -40}, {0, 40, -40}, {0, 40, 1.7}, {0, 0, 1.7});
@@ -157,8 +158,8 @@ TEST(BeamSearch, LittleOutsideAClosedRoomIsListed) {
   room.source = {1.3, -0.4, 1.1};
   room.low = {-3.9, -2.9, 0.1}, room.high = {3.9, 2.9, 2.9};
   expect_perfect(room, "room");
-  // First hits are exact. Beams that are mirrored at an edge keep a sliver beside it (the clearance), which
-  // leads out.
+  // First hits are exact. Beams that are mirrored at an edge keep a sliver beside the edge (the clearance),
+  // which leads out of the room.
   const CandidateList list = search(room).list;
   size_t leaked = 0;
   for (size_t i = 0; i < list.size(); ++i) {
@@ -170,7 +171,7 @@ TEST(BeamSearch, LittleOutsideAClosedRoomIsListed) {
 }
 
 TEST(BeamSearch, Slivers) {
-  // A wall of strips, 0.1 mm to 1 m wide, and a fan of needles.
+  // A wall consists of strips with widths from 0.1 mm to 1 m; a fan consists of needles.
   SearchScene wall;
   double y = -4.0;
   for (const double width : {1.0, 1e-4, 0.5, 2e-4, 1e-3, 1.0, 1e-4, 1e-4, 2.0}) {
@@ -187,7 +188,7 @@ TEST(BeamSearch, Slivers) {
 }
 
 TEST(BeamSearch, ThroughTheHoleOfAFacet) {
-  // One facet around a window, and mirrors on both sides of it.
+  // One facet surrounds a window. Mirrors stand on both sides of the facet.
   SearchScene wall;
   const dvec3 outer[] = {{0, -8, 0}, {0, 8, 0}, {0, 8, 8}, {0, -8, 8}};
   const dvec3 inner[] = {{0, -1, 3}, {0, 1.5, 3}, {0, 1.5, 5}, {0, -1, 5}};
@@ -245,7 +246,7 @@ TEST(BeamSearch, ReceiversOnSurfacesAndEdges) {
 }
 
 TEST(BeamSearch, FarFromTheOrigin) {
-  // A street ten kilometres from the local origin: tolerances have grown to millimetres, nothing else
+  // The street is ten kilometres away from the local origin. Tolerances grow to millimetres; nothing else
   // changes.
   SearchScene near = canyon(), far;
   const dvec3 away(8192.0, -4096.0, 512.0);
@@ -270,7 +271,7 @@ TEST(BeamSearch, NothingAndNextToNothing) {
   one.source = {-1, 0.5, 2};
   EXPECT_GT(expect_perfect(one, "one")[1], 5u);
   EXPECT_EQ(search(one).list.size(), 2u);
-  one.source = {2, 0.5, 2};  // in it
+  one.source = {2, 0.5, 2};  // in the plane of the facet
   EXPECT_EQ(expect_perfect(one, "in it")[1], 0u);
   for (const FacetKind kind : {FacetKind::foliage, FacetKind::absent}) {
     one.kinds = {kind};
@@ -291,7 +292,7 @@ TEST(BeamSearch, WhatIsBeyondTheCapacityIsCounted) {
     EXPECT_EQ(some.list.size(), capacity);
     EXPECT_GT(some.overflow(), 0u);
     EXPECT_LE(some.found, all.found);
-    // What it says is complete is: all of so few facets are there.
+    // Up to the depth that the search states as complete, all sequences are listed.
     const uint32_t complete = some.complete_depth();
     EXPECT_LT(complete, 3u);
     const auto up_to = [&](const BeamSearchResult& result) {
@@ -310,7 +311,7 @@ TEST(BeamSearch, WhatIsBeyondTheCapacityIsCounted) {
 }
 
 TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
-  // The paths of the reference to points of the edges themselves.
+  // The test checks the paths of the reference to points on the edges themselves.
   for (const uint32_t walls : {0u, 1u}) {
     SearchScene street = canyon();
     street.depth = 2, street.walls = walls;
@@ -334,7 +335,7 @@ TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
       EXPECT_TRUE(std::ranges::is_sorted(list.wedges_of(i), std::less_equal<>())) << "once each, ascending";
     for (size_t point = 0; point < points.size(); ++point)
       for (const GeometricPath& path : paths[point]) {
-        // The diffraction counts, too.
+        // The diffraction is an interaction, too.
         if (path.interactions.size() + 1 > street.depth) continue;
         const FacetSequence sequence = path.facets();
         for (size_t i = 0; i < list.size(); ++i) {
@@ -350,14 +351,13 @@ TEST(BeamSearch, EveryWedgeThatASequenceReachesIsListed) {
   }
 }
 
-// ------------------------------------------------------------------- numbered hard cases, by the search and
-// all after it
+// Numbered hard cases, for the search and all steps after it.
 
 TEST(BeamSearchHardCase, N18_APathByTheDiagonalOfAQuadIsOne) {
   SearchScene scene;
   scene.hand.quad({0, -4, 0}, {0, 4, 0}, {0, 4, 8}, {0, -4, 8});
   scene.source = {3, 1, 5};
-  scene.receivers = {{3, -1, 3}, {6, -2, 2}};  // both by points of the diagonal, one of them its middle
+  scene.receivers = {{3, -1, 3}, {6, -2, 2}};  // both paths meet the diagonal, one of them in its middle
   scene.drawn = 0;
   EXPECT_THAT(expect_perfect(scene, "diagonal"), ElementsAre(2, 2, 0, 0));
 }
@@ -366,7 +366,8 @@ TEST(BeamSearchHardCase, N20_ACornerIsMetOnce) {
   SearchScene scene;
   scene.hand.room({8, 7, 4});
   scene.source = {1.5, 1.0, 1.2};
-  scene.receivers = {{4.5, 3.0, 1.2}, {6.0, 4.0, 2.2}};  // xy and yx are one path, by the corner itself
+  // The sequences xy and yx are one path through the corner itself.
+  scene.receivers = {{4.5, 3.0, 1.2}, {6.0, 4.0, 2.2}};
   scene.drawn = 0;
   scene.depth = 2;
   EXPECT_THAT(expect_perfect(scene, "corner"), ElementsAre(2, 12, 36));

@@ -9,8 +9,9 @@
 
 namespace greatx::rf::testing {
 
-/// The sum of BeatSynthesizer in fp64, every sample's phase on its own, with the delay at that sample's time:
-/// the reference, without phase noise. cube: [receivers, transmitters, chirps, samples], added to.
+/// Adds the reference for BeatSynthesizer to `cube`, [receivers, transmitters, chirps, samples], without
+/// phase noise. Each sample's phase is computed on its own in fp64, with the delay at the time of that
+/// sample.
 void beat_direct(const RadarSignalConfig& config, const EchoList& list, const RadarAttitude& attitude,
                  uint32_t threads, std::span<std::complex<double>> cube);
 

@@ -42,7 +42,7 @@ std::vector<std::vector<uint32_t>> sequences(const CandidateList& list) {
   return all;
 }
 
-/// Rooms with normals outwards: rays inside meet the backs, which reflect as well.
+/// Size of a room with normals outwards. Rays inside meet the backs of its facets, which reflect as well.
 const dvec3 room_size(7.0, 5.0, 3.0);
 scene::Scene room(const dvec3& corner = dvec3(0.0), const dvec3& origin = dvec3(0.0)) {
   TinyScene tiny;
@@ -70,7 +70,7 @@ TEST(FibonacciLattice, IsUniformUnitAndTheSameEveryTime) {
                                       [&](const vec3& d) { return glm::dot(d, axis) > 0.98f; });
     EXPECT_NEAR(static_cast<double>(inside), 100.0, 8.0);
   }
-  // Neighbours in the order are neighbours on the sphere: the mean step is some spacings of sqrt(4 pi / n) =
+  // Neighbours in the order are neighbours on the sphere: the mean step is a few spacings of sqrt(4 pi / n) =
   // 0.035 rad.
   double steps = 0.0;
   for (uint32_t i = 1; i < count; ++i) steps += glm::length(lattice[i] - lattice[i - 1]);
@@ -106,7 +106,7 @@ TEST(CandidatesFromKeys, OrderOfTheRaysDoesNotMatter) {
   for (size_t i = rays.size() - 1; i > 0; --i)
     std::swap(rays[i], rays[random.below(static_cast<uint32_t>(i + 1))]);
   EXPECT_EQ(first.list, candidates_from_keys(flat(), 3, 1u << 20).list);
-  // The reference: every prefix, through the container's own sorting.
+  // The reference sorts every prefix with the list's own function.
   CandidateList reference;
   for (const auto& key : rays)
     for (uint32_t d = 1; d <= 3 && key[d - 1] != shared::rf_none; ++d) reference.add(std::span(key).first(d));
@@ -125,8 +125,8 @@ TEST(CandidatesFromKeys, WhatIsBeyondTheCapacityIsCountedDeepestFirst) {
 }
 
 TEST(CandidateSearch, FindsEveryImageOfAShoeBox) {
-  // Orders 0 to 3 of a shoe-box: 1 + 6 + 18 + 38 paths (docs: physics of the image method), whatever the
-  // receiver.
+  // A shoe-box room has 1 + 6 + 18 + 38 paths of the orders 0 to 3 (docs: physics of the image method) for
+  // any receiver.
   const scene::Scene scene = room();
   const dvec3 source(2.1, 1.3, 1.7);
   CandidateSearchOptions options;
@@ -212,8 +212,7 @@ TEST(HardCase, N07_CandidatesAtUtmCoordinatesAreTheSame) {
 }
 
 TEST(HardCase, N10_ReflectedRaysDoNotMeetTheirOwnFacetAgain) {
-  // In closed rooms from a millimetre to ten kilometres a sequence never repeats a facet at once, and no ray
-  // escapes.
+  // In closed rooms with sizes from millimetres to kilometres, a sequence never repeats a facet at once.
   for (const double scale : {1e-3, 1.0, 1e3}) {
     TinyScene tiny;
     tiny.box(dvec3(0.0), scale * room_size);

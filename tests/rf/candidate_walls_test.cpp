@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Candidate search through walls and foliage.
+// Checks the candidate search through walls and foliage.
 #include <algorithm>
 #include <set>
 
@@ -36,8 +36,8 @@ Sequences walled_sequences(const CandidateList& list) {
   return all;
 }
 
-/// Plates across the x axis, 0 at x = 0, 1 at x = 3, 2 at x = 6, ..., seen along the axis: what a search may
-/// find between them, written down as it is defined.
+/// Describes plates across the x axis: plate 0 at x = 0, plate 1 at x = 3, plate 2 at x = 6, ... Computes the
+/// candidates between them from the definition.
 struct Plates {
   FacetKinds kinds;
   uint32_t max_depth = 0, max_transmissions = 0;
@@ -50,7 +50,8 @@ struct Plates {
     }
     return tiny;
   }
-  /// From between plates `before` and before + 1, in the direction `step`.
+  /// Adds the candidates of a ray between the plates `before` and `before` + 1 that travels in the direction
+  /// `step`.
   void follow(int before, int step, std::vector<uint32_t>& key, uint32_t met, uint32_t passed,
               Sequences& found) const {
     if (!key.empty()) found.insert(key);
@@ -65,7 +66,8 @@ struct Plates {
     if (kind == FacetKind::wall && passed < max_transmissions)
       follow(beyond, step, key, met + 1, passed + 1, found);
   }
-  /// Ways of a ray that never leaves sideways: `fresh` if it has been reflected since it last passed a wall.
+  /// Returns the number of ways of a ray that never leaves sideways. `fresh` tells whether the ray has been
+  /// reflected since it last passed a wall.
   uint32_t ways(int before, int step, uint32_t met, uint32_t passed, bool fresh) const {
     const int next = step > 0 ? before + 1 : before;
     if (met == max_depth || next < 0 || next >= static_cast<int>(kinds.size())) return fresh ? 1 : 0;
@@ -89,7 +91,7 @@ TEST(CandidateWalls, WaysAreTheOrdersThatEndWithAReflection) {
   EXPECT_EQ(ways_per_ray(3, 0), 1u);
   EXPECT_EQ(ways_per_ray(2, 1), 2u);
   EXPECT_EQ(ways_per_ray(3, 1), 3u);  // RRR, TRR, RTR
-  EXPECT_EQ(ways_per_ray(3, 2), 4u);  // and TTR
+  EXPECT_EQ(ways_per_ray(3, 2), 4u);  // and also TTR
   EXPECT_EQ(ways_per_ray(5, 3), 1u + 4u + 6u + 4u);
   EXPECT_EQ(ways_per_ray(9, 99), 256u);
   EXPECT_EQ(ways_per_ray(70, 40), ~0u);
@@ -127,14 +129,14 @@ TEST(CandidateWalls, WithoutTransmissionsWallsAreOpaque) {
   options.max_transmissions = 2;
   EXPECT_EQ(search(scene, all_of(FacetKind::opaque, scene), options, source).list, opaque);
   const CandidateSearchResult through = search(scene, all_of(FacetKind::wall, scene), options, source);
-  // Whatever is found without passing a wall is found with it.
+  // All sequences without passed walls are found with passed walls, too.
   const Sequences more = walled_sequences(through.list), fewer = walled_sequences(opaque);
   EXPECT_TRUE(std::includes(more.begin(), more.end(), fewer.begin(), fewer.end()));
   EXPECT_GT(more.size(), fewer.size());
 }
 
-/// Reflecting facets of the paths from `source` to each target among the candidates that at most `depth`
-/// interactions and `transmissions` walls make.
+/// Returns, for each target, the reflecting facets of the paths from `source` with at most `depth`
+/// interactions and `transmissions` walls.
 std::vector<Sequences> paths(const scene::Scene& scene, const FacetKinds& kinds, const CandidateList& list,
                              const dvec3& source, const std::vector<dvec3>& targets, uint32_t depth,
                              uint32_t transmissions, size_t& through_walls) {
@@ -187,8 +189,8 @@ TEST(CandidateWalls, ABoxInABoxAsTheExhaustiveSearchFindsIt) {
   options.rays = 1u << 17;
   options.max_depth = 3;
   options.max_transmissions = 2;
-  for (const dvec3& source :
-       {dvec3(2.1, 1.3, 1.7), dvec3(6.2, 4.4, 2.9)}) {  // outside and inside of the inner box
+  // The sources are outside and inside the inner box.
+  for (const dvec3& source : {dvec3(2.1, 1.3, 1.7), dvec3(6.2, 4.4, 2.9)}) {
     CandidateList list = search(scene, kinds, options, source).list;
     list.add({});
     list.make_canonical();
@@ -228,7 +230,7 @@ TEST(CandidateWalls, WaysBeyondTheBoundAreCounted) {
     EXPECT_LE(part.found, whole.found);
     before = part.left_out;
   }
-  // One way of each ray is kept, and some rays leave the plates sideways.
+  // Each ray keeps one way, and some rays leave the plates sideways.
   EXPECT_LE(before, uint64_t{most - 1} * options.rays);
   EXPECT_GT(before, options.rays);
   options.max_ways = 1;
@@ -303,8 +305,8 @@ TEST(CandidateWalls, FourMillimetresApartBothArePassed) {
     EXPECT_TRUE(found.contains({2})) << shift;
     EXPECT_TRUE(found.contains({1})) << shift;
     EXPECT_TRUE(found.contains({0})) << shift;
-    // Ten kilometres out a ray starts again some millimetres behind a wall, as far as fp32 rounds, and may
-    // count two as one: then more is found than was asked for.
+    // Ten kilometres from the origin, a ray continues some millimetres behind a wall because of rounding in
+    // fp32. It may count two walls as one; then the search finds more than it needs to.
     options.max_transmissions = 1;
     if (shift < 1000.0) {
       EXPECT_FALSE(

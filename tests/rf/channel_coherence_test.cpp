@@ -37,13 +37,13 @@ TEST(Coherence, TwoPaths) {
       EXPECT_NEAR(coherence_bandwidth_hz(paths, powers, level) * 2 * pi * apart, angle, 1e-7);
       EXPECT_NEAR(coherence_time_s(paths, powers, level) * 2 * pi * 80.0, angle, 1e-7);
     }
-  // A path with three quarters of the power keeps one half.
+  // A path with three quarters of the power keeps the correlation above one half.
   EXPECT_EQ(coherence_bandwidth_hz(paths, std::vector{0.76, 0.24}, 0.5), infinity);
   EXPECT_LT(coherence_bandwidth_hz(paths, std::vector{0.76, 0.24}, 0.9), infinity);
 }
 
 TEST(Coherence, ExponentialProfile) {
-  // p(tau) = e^{-tau/s}: |R| = 1/sqrt(1 + (2 pi s df)^2), sampled finely.
+  // For p(tau) = e^{-tau/s}, sampled finely, |R| = 1/sqrt(1 + (2 pi s df)^2).
   const double spread = 100e-9;
   std::vector<Path> paths;
   std::vector<double> powers;
@@ -71,7 +71,7 @@ TEST(Coherence, RuleOfClarke) {
   auto paths = random_paths(3, 1e-6, 1);
   paths[0].doppler_hz = -80.0;
   paths[1].doppler_hz = 20.0;
-  paths[2].doppler_hz = 500.0;  // no power
+  paths[2].doppler_hz = 500.0;  // this path has no power
   EXPECT_DOUBLE_EQ(coherence_time_rule_s(paths, std::vector{1.0, 2.0, 0.0}), 9.0 / (16 * pi * 80.0));
 }
 
@@ -91,7 +91,7 @@ TEST(Coherence, AnyOrderOfPathsGivesTheSameBits) {
 
 TEST(SubcarrierCount, OnesThatFitWholly) {
   EXPECT_EQ(subcarrier_count(20e6, 15e3), 1333u);
-  EXPECT_EQ(subcarrier_count(0.3, 0.1), 3u);  // 2.9999999999999996
+  EXPECT_EQ(subcarrier_count(0.3, 0.1), 3u);  // the quotient is 2.9999999999999996
   EXPECT_EQ(subcarrier_count(7.68e6, 30e3), 256u);
   EXPECT_EQ(subcarrier_count(30e3, 30e3), 1u);
   EXPECT_EQ(subcarrier_count(59.9e3, 30e3), 1u);

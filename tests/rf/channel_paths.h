@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths and arrays written down by hand or drawn by lot, for tests of what is made from paths.
+// Makes paths and arrays, by hand or at random, for tests of the results that are computed from paths.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ namespace greatx::rf::testing {
 using Wide = std::complex<long double>;
 inline constexpr long double wide_pi = 3.14159265358979323846264338327950288L;
 
-/// e^{-j 2 pi f tau} with 64 bits of mantissa and the whole turns taken off exactly enough: f tau < 2^23
-/// turns leaves 2^-41 turns of it, so the product is split first.
+/// Returns e^{-j 2 pi f tau} with a mantissa of 64 bits. A rounded product f tau close to 2^23 turns would
+/// only resolve 2^-41 turns; so the function splits the product and removes the whole turns first.
 inline Wide wide_phasor(double frequency_hz, double delay_s) {
   const ExactProduct product = exact_product(frequency_hz, delay_s);
   const long double whole = std::nearbyint(product.value);
@@ -45,8 +45,8 @@ inline std::vector<Path> random_paths(size_t count, double longest_s, uint32_t s
   return paths;
 }
 
-/// A path along +x (departure +x, arrival -x for the direction of arrival that points back) with T =
-/// amplitude * I.
+/// Returns a path along +x with the transfer matrix T = amplitude * I. The departure is +x; the arrival is -x
+/// because it points back along the path.
 inline Path plain_path(double delay_s, Complex amplitude = 1.0, bool line_of_sight = true) {
   Path path;
   path.delay_s = delay_s;
@@ -62,7 +62,7 @@ inline dvec3 direction_at(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-/// Every path into a place drawn by lot.
+/// Permutes the values at random.
 template <typename Value>
 void shuffle(std::vector<Value>& values, uint32_t stream) {
   RandomStream random(43, stream);

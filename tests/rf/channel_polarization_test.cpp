@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Antennas whose patterns are complex: circular polarization, imported.
+// Checks antennas with complex patterns: imported patterns of circular polarization.
 #include <cmath>
 #include <memory>
 
@@ -22,10 +22,9 @@ using testing::HandScene;
 
 constexpr double carrier_hz = 3.5e9;
 
-/// Radiates the same circular polarization everywhere, gain 1. At +x theta-hat is -z and phi-hat +y: the real
-/// part of (1,
-/// -j) e^{j omega t} turns from -z to +y, right-handed about the direction in which the wave travels (IEEE
-/// Std 145).
+/// Returns an antenna of gain 1 that radiates the same circular polarization in all directions. At +x
+/// theta-hat is -z and phi-hat is +y: the real part of (1, -j) e^{j omega t} turns from -z to +y, which is
+/// right-handed about the direction of propagation (IEEE Std 145).
 ArrayPose circular(bool right_handed, const dquat& orientation = {1.0, 0.0, 0.0, 0.0}) {
   const Complex quarter(0.0, right_handed ? -std::sqrt(0.5) : std::sqrt(0.5));
   const PatternTable::Grid grid{5, 8, 0.0};
@@ -55,8 +54,8 @@ double gain(const Path& path, const ArrayPose& tx, const ArrayPose& rx) {
 double friis(double distance) { return std::pow(speed_of_light / carrier_hz / (4 * pi * distance), 2); }
 
 TEST(CircularPolarization, OneHandednessSeesItself) {
-  // Wherever the ends stand and however they are turned: rolling a circularly polarized antenna turns a
-  // phase.
+  // The result does not depend on the positions and orientations of the ends: a roll of a circularly
+  // polarized antenna only turns the phase.
   RandomStream random(52, 1);
   const auto any = [&] { return random.uniform(-1, 1); };
   for (int i = 0; i < 50; ++i) {
@@ -70,7 +69,7 @@ TEST(CircularPolarization, OneHandednessSeesItself) {
     EXPECT_NEAR(gain(direct, circular(false, a), circular(false, b)) / full, 1.0, 1e-12);
     EXPECT_LT(gain(direct, circular(true, a), circular(false, b)) / full, 1e-24);
     EXPECT_LT(gain(direct, circular(false, a), circular(true, b)) / full, 1e-24);
-    // A linear antenna takes half.
+    // A linear antenna receives half of the power.
     EXPECT_NEAR(gain(direct, circular(true, a), testing::antenna()) / full, 0.5, 1e-12);
     EXPECT_NEAR(gain(direct, testing::antenna(), circular(true, b)) / full, 0.5, 1e-12);
   }
@@ -89,7 +88,7 @@ TEST(CircularPolarization, AConductorTurnsTheHandedness) {
 }
 
 TEST(ReciprocityHardCase, N52_CircularPolarizationByItsOwnPatterns) {
-  // Imported patterns are what a port radiates; the same ones serve the other way.
+  // Imported patterns describe the radiation of a port; the same patterns serve for reception.
   HandScene hand;
   hand.material("conductor", 1.0, 1e30);
   hand.room({7, 5, 3});

@@ -34,29 +34,29 @@ TEST(Received, FreeSpace) {
       const double gain = pattern == Pattern::isotropic ? 1.0 : dipole_directivity, power = 20.0;
       const auto found = receive(line_of_sight(distance), antenna(pattern), antenna(pattern),
                                  {.carrier_hz = received_carrier_hz, .transmit_power_w = power});
-      // Friis.
+      // Friis' equation.
       const double expected = power * std::pow(gain * wavelength_m / (4 * pi * distance), 2);
       EXPECT_NEAR(found.power_w / expected, 1.0, 1e-9);
       EXPECT_NEAR(found.paths[0].power_w / expected, 1.0, 1e-9);
       EXPECT_NEAR(found.mean_power_w / expected, 1.0, 1e-9);
-      // P.525-4, eq. 1, whose 30 ohm are eta_0/4 pi = 29.979.
+      // P.525-4, eq. 1, rounds eta_0/4 pi = 29.979 ohm to 30 ohm.
       const double field = std::abs(found.paths[0].field_v_per_m.theta);
       EXPECT_NEAR(field * distance / std::sqrt(30.0 * power * gain), 1.0, 4e-4);
       EXPECT_NEAR(field * distance / std::sqrt(vacuum_impedance_ohm / (4 * pi) * power * gain), 1.0, 1e-9);
       EXPECT_NEAR(std::abs(found.paths[0].field_v_per_m.phi), 0.0, 1e-12);
-      // Its phase is that of the path.
+      // The phase is that of the path.
       EXPECT_NEAR(
           std::abs(std::arg(found.paths[0].field_v_per_m.theta /
                             Complex(testing::wide_phasor(received_carrier_hz, distance / speed_of_light)))),
           0.0, 1e-9);
-      // Power density times effective area (gain lambda^2/4 pi).
+      // The power is the power density times the effective area (gain lambda^2/4 pi).
       const double density = field * field / vacuum_impedance_ohm;
       EXPECT_NEAR(density * gain * wavelength_m * wavelength_m / (4 * pi) / found.power_w, 1.0, 1e-9);
     }
 }
 
 TEST(Received, HalfWaveDipoleHasALengthOfLambdaOverPi) {
-  // R = (eta_0/4 pi) Cin(2 pi) = 73.08 ohm, D = 4/Cin(2 pi): the open circuit has E lambda/pi.
+  // R = (eta_0/4 pi) Cin(2 pi) = 73.08 ohm and D = 4/Cin(2 pi); the open-circuit voltage is E lambda/pi.
   const double resistance = vacuum_impedance_ohm / (4 * pi) * 4.0 / dipole_directivity;
   EXPECT_NEAR(resistance, 73.08, 0.005);
   const auto found =
@@ -64,12 +64,12 @@ TEST(Received, HalfWaveDipoleHasALengthOfLambdaOverPi) {
               {.carrier_hz = received_carrier_hz, .transmit_power_w = 2.0, .resistance_ohm = resistance});
   const double field = std::abs(found.paths[0].field_v_per_m.theta);
   EXPECT_NEAR(std::abs(found.open_circuit_v) / (field * wavelength_m / pi), 1.0, 1e-9);
-  // What a matched load takes of it.
+  // A matched load receives this power.
   EXPECT_NEAR(std::norm(found.open_circuit_v) / (4 * resistance) / found.power_w, 1.0, 1e-12);
 }
 
 TEST(Received, TotalsAreSumsOfPhasors) {
-  // Half a wavelength apart: the phasors cancel, the powers add.
+  // The paths differ by half a wavelength: the phasors cancel, the powers add.
   const double distance = 1000 * wavelength_m;
   std::vector<Path> paths{line_of_sight(distance), line_of_sight(distance)};
   paths[1].delay_s += 0.5 / received_carrier_hz;
@@ -83,7 +83,7 @@ TEST(Received, TotalsAreSumsOfPhasors) {
 }
 
 TEST(Received, FieldsFromSeveralSidesAddAsVectors) {
-  // A vertical field from the west and one along y from above: components side by side.
+  // A vertical field from the west and a field along y from above have separate components.
   std::vector<Path> paths{plain_path(0.0, 0.5), plain_path(0.0, 0.25, false)};
   paths[1].arrival = {0.0, 0.0, 1.0};  // theta-hat +x, phi-hat +y
   paths[1].transfer[0] = 0.0;
@@ -117,7 +117,7 @@ TEST(Received, AgreesWithTheImpulseResponseAtEveryPort) {
       for (size_t i = 0; i < paths.size(); ++i) {
         const Complex amplitude = impulse.amplitude[(i * rx_ports + u) * tx_ports + s];
         EXPECT_LT(std::abs(found.paths[i].amplitude - amplitude), 1e-6 * std::abs(amplitude));
-        // V = h^T E with h of the port alone: the field is the one at its element.
+        // V = h^T E, where h is that of the port alone: the field is the one at the element of the port.
         std::vector<Jones> pattern;
         Ports(rx, received_carrier_hz).fields(paths[i].arrival, pattern);
         const Jones& own = pattern[u % 2];
@@ -147,7 +147,7 @@ TEST(Received, Decibels) {
   EXPECT_DOUBLE_EQ(dbm(0.2), 10 * std::log10(200.0));
   EXPECT_EQ(dbm(0.0), -std::numeric_limits<double>::infinity());
   EXPECT_DOUBLE_EQ(watts(dbm(0.2)), 0.2);
-  // Basic transmission loss of 100 m at 2.4 GHz: 80.05 dB (P.525-4, eq. 3).
+  // The basic transmission loss of 100 m at 2.4 GHz is 80.05 dB (P.525-4, eq. 3).
   const Path path = line_of_sight(100.0);
   EXPECT_NEAR(path_loss_db(path_powers(std::span(&path, 1), antenna(), antenna(), 2.4e9)[0]), 80.05, 0.005);
 }

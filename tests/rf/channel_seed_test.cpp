@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares greatx with the formulas of the left column of docs/formulas.md, which this file computes with
-// code of its own. Numbers in parentheses are equation numbers of the primer that the page names.
+// Compares greatx with the formulas of the left column of docs/formulas.md, which this file implements on its
+// own. Numbers in parentheses are equation numbers of the primer that the page names.
 #include <array>
 #include <cmath>
 
@@ -31,22 +31,22 @@ struct Basis {
   dvec3 a, b;
 };
 
-/// (30): from components on (q, r) to those on (a, b).
+/// Converts components on (q, r) to components on (a, b) by (30).
 Pair w(const Basis& to, const Basis& from, const Pair& e) {
   return {glm::dot(to.a, from.a) * e.a + glm::dot(to.a, from.b) * e.b,
           glm::dot(to.b, from.a) * e.a + glm::dot(to.b, from.b) * e.b};
 }
 
-/// (34).
+/// Returns the reflection coefficients of (34).
 Pair fresnel(Complex eta, double cosine) {
   const Complex root = std::sqrt(eta - (1.0 - cosine * cosine));
   return {(cosine - root) / (cosine + root), (eta * cosine - root) / (eta * cosine + root)};
 }
 
 struct SeedPath {
-  Pair field;  ///< peak, on theta-hat and phi-hat of the direction of arrival
+  Pair field;  ///< peak value on theta-hat and phi-hat of the direction of arrival
   Complex voltage;
-  Complex response;  ///< of H(f)
+  Complex response;  ///< contribution to H(f)
 };
 
 struct SeedLink {
@@ -54,7 +54,7 @@ struct SeedLink {
   Complex eta;
 };
 
-/// One path from vertex to vertex, vertically polarized isotropic antennas: F = theta-hat, G = 1.
+/// Computes one path from vertex to vertex for vertically polarized isotropic antennas: F = theta-hat, G = 1.
 SeedPath seed_path(const GeometricPath& path, const HandScene& hand, const SeedLink& link) {
   const std::vector<dvec3>& at = path.vertices;
   dvec3 k = glm::normalize(at[1] - at[0]);
@@ -119,7 +119,7 @@ TEST(SeedFormulas, PathByPath) {
   Complex whole = 0.0;
   double size = 0.0;
   for (size_t i = 0; i < paths.size(); ++i) {
-    // Lengths added up from segments and the phases made of them are good to 1e-8 rad here.
+    // Lengths that are summed over segments, and the phases from them, are accurate to 1e-8 rad here.
     const ReceivedPath& path = ours.paths[i];
     const double peak = std::sqrt(2.0);
     const double scale = std::abs(seeds[i].field.a) + std::abs(seeds[i].field.b);
@@ -138,7 +138,7 @@ TEST(SeedFormulas, PathByPath) {
 }
 
 TEST(SeedFormulas, HumidityCounts) {
-  // The factor is not 1: 20 g/m3 over 10 km at 28 GHz take more than dry air.
+  // The factor is not 1: over 10 km at 28 GHz, air with 20 g/m3 attenuates more than dry air.
   const WeatherEffects gas_alone{.gas = true, .rain = false, .fog = false};
   const double dry = path_attenuation({.water_vapour_g_m3 = 0.0}, seed_carrier_hz, gas_alone).gas;
   const double humid = path_attenuation({.water_vapour_g_m3 = 20.0}, seed_carrier_hz, gas_alone).gas;

@@ -21,7 +21,8 @@ using testing::plain_path;
 using testing::random_paths;
 
 TEST(LinkStatistics, TwoPaths) {
-  // Powers p and q: the spread of a two-point distribution is sqrt(p q)/(p + q) times the distance.
+  // With powers p and q, the spread of a two-point distribution is sqrt(p q)/(p + q) times the distance of
+  // the points.
   std::vector<Path> paths{plain_path(100e-9), plain_path(180e-9, 1.0, false)};
   paths[0].doppler_hz = 40.0;
   paths[1].doppler_hz = -60.0;
@@ -51,11 +52,11 @@ TEST(LinkStatistics, KFactorCountsTheLineOfSightAlone) {
   EXPECT_FALSE(shadowed.line_of_sight);
 }
 
-/// sqrt(-2 ln cos(half)): two equal powers that are 2 half apart.
+/// Returns the spread of two equal powers at a distance of 2 `half`: sqrt(-2 ln cos(half)).
 double two_angles(double half) { return std::sqrt(-2.0 * std::log(std::cos(half))); }
 
 TEST(LinkStatistics, AngleSpreadsCrossTheSeam) {
-  // +-179, +-1 degrees about pi, 0 and anything else: the same spread wherever the seam lies.
+  // The spread about pi, 0 or any other angle is the same, wherever the angle wraps around.
   for (const double centre : {0.0, 1.0, pi - 1e-9, pi, -pi, 5.0})
     for (const double half : {radians(1.0), radians(40.0), radians(85.0)}) {
       std::vector<Path> paths{plain_path(1e-7), plain_path(2e-7, 1.0, false)};
@@ -72,7 +73,7 @@ TEST(LinkStatistics, AngleSpreadsCrossTheSeam) {
 }
 
 TEST(LinkStatistics, SmallAngleSpreadIsTheRmsDeviation) {
-  // -2 ln R -> variance: nothing is lost to the rounding of R.
+  // The function -2 ln R becomes the variance without a loss of digits in R.
   std::vector<Path> paths{plain_path(1e-7), plain_path(2e-7, 1.0, false)};
   paths[0].arrival = direction_at(0.5 * pi, 0.0);
   paths[1].arrival = direction_at(0.5 * pi, 2e-9);
@@ -163,7 +164,8 @@ TEST(PathPowers, AreTheMeanOverAllPairsOfPorts) {
     double sum = 0.0;
     for (size_t pair = 0; pair < pairs; ++pair)
       sum += std::norm(std::complex<double>(impulse.amplitude[i * pairs + pair]));
-    EXPECT_NEAR(powers[i] / (sum / static_cast<double>(pairs)), 1.0, 1e-6);  // complex64
+    EXPECT_NEAR(powers[i] / (sum / static_cast<double>(pairs)), 1.0,
+                1e-6);  // the impulse response is complex64
   }
 }
 
@@ -177,7 +179,7 @@ TEST(PathPowers, LineOfSightIsFriis) {
   EXPECT_NEAR(gain(antenna(), antenna()), 1.0, 1e-14);
   const ArrayPose dipole = antenna(Pattern::half_wave_dipole);
   EXPECT_NEAR(gain(dipole, dipole), 1.6409223770 * 1.6409223770, 1e-12);
-  // Both polarizations at both ends: half of the pairs are crossed.
+  // Both ends have both polarizations: half of the pairs are crossed.
   EXPECT_NEAR(
       gain(antenna(Pattern::isotropic, Polarization::vh), antenna(Pattern::isotropic, Polarization::vh)), 0.5,
       1e-14);

@@ -87,7 +87,7 @@ TEST(ResponseInto, WritesABatchOfLinksInPlace) {
 }
 
 TEST(ResponseInto, ASpectrumThatDoesNotChangeIsTheTransfer) {
-  const auto paths = random_paths(50, 2e-6, 3);  // 200 terms: two chunks
+  const auto paths = random_paths(50, 2e-6, 3);  // 200 terms: two chunks of the sum
   const ChannelGrid grid{3.5e9, 30e3, 13, 1, 1e-3};
   std::vector<TransferSpectrum> spectra;
   for (const Path& path : paths) spectra.emplace_back(grid.subcarriers, std::to_array(path.transfer));
@@ -119,7 +119,7 @@ TEST(ResponseInto, LineOfSightAndTheRestAreTheWhole) {
   for (size_t k = 0; k < parts[0].size(); ++k)
     EXPECT_LE(std::abs(Complex(parts[1][k]) + Complex(parts[2][k]) - Complex(parts[0][k])),
               0x1p-23 * amplitudes);
-  // Nothing to select: zeros.
+  // Without a selected path, the result is zero.
   paths.erase(paths.begin() + 17);
   frequency_response_into(paths, {}, tx, rx, grid, parts[1], PathSelection::line_of_sight);
   for (const auto& value : parts[1]) EXPECT_EQ(value, std::complex<float>(0.0f));

@@ -20,7 +20,7 @@ using testing::Wide;
 using testing::wide_phasor;
 using testing::wide_pi;
 
-/// Of (tap - bandwidth * delay), the product formed exactly; the sine of the whole argument.
+/// Returns sinc(tap - bandwidth * delay). The product is exact, and the sine is that of the whole argument.
 long double wide_sinc(double tap, double bandwidth_hz, double delay_s) {
   const ExactProduct samples = exact_product(bandwidth_hz, delay_s);
   const long double x = (static_cast<long double>(tap) - samples.value) - samples.error;
@@ -71,7 +71,7 @@ TEST(TapsHardCase, N43_AnyOrderOfPathsGivesTheSameBits) {
 }
 
 TEST(Taps, AWholeNumberOfSamplesIsOneTap) {
-  const double bandwidth = 0x1p27;  // B tau exact
+  const double bandwidth = 0x1p27;  // B tau is exact
   const Path path = plain_path(37.0 / bandwidth, 2.0);
   const TapGrid grid{3.5e9, bandwidth, 30, 16};
   const auto taps = channel_taps_fp64(std::span(&path, 1), antenna(), antenna(), grid);
@@ -85,7 +85,7 @@ TEST(Taps, AWholeNumberOfSamplesIsOneTap) {
 }
 
 TEST(Taps, FoldedTheyAreTheInverseTransformOfTheResponse) {
-  // Odd N: the sum over q of h[l + q N], here over 400 periods on either side.
+  // For an odd N the inverse transform is the sum of h[l + q N] over q, here over 400 periods on either side.
   const uint32_t count = 33;
   const double bandwidth = 50e6;
   const auto paths = random_paths(6, 8e-7, 5);
@@ -138,12 +138,12 @@ TEST(Taps, PowerOutsideTheWindowIsReported) {
   EXPECT_EQ(outside(0, 100).paths_outside, 1u);
   EXPECT_EQ(outside(11, 20).power_outside, 1.0);
   EXPECT_EQ(outside(11, 20).paths_outside, 2u);
-  // Half a sample off: 1 - sum of (2/((2 l + 1) pi))^2 over 2 L taps about it, near 1/(pi^2 L) on either
-  // side.
+  // The delay lies between two samples. The share outside is 1 - sum of (2/((2 l + 1) pi))^2 over 2 L taps
+  // around the delay, about 1/(pi^2 L) on either side.
   paths = {plain_path(100.5 / bandwidth)};
   const double share = tap_coverage(paths, std::vector{2.0}, {3.5e9, bandwidth, 51, 100}).power_outside;
   EXPECT_NEAR(share, 2.0 / (pi * pi * 50), 1e-6);
-  // What is left out and what is in are the whole: sum of |h|^2 over the window.
+  // The power inside the window, the sum of |h|^2, and the share outside make up the whole.
   const auto taps = channel_taps_fp64(paths, antenna(), antenna(), {3.5e9, bandwidth, 51, 100});
   double inside = 0.0;
   for (const Complex& value : taps) inside += std::norm(value);

@@ -60,7 +60,8 @@ TEST(Channel, FreeSpaceIsFriis) {
   }
 }
 
-/// lambda/4 pi e^{-jk d1}(1/d1 + r e^{-jk Delta}/d2), Delta = 4 h_t h_r/(d1 + d2): no difference of lengths.
+/// Returns lambda/4 pi e^{-jk d1}(1/d1 + r e^{-jk Delta}/d2) with Delta = 4 h_t h_r/(d1 + d2), which avoids a
+/// difference of lengths.
 Wide two_ray(double h_t, double h_r, double run, double carrier_hz, Complex r) {
   const double d1 = std::hypot(run, h_t - h_r), d2 = std::hypot(run, h_t + h_r);
   const double excess = 4.0 * h_t * h_r / (d1 + d2);
@@ -87,7 +88,8 @@ TEST(ChannelHardCase, N38_TwoRayGround) {
         const auto paths = solve(hand, {0, 0, h_t}, {run, 0, h_r}, 1, carrier);
         ASSERT_EQ(paths.size(), 2u);
         const FresnelCoefficients fresnel = half_space(eta, (h_t + h_r) / std::hypot(run, h_t + h_r));
-        // Isotropic, V: the theta component over the ground is TM, H: phi is TE, with the -1 of looking back.
+        // Isotropic antennas. For V, theta over the ground is TM. For H, phi is TE, with a factor of -1
+        // because the arrival points back along the path.
         const auto v = frequency_response_fp64(paths, antenna(), antenna(), single(carrier));
         const auto h = frequency_response_fp64(paths, antenna(Pattern::isotropic, Polarization::h),
                                                antenna(Pattern::isotropic, Polarization::h), single(carrier));
@@ -105,8 +107,8 @@ TEST(ChannelHardCase, N38_TwoRayGround) {
 }
 
 TEST(ChannelHardCase, N36_N37_N39_PhaseOfLongPathsAtHighFrequency) {
-  // 1 km at 28 GHz and 10 km at 140 GHz: 9.3e4 and 4.7e6 turns; fp32 would be off by 3 and 180 degrees, a
-  // delay merely stored in fp32 by 82.
+  // 1 km at 28 GHz and 10 km at 140 GHz are 9.3e4 and 4.7e6 turns. Phases in fp32 would have errors of 3 and
+  // 180 degrees; a delay stored in fp32 would have an error of 82 degrees.
   RandomStream random(36, 0);
   for (const auto& [carrier, farthest] : {std::pair{28e9, 1000.0}, std::pair{140e9, 10'000.0}})
     for (int i = 0; i < 200; ++i) {
@@ -115,18 +117,18 @@ TEST(ChannelHardCase, N36_N37_N39_PhaseOfLongPathsAtHighFrequency) {
       const auto paths = solve(hand, {0, 0, 0}, {distance, 0, 0}, 0, carrier);
       static_assert(std::is_same_v<decltype(Path::delay_s), double>);
       const auto found = frequency_response(paths, antenna(), antenna(), single(carrier))[0];
-      // The distance itself in long double: also what rounding it to a delay in fp64 costs is inside the
-      // bound.
+      // The reference uses the distance in long double, so that the bound includes the error of rounding the
+      // delay to fp64.
       const long double turns = static_cast<long double>(carrier) * distance / 299792458.0L;
       const Wide expected = std::polar(1.0L, -2 * wide_pi * (turns - std::nearbyint(turns)));
       const Wide turned = Wide(found.real(), found.imag()) * std::conj(expected);
       EXPECT_LT(std::abs(std::arg(turned)), 1e-3L);
-      EXPECT_LT(std::abs(std::arg(turned)), 1e-6L);  // what is reached
+      EXPECT_LT(std::abs(std::arg(turned)), 1e-6L);  // the accuracy that is reached
     }
 }
 
 TEST(ChannelHardCase, N40_WideBandAndLongDelay) {
-  // e^{-j 2 pi f tau} over 400 MHz and 33 us, 13 200 turns across the band, at every subcarrier.
+  // Checks e^{-j 2 pi f tau} over 400 MHz and 33 us, 13 200 turns across the band, at every subcarrier.
   auto paths = random_paths(3, 1.0, 40);
   for (Path& path : paths) path.transfer[1] = path.transfer[2] = path.transfer[3] = 0.0;
   for (const double delay : {33e-6, 32.987654321e-6, 1e-9}) {
@@ -140,14 +142,14 @@ TEST(ChannelHardCase, N40_WideBandAndLongDelay) {
       const Wide expected = scale * wide_phasor(140e9, delay) *
                             wide_phasor(grid.subcarrier_number(k) * grid.subcarrier_spacing_hz, delay);
       const Wide value(found[k].real(), found[k].imag());
-      EXPECT_LT(std::abs(value - expected) / std::abs(expected), 1e-11L)
-          << k;  // f = k * spacing rounds to 1e-12 turns
+      // The frequency f = k * spacing rounds to 1e-12 turns.
+      EXPECT_LT(std::abs(value - expected) / std::abs(expected), 1e-11L) << k;
     }
   }
 }
 
 TEST(ChannelHardCase, N41_FractionalDelaysAgainstTheDirectSum) {
-  const auto paths = random_paths(150, 4e-6, 41);  // more than one chunk
+  const auto paths = random_paths(150, 4e-6, 41);  // more than one chunk of the sum
   ArrayPose tx = antenna(Pattern::half_wave_dipole, Polarization::slant);
   tx.array.rows = 2;
   tx.array.columns = 3;
@@ -253,7 +255,8 @@ TEST(Channel, TimeSamplesTurnWithTheDoppler) {
 }
 
 TEST(Channel, ArrayPhasesFollowThePlaneWave) {
-  // Boresight along +x; the transmitter at +30 degrees of azimuth reaches the left (+y) elements first.
+  // The boresight is +x. The wave of a transmitter at +30 degrees of azimuth reaches the left (+y) elements
+  // first.
   HandScene hand;
   const double carrier = 3.5e9, wavelength = speed_of_light / carrier, far = 1e6;
   const auto paths = solve(hand, {far * std::cos(pi / 6), far * 0.5, 0}, {0, 0, 0}, 0, carrier);
@@ -262,7 +265,7 @@ TEST(Channel, ArrayPhasesFollowThePlaneWave) {
   rx.array.column_spacing_m = wavelength / 2;
   const auto response = frequency_response_fp64(paths, antenna(), rx, single(carrier));
   for (size_t u = 1; u < 4; ++u) EXPECT_NEAR(std::arg(response[u] / response[u - 1]), pi / 2, 1e-9);
-  // Against the true distance of each element, 1000 km away.
+  // Compares with the plane wave at each element; the transmitter is 1000 km away.
   for (uint32_t u = 0; u < 4; ++u) {
     const dvec3 element = rx.array.element_position(u);
     const double excess = glm::dot(paths[0].arrival, element);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole paths against closed forms. 0.01 dB and 1e-3 rad are asked; where nothing stands in the way the tests
-// ask for nine digits. Friis and the two-ray ground are in channel_test.cpp, the shoe-box in
-// geometry_test.cpp.
+// Checks whole paths against closed forms. The requirements are 0.01 dB and 1e-3 rad; where possible, the
+// tests demand nine digits. Friis' equation and the two-ray ground are in channel_test.cpp, the shoe-box room
+// in geometry_test.cpp.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -56,8 +56,8 @@ void expect_near(Complex found, Complex expected, double tolerance) {
 }
 
 TEST(ClosedForms, SlabAtNormalIncidence) {
-  // Concrete of 10 cm at 3.5 GHz: R = -.422222101 - .007580311j, T = -.136274648 + .270959987j, and T is the
-  // field at the rear face: behind the wall the free way is shorter by its thickness.
+  // Concrete of 10 cm at 3.5 GHz: R = -.422222101 - .007580311j and T = -.136274648 + .270959987j. T is the
+  // field at the rear face; the free path behind the wall is shorter by the thickness of the wall.
   HandScene hand;
   hand.itu_material("concrete", 0.1);
   hand.ground(50.0);
@@ -65,7 +65,7 @@ TEST(ClosedForms, SlabAtNormalIncidence) {
   const Complex transmitted(-0.136274648, 0.270959987), reflected(-0.422222101, -0.007580311);
   const Complex free_way = unit_phasor(0.1 / wavelength_m);
   const Path below = path_field(through({1, 2, 3}, {1, 2, 0}, {1, 2, -4}), model.field, at_rest, at_rest);
-  // On the z axis it is theta-hat that turns over when one looks back (along phi = 0), not phi-hat.
+  // On the z axis (phi = 0), theta-hat changes its sign when the direction is reversed; phi-hat does not.
   expect_same(below.transfer[0] * 7.0, -transmitted * free_way, 5e-9);
   expect_same(below.transfer[3] * 7.0, transmitted * free_way, 5e-9);
   const Path back = path_field({{{InteractionType::reflection, 0}}, {{1, 2, 3}, {1, 2, 0}, {1, 2, 4}}, 7.0},
@@ -99,7 +99,7 @@ TEST(ClosedForms, BrewstersAngle) {
 }
 
 TEST(ClosedForms, SlabAtAnyAngle) {
-  // Eq. 43 and 44 as they stand, both polarizations, at the angle that the path makes with the wall.
+  // Evaluates eq. 43 and 44 directly for both polarizations, at the angle between the path and the wall.
   HandScene hand;
   hand.itu_material("brick", 0.24);
   hand.ground(1e4);
@@ -123,8 +123,8 @@ TEST(ClosedForms, SlabAtAnyAngle) {
 }
 
 TEST(ClosedForms, WallsInARow) {
-  // Two walls at an angle with each other and a reflection between them: the field vector goes through each
-  // in turn.
+  // The path passes through two walls at an angle to each other. The field vector passes through each in
+  // turn.
   HandScene hand;
   const uint32_t brick = hand.itu_material("brick", 0.24), glass = hand.itu_material("glass", 0.006);
   const uint32_t first = hand.quad({2, -9, -9}, {2, 9, -9}, {2, 9, 9}, {2, -9, 9}, brick);
@@ -135,7 +135,7 @@ TEST(ClosedForms, WallsInARow) {
                            {tx, tx + 0.2 * (rx - tx), tx + 0.65 * (rx - tx), rx},
                            glm::length(rx - tx)};
   const Path found = path_field(path, model.field, at_rest, at_rest);
-  // By hand: E -> t_TE (s . E) s + t_TM (p . E) p, twice.
+  // Expected for each wall: E -> t_TE (s . E) s + t_TM (p . E) p.
   FieldVector field;
   field.add(1.0, theta_hat(along));
   for (const auto& [facet, material] : {std::pair{first, brick}, std::pair{second, glass}}) {
@@ -154,8 +154,8 @@ TEST(ClosedForms, WallsInARow) {
 }
 
 TEST(ClosedFormsHardCase, N34_VacuumWallsAreInvisible) {
-  // A room's paths with walls of vacuum put in their way, moving ones: directions, delay and Doppler to the
-  // bit, the field to the rounding of the phase of 0.2 m of vacuum.
+  // Moving walls of vacuum stand in the way of all paths of a room. Directions, delay and Doppler shift
+  // remain the same to the bit; the field differs by the rounding of the phase of 0.2 m of vacuum.
   HandScene hand;
   hand.itu_material("concrete", 0.1);
   const uint32_t vacuum = hand.material("vacuum", 1.0, 0.0, 0.2);
@@ -211,7 +211,7 @@ TEST(ClosedFormsHardCase, N31_TotalReflectionAndThickWallsOnAPath) {
     EXPECT_LT(std::abs(evanescent.transfer[i]), 1e-10);
     EXPECT_EQ(dark.transfer[i], Complex(0.0));
   }
-  // Along the wall nothing passes (r -> -1, t -> 0), and nothing is NaN.
+  // At grazing incidence nothing passes through the wall (r -> -1, t -> 0), and no value is NaN.
   const Path grazing =
       path_field(through({-5, 0, 0}, {0, 0, 0}, {5, 0, 0}, first), model.field, at_rest, at_rest);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(std::abs(grazing.transfer[i]), 0.0);
@@ -242,14 +242,14 @@ TEST(ClosedForms, RoughWallsReflectLess) {
   EXPECT_NEAR(kept(), 0.8 * std::exp(-0.5 * g * g) * std::cyl_bessel_i(0.0, 0.5 * g * g), 1e-12);
   model.field.effects.roughness = false;
   EXPECT_NEAR(kept(), 0.8, 1e-12);
-  // What passes is not touched.
+  // Roughness and scattering do not change the transmitted field.
   model.field.effects.roughness = true;
   EXPECT_EQ(path_field(passed, model.field, at_rest, at_rest).transfer[0], clear.transfer[0]);
 }
 
 TEST(ClosedForms, FriisInRainAndFog) {
-  // 1 km level at 28 GHz, 15 degrees C, 7.5 g/m3: gas 0.1017560, rain of 25 mm/h 4.6236 (H) and 3.8911 (V),
-  // fog of 0.5 g/m3 0.459530 (dB/km)/(g/m3).
+  // A level path of 1 km at 28 GHz, 15 degrees C and 7.5 g/m3: gas 0.1017560 dB/km, rain of 25 mm/h 4.6236
+  // dB/km (H) and 3.8911 dB/km (V), fog of 0.5 g/m3 0.459530 (dB/km)/(g/m3).
   HandScene hand;
   Model model(hand, 28e9);
   const Weather weather{.rain_mm_h = 25.0, .fog_g_m3 = 0.5};
@@ -258,10 +258,10 @@ TEST(ClosedForms, FriisInRainAndFog) {
   const double gas_and_fog = 0.1017560 + 0.5 * 0.459530;
   EXPECT_NEAR(decibels(wet.transfer[0] * 1000.0), -(gas_and_fog + 3.8911), 2e-4);
   EXPECT_NEAR(decibels(wet.transfer[3] * 1000.0), -(gas_and_fog + 4.6236), 2e-4);
-  // Straight up both polarizations meet the drops alike: the mean of both.
+  // On a vertical path rain attenuates both polarizations equally, by the mean of H and V.
   const Path up = path_field(line({0, 0, 0}, {0, 0, 1000}), model.field, at_rest, at_rest);
   EXPECT_NEAR(decibels(up.transfer[0] * 1000.0), decibels(up.transfer[3] * 1000.0), 1e-9);
-  // By way of a wall it is the whole length that counts.
+  // On a path with a reflection, the whole length counts.
   model.field.attenuation = path_attenuation({}, 28e9);
   hand.material("conductor", 1.0, 1e30);
   hand.ground(1000.0);

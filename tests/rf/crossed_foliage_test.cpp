@@ -23,7 +23,8 @@ using test::cross;
 using test::segment;
 using test::TinyScene;
 
-/// Metres inside foliage of each segment, all facets being foliage; what is open or blocked fails.
+/// Returns the metres of foliage along each segment, where all facets are foliage. Expects no open foliage
+/// and no blocked segment.
 std::vector<double> depths(const scene::Scene& scene, std::span<const Segment> segments,
                            const std::vector<Pose>& bodies = {Pose{}}) {
   std::vector<double> list;
@@ -36,7 +37,7 @@ std::vector<double> depths(const scene::Scene& scene, std::span<const Segment> s
   return list;
 }
 
-/// Length of the segment inside a box.
+/// Returns the length of the segment inside a box.
 double inside_box(const Segment& s, const dvec3& low, const dvec3& high) {
   double enter = 0.0, leave = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -52,7 +53,8 @@ double inside_box(const Segment& s, const dvec3& low, const dvec3& high) {
   return std::max(0.0, leave - enter) * glm::distance(s.a, s.b);
 }
 
-/// The same for the convex body that the facets' planes bound, moved outwards by `margin`.
+/// Returns the length of the segment inside the convex body that the planes of the facets bound, moved
+/// outwards by `margin`.
 double inside_convex(const Segment& s, const scene::Scene& scene, double margin) {
   double enter = 0.0, leave = 1.0;
   for (const scene::Facet& facet : scene.facets) {
@@ -65,8 +67,9 @@ double inside_convex(const Segment& s, const scene::Scene& scene, double margin)
   return std::max(0.0, leave - enter) * glm::distance(s.a, s.b);
 }
 
-/// Near an edge and along a face, a rounding of the line to the side is far more along it: so the answer is
-/// held between those for the volume `margin` smaller and larger.
+/// Bounds of an expected depth. Near an edge or along a face, a small lateral error of the line changes the
+/// depth much more. So the result must lie between the depths for volumes that are smaller and larger by
+/// `margin`.
 struct Range {
   double least, most;
 };
@@ -79,7 +82,7 @@ void expect_in(double found, const Range& range, size_t index) {
   EXPECT_LE(found, range.most) << index;
 }
 
-/// A sphere of 8 * 4^levels triangles, vertices on the axes.
+/// Returns a sphere of 8 * 4^levels triangles with vertices on the axes.
 TinyScene sphere(const dvec3& center, double radius, int levels) {
   TinyScene tiny;
   const auto split = [&](const auto& self, const dvec3& a, const dvec3& b, const dvec3& c,
@@ -115,10 +118,10 @@ TEST(CrossedFoliage, BoxesAgainstTheClosedForm) {
       segment({-9, 0.3, 4}, {9, 0.3, 4}),     // through: 8 m
       segment({0, 0.3, 4}, {9, 0.3, 4}),      // from inside: 4 m
       segment({9, 0.3, 4}, {0, 0.3, 4}),      // to inside
-      segment({-1, 0.3, 4}, {2.5, 0.3, 4}),   // all of it inside: 3.5 m
+      segment({-1, 0.3, 4}, {2.5, 0.3, 4}),   // wholly inside: 3.5 m
       segment({9, 0.3, 4}, {20, 0.3, 4}),     // outside, on the same line
       segment({9, 0.3, 9}, {-9, 0.3, 9}),     // above
-      segment({0, 0, 2}, {0, 0, 8}),          // from face to face, both ends on them: 6 m
+      segment({0, 0, 2}, {0, 0, 8}),          // from face to face, with both ends on faces: 6 m
       segment({0, 0, 2}, {0, 0, -5}),         // away from a face
       segment({-4, -3, 2}, {4, 3, 8}),        // from corner to corner
       segment({-9, 0, 5}, {-4, 0, 5}),        // up to a face
@@ -134,14 +137,15 @@ TEST(CrossedFoliage, BoxesAgainstTheClosedForm) {
 
   segments.clear();
   RandomStream random(6, 1);
-  for (int i = 0; i < 2000; ++i) {  // on a coarse grid, so that edges, corners and faces are met exactly
+  // Points on a coarse grid meet edges, corners and faces exactly.
+  for (int i = 0; i < 2000; ++i) {
     const auto point = [&] {
       return dvec3(random.below(13) - 6.0, random.below(13) - 6.0, random.below(11) - 1.0);
     };
     segments.push_back(segment(point(), point()));
   }
   found = depths(scene, segments);
-  size_t along = 0;  // a face or an edge: inside and outside are both right
+  size_t along = 0;  // number of segments along a face or an edge, where inside and outside are both right
   for (size_t i = 0; i < segments.size(); ++i) {
     const Range range = box_range(segments[i], low, high, 1e-4);
     along += range.most - range.least > 0.01;
@@ -169,7 +173,7 @@ TEST(CrossedFoliage, ASphereAgainstItsChords) {
       return center + dvec3(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9));
     };
     segments.push_back(segment(point(), point()));
-    // Towards a vertex of the mesh.
+    // A segment towards a vertex of the mesh.
     const scene::FacetTriangle& triangle =
         scene.facet_triangles[random.below(static_cast<uint32_t>(scene.facet_triangles.size()))];
     const dvec3 from = point();
@@ -238,9 +242,9 @@ TEST(CrossedFoliage, DoesNotDependOnTheOrderOfTheTrianglesOrTheDirection) {
 TEST(CrossedFoliage, StandsAmongWallsAndOpaqueThings) {
   TinyScene tiny;
   tiny.box({0, -3, 0}, {6, 3, 6})                                 // facets 0 to 5: foliage
-      .quad({3, -9, 0}, {3, 9, 0}, {3, 9, 9}, {3, -9, 9})         // 6: a wall in the middle of it
+      .quad({3, -9, 0}, {3, 9, 0}, {3, 9, 9}, {3, -9, 9})         // 6: a wall inside the foliage
       .quad({8, -9, 0}, {8, 9, 0}, {8, 9, 9}, {8, -9, 9})         // 7: opaque
-      .quad({-8, 20, 0}, {-8, 40, 0}, {-8, 40, 9}, {-8, 20, 9});  // 8: opaque, elsewhere
+      .quad({-8, 20, 0}, {-8, 40, 0}, {-8, 40, 9}, {-8, 20, 9});  // 8: opaque, far away
   FacetKinds kinds(9, FacetKind::foliage);
   kinds[6] = FacetKind::wall;
   kinds[7] = kinds[8] = FacetKind::opaque;
@@ -308,12 +312,13 @@ TEST(CrossedFoliage, WhatIsNotClosedSaysSo) {
   EXPECT_FALSE(found[1].foliage_open);
   EXPECT_EQ(found[1].foliage_m, 0.0);
   TinyScene inside_out;
-  inside_out.box({4, 9, 9}, {-4, -9, -9});  // mirrored in three axes: its normals look inwards
+  inside_out.box({4, 9, 9}, {-4, -9, -9});  // mirrored in three axes: its normals point inwards
   const scene::Scene inwards = inside_out.build();
   EXPECT_TRUE(cross(inwards, all_of(FacetKind::foliage, inwards), segments)[0].foliage_open);
 }
 
-/// Everything that the pass answers about a mixed scene, and what a search finds in it.
+/// Returns a digest of all answers of the pass for a mixed scene and of the candidates that a search finds in
+/// it.
 std::string digest_of_answers() {
   TinyScene tiny = sphere({0, 0, 5}, 6.0, 2);
   FacetKinds kinds(8 * 16, FacetKind::foliage);
@@ -345,7 +350,7 @@ std::string digest_of_answers() {
   return sha256_hex(std::as_bytes(std::span(text)));
 }
 
-/// Also what the next test runs in processes with other numbers of driver threads.
+/// The next test runs this test in processes with other numbers of driver threads.
 TEST(CrossedFoliage, DigestOfAnswersIsTheSameTwice) {
   const std::string digest = digest_of_answers();
   EXPECT_EQ(digest, digest_of_answers());

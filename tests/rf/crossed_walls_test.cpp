@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 
 constexpr uint32_t blocked = ~0u;
 
-/// The walls passed by each segment; {blocked} where it is blocked.
+/// Returns the walls that each segment passes, or {blocked} for a blocked segment.
 std::vector<std::vector<uint32_t>> passed(const scene::Scene& scene, const FacetKinds& kinds,
                                           std::span<const Segment> segments,
                                           const std::vector<Pose>& bodies = {Pose{}}) {
@@ -39,7 +39,7 @@ std::vector<std::vector<uint32_t>> passed(const TinyScene& tiny, std::span<const
   return passed(scene, all_of(FacetKind::wall, scene), segments);
 }
 
-/// A wall in the plane x = at, 40 m wide and 10 m high.
+/// Adds a wall in the plane x = `at`, 40 m wide and 10 m high.
 TinyScene& wall_at(TinyScene& tiny, double at) {
   return tiny.quad({at, -20, 0}, {at, 20, 0}, {at, 20, 10}, {at, -20, 10});
 }
@@ -95,14 +95,14 @@ TEST(CrossedWalls, OnTheDiagonalOfAWallItIsPassedOnce) {
     const dvec3 on(0, -20 + 40 * s, 10 * s);
     const dvec3 way(random.uniform(0.2, 5), random.uniform(-9, 9), random.uniform(-9, 9));
     segments.push_back(segment(on - way, on + way, 8));
-    // In the plane that stands on the diagonal as well.
+    // A segment that also lies in a plane through the diagonal.
     segments.push_back(segment(on - dvec3(3, 0.4, 0.1), on + dvec3(3, 0.4, 0.1), 8));
   }
   for (const auto& walls : passed(tiny, segments)) EXPECT_THAT(walls, ElementsAre(0));
 }
 
 TEST(CrossedWalls, TheSeamOfTwoWallsIsOneWall) {
-  // Neighbours in one plane, met in their common edge: the first of them.
+  // Two walls are neighbours in one plane. A segment through their common edge passes only one of them.
   TinyScene tiny;
   tiny.quad({0, -20, 0}, {0, 1, 0}, {0, 1, 10}, {0, -20, 10})
       .quad({0, 1, 0}, {0, 20, 0}, {0, 20, 10}, {0, 1, 10});
@@ -117,7 +117,7 @@ TEST(CrossedWalls, TheSeamOfTwoWallsIsOneWall) {
     ASSERT_EQ(walls.size(), 1u);
     EXPECT_LE(walls[0], 1u);
   }
-  // The edge of a house: in through one wall, out through another one.
+  // At the edge of a house, a segment enters through one wall and leaves through another one.
   TinyScene house;
   house.box({0, 0, 0}, {4, 4, 4});
   EXPECT_THAT(
@@ -140,10 +140,10 @@ TEST(CrossedWalls, GrazingSegmentsPassWhatTheyCrossAndNothingThatTheyLieIn) {
   TinyScene tiny;
   wall_at(tiny, 0);
   const std::vector<Segment> segments{
-      segment({0, -15, 2}, {0, 15, 3}, 1),            // in its plane
-      segment({0.001, -15, 2}, {0.001, 15, 3}, 1),    // 1 mm beside it
-      segment({0.001, -15, 2}, {-0.001, 15, 3}, 1),   // through it at 0.004 degrees
-      segment({0.001, -15, 2}, {-0.00005, 15, 3}, 1)  // ends on it, as far as fp32 can tell
+      segment({0, -15, 2}, {0, 15, 3}, 1),            // in the plane of the wall
+      segment({0.001, -15, 2}, {0.001, 15, 3}, 1),    // 1 mm beside the wall
+      segment({0.001, -15, 2}, {-0.001, 15, 3}, 1),   // through the wall at 0.004 degrees
+      segment({0.001, -15, 2}, {-0.00005, 15, 3}, 1)  // ends on the wall to the precision of fp32
   };
   EXPECT_THAT(passed(tiny, segments), ElementsAre(IsEmpty(), IsEmpty(), ElementsAre(0), IsEmpty()));
 }
@@ -180,9 +180,9 @@ TEST(CrossedWalls, WallsOfMovingBodiesAreWhereTheBodyIs) {
               ElementsAre(ElementsAre(0), ElementsAre(0)));
 }
 
-/// Where a segment meets a parallelogram, in fp64.
+/// Holds the intersection of a segment with a parallelogram, in fp64.
 struct Meeting {
-  bool unclear = false;  ///< so near to an outline or an end that fp32 may see it either way
+  bool unclear = false;  ///< so close to an outline or an end that the result in fp32 is uncertain
   bool met = false;
 };
 Meeting meet(const scene::Scene& scene, const scene::Facet& facet, const Segment& s, double margin) {
@@ -204,8 +204,8 @@ Meeting meet(const scene::Scene& scene, const scene::Facet& facet, const Segment
   return meeting;
 }
 
-/// Parallelograms in all directions, a third of them opaque, against an intersection in fp64 that shares
-/// nothing with the pass; at the local origin and far from it.
+/// Compares parallelograms in all directions, a third of them opaque, with an independent intersection in
+/// fp64. `shift` is the distance from the local origin.
 void check_against_reference(double shift) {
   RandomStream random(5, 77);
   const auto vector = [&](double size) {

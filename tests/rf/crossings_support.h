@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One batch of segments through the crossing pass, for tests.
+// Runs one batch of segments through the crossing pass.
 #pragma once
 
 #include <span>
@@ -29,7 +29,7 @@ inline std::vector<rf::Crossing> cross(const scene::Scene& scene, const rf::Face
   return pass.collect(pending, segments);
 }
 
-/// `walls`: that it may pass.
+/// Returns a segment that may pass through `walls` walls.
 inline rf::Segment segment(const dvec3& a, const dvec3& b, uint32_t walls = 0) {
   rf::Segment s;
   s.a = a;
@@ -38,7 +38,7 @@ inline rf::Segment segment(const dvec3& a, const dvec3& b, uint32_t walls = 0) {
   return s;
 }
 
-/// Every facet of the scene of one kind.
+/// Returns the given kind for every facet of the scene.
 inline rf::FacetKinds all_of(rf::FacetKind kind, const scene::Scene& scene) {
   return rf::FacetKinds(scene.facets.size(), kind);
 }

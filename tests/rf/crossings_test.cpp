@@ -18,7 +18,7 @@ using test::segment;
 using test::TinyScene;
 using ::testing::ElementsAre;
 
-/// Everything opaque: 1 visible, 0 blocked.
+/// Returns for each segment 1 if it is visible and 0 if it is blocked. All facets are opaque.
 std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment> segments,
                              const std::vector<Pose>& bodies = {Pose{}}) {
   std::vector<uint8_t> answers;
@@ -30,7 +30,8 @@ std::vector<uint8_t> visible(const scene::Scene& scene, std::span<const Segment>
   return answers;
 }
 
-/// Facet 0: a wall in the plane x = 0, facing +x; facet 1: the ground z = 0.
+/// Returns a scene of two facets. Facet 0 is a wall in the plane x = 0 that faces +x; facet 1 is the ground z
+/// = 0.
 TinyScene wall_on_ground() {
   TinyScene tiny;
   tiny.quad({0, -20, 0}, {0, 20, 0}, {0, 20, 10}, {0, -20, 10})
@@ -52,12 +53,12 @@ TEST(Crossings, WallBlocksAndTheWayAroundItDoesNot) {
 }
 
 TEST(Crossings, TheFacetsOfTheEndsDoNotBlock) {
-  // A reflection at the wall, rounded to behind it.
+  // The reflection point on the wall is rounded to a point behind the wall.
   Segment s = segment({8, 0, 3}, {-3e-4, 1, 2});
   EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
   s.facet_b = 0;
   EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(1));
-  // Another facet than the one named still does.
+  // Facets other than the named one still block.
   s = segment({8, 0, 3}, {-4, 0, -1});
   s.facet_b = 1;
   EXPECT_THAT(visible(wall_on_ground().build(), std::vector{s}), ElementsAre(0));
@@ -110,7 +111,7 @@ TEST(Crossings, EmptyBatchRecordsNothing) {
   ring.wait(slot);
 }
 
-/// At random, on both sides of the wall.
+/// Returns random segments on both sides of the wall.
 std::vector<Segment> random_segments(uint32_t walls = 0) {
   RandomStream random(8, 4);
   std::vector<Segment> alone;
@@ -127,8 +128,8 @@ std::vector<Segment> random_segments(uint32_t walls = 0) {
 
 TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
   std::vector<Segment> alone = random_segments();
-  // Every third one decides for the one before it and the one after it; every other of these is the same as
-  // an earlier one.
+  // Every third segment decides for its two neighbours. Every other one of these segments equals an earlier
+  // one.
   for (uint32_t i = 7; i + 1 < alone.size(); i += 6) alone[i] = alone[i - 6 < 7 ? 1 : i - 6];
   std::vector<Segment> batch = alone;
   for (uint32_t i = 1; i + 1 < batch.size(); i += 3) batch[i - 1].only_if = batch[i + 1].only_if = i;
@@ -146,7 +147,8 @@ TEST(Crossings, WhatHangsOnABlockedSegmentIsBlockedUnseen) {
   EXPECT_GT(seen, 300u);
 }
 
-// As if the device took no more at once: leaders in several parts, those that hang on them in others.
+// The batch is split as for a device with little memory: some parts hold leaders, others hold the segments
+// that depend on them.
 TEST(Crossings, PartsChangeNoAnswer) {
   const scene::Scene scene = wall_on_ground().build();
   for (const uint32_t walls : {0u, 2u}) {
@@ -201,7 +203,7 @@ TEST(Crossings, EachAnswerDependsOnItsSegmentAlone) {
 }
 
 TEST(HardCase, N06_SegmentInAWallsPlaneIsFiniteAndDefined) {
-  // Along the wall's plane: the surface does not block what lies in it; the ground below still does.
+  // A surface does not block a segment in its plane. The ground below still blocks.
   const std::vector<Segment> segments{segment({0, -30, 2}, {0, 30, 2}), segment({0, -10, 2}, {0, 10, 5}),
                                       segment({0, 0, 2}, {0, 0, -2})};
   EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(1, 1, 0));
@@ -228,17 +230,18 @@ TEST(HardCase, N07_VisibilityAtUtmCoordinatesIsTheSame) {
 }
 
 TEST(HardCase, N11_PointExactlyOnASurfaceIsSeenFromBothSides) {
-  const std::vector<Segment> segments{segment({5, 3, 4}, {0, 1, 2}),    // on the wall, from its front
-                                      segment({-5, 3, 4}, {0, 1, 2}),   // from its back
-                                      segment({0, 1, 2}, {5, 3, 4}),    // the other way round
-                                      segment({5, 1, 8}, {9, 4, 0}),    // a receiver on the ground
-                                      segment({5, 1, -8}, {9, 4, 0}),   // from below
-                                      segment({-5, 1, 8}, {9, 4, 0})};  // with the wall between
+  const std::vector<Segment> segments{
+      segment({5, 3, 4}, {0, 1, 2}),    // on the wall, from the front of the wall
+      segment({-5, 3, 4}, {0, 1, 2}),   // from the back of the wall
+      segment({0, 1, 2}, {5, 3, 4}),    // in the opposite direction
+      segment({5, 1, 8}, {9, 4, 0}),    // a receiver on the ground
+      segment({5, 1, -8}, {9, 4, 0}),   // from below
+      segment({-5, 1, 8}, {9, 4, 0})};  // with the wall in between
   EXPECT_THAT(visible(wall_on_ground().build(), segments), ElementsAre(1, 1, 1, 1, 1, 0));
 }
 
 TEST(HardCase, N12_TransmitterFiveMillimetresFromAWallKeepsItsPaths) {
-  // In front of the wall it sees the front alone, at the local origin and 10 km from it.
+  // A transmitter 5 mm in front of the wall sees only the front, at the local origin and 10 km away from it.
   for (const double shift : {0.0, 300.0, 10000.0}) {
     const dvec3 there(0, shift, 0);
     TinyScene tiny;
@@ -253,7 +256,7 @@ TEST(HardCase, N12_TransmitterFiveMillimetresFromAWallKeepsItsPaths) {
         segment(at(-0.005, 0, 5), at(-30, 5, 2)),
     };
     EXPECT_THAT(visible(tiny.build(), segments), ElementsAre(1, 1, 0, 0, 1)) << "at " << shift << " m";
-    // The reflection at that very wall.
+    // The reflection at the same wall.
     Segment down = segment(at(0.005, 0, 5), at(0, 0.001, 5)), up = segment(at(0, 0.001, 5), at(30, 6, 5));
     down.facet_b = 0;
     up.facet_a = 0;

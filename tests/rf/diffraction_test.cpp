@@ -35,7 +35,7 @@ FieldVector operator*(Complex factor, const FieldVector& field) {
           factor.real() * field.im + factor.imag() * field.re};
 }
 
-/// A scene, its facets and its wedges.
+/// Holds a scene with its facets, surfaces and wedges.
 struct Setting {
   explicit Setting(const HandScene& hand, bool free_edges = false)
       : world(hand.scene),
@@ -56,7 +56,7 @@ struct Setting {
     return true;
   }
 
-  /// Direct and reflected field at `rx` of a source with polarization `sent`, phases included.
+  /// Returns the direct and the reflected field at `rx` of a source with polarization `sent`, with phases.
   FieldVector geometrical(const dvec3& tx, const dvec3& rx, const dvec3& sent) const {
     FieldVector sum;
     for (const GeometricPath& geometry :
@@ -76,7 +76,8 @@ struct Setting {
     return sum;
   }
 
-  /// The field by one wedge; zero if it has no point for these ends.
+  /// Returns the field that one wedge diffracts, or zero if the wedge has no diffraction point for these
+  /// ends.
   FieldVector diffracted(const scene::Wedge& wedge, const dvec3& tx, const dvec3& rx,
                          const dvec3& sent) const {
     const auto point = keller_point(wedge, tx, rx);
@@ -97,8 +98,8 @@ struct Setting {
   }
 };
 
-/// The corner of a house: walls y = 0 (x > 0) and x = 0 (y < 0), its upright on the z axis; the second one's
-/// back may be turned outwards.
+/// Returns the corner of a house: the walls y = 0 (x > 0) and x = 0 (y < 0), whose common edge is the z axis.
+/// If `turned` is set, the back of the second wall faces outwards.
 HandScene corner(uint32_t (*material)(HandScene&), bool turned = false) {
   HandScene hand;
   const uint32_t of_walls = material(hand);
@@ -119,7 +120,7 @@ uint32_t layered(HandScene& hand) {
   return wall;
 }
 
-/// The half-plane y = 0, x > 0, borders far away.
+/// Returns the half-plane y = 0, x > 0. Its other borders are far away.
 HandScene screen(uint32_t (*material)(HandScene&), bool flipped = false) {
   HandScene hand;
   const uint32_t of_plate = material(hand);
@@ -130,7 +131,7 @@ HandScene screen(uint32_t (*material)(HandScene&), bool flipped = false) {
   }
   return hand;
 }
-/// Its edge on the z axis.
+/// Returns the edge of the half-plane on the z axis.
 const scene::Wedge& near_edge(const Setting& setting) {
   for (const scene::Wedge& wedge : setting.wedges)
     if (std::abs(wedge.a.x) + std::abs(wedge.b.x) == 0.0) return wedge;
@@ -149,7 +150,7 @@ TEST(KellerPoint, IsTheShortestWay) {
     const auto length = [&](double z) {
       return glm::distance(a, dvec3(0, 0, z)) + glm::distance(dvec3(0, 0, z), b);
     };
-    // Golden section.
+    // Finds the minimum by golden section.
     double low = -80.0, high = 80.0;
     const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
     while (high - low > 1e-7) {
@@ -158,11 +159,11 @@ TEST(KellerPoint, IsTheShortestWay) {
     }
     EXPECT_NEAR(point->z, 0.5 * (low + high), 1e-5);
     EXPECT_LE(length(point->z), length(0.5 * (low + high)) * (1.0 + 1e-15));
-    // Unfolded: the hypotenuse over both distances from the edge.
+    // In the unfolded plane, the length is the hypotenuse over the sum of both distances from the edge.
     EXPECT_NEAR(length(point->z) / std::hypot(a.z - b.z, std::hypot(a.x, a.y) + std::hypot(b.x, b.y)), 1.0,
                 1e-14);
     const dvec3 in = glm::normalize(*point - a), out = glm::normalize(b - *point);
-    EXPECT_NEAR(in.z, out.z, 1e-12);  // the cone: equal angles with the edge
+    EXPECT_NEAR(in.z, out.z, 1e-12);  // Keller's cone: equal angles with the edge
   }
 }
 
@@ -170,7 +171,7 @@ TEST(KellerPoint, EndsOfTheEdge) {
   const Setting setting(corner(conductor));
   const scene::Wedge& wedge = setting.wedges.at(0);
   KellerRefusal why = KellerRefusal::none;
-  EXPECT_TRUE(keller_point(wedge, {3, 4, 80}, {-3, 4, 80}, &why));  // the corner itself
+  EXPECT_TRUE(keller_point(wedge, {3, 4, 80}, {-3, 4, 80}, &why));  // the end point of the edge
   EXPECT_EQ(why, KellerRefusal::none);
   EXPECT_FALSE(keller_point(wedge, {3, 4, 80}, {-3, 4, 80.0001}, &why));
   EXPECT_EQ(why, KellerRefusal::beyond_the_edge);
@@ -199,9 +200,9 @@ TEST(KellerPoint, Exterior) {
 }
 
 TEST(EdgeDyadic, ConductorFarFromTheBoundariesIsKellers) {
-  // Keller's coefficient of a half-plane, D_{s,h} = -e^{-j pi/4}/(2 sqrt(2 pi k) sin(beta_0)) (sec((phi -
-  // phi')/2) -+ sec((phi + phi')/2)), in Balanis' unit vectors and spreading; the uniform factor is 1 +
-  // O(1/kL) there.
+  // Keller's coefficient of a half-plane is D_{s,h} = -e^{-j pi/4}/(2 sqrt(2 pi k) sin(beta_0)) (sec((phi -
+  // phi')/2) -+ sec((phi + phi')/2)), here with the unit vectors and the spreading of Balanis. The uniform
+  // factor is 1 + O(1/kL) there.
   const Setting setting(screen(conductor), true);
   const scene::Wedge& wedge = near_edge(setting);
   RandomStream random(22, 0);
@@ -237,7 +238,7 @@ TEST(EdgeDyadic, ConductorFarFromTheBoundariesIsKellers) {
 }
 
 TEST(EdgeDyadic, ScreenIsAKnifeEdge) {
-  // Straight behind the edge of a far screen half of the field is left, whatever it is made of: 6.02 dB.
+  // Directly behind the edge of a distant screen of any material, half of the field remains: 6.02 dB.
   for (const auto material : {conductor, concrete}) {
     const Setting setting(screen(material), true);
     const dvec3 tx(0, 900, 3), rx(0, -800, -2);
@@ -283,13 +284,14 @@ TEST(EdgeDyadic, MovesWithItsBody) {
 }
 
 TEST(EdgeDyadic, FaceThatAnEndLiesInDoesNotReflect) {
-  // As in rf/geometry/geometry.h: then only the direct wave is there, and half of it on the shadow boundary.
+  // As in rf/geometry/geometry.h, such a face does not reflect. Only the direct wave remains, with half its
+  // field on the shadow boundary.
   const Setting setting(corner(concrete));
   const dvec3 tx(20, 0, 1), sent(0, 0, 1);
   const FieldVector above = setting.total(tx, at(10, pi - 1e-6, 1), sent),
                     below = setting.total(tx, at(10, pi + 1e-6, 1), sent);
   EXPECT_LT(norm(above - below), 1e-2 * norm(above));
-  // Whichever end it is.
+  // The result does not depend on which end lies in the face.
   const Setting conducting(corner(conductor));
   const scene::Wedge& wedge = conducting.wedges.at(0);
   const dvec3 rx = at(10, 2.0, -4);
@@ -303,10 +305,10 @@ struct Boundary {
   double incident, observed;
 };
 
-/// Steps of the total field over a boundary, against the slope on both of its sides; relative to the direct
-/// wave.
+/// Returns the step of the total field across a boundary minus the mean slope on both sides, relative to the
+/// direct wave.
 double step(const Setting& setting, const Boundary& boundary, double z, const dvec3& sent) {
-  const double epsilon = 1e-6;  // 9 um: more than the facets' tolerance
+  const double epsilon = 1e-6;  // 9 um: more than the tolerance of the facets
   const dvec3 tx = at(12, boundary.incident, 3);
   FieldVector field[4];
   for (int i = 0; i < 4; ++i)
@@ -334,7 +336,7 @@ TEST(EdgeDyadicHardCase, N44_TotalFieldIsContinuousAtTheCornerOfAHouse) {
     const Setting setting(corner(material, turned));
     ASSERT_EQ(setting.wedges.size(), 1u);
     for (const Boundary& boundary : boundaries) {
-      for (const double z : {3.0, -5.0, 30.0}) {  // across the edge, and at slanting incidence
+      for (const double z : {3.0, -5.0, 30.0}) {  // perpendicular and oblique incidence
         for (const dvec3& sent : {dvec3(0, 0, 1), dvec3(0.6, 0.8, 0), dvec3(0.48, -0.6, 0.64)}) {
           EXPECT_LT(step(setting, boundary, z, sent), 1e-5)
               << boundary.name << ' ' << boundary.incident << ' ' << z;
@@ -345,7 +347,7 @@ TEST(EdgeDyadicHardCase, N44_TotalFieldIsContinuousAtTheCornerOfAHouse) {
 }
 
 TEST(EdgeDyadic, WithoutDiffractionTheFieldSteps) {
-  // So the test above can fail: the step is the direct wave, or the reflected one.
+  // This test shows that the previous one can fail: the step is the direct or the reflected wave.
   Setting setting(corner(conductor));
   setting.wedges.clear();
   for (const Boundary& boundary : boundaries)
@@ -356,14 +358,15 @@ TEST(EdgeDyadicHardCase, N44_ExactlyOnTheShadowBoundary) {
   const Setting setting(corner(concrete));
   const scene::Wedge& wedge = setting.wedges.at(0);
   const dvec3 tx(6, 8, 2), rx(-3, -4, 2), sent(0, 0, 1);
-  EXPECT_FALSE(in_shadow(wedge, tx, rx));  // there it counts as lit
+  EXPECT_FALSE(in_shadow(wedge, tx, rx));  // a point on the boundary counts as lit
   const FieldVector on = setting.diffracted(wedge, tx, rx, sent);
   ASSERT_TRUE(std::isfinite(norm(on)));
   const Complex direct = unit_phasor(-turns_of(frequency_hz, 15.0 / speed_of_light)) / 15.0;
   const FieldVector past = setting.diffracted(wedge, tx, rx + dvec3(1e-12, 0, 0), sent);
   FieldVector lit = on;
   lit.add(direct, sent);
-  // -1/2 on the lit side, 1/2 in the shadow, and the reflections' tails on both.
+  // The diffracted direct wave is -1/2 on the lit side and 1/2 in the shadow; the tails of the reflections
+  // are on both sides.
   EXPECT_LT(norm(lit - past), 1e-9 * std::abs(direct));
 }
 
@@ -377,7 +380,7 @@ TEST(EdgeDyadicHardCase, N45_NearTheEdgesLine) {
   EXPECT_EQ(why, KellerRefusal::on_the_line);
   EXPECT_FALSE(keller_point(wedge, {0, 0, 5}, {0, 0, 5}, &why));
   EXPECT_EQ(why, KellerRefusal::on_the_line);
-  // beta_0 -> 0, and s -> 0: finite, never more than some direct waves.
+  // For beta_0 -> 0 and for s -> 0 the field remains finite and does not exceed a few direct waves.
   for (const double aside : {1.0, 1e-3, 1e-6}) {
     const FieldVector grazing = setting.diffracted(wedge, at(aside, 1.0, -60), at(aside, 4.0, 60), {1, 0, 0});
     EXPECT_TRUE(std::isfinite(norm(grazing)));
@@ -407,7 +410,8 @@ TEST(EdgeDyadicHardCase, N46_WhichSideOfAPlateIsItsFrontDoesNotMatter) {
 }
 
 TEST(EdgeDyadicHardCase, N47_SplitEdgeDiffractsOnce) {
-  // The upright in two pieces on one wall, in three on the other, and cut by diagonals: one wedge, one point.
+  // The edge consists of two pieces on one wall and of three on the other, and diagonals cut the walls. The
+  // result is one wedge with one diffraction point.
   HandScene hand;
   concrete(hand);
   hand.scene.facets.clear();

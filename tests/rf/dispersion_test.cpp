@@ -27,7 +27,7 @@ double frequency_of(const ChannelGrid& grid, uint32_t k) {
   return grid.carrier_hz + grid.subcarrier_number(k) * grid.subcarrier_spacing_hz;
 }
 
-/// A scene with its field model at the grid's carrier.
+/// Holds a scene with its field model at the carrier of the grid.
 struct SampledModel {
   FacetWorld world;
   RadioSurfaces surfaces;
@@ -36,7 +36,7 @@ struct SampledModel {
       : world(hand.scene), surfaces(hand.scene, grid.carrier_hz), field{&world, &surfaces} {}
 };
 
-/// ITU concrete and a slab of it, eq. 43 and 44 as they stand.
+/// Holds the coefficients of a slab of ITU concrete, directly from eq. 43 and 44.
 struct Slab {
   Complex reflected_te, reflected_tm, through_te, through_tm;
 };
@@ -54,8 +54,9 @@ Slab concrete_slab(double frequency_hz, double thickness_m, double cosine) {
 }
 
 TEST(Dispersion, SlabOverTwoGigahertz) {
-  // Through a wall of 10 cm at 60 degrees from its normal, and off it: eq. 43 and 44 at every subcarrier. The
-  // wall's own phase counts once: behind it the wave is where it would be without it but for T e^{jkd cos}.
+  // Checks transmission through a wall of 10 cm at 60 degrees from its normal, and reflection by the wall,
+  // against eq. 43 and 44 at every subcarrier. The phase of the wall counts once: behind the wall, the wave
+  // differs from the free wave by the factor T e^{jkd cos}.
   constexpr double thickness_m = 0.1;
   for (const double carrier : {5e9, 28e9}) {
     const ChannelGrid grid = two_gigahertz(carrier);
@@ -85,7 +86,8 @@ TEST(Dispersion, SlabOverTwoGigahertz) {
           const double f = frequency_of(grid, k);
           const Slab slab = concrete_slab(f, thickness_m, cosine);
           const Complex sheet = unit_phasor(f / speed_of_light * thickness_m * cosine);
-          // V is TM over a horizontal wall; H is TE, turned over by phi-hat looking back.
+          // V is TM on a horizontal wall. H is TE, and phi-hat changes its sign because the arrival points
+          // back.
           const bool v = polarization == Polarization::v;
           const Complex wall = through ? (v ? slab.through_tm : -slab.through_te) * sheet
                                        : (v ? slab.reflected_tm : -slab.reflected_te);
@@ -95,7 +97,7 @@ TEST(Dispersion, SlabOverTwoGigahertz) {
           flat_error = std::max(flat_error, std::abs(flat[k] - expected) / std::abs(expected));
         }
       }
-      EXPECT_GT(flat_error, 0.1);  // what the option is for
+      EXPECT_GT(flat_error, 0.1);  // error without the option
     }
   }
 }
@@ -160,7 +162,7 @@ TEST(Dispersion, AnyOrderOfPathsGivesTheSameBits) {
   std::vector<Path> paths = room_paths(hand, model.field);
   for (int i = 0; i < 40; ++i) paths.push_back(Path(paths[i % 20]));
   auto spectra = Dispersion(hand.scene, model.field, {}, grid).spectra(paths, *model.field.world);
-  spectra.back()[7][0] *= 1.5;  // paths that differ in their spectra alone
+  spectra.back()[7][0] *= 1.5;  // this path differs from others only in its spectrum
   const auto forward = frequency_response_fp64(paths, spectra, {}, {}, grid);
   std::reverse(paths.begin(), paths.end());
   std::reverse(spectra.begin(), spectra.end());
@@ -171,7 +173,7 @@ TEST(Dispersion, AnyOrderOfPathsGivesTheSameBits) {
 }
 
 TEST(Dispersion, AirChangesOverTheBand) {
-  // Up the flank of the oxygen complex: 1 km at 50 to 52 GHz.
+  // 1 km at 50 to 52 GHz lies on the slope of the oxygen complex.
   HandScene hand;
   const ChannelGrid grid = two_gigahertz(51e9, 5);
   SampledModel model(hand, grid);
@@ -191,7 +193,7 @@ TEST(Dispersion, AirChangesOverTheBand) {
 
 TEST(Dispersion, ABandThatLeavesAMaterialsRowsIsRefused) {
   HandScene hand;
-  hand.itu_material("brick", 0.24);  // 1 to 40 GHz, then from 110
+  hand.itu_material("brick", 0.24);  // rows for 1 to 40 GHz and from 110 GHz on
   hand.ground(10.0);
   const ChannelGrid grid = two_gigahertz(39.5e9, 11);
   const SampledModel model(hand, grid);

@@ -41,7 +41,7 @@ void expect_near(Complex found, Complex expected, double tolerance) {
   EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
 }
 
-/// The field vector at the receiver for a unit field `polarization` at the transmitter.
+/// Holds the field vector at the receiver for a unit field `polarization` at the transmitter.
 struct Vector {
   Complex x, y, z;
 };
@@ -64,7 +64,8 @@ TEST(PathField, LineOfSight) {
   EXPECT_EQ(path.doppler_hz, 0.0);
   EXPECT_LT(glm::length(path.departure - dvec3(0.6, 0.8, 0)), 1e-15);
   EXPECT_LT(glm::length(path.departure + path.arrival), 1e-15);
-  // diag(1, -1): phi-hat points the other way when one looks back (TR 38.901, eq. 7.5-29).
+  // The matrix is diag(1, -1): phi-hat changes its sign because the arrival points back (TR 38.901, eq.
+  // 7.5-29).
   expect_near(path.transfer[0] * 500.0, 1.0, 1e-15);
   expect_near(path.transfer[3] * 500.0, -1.0, 1e-15);
   expect_near(path.transfer[1], 0.0, 1e-18);
@@ -96,8 +97,8 @@ TEST(PathField, GroundSplitsIntoTeAndTm) {
   EXPECT_NEAR(path.length_m, 10.0, 1e-14);
   const Complex eta = scene::relative_permittivity(*scene::itu_medium("concrete"), frequency_hz, "concrete");
   const FresnelCoefficients fresnel = half_space(eta, 0.6);
-  // Vertical polarization keeps its sense on a conductor (r_TM = +1), horizontal is turned over (r_TE = -1);
-  // the -1 of phi-hat looking back on top.
+  // On a conductor, vertical polarization keeps its sense (r_TM = +1) and horizontal polarization changes it
+  // (r_TE = -1). In addition, phi-hat contributes a factor of -1 because the arrival points back.
   expect_near(path.transfer[0] * 10.0, fresnel.r_tm, 1e-14);
   expect_near(path.transfer[3] * 10.0, -fresnel.r_te, 1e-14);
   expect_near(path.transfer[1] * 10.0, 0.0, 1e-14);
@@ -105,8 +106,8 @@ TEST(PathField, GroundSplitsIntoTeAndTm) {
 }
 
 TEST(PathField, ConductorMirrorsTheSource) {
-  // Image theory: a conductor's reflection is the field of the mirrored source, turned over: E' = -(E - 2 n
-  // (n . E)) for any polarization and angle, and over several walls in turn.
+  // Image theory: a conductor reflects the field of the mirrored source with the opposite sign, E' = -(E - 2
+  // n (n . E)), for any polarization and angle. Several walls act in turn.
   HandScene hand;
   hand.material("conductor", 1.0, 1e30);
   hand.room({7, 5, 3});
@@ -127,7 +128,7 @@ TEST(PathField, ConductorMirrorsTheSource) {
 }
 
 TEST(PathFieldHardCase, N26_NormalIncidenceAnyBasis) {
-  // An echo from straight ahead, and from directions that leave the normal by less and less: one field.
+  // The field is the same for an echo from straight ahead and for directions that approach the normal.
   HandScene hand;
   hand.itu_material("concrete");
   hand.ground(100.0);
@@ -136,7 +137,7 @@ TEST(PathFieldHardCase, N26_NormalIncidenceAnyBasis) {
   for (const double aside : {0.0, 1e-15, 1e-12, 1e-9, 1e-8, 3e-8, 1e-7, 1e-6}) {
     const Path path = solve(hand, {0, 0, 5}, {aside, 0.7 * aside, 5}, 1).paths.back();
     ASSERT_EQ(path.facets().size(), 1u);
-    // At the poles theta and phi are what the basis says, so compare vectors.
+    // At the poles, theta and phi depend on the choice of the basis; so the test compares vectors.
     for (const dvec3& sent : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0.6, 0.8, 0)}) {
       const Vector got = received(path, sent);
       expect_near(got.x * path.length_m, r * sent.x, 1e-12 + aside);
@@ -183,7 +184,7 @@ TEST(PathFieldHardCase, N42_Doppler) {
   hand.ground(20'000.0);
   for (const double speed : {1e-5, 1.0, 7500.0}) {  // 28 GHz: 9.3e-4 Hz, 93 Hz, 700 kHz
     const double f = 28e9, unit = speed / speed_of_light * f;
-    // Receiver approaching head on, receding transmitter, and both.
+    // The receiver approaches head on; the transmitter recedes; both move alike.
     EXPECT_NEAR(solve(hand, {0, 0, 10}, {800, 0, 10}, 0, f, {}, {-speed, 0, 0}).paths[0].doppler_hz / unit,
                 1.0, 1e-14);
     EXPECT_NEAR(solve(hand, {0, 0, 10}, {800, 0, 10}, 0, f, {-speed, 0, 0}, {}).paths[0].doppler_hz / unit,
@@ -191,15 +192,15 @@ TEST(PathFieldHardCase, N42_Doppler) {
     EXPECT_EQ(solve(hand, {0, 0, 10}, {800, 0, 10}, 0, f, {speed, 0, 0}, {speed, 0, 0}).paths[0].doppler_hz,
               0.0);
     EXPECT_EQ(solve(hand, {0, 0, 10}, {800, 0, 10}, 0, f, {}, {0, speed, 0}).paths[0].doppler_hz, 0.0);
-    // By the ground: cos of the angle of arrival, 800 m over 20 m.
+    // The path by the ground has the factor cos of the angle of arrival, 800 m over 20 m.
     const Path path = solve(hand, {0, 0, 10}, {800, 0, 10}, 1, f, {}, {-speed, 0, 0}).paths[1];
     EXPECT_NEAR(path.doppler_hz / (unit * 800 / std::hypot(800, 20)), 1.0, 1e-14);
   }
 }
 
 TEST(PathField, DopplerIsTheRateOfThePhase) {
-  // nu = -(f/c) dL/dt: against the difference of lengths half a millisecond before and after, everything
-  // moving.
+  // nu = -(f/c) dL/dt. The rate follows from the lengths half a millisecond before and after, while both ends
+  // and the body move.
   HandScene hand;
   hand.material("conductor", 1.0, 1e7);
   hand.ground(200.0);
@@ -231,8 +232,8 @@ TEST(PathField, DopplerIsTheRateOfThePhase) {
 }
 
 TEST(PathField, EdgeDiffractionMovesWithItsEnds) {
-  // nu = -(f/c) d(s' + s)/dt at the corner of a house that moves and turns: the point slides along the edge,
-  // which costs nothing to first order.
+  // nu = -(f/c) d(s' + s)/dt at the corner of a house that moves and turns. The diffraction point slides
+  // along the edge, which does not change the length to first order.
   HandScene hand;
   hand.material("conductor", 1.0, 1e7);
   const uint32_t body = hand.body();
@@ -272,8 +273,8 @@ TEST(PathField, EdgeDiffractionMovesWithItsEnds) {
 }
 
 TEST(PathField, DiffractionFillsTheShadowBoundary) {
-  // A receiver that crosses the shadow boundary of a conducting screen: direct and diffracted field together
-  // do not jump, and on the boundary half the free field is left.
+  // A receiver crosses the shadow boundary of a conducting screen. The sum of the direct and the diffracted
+  // field has no step there, and is half the free field on the boundary.
   HandScene hand;
   hand.itu_material("metal");
   const uint32_t screen = hand.quad({0, 0, -50}, {0, -50, -50}, {0, -50, 50}, {0, 0, 50});
@@ -302,7 +303,7 @@ TEST(PathField, DiffractionFillsTheShadowBoundary) {
     return sum;
   };
   EXPECT_LT(std::abs(total(1e-6) - total(-1e-6)), 1e-4);
-  // The other faces' terms add a little to the half.
+  // The terms of the other faces add a little to the half.
   EXPECT_NEAR(std::abs(total(0.0)), 0.5, 0.02);
   EXPECT_LT(std::abs(total(-3.0)), 0.15);
 }

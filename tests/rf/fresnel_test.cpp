@@ -30,8 +30,8 @@ void expect_equal(Complex found, Complex expected, double tolerance) {
   EXPECT_NEAR(found.imag(), expected.imag(), tolerance);
 }
 
-/// Paths and echoes take it from here: rho of the roughness times sqrt(1 - S^2), each only if its effect is
-/// on.
+/// Paths and echoes use this share: rho of the roughness times sqrt(1 - S^2), each factor only if its effect
+/// is on.
 TEST(SpecularShare, IsOfRoughnessAndScatteringApartAndTogether) {
   RadioSurface surface;
   surface.roughness_m = 0.01;
@@ -65,7 +65,8 @@ TEST(Fresnel, ConcreteAt3500MHz) {
 }
 
 TEST(Fresnel, BoundaryConditionsHold) {
-  // Tangential E and H are continuous: 1 + r = t, C(1 - r) = A t (TE); C(1 - r) = (A/sqrt(eta)) t ... (TM).
+  // Tangential E and H are continuous: 1 + r = t, C(1 - r) = A t (TE); 1 + r = sqrt(eta) t, C(1 - r) =
+  // (A/sqrt(eta)) t (TM).
   for (const double c : {1.0, 0.7, 0.2, 1e-3}) {
     const Complex eta = concrete(), a = normal_component(eta, c);
     const FresnelCoefficients face = half_space(eta, c);
@@ -96,7 +97,7 @@ TEST(FresnelHardCase, N27_Grazing) {
       expect_equal(found.t_te, 0.0, 1e-15);
       expect_equal(found.t_tm, 0.0, 1e-15);
     }
-    // The limit is reached from above, too.
+    // The coefficients approach this limit.
     expect_equal(half_space(eta, 1e-14).r_te, -1.0, 1e-8);
     expect_equal(half_space(eta, 1e-14).r_tm, -1.0, 1e-8);
   }
@@ -108,8 +109,8 @@ TEST(FresnelHardCase, N28_Brewster) {
 }
 
 TEST(FresnelHardCase, N29_AlmostVacuum) {
-  // First order in the contrast d: r_TE = -d/4C^2, r_TM = d(2C^2 - 1)/4C^2, to 1e-9 relative where (C - A)/(C
-  // + A) would have no digit left.
+  // To first order in the contrast d, r_TE = -d/4C^2 and r_TM = d(2C^2 - 1)/4C^2. The result is accurate to
+  // 1e-9, although (C - A)/(C + A) would lose all digits.
   const double contrast = 0x1p-40, c = 0.6;
   const FresnelCoefficients face = half_space(1.0 + contrast, c);
   EXPECT_NEAR(face.r_te.real() / (-contrast / (4 * c * c)), 1.0, 1e-9);
@@ -132,7 +133,8 @@ TEST(FresnelHardCase, N31_TotalReflectionAndThickSlabs) {
     EXPECT_NEAR(std::abs(wall.r_te), 1.0, 1e-12);
     EXPECT_LT(std::abs(wall.t_te), 1e-10);
   }
-  // A metre, a kilometre, and a megametre of wet concrete: the face alone is left, nothing overflows.
+  // Behind ten metres, a kilometre and a megametre of concrete only the front face reflects; nothing
+  // overflows.
   for (const double thickness : {10.0, 1e3, 1e6}) {
     const FresnelCoefficients face = half_space(concrete(), c),
                               wall = slab({concrete(), thickness}, wavelength_m, c);
@@ -147,7 +149,7 @@ TEST(FresnelHardCase, N31_TotalReflectionAndThickSlabs) {
 }
 
 TEST(FresnelHardCase, N32_HalfWaveSlabAtGrazing) {
-  // A = m lambda / 2d exactly: the slab is invisible but for its sign, even where r is almost -1.
+  // With A = m lambda / 2d exactly, the slab is invisible except for a sign, even where r is close to -1.
   const double c = std::cos(radians(89.999));
   const Complex eta = 4.0;
   const double thickness = 0.5 * wavelength_m / normal_component(eta, c).real();
@@ -179,8 +181,8 @@ TEST(FresnelHardCase, N33_Energy) {
 }
 
 TEST(FresnelHardCase, N33_EnergyOfRandomStacks) {
-  // One to six layers from films to walls, thin and dense media, total reflection included, from normal
-  // incidence to 89.99 degrees; from either side the same passes.
+  // The stacks have one to six layers from films to walls, of thin and dense media, with total reflection,
+  // from normal incidence to 89.99 degrees. The transmission is the same from either side.
   RandomStream random(33, 0);
   for (int i = 0; i < 4000; ++i) {
     const double c = i % 4 == 0 ? std::pow(10.0, random.uniform(-3.7, 0.0)) : random.uniform(0.01, 1.0);
@@ -203,7 +205,8 @@ TEST(FresnelHardCase, N33_EnergyOfRandomStacks) {
     const FresnelCoefficients back = multilayer(stack, wavelength_m, c);
     EXPECT_LE(std::abs(front.t_te - back.t_te), 1e-9 * std::abs(front.t_te)) << i;
     EXPECT_LE(std::abs(front.t_tm - back.t_tm), 1e-9 * std::abs(front.t_tm)) << i;
-    stack.back().thickness_m = 0.0;  // a half-space behind the others: no more comes back than went in
+    stack.back().thickness_m =
+        0.0;  // with a half-space behind the other layers, reflection does not exceed incidence
     const FresnelCoefficients backed = multilayer(stack, wavelength_m, c);
     EXPECT_LE(std::abs(backed.r_te), 1.0 + 1e-9) << i;
     EXPECT_LE(std::abs(backed.r_tm), 1.0 + 1e-9) << i;
@@ -218,7 +221,7 @@ TEST(FresnelHardCase, N34_VacuumSlabIsInvisible) {
     for (const FresnelCoefficients& found : {one, two}) {
       EXPECT_EQ(found.r_te, Complex(0.0));
       EXPECT_EQ(found.r_tm, Complex(0.0));
-      // As a sheet without thickness it must not add the free-space phase a second time.
+      // As a sheet without thickness, the slab must not add the free-space phase a second time.
       expect_equal(found.t_te * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
       expect_equal(found.t_tm * sheet_phase(0.2, wavelength_m, c), 1.0, 1e-14);
     }
@@ -251,7 +254,7 @@ TEST(Fresnel, LayersOfOneMediumAreOneSlab) {
       expect_equal(many.t_te, one.t_te, 1e-13);
       expect_equal(many.t_tm, one.t_tm, 1e-13);
     }
-    // A half-space of the same medium behind it: no second face.
+    // With a half-space of the same medium behind it, a layer has no second face.
     const FresnelCoefficients backed =
         multilayer(std::vector<DielectricLayer>{{concrete(), 0.03}, {concrete(), 0.0}}, wavelength_m, c);
     expect_equal(backed.r_te, half_space(concrete(), c).r_te, 1e-13);
@@ -260,13 +263,14 @@ TEST(Fresnel, LayersOfOneMediumAreOneSlab) {
 }
 
 TEST(Fresnel, QuarterWaveCoatingDoesNotReflect) {
-  // eta_coating = sqrt(eta): a coating a quarter of a wave thick hides the half-space behind it.
+  // With eta_coating = sqrt(eta), a coating of a quarter wavelength suppresses the reflection by the
+  // half-space behind it.
   const double quarter = wavelength_m / 4.0 / std::pow(6.31, 0.25);
   const FresnelCoefficients found =
       multilayer(std::vector<DielectricLayer>{{std::sqrt(6.31), quarter}, {6.31, 0.0}}, wavelength_m, 1.0);
   EXPECT_LT(std::abs(found.r_te), 1e-15);
   EXPECT_LT(std::abs(found.r_tm), 1e-15);
-  EXPECT_NEAR(std::norm(found.t_te) * std::sqrt(6.31), 1.0, 1e-14);  // all the power goes in
+  EXPECT_NEAR(std::norm(found.t_te) * std::sqrt(6.31), 1.0, 1e-14);  // all power enters the half-space
   EXPECT_NEAR(std::norm(found.t_tm) * std::sqrt(6.31), 1.0, 1e-14);
 }
 

@@ -36,7 +36,8 @@ bool same_bits(const std::vector<GeometricPath>& a, const std::vector<GeometricP
   return true;
 }
 
-/// Vertices on the segments between the ends, lengths that add up, angles of reflection equal.
+/// Expects that the segments add up to the length, that vertices lie on their facets and that angles of
+/// reflection equal angles of incidence.
 void expect_specular(const FacetWorld& world, const GeometricPath& path) {
   ASSERT_EQ(path.vertices.size(), path.facets().size() + 2);
   double sum = 0.0;
@@ -112,7 +113,7 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
   HandScene here, there;
   here.room({8, 5, 3});
   there.room({8, 5, 3}, shift);
-  // What the loader does: the world's coordinates less the local origin (exact differences).
+  // As the loader does, subtracts the local origin from world coordinates. The differences are exact.
   for (scene::FacetTriangle& triangle : there.scene.facet_triangles)
     for (dvec3& corner : triangle.corners) corner -= shift;
   for (scene::Facet& facet : there.scene.facets) {
@@ -128,8 +129,7 @@ TEST(ImageMethodHardCase, N07_UtmShift) {
     for (size_t k = 0; k < a[i].vertices.size(); ++k)
       EXPECT_LT(glm::length(a[i].vertices[k] - b[i].vertices[k]), 1e-9);
   }
-  // Even without an origin of its own, 500 km out, the same paths to the rounding of the coordinates (6e-11
-  // m).
+  // Without a local origin, 500 km away, the paths are the same to the rounding of the coordinates (6e-11 m).
   HandScene far;
   const dvec3 off(500'000.0, -500'000.0, 0.0);
   far.room({8, 5, 3}, off);
@@ -153,9 +153,9 @@ TEST(ImageMethodHardCase, N15_N16_EndInTheReflectingPlane) {
     ASSERT_EQ(paths.size(), 1u);  // the line of sight
     EXPECT_TRUE(paths[0].facets().empty());
   }
-  // On the plane but beside the facet: the same.
+  // A point in the plane, but beside the facet, gives the same result.
   EXPECT_EQ(solve_all(hand, {80, 0, 0}, {5, 0, 2}, 2).size(), 1u);
-  // 5 mm above it (hard case 12): a path, to the last digit.
+  // A point 5 mm above the facet (hard case 12) has a path that is accurate to the last digit.
   const auto paths = solve_all(hand, {0, 0, 0.005}, {5, 0, 2}, 1);
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_NEAR(paths[1].length_m / std::sqrt(25 + 2.005 * 2.005), 1.0, 1e-15);
@@ -166,14 +166,14 @@ TEST(ImageMethodHardCase, N17_TransmitterIsReceiver) {
   HandScene hand;
   hand.ground(50.0);
   const auto paths = solve_all(hand, {1, 2, 3}, {1, 2, 3}, 2);
-  ASSERT_EQ(paths.size(), 1u);  // no line of sight of zero length; the echo stays
+  ASSERT_EQ(paths.size(), 1u);  // no line of sight of zero length, but the echo
   EXPECT_EQ(paths[0].length_m, 6.0);
   EXPECT_EQ(paths[0].vertices[1], dvec3(1, 2, 0));
 }
 
 TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
-  // The reflection point lies on the diagonal, off it by one rounding or so, and on the edge between two
-  // facets.
+  // The reflection point lies on the diagonal or about one rounding error beside it, or on the edge between
+  // two facets.
   HandScene merged, apart;
   merged.ground(10.0);
   apart.triangle({-10, -10, 0}, {10, -10, 0}, {10, 10, 0});
@@ -188,7 +188,7 @@ TEST(ImageMethodHardCase, N18_DiagonalOfAQuad) {
     const auto paths = solve_all(apart, point + offset + height, point - offset + height, 2);
     ASSERT_EQ(paths.size(), 2u);
   }
-  // Exactly on the common edge, the lower index wins.
+  // Exactly on the common edge, the lower index is kept.
   const auto paths = solve_all(apart, {0, 4, 2}, {4, 0, 2}, 1);
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_EQ(paths[1].facets(), FacetSequence{0});
@@ -198,18 +198,18 @@ TEST(ImageMethodHardCase, N19_DuplicateFacets) {
   HandScene hand;
   hand.ground(10.0);
   hand.ground(10.0);
-  hand.quad({-10, 10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, -10, 0});  // and once more, facing down
+  hand.quad({-10, 10, 0}, {10, 10, 0}, {10, -10, 0}, {-10, -10, 0});  // once more, facing down
   hand.quad({10, -10, 0}, {10, 10, 0}, {10, 10, 5}, {10, -10, 5});
   const auto paths = solve_all(hand, {0, 1, 2}, {3, 2, 4}, 2);
-  ASSERT_EQ(paths.size(), 4u);  // line of sight, ground, wall, ground and wall in one order
+  ASSERT_EQ(paths.size(), 4u);  // line of sight, ground, wall, and ground and wall in one order only
   EXPECT_EQ(paths[1].facets(), FacetSequence{0});
   EXPECT_EQ(paths[2].facets(), FacetSequence{3});
   EXPECT_EQ(paths[3].facets(), (FacetSequence{0, 3}));
 }
 
 TEST(ImageMethodHardCase, N20_CornerTie) {
-  // A right-angled corner sends every ray back the way it came: the double reflection hits the edge itself
-  // when both ends and the edge are in one line as seen from above; xy and yx are then one path.
+  // A right-angled corner reflects every ray back to where it came from. If both ends and the edge are
+  // collinear as seen from above, the double reflection meets the edge itself; xy and yx are then one path.
   HandScene hand;
   hand.quad({0, 0, 0}, {0, 10, 0}, {0, 10, 10}, {0, 0, 10});  // x = 0, facing +x
   hand.quad({0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0});  // y = 0, facing +y
@@ -227,27 +227,28 @@ TEST(ImageMethodHardCase, N20_CornerTie) {
     EXPECT_NEAR(std::hypot(paths[3].vertices[1].x, paths[3].vertices[1].y), 0.0, 1e-7);
     EXPECT_NEAR(paths[3].length_m, glm::length(rx - tx * dvec3(-1, -1, 1)), 1e-12);
   }
-  // Exactly representable: both orders tie to the bit, the first one is kept.
+  // With exactly representable coordinates both orders are equal to the bit, and the first one is kept.
   const auto exact = solve_paths(world, {1, 1, 2}, {3, 3, 6}, exhaustive_candidates(2, 2));
   ASSERT_EQ(exact.size(), 4u);
   EXPECT_EQ(exact[3].facets(), (FacetSequence{0, 1}));
-  // Off the tie, exactly one order exists.
+  // Beside the tie exactly one order exists.
   EXPECT_EQ(solve_paths(world, {1, 1.001, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
   EXPECT_EQ(solve_paths(world, {1, 0.999, 2}, {3, 3, 6}, exhaustive_candidates(2, 2)).size(), 4u);
 }
 
 TEST(ImageMethod, OuterCornerAndFlatSeamReflectOnce) {
-  // The same two walls from outside (a house, not a room): no double reflection in the edge.
+  // The same walls seen from outside (a house, not a room) give no double reflection at the edge.
   HandScene house;
   house.quad({0, 0, 0}, {0, -10, 0}, {0, -10, 10}, {0, 0, 10});
   house.quad({0, 0, 0}, {0, 0, 10}, {-10, 0, 10}, {-10, 0, 0});
   for (const auto& path : solve_all(house, {1, 1, 2}, {3, 3, 6}, 3)) EXPECT_LE(path.facets().size(), 1u);
-  // Two facets of one plane that touch: a point on the seam is one reflection, never two.
+  // Two facets of one plane touch: a point on their seam is one reflection, never two.
   HandScene seam;
   seam.quad({-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0});
   seam.quad({0, -5, 0}, {5, -5, 0}, {5, 5, 0}, {0, 5, 0});
   EXPECT_EQ(solve_all(seam, {-1, 0, 2}, {1, 1, 2}, 3).size(), 2u);
-  EXPECT_EQ(solve_all(seam, {-1, 0, 2}, {1, 1, -2}, 3).size(), 1u);  // from side to side: no reflection
+  EXPECT_EQ(solve_all(seam, {-1, 0, 2}, {1, 1, -2}, 3).size(),
+            1u);  // the ends are on different sides: no reflection
 }
 
 TEST(ImageMethodHardCase, N21_ShoeBox) {
@@ -261,7 +262,8 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
     expect_specular(world, path);
     found[path.facets().size()].push_back(path.length_m / speed_of_light);
   }
-  // Images at 2ml +- x: |m| counted by how many walls of that axis are crossed.
+  // Images lie at n l + x for even n and at (n + 1) l - x for odd n. |n| is the number of reflections on
+  // walls of that axis.
   for (int i = -4; i <= 4; ++i)
     for (int j = -4; j <= 4; ++j)
       for (int k = -4; k <= 4; ++k) {
@@ -288,14 +290,14 @@ TEST(ImageMethodHardCase, N21_ShoeBox) {
 }
 
 TEST(ImageMethodHardCase, N22_PlanesAtRoundCoordinates) {
-  // Planes on bin edges of any hash (whole numbers, powers of two), split into many coplanar facets: no
-  // duplicates.
+  // The planes have round coordinates (whole numbers, powers of two), where the bins of a hash would end, and
+  // consist of many coplanar facets. No path is found twice.
   HandScene hand;
   for (int i = -4; i < 4; ++i)
     for (int j = -4; j < 4; ++j) hand.quad({i, j, 0}, {i + 1, j, 0}, {i + 1, j + 1, 0}, {i, j + 1, 0});
   RandomStream random(2, 0);
   for (int i = 0; i < 50; ++i) {
-    // On corners of four facets, on edges of two, inside one.
+    // Points on corners of four facets, on edges of two facets, and inside a facet.
     const dvec3 point(random.below(7) - 3.0, i % 3 == 0 ? random.below(7) - 3.0 : random.uniform(-3.9, 3.9),
                       0.0);
     const dvec3 offset(random.uniform(-1, 1), random.uniform(-1, 1), 0), up(0, 0, random.uniform(0.5, 2));
@@ -311,14 +313,14 @@ TEST(ImageMethodHardCase, N23_TwoWallsFourMillimetresApart) {
   ASSERT_EQ(paths.size(), 3u);
   EXPECT_NEAR(paths[1].length_m, std::sqrt(4 + 36.0), 1e-14);
   EXPECT_NEAR(paths[2].length_m, std::sqrt(4 + 6.008 * 6.008), 1e-14);
-  // Between them: from inside the gap to and fro.
+  // Both ends lie in the gap between the walls; paths are reflected to and fro.
   const FacetWorld world(hand.scene);
   for (const auto& path : solve_all(hand, {-0.001, -1, 2}, {-0.002, 1, 2}, 4)) expect_specular(world, path);
   EXPECT_EQ(solve_all(hand, {-0.001, -1, 2}, {-0.002, 1, 2}, 4).size(), 9u);
 }
 
 TEST(ImageMethodHardCase, N24_Grazing) {
-  // 89.99 degrees: 1.745 m up over 2 x 10 km.
+  // 89.99 degrees of incidence: a height of 1.745 m over 2 x 10 km.
   HandScene hand;
   hand.ground(15'000.0);
   const double run = 10'000.0, height = run / std::tan(radians(89.99));
@@ -326,7 +328,8 @@ TEST(ImageMethodHardCase, N24_Grazing) {
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_LT(glm::length(paths[1].vertices[1] - dvec3(0, 7, 0)), 1e-9);
   EXPECT_NEAR(paths[1].length_m / (2 * std::hypot(run, height)), 1.0, 1e-12);
-  // The point is inside a facet that ends 1 um behind it and outside one that ends 1 um before it.
+  // The reflection point is inside a facet that ends 1 um behind the point, and outside a facet that ends 1
+  // um before it.
   for (const double edge : {1e-6, -1e-6}) {
     HandScene half;
     half.quad({-100, -100, 0}, {edge, -100, 0}, {edge, 100, 0}, {-100, 100, 0});
@@ -377,11 +380,11 @@ TEST(ImageMethod, MovingBodiesAndSources) {
   HandScene hand;
   hand.ground(50.0);
   const uint32_t body = hand.body();
-  // A plate in its own frame, facing its +x.
+  // A plate that faces +x in the frame of its body.
   const uint32_t plate = hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);
   FacetWorld world(hand.scene);
   Motion motion;
-  motion.pose = {{10, 0, 3}, orientation_from_yaw_pitch_roll(pi, 0, 0)};  // now facing -x
+  motion.pose = {{10, 0, 3}, orientation_from_yaw_pitch_roll(pi, 0, 0)};  // faces -x now
   motion.velocity = {-2, 0, 0};
   motion.angular_velocity = {0, 0, 0.5};
   world.move(body, motion);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves, found from the tree of the world at rest: against every sequence there is (host), and against
-// the whole search at every tick, down to the bytes of the paths (device).
+// Checks the paths by moving bodies that are found from the tree of the world at rest: on the host against
+// all possible sequences, and on the device against the whole search at every tick, with equal bytes of the
+// paths.
 #include "rf/search/moving_search.h"
 
 #include <cstring>
@@ -28,7 +29,7 @@ using ::testing::IsSubsetOf;
 using ::testing::Not;
 
 constexpr double carrier_hz = 3.5e9;
-enum Material : uint32_t { ground = 1, wall, pane, metal };  // of add_radio_materials
+enum Material : uint32_t { ground = 1, wall, pane, metal };  // as in add_radio_materials
 
 Motion at(const dvec3& position, double yaw = 0.0, const dvec3& velocity = dvec3(0.0)) {
   Motion motion;
@@ -49,7 +50,7 @@ std::vector<FacetSequence> sequences(const std::vector<GeometricPath>& paths) {
   return all;
 }
 
-/// Everything of the paths, bit for bit, one line a path.
+/// Returns all data of the paths bit for bit, one line per path.
 std::vector<std::string> bytes_of(const std::vector<Path>& paths) {
   std::vector<std::string> all;
   for (const Path& path : paths) {
@@ -70,7 +71,8 @@ std::vector<std::string> bytes_of(const std::vector<Path>& paths) {
   return all;
 }
 
-/// A street between two rows of houses, with thin walls; a car drives along it, a drone flies above it.
+/// A street between two rows of houses with thin walls. A car drives along the street, and a drone flies
+/// above it.
 struct Street {
   Street() {
     add_radio_materials_to(tiny);
@@ -83,7 +85,7 @@ struct Street {
   }
   static void add_radio_materials_to(TinyScene& tiny) { testing::add_radio_materials(tiny); }
 
-  /// Bodies at a tick; at tick 5 the car has left the scene.
+  /// Returns the motions of the bodies at a tick. At tick 5 the car has left the scene.
   std::vector<Motion> motions(int tick) const {
     const double t = 0.7 * tick;
     Motion drive = at({-25.0 + 11.0 * t, -2.3 + 0.1 * t, 0.0}, 0.03 * t, {11.0, 0.1, 0.0});
@@ -96,7 +98,7 @@ struct Street {
   dvec3 mast{-20.0, 3.5, 10.5};
 };
 
-/// One way of finding paths, tick by tick; the device decides what is lit.
+/// Finds paths tick by tick in one of three ways. The device decides which paths are unobstructed.
 class Channel {
  public:
   enum class Way { whole, reuse, between };
@@ -128,7 +130,7 @@ class Channel {
     return fixed_.finish(link.paths, crossings_.collect(pending, segments), tx, rx, model_.facets);
   }
 
-  CandidateList last;  ///< what moves, or everything
+  CandidateList last;  ///< candidates by moving bodies, or all candidates
 
  private:
   BeamSearchOptions beams(bool moving_bodies, uint32_t source_body) const {
@@ -165,7 +167,7 @@ class Channel {
       both.seams().drop_behind(link.paths, Source::transmitter, tx.body);
       return link;
     }
-    if (!reuse_) {  // once
+    if (!reuse_) {  // only at the first call
       const BeamSearchResult tree =
           BeamSearch(model_.facets, model_.kinds, {}, beams(false, 0)).search(tx.position);
       fixed_.set_candidates(tree.list, tx.position, Source::transmitter);
@@ -212,7 +214,8 @@ bool touches_body(const scene::Scene& scene, const Path& path, uint32_t body) {
   return false;
 }
 
-/// With walls, without; the same bytes at every tick, with the whole search, with reuse, from both ends.
+/// Expects the same bytes at every tick from the whole search, from reuse and from a search between both
+/// ends, with or without walls.
 void expect_the_same(bool walls, uint32_t max_depth, uint32_t threads) {
   const Street street;
   const scene::Scene scene = street.tiny.build();
@@ -270,7 +273,7 @@ TEST(MovingSearch, AReceiverOnABodyThatMoves) {
   for (int tick = 0; tick < 5; ++tick) {
     SCOPED_TRACE(tick);
     const std::vector<Motion> motions = street.motions(tick);
-    for (const double below : {0.5, -0.05}) {  // below the drone, inside of it
+    for (const double below : {0.5, -0.05}) {  // below the drone and inside it
       const EndState tx = end_at(street.mast),
                      rx = end_at(motions[street.drone].pose.apply(dvec3(0.1, 0.05, -below)), street.drone);
       const std::vector<Path> expected = whole.paths(tx, rx, motions);
@@ -302,7 +305,8 @@ TEST(MovingSearch, BothEndsOnBodiesThatMove) {
   EXPECT_GT(found, 5u);
 }
 
-/// A mirror of 2 m by 2 m on each of two bodies: up from the transmitter, along, down to the receiver.
+/// Each of two bodies carries a mirror of 2 m by 2 m. The path goes up from the transmitter, along x and down
+/// to the receiver.
 TEST(MovingSearch, TwoBodiesOneAfterTheOther) {
   TinyScene tiny;
   testing::add_radio_materials(tiny);
@@ -310,7 +314,8 @@ TEST(MovingSearch, TwoBodiesOneAfterTheOther) {
   tiny.object("left", left, metal).quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
   tiny.object("right", right, metal).quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
   const scene::Scene scene = tiny.build();
-  // Mirrors at 45 degrees, facing each other along x: (0, 0, 0) -> (0, 0, 10) -> (20, 0, 10) -> (20, 0, 0).
+  // The mirrors are tilted by 45 degrees and face each other along x: (0, 0, 0) -> (0, 0, 10) -> (20, 0, 10)
+  // -> (20, 0, 0).
   const auto tilted = [](const dvec3& position, double pitch) {
     Motion motion;
     motion.pose = {position, orientation_from_yaw_pitch_roll(0.0, pitch, 0.0)};
@@ -321,10 +326,10 @@ TEST(MovingSearch, TwoBodiesOneAfterTheOther) {
   Channel reuse(scene, {}, {}, Channel::Way::reuse), between(scene, {}, {}, Channel::Way::between);
   for (Channel* channel : {&reuse, &between}) {
     const std::vector<Path> paths = channel->paths(tx, rx, motions);
-    ASSERT_EQ(paths.size(), 2u);  // and the line of sight
+    ASSERT_EQ(paths.size(), 2u);  // the path by both mirrors and the line of sight
     EXPECT_THAT(paths[1].facets(), ElementsAre(0u, 1u));
     EXPECT_NEAR(paths[1].length_m, 40.0, 1e-9);
-    // One of the two turns away: the path dies; and comes back.
+    // One mirror turns away and the path disappears; the mirror turns back and the path returns.
     motions[right] = tilted({20, 0, 10}, -0.5 * pi);
     EXPECT_EQ(channel->paths(tx, rx, motions).size(), 1u);
     motions[right] = tilted({20, 0, 10}, -0.75 * pi);
@@ -332,7 +337,7 @@ TEST(MovingSearch, TwoBodiesOneAfterTheOther) {
   }
 }
 
-/// Boxes drawn from a seed: a hall, a house in it, and two bodies.
+/// Holds boxes drawn from a seed: a hall, a house in it and two bodies.
 struct Boxes {
   explicit Boxes(uint64_t seed) {
     RandomStream random(seed, 0x6d6f7665u);
@@ -356,8 +361,8 @@ struct Boxes {
   dvec3 source{0.0}, target{0.0};
 };
 
-/// No occlusion at all is used where the tree has stopped: so every sequence that has a path in empty space
-/// is there.
+/// Beyond the end of the tree, the search uses no occlusion: so it lists every sequence that has a path in
+/// empty space.
 TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   size_t with_body = 0, all = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {
@@ -382,7 +387,7 @@ TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
     for (const FacetSequence& path : paths) {
       const bool moves =
           std::any_of(path.begin(), path.end(), [&](uint32_t f) { return scene.facets[f].body != 0; });
-      // The tree has stopped: moving() knows what moves first, and what moves last of two.
+      // The tree has stopped: moving() finds a path whose first reflection moves, or whose last of two does.
       if (!moves) {
         EXPECT_THAT(moving, Not(Contains(path)));
       } else if (path.size() < 2 || scene.facets[path[0]].body != 0) {
@@ -396,8 +401,9 @@ TEST(MovingSearch, NothingThatExistsGeometricallyIsLost) {
   EXPECT_GT(all, with_body);
 }
 
-/// A box that carries the receiver: the last leg does not see it, so along the edge of its front the
-/// visibility test alone would let a path reach the inside of its top, a tolerance below the edge.
+/// A box carries the receiver, and the last segment of a path does not see this box. So along the edge of the
+/// front, the visibility test alone would let a path reach the inside of the top, within a tolerance below
+/// the edge.
 TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   TinyScene tiny;
   testing::add_radio_materials(tiny);
@@ -406,12 +412,12 @@ TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
   const scene::Scene scene = tiny.build();
   RadioModel model(scene, carrier_hz, {});
   MovingSearch search(model.facets, model.kinds, {});
-  // Facets: bottom, top, y = -1, y = 1, x = -1, x = 1. From the left, rising by 1 in 1, met on the top's
-  // inside.
+  // The facets are: bottom, top, y = -1, y = 1, x = -1, x = 1. The path comes from the left with a slope of 1
+  // and meets the inside of the top.
   const dvec3 target(-0.5, 0.0, 0.5);
   for (const double behind : {4e-5, 1e-3, -4e-5}) {
     const dvec3 at(-1.0 + behind, 0.0, 1.0), source = at - dvec3(3.0, 0.0, 3.0);
-    const double down = target.x - at.x;  // to the target at the same slope
+    const double down = target.x - at.x;  // down to the target at the same slope
     const dvec3 end(target.x, 0.0, 1.0 - down);
     CandidateList list;
     const uint32_t top[] = {1};
@@ -421,7 +427,7 @@ TEST(MovingSearch, TheFarSideOfAnEdgeIsDark) {
     search.seams().drop_behind(paths, Source::transmitter, 0);
     EXPECT_THAT(paths, IsEmpty());
   }
-  // From outside and above: nothing is behind anything.
+  // Seen from outside and above, no facet is behind another one.
   CandidateList list;
   const uint32_t top[] = {1};
   list.add(top);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All stages together on scenes of a few facets: candidates, geometry, crossings on the device, fields.
+// Checks all stages together on scenes of a few facets: candidates, geometry, crossings on the device,
+// fields.
 #include "rf/paths/path_solver.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ scene::Material concrete(const std::string& name, double thickness_m, double sca
   return material;
 }
 
-/// The material of a thin wall (index 1), a half-space (2), a wall that scatters (3).
+/// Adds the materials of a thin wall (index 1), a half-space (2) and a wall that scatters (3).
 TinyScene materials() {
   TinyScene tiny;
   tiny.material_as(concrete("wall", 0.2));
@@ -46,7 +47,7 @@ TinyScene materials() {
 
 struct Solved {
   std::vector<Path> paths;
-  size_t geometric = 0;  ///< before anything stood in the way
+  size_t geometric = 0;  ///< number of paths before occlusion
   std::vector<std::string> chains() const {
     std::vector<std::string> all;
     for (const Path& path : paths) {
@@ -58,7 +59,8 @@ struct Solved {
   }
 };
 
-/// `end`: which of the two is the source that candidates run from; `windows` false: these are forgotten.
+/// Solves a link. `end` is the source of the candidates. If `windows` is false, the windows of the candidates
+/// are dropped.
 Solved solve(const scene::Scene& scene, const dvec3& tx, const dvec3& rx, const RadioEffects& effects,
              const PathLimits& options, Source end = Source::transmitter, bool windows = true) {
   gpu::Device& device = test::device();
@@ -96,7 +98,7 @@ RadioEffects with_walls() {
   return effects;
 }
 
-/// A wall in the plane x = 0, 20 m by 10 m.
+/// Returns a wall in the plane x = 0, 20 m by 10 m.
 TinyScene one_wall(uint32_t material) {
   TinyScene tiny = materials();
   tiny.object("wall", 0, material).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 10}, {0, -10, 10});
@@ -132,7 +134,7 @@ TEST(PathSolver, DepthBoundsReflectionsAndWallsTogether) {
   const dvec3 tx(-4, 0, 5), rx(6, 0, 5);
   EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 1}).chains(), ElementsAre("T"));
   EXPECT_THAT(solve(tiny.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "TR"));
-  // From the other side of the same link: the same paths, the other way round.
+  // The link in the opposite direction has the same paths in reverse order.
   EXPECT_THAT(solve(tiny.build(), rx, tx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("T", "RT"));
 }
 
@@ -142,7 +144,7 @@ TEST(PathSolver, AClosedBoxIsTwoWallsAndASeamIsOne) {
   const dvec3 tx(-9, 0.3, 2.1), rx(9, 0.4, 2.2);
   EXPECT_THAT(solve(box.build(), tx, rx, with_walls(), {.max_depth = 2}).chains(), ElementsAre("TT"));
   EXPECT_THAT(solve(box.build(), tx, rx, with_walls(), {.max_depth = 1}).chains(), IsEmpty());
-  // Two facets of one plane, met on their common edge.
+  // The path meets the common edge of two facets in one plane.
   TinyScene seam = materials();
   seam.object("low", 0, 1).quad({0, -10, 0}, {0, 10, 0}, {0, 10, 5}, {0, -10, 5});
   seam.object("high", 0, 1).quad({0, -10, 5}, {0, 10, 5}, {0, 10, 10}, {0, -10, 10});
@@ -161,7 +163,7 @@ RadioEffects with_edges() {
   return effects;
 }
 
-/// A house with its corner at the origin's vertical, ends in each other's shadow.
+/// The vertical edge of a house stands at the origin, and each end is in the shadow of the other.
 TEST(PathSolver, InTheShadowOfAHouseItsEdgesAreAllThatIsLeft) {
   TinyScene house = materials();
   house.object("house", 0, 2).box({0, 0, 0}, {10, 10, 8});
@@ -173,7 +175,8 @@ TEST(PathSolver, InTheShadowOfAHouseItsEdgesAreAllThatIsLeft) {
   EXPECT_NEAR(glm::length(path.vertices[1] - dvec3(0, 0, 3)), 0.0, 1e-9);
   EXPECT_NEAR(path.length_m, 2.0 * std::hypot(3, 8), 1e-12);
   EXPECT_GT(std::abs(path.transfer[0]), 0.0);
-  // From the receiver's side the same path, and by reciprocity of this symmetric link the same strength.
+  // A search from the receiver finds the same path. By reciprocity the strength is equal on this symmetric
+  // link.
   const Solved back = solve(house.build(), tx, rx, with_edges(), {.max_depth = 1}, Source::receiver);
   ASSERT_EQ(back.paths.size(), 1u);
   EXPECT_EQ(back.paths[0].id(), path.id());
@@ -186,7 +189,7 @@ TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
   house.object("west", 0, 2).quad({-20, -30, -5}, {-20, 30, -5}, {-20, 30, 15}, {-20, -30, 15});
   house.object("south", 0, 2).quad({-30, -20, -5}, {30, -20, -5}, {30, -20, 15}, {-30, -20, 15});
   const dvec3 tx(-3, 8, 3), rx(8, -3, 3);
-  // Over the vertical edge at the origin; the roof's edges have paths of their own.
+  // Counts paths over the vertical edge at the origin; the edges of the roof have paths of their own.
   const auto count = [&](const PathLimits& options, const std::string& chain,
                          Source end = Source::transmitter) {
     const Solved solved = solve(house.build(), tx, rx, with_edges(), options, end);
@@ -198,13 +201,13 @@ TEST(PathSolver, ReflectionsBeforeAndAfterADiffraction) {
     }
     return found;
   };
-  // One by each of the two walls.
+  // There is one path by each of the two walls.
   EXPECT_EQ(count({.max_depth = 2}, "RD"), 2);
-  EXPECT_EQ(count({.max_depth = 2}, "DR"), 0);  // not looked for
+  EXPECT_EQ(count({.max_depth = 2}, "DR"), 0);  // the search does not include these
   EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "RD"), 2);
   EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR"), 2);
   EXPECT_EQ(count({.max_depth = 2, .max_reflections_after = 1}, "DR", Source::receiver), 2);
-  // The source is the receiver: what comes after the edge, seen from it, comes before.
+  // If the receiver is the source, reflections after the edge come first in the search.
   EXPECT_EQ(count({.max_depth = 2}, "DR", Source::receiver), 2);
   EXPECT_EQ(count({.max_depth = 2}, "RD", Source::receiver), 0);
 }
@@ -228,12 +231,12 @@ TEST(PathSolver, PatchesCoverTheirFacetsAndScatterFromOneSide) {
         return path.interactions.size() == 1 && path.interactions[0].type == InteractionType::scattering;
       }));
   EXPECT_EQ(scattered, scattering_patches(scene, kinds, 3.0).size());
-  // On the other side of the wall nothing arrives: it is scattered back.
+  // Nothing arrives on the other side of the wall: patches scatter back.
   EXPECT_THAT(solve(scene, {5, 0, 5}, {-6, 3, 4}, effects, options).paths, IsEmpty());
 }
 
 TEST(PathSolver, ScatteredPowerConvergesWithThePatches) {
-  // What all patches scatter to a point, incoherently: halving the patches changes it less and less.
+  // The incoherent power that all patches scatter to a point changes less and less as the patches are halved.
   const scene::Scene scene = one_wall(3).build();
   RadioEffects effects;
   effects.scattering = true;
@@ -253,7 +256,7 @@ TEST(PathSolver, ScatteredPowerConvergesWithThePatches) {
   EXPECT_LT(change, 0.03);
 }
 
-/// A house that hides parts of a wall and of the ground that scatter.
+/// Returns a house that hides parts of a wall and of the ground, which both scatter.
 TinyScene hidden_patches() {
   TinyScene tiny = materials();
   tiny.object("ground", 0, 3).quad({-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0});
@@ -309,8 +312,8 @@ TEST(PathSolver, ASourceThatMovesScattersFromWhereItIs) {
 }
 
 TEST(PathSolver, AWedgesOwnFaceDoesNotReflectRightBesideIt) {
-  // A corner of the wall stands 0.05 mm off its plane, as merging allows: so does the edge, and a reflection
-  // just before it would have a point of its own.
+  // A corner of the wall stands 0.05 mm off its plane, as merging allows. So does the edge, and a reflection
+  // just before the edge would have a point of its own.
   TinyScene tiny = materials();
   tiny.object("wall", 0, 2)
       .face({{dvec3(0, 0, 0), dvec3(10, 0, 0), dvec3(10, 0, 8)},
@@ -358,7 +361,7 @@ TEST(PathSolver, AWedgeDiffractsWhereItsBodyIsNow) {
   for (uint32_t i = 0; i < model.wedges.size(); ++i) list.wedges.push_back(i);
   PathSolver solver(model, {.max_depth = 1}, true);
   solver.set_candidates(list, {-3, 1, 3}, Source::transmitter);
-  // Over the roof's near and far edges, at y = 1 by symmetry: they move with the van.
+  // The paths over the near and the far edge of the roof are at y = 1 by symmetry. They move with the van.
   const auto edges = [&] {
     std::vector<dvec3> points;
     for (const GeometricPath& path : solver.geometry({.position = {40, 1, 3}}).paths)

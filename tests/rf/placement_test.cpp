@@ -18,13 +18,13 @@ namespace {
 using test::TinyScene;
 using test::Triangle;
 
-/// A scene with its placements asked by name: "" is none.
+/// Holds a scene and returns placements in it as names of objects; "" is none.
 struct Asked {
   explicit Asked(const TinyScene& tiny, const dvec3& origin = dvec3(0.0)) : scene(tiny.build(origin)) {
     kinds.assign(scene.facets.size(), FacetKind::opaque);
     poses.resize(scene.bodies.size());
   }
-  /// All facets of an object.
+  /// Sets the kind of all facets of an object.
   Asked& kind(const std::string& object, FacetKind which) {
     for (size_t i = 0; i < kinds.size(); ++i)
       if (scene.instances[scene.facets[i].instance].name == object) kinds[i] = which;
@@ -47,7 +47,7 @@ struct Asked {
   std::vector<Pose> poses;
 };
 
-/// Four walls with their normals outwards, neither floor nor roof.
+/// Adds four walls with their normals outwards, without floor and roof.
 TinyScene& walls(TinyScene& tiny, const dvec3& low, const dvec3& high) {
   const auto wall = [&](double ax, double ay, double bx, double by) {
     tiny.quad({ax, ay, low.z}, {bx, by, low.z}, {bx, by, high.z}, {ax, ay, high.z});
@@ -63,7 +63,7 @@ TinyScene& level(TinyScene& tiny, double half, double z) {
   return tiny.quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z});
 }
 
-/// A box with its normals inwards.
+/// Adds a box with its normals inwards.
 TinyScene& room(TinyScene& tiny, const dvec3& low, const dvec3& high) {
   const scene::Scene box = TinyScene().object("box").box(low, high).build();
   for (const scene::FacetTriangle& t : box.facet_triangles)
@@ -83,7 +83,7 @@ TEST(Placement, InsideAndOutsideOfABox) {
   EXPECT_TRUE(asked.of({15, 2, 1}).free());
 }
 
-// Straight below corners, edges and diagonals, where a ray is on the edge between two triangles.
+// Rays straight below corners, edges and diagonals meet the edge between two triangles.
 TEST(Placement, SymmetricPointsAreDecidedToo) {
   TinyScene tiny;
   tiny.object("cube").box({-1, -1, -1}, {1, 1, 1});
@@ -97,7 +97,7 @@ TEST(Placement, SymmetricPointsAreDecidedToo) {
       }
 }
 
-// A closed fan of slivers, asked along its axis and at random: the analytic answer each time.
+// A closed fan of slivers is queried along its axis and at random points. The expected answer is analytic.
 TEST(Placement, AConeOfSliversKeepsItsInside) {
   TinyScene tiny;
   tiny.object("cone");
@@ -145,7 +145,7 @@ TEST(Placement, AHouseOfWallsAndRoofWithoutFloorIsSolid) {
   EXPECT_EQ(asked.beneath({0, 0, 1}), "");
 }
 
-// However wide a single sheet is, and however near: nothing stands around the point.
+// A single sheet encloses no point, however wide and near it is.
 TEST(Placement, UnderAnOpenSheetIsNotInside) {
   TinyScene tiny;
   tiny.object("sheet");
@@ -162,13 +162,13 @@ TEST(Placement, UnderAnOpenSheetIsNotInside) {
       describe(alone.of({3, 7, 4}), alone.scene, alone.kinds),
       "lies beneath 'sheet' (material default), an open surface with nothing below: it sees nothing that "
       "is above");
-  // With a ground it is a roof without walls.
+  // With a ground below, the sheet is a roof without walls.
   tiny.object("ground");
   level(tiny, 500, 0);
   const Asked roof(tiny);
   EXPECT_TRUE(roof.of({3, 7, 4.0}).free());
   EXPECT_EQ(roof.beneath({3, 7, -1.0}), "ground");
-  // A house under it is one still.
+  // A house below the sheet remains solid.
   tiny.object("house").box({0, 0, 0}, {10, 8, 3});
   const Asked house(tiny);
   EXPECT_EQ(house.solid({3, 7, 2}), "house");

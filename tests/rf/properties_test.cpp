@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold in any scene: all stages, on scenes drawn from a seed.
+// Checks properties that hold in any scene, with all stages, on scenes drawn from a seed.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -33,7 +33,7 @@ using rf::testing::RandomScene;
 constexpr double carrier_hz = 3.5e9;
 
 using Links = std::vector<std::vector<Path>>;  ///< [receivers]
-/// How deep paths go.
+/// Bounds the interactions of a path.
 struct Bounds {
   uint32_t depth = 2, walls = 0;
 };
@@ -48,12 +48,12 @@ CandidateList by_beams(const RadioModel& model, const dvec3& transmitter, Bounds
   return std::move(result.list);
 }
 
-/// No search at all: every sequence there is.
+/// Returns every possible sequence, without a search.
 CandidateList every_sequence(const RadioModel& model, const dvec3&, Bounds bounds) {
   return exhaustive_candidates(model.facets.facet_count(), bounds.depth);
 }
 
-/// All stages for a scene.
+/// Runs all stages for a scene.
 class Rig {
  public:
   Rig(const scene::Scene& scene, Bounds bounds)
@@ -63,7 +63,7 @@ class Rig {
         pass_(gpu_scene_, model_.kinds),
         ring_(test::device(), 1, 1u << 16, 1u << 16) {}
 
-  /// Looks for candidates; those for the receivers of paths().
+  /// Finds the candidates from `transmitter`, which paths() then uses for its receivers.
   void search(const dvec3& transmitter, const CandidateSource& candidates = by_beams) {
     PathLimits options;
     options.max_depth = bounds_.depth;
@@ -183,7 +183,7 @@ void move_vertices(Links& links, const Move& move) {
       for (dvec3& vertex : path.vertices) vertex = move(vertex);
 }
 
-/// Largest singular value of a 2 x 2 matrix.
+/// Returns the largest singular value of a 2 x 2 matrix.
 double spectral_norm(const Complex (&m)[4]) {
   double squares = 0.0;
   for (const Complex& value : m) squares += std::norm(value);
@@ -192,7 +192,8 @@ double spectral_norm(const Complex (&m)[4]) {
                    (squares + std::sqrt(std::max(0.0, squares * squares - 4.0 * determinant * determinant))));
 }
 
-/// A scene of every kind for each of these seeds, each with all of these bounds.
+/// Holds a random scene with bounds. draws() returns a scene of every kind for each seed with each of the
+/// bounds.
 struct Draw {
   RandomScene random;
   scene::Scene scene;
@@ -223,7 +224,7 @@ TEST(Properties, EveryPathOfTheReferenceAndNoOther) {
             path.interactions, [](const Interaction& i) { return i.type == InteractionType::transmission; });
     }
   }
-  EXPECT_GT(paths, 2000u);  // that there is something to find
+  EXPECT_GT(paths, 2000u);  // the scenes have paths to find
   EXPECT_GT(through_walls, 200u);
 }
 
@@ -267,10 +268,10 @@ TEST(Properties, AShiftByUtmCoordinatesChangesNothing) {
   const dvec3 utm(500000.0, 5400000.0, 0.0);
   for (const Draw& draw : draws(1, {{3, 2}})) {
     const Links near = solve(draw.scene, draw.random, draw.bounds);
-    // The origin moves along: every bit is the same.
+    // The origin moves with the scene: all bits are the same.
     expect_same_bits(near, solve(build(draw.random, {.shift = utm, .origin = utm}), draw.random, draw.bounds),
                      draw.name);
-    // It stays some way off, as when other objects set the bounds: 1e-9 m.
+    // The origin stays some way off, as if other objects set the bounds: the tolerance is 1e-9 m.
     const dvec3 off(-37.0, 54.0, 8.0);
     RandomScene moved = draw.random;
     moved.transmitter -= off;
@@ -310,8 +311,7 @@ TEST(Properties, RenumberedFacetsChangeOnlyTheNumbers) {
     const Links plain = solve(draw.scene, draw.random, draw.bounds);
     const Links other = solve(build(draw.random, {.order = order}), draw.random, draw.bounds);
     expect_same(plain, other, draw.name, {.vertex_m = 1e-9, .length_m = 1e-9});
-    // And the same field by the same facets; of walls that stand in one place another one may have been
-    // named.
+    // The same facets give the same field. Of coincident walls, the path may name another one.
     if (draw.random.name == "terrace") continue;
     for (size_t r = 0; r < plain.size(); ++r)
       for (const Path& path : plain[r]) {
@@ -332,13 +332,13 @@ TEST(Properties, NoPathGainsEnergy) {
   for (const Draw& draw : draws(2, {{3, 1}}))
     for (const auto& link : solve(draw.scene, draw.random, draw.bounds))
       for (const Path& path : link) {
-        // What free space of that length leaves of the field bounds it; the norm itself is good to
+        // The field does not exceed that of free space over the same length. The norm is accurate to
         // sqrt(1e-16).
         const double gain = spectral_norm(path.transfer) * path.length_m;
         EXPECT_LE(gain, 1.0 + 1e-7) << draw.name << ": " << text_of(path.interactions, path.length_m);
         if (!path.interactions.empty()) largest = std::max(largest, gain);
       }
-  EXPECT_GT(largest, 0.9);  // metal comes near
+  EXPECT_GT(largest, 0.9);  // metal comes close to 1
 }
 
 TEST(PropertiesHardCase, N63_SearchesOfOneAndTwoThreadsAreTheSame) {

@@ -20,7 +20,7 @@ using testing::set_row;
 using testing::small_radar;
 using testing::whole_frame;
 
-/// Largest difference of a sample, by the sum of all amplitudes.
+/// Returns the largest difference of a sample relative to the sum of all amplitudes.
 double fault_of(const RadarSignalConfig& config, const EchoList& list) {
   const auto fast = cube_of(config, list);
   const auto slow = direct_cube(config, list);
@@ -66,7 +66,7 @@ TEST(RadarBeat, FastSumEqualsTheDirectOne) {
 TEST(RadarBeat, FastSumOfALargeArrayAndAWideBandEqualsTheDirectOne) {
   RadarSignalConfig config = small_radar();
   config.waveform.slope_hz_per_s = 100e12;  // 4.3 GHz
-  config.waveform.slots = 64;               // the ranges' change by then times the elements' leads tells
+  config.waveform.slots = 64;  // by then the change of the ranges times the leads of the elements matters
   set_row(config, 4, 4);
   for (auto& p : config.arrays.transmit_m) p += dvec3(0.05, 0.3, 0.1);
   EXPECT_LT(fault_of(config, whole_frame(config, random_echoes(config, 30, 60.0, 4))), 1e-5);
@@ -80,15 +80,15 @@ TEST(RadarBeat, RotorTablesOfHardBendsEqualTheDirectSum) {
     echo.delay = {};
     echo.delay.table = blade;
     list.echoes.push_back(echo);
-    const double omega = 2 * pi * (60 + 60 * blade);  // tips at 9 to 340 m/s
+    const double omega = 2 * pi * (60 + 60 * blade);  // tip speeds from 9 to 340 m/s
     for (uint32_t s = 0; s < list.slots; ++s) {
       const double angle = omega * s * config.waveform.interval_s + blade;
       list.tables.push_back({2 / speed_of_light * (30 + 0.15 * std::cos(angle)),
                              -2 / speed_of_light * 0.15 * omega * std::sin(angle)});
     }
   }
-  // What a cubic bends within a chirp is left out of the fast sum: 2 pi f_c tau''' (N/2 f_s)^3/6 rad of that
-  // echo at most.
+  // The fast sum leaves out the cubic term of the delay within a chirp: at most 2 pi f_c tau''' (N/2 f_s)^3/6
+  // rad of that echo.
   const double jerk = 2 / speed_of_light * 0.15 * std::pow(2 * pi * 360, 3),
                half = 0.5 * config.waveform.sampled_s();
   double sum = 0.0;
@@ -151,14 +151,14 @@ TEST(RadarBeatHardCase, N64_NoEchoesGiveZeros) {
   }
 }
 
-/// Turns between two samples of virtual antenna (0, 0).
+/// Returns the phase between two samples of virtual antenna (0, 0) in turns.
 double turns_between(const std::complex<double>& to, const std::complex<double>& from) {
   return std::arg(to * std::conj(from)) / (2 * pi);
 }
 
 TEST(RadarBeat, HasTheSquaredDelaysTerm) {
-  // Two frames of slopes S and 2 S: at the sample where the ramp passes f_c their phases differ by S tau^2/2
-  // alone.
+  // Two frames have the slopes S and 2 S. At the sample at which the ramp passes f_c, their phases differ
+  // only by S tau^2/2.
   RadarSignalConfig config = small_radar();
   config.waveform.slope_hz_per_s = 20e12;
   const EchoList list = whole_frame(config, {point_echo(config, 100.0, 0.0)});
@@ -175,7 +175,8 @@ TEST(RadarBeat, HasTheSquaredDelaysTerm) {
 }
 
 TEST(RadarBeat, RangeMigratesAndChirpsMove) {
-  // 40 m/s for 64 slots of 60 us: 0.15 m, a bin. The tone at the frame's end is that of the range there.
+  // During 64 slots of 60 us, a velocity of 40 m/s is 0.15 m, about one range bin. The tone at the end of the
+  // frame is that of the range there.
   RadarSignalConfig config = small_radar();
   config.waveform.slope_hz_per_s = 20e12;
   set_row(config, 1, 1);
@@ -189,7 +190,7 @@ TEST(RadarBeat, RangeMigratesAndChirpsMove) {
     const size_t middle = slot * w.samples + w.middle_sample();
     double turns = 0.0;
     for (int n = -15; n < 15; ++n) turns += turns_between(cube[middle + n + 1], cube[middle + n]);
-    // Each step of phase is good to 1e-5 of a turn; the bend within the chirp is even about the middle.
+    // Each phase step is accurate to 1e-5 of a turn. The curvature within the chirp is even about its middle.
     EXPECT_NEAR(turns / 30, std::remainder(tone_hz / w.sample_rate_hz, 1.0), 2e-6) << slot;
     const double phase = (w.carrier_hz - 0.5 * w.slope_hz_per_s * tau) * tau;
     EXPECT_NEAR(std::remainder(std::arg(cube[middle]) / (2 * pi) - phase, 1.0), 0.0, 1e-5);
@@ -204,7 +205,7 @@ void write(const std::filesystem::path& file, const std::vector<Value>& values) 
 }
 
 TEST(RadarBeat, AnIndependentModelInNumPyAgreesSampleBySample) {
-  // Points that fly straight past turned arrays: the script knows positions, not echoes.
+  // The points fly straight past turned arrays. The script knows positions, not echoes.
   RadarSignalConfig config = small_radar();
   set_row(config, 2, 3);
   config.arrays.transmit_m[1].z = 0.004;
@@ -212,7 +213,7 @@ TEST(RadarBeat, AnIndependentModelInNumPyAgreesSampleBySample) {
   const dquat orientation = orientation_from_yaw_pitch_roll(0.3, -0.1, 0.05);
   RandomStream random(8, 1);
   EchoList list = whole_frame(config, {});
-  std::vector<double> points;  // position and velocity at the frame's start, amplitude and its phase
+  std::vector<double> points;  // position and velocity at the start of the frame, amplitude and phase
   for (int i = 0; i < 12; ++i) {
     const dvec3 p = orientation * (random.uniform(20, 120) *
                                    Direction{random.uniform(-1, 1), random.uniform(-0.4, 0.4), 0}.unit());

@@ -12,7 +12,7 @@ TEST(RadarCfar, FactorsOfOneLookAreTheClosedForms) {
   for (const double cells : {8.0, 24.0, 37.5})
     EXPECT_NEAR(cell_averaging_factor(cells, 1, 1e-6) / (cells * (std::pow(1e-6, -1 / cells) - 1)), 1.0,
                 1e-10);
-  // Rohling's table: 24 cells, the 18th, P_fa = 1e-6: by the product.
+  // The product formula for Rohling's case of 24 cells, the 18th value and P_fa = 1e-6.
   const double t = ordered_statistic_factor(24, 18, 1, 1e-6);
   double product = 1.0;
   for (int i = 0; i < 18; ++i) product *= (24.0 - i) / (24.0 - i + t);
@@ -20,7 +20,7 @@ TEST(RadarCfar, FactorsOfOneLookAreTheClosedForms) {
 }
 
 TEST(RadarCfar, FactorsOfManyLooksHoldTheirProbability) {
-  // Draws of Gamma(looks): how often noise exceeds the threshold, at a significance of 1e-5.
+  // With draws of Gamma(looks), counts how often noise exceeds the threshold, at a significance of 1e-5.
   RandomStream random(11, 1);
   const uint32_t looks = 3, cells = 12, rank = 9;
   const auto draw = [&] {
@@ -48,7 +48,7 @@ TEST(RadarCfar, FactorsOfManyLooksHoldTheirProbability) {
   EXPECT_NEAR(statistic, ordered_statistic_mean(cells, rank, looks), 0.01);
 }
 
-/// Share of cells above their thresholds over frames of nothing but noise, and how many there were.
+/// Returns the share of cells above their thresholds in frames of pure noise, and the number of cells.
 std::pair<double, double> alarms(const RadarSignalConfig& config, int frames, bool edges) {
   const RadarMaps maps(config);
   const Cfar cfar(config.processing.cfar, maps.range_window(), maps.doppler_window(), 4);
@@ -79,16 +79,17 @@ TEST(RadarCfar, FalseAlarmsOfNoiseComeAtTheirRate) {
     config.processing.cfar.kind = kind;
     for (const bool edges : {false, true}) {
       const auto [share, cells] = alarms(config, kind == RadarCfar::Kind::cell_averaging ? 60 : 12, edges);
-      // Alarms of cells that share training cells go together a little: half as wide again as for independent
-      // ones.
+      // Cells that share training cells have slightly correlated alarms: the bound is half as wide again as
+      // for independent cells.
       EXPECT_LT(std::abs(share - 0.01) / std::sqrt(0.01 * 0.99 / cells), 1.5 * 4.42) << edges << " " << share;
     }
   }
 }
 
 TEST(RadarCfar, WindowsThatCorrelateCellsKeepTheRate) {
-  // Few training cells, so that their correlation tells: counted as independent ones they would let half as
-  // many alarms again pass. The effective number is right to second order: within a quarter of the rate.
+  // With few training cells, their correlation matters: if they were counted as independent, half as many
+  // alarms again would pass. The effective number of cells is correct to second order: the rate is within a
+  // quarter.
   RadarSignalConfig config = testing::small_radar();
   config.processing.cfar.false_alarm = 0.002;
   config.processing.cfar.train_range = config.processing.cfar.train_doppler = 1;
@@ -104,10 +105,10 @@ TEST(RadarCfar, OnePeakForEachGroup) {
   const RadarMaps maps(config);
   const Cfar cfar(config.processing.cfar, maps.range_window(), maps.doppler_window(), 4);
   std::vector<float> map(64 * 32, 1.0f);
-  map[10 * 32 + 5] = map[10 * 32 + 6] = 50.0f;  // a tie: the first
+  map[10 * 32 + 5] = map[10 * 32 + 6] = 50.0f;  // equal values: the first one is the peak
   map[11 * 32 + 6] = 49.0f;
-  map[63 * 32 + 31] = map[63 * 32 + 0] =
-      30.0f;  // across the Doppler axis' seam, at the end of the range axis
+  // These cells are neighbours across the end of the Doppler axis, at the end of the range axis.
+  map[63 * 32 + 31] = map[63 * 32 + 0] = 30.0f;
   const auto peaks = cfar.peaks(map, 0);
   ASSERT_EQ(peaks.size(), 2u);
   EXPECT_EQ(peaks[0].range, 10u);

@@ -96,7 +96,7 @@ TEST(RadarEchoes, TargetInsideTheAntennaIsRefusedByName) {
 }
 
 TEST(RadarEchoes, TablesAreReadAsCubicsBetweenSlots) {
-  // A rotor's tip: 100 Hz, 0.15 m: between slots of 60 us to 1e-9 m.
+  // The tip of a rotor with a radius of 0.15 m at 100 Hz is interpolated between slots of 60 us to 1e-9 m.
   const double omega = 2 * pi * 100, interval = 60e-6;
   const auto delay = [&](double t) { return (2 / speed_of_light) * (20 + 0.15 * std::cos(omega * t)); };
   const auto rate = [&](double t) { return -(2 / speed_of_light) * 0.15 * omega * std::sin(omega * t); };
@@ -107,7 +107,7 @@ TEST(RadarEchoes, TablesAreReadAsCubicsBetweenSlots) {
   track.table = 0;
   for (double slot = 32.0; slot < 96.0; slot += 0.37) {
     const DelayAt at = delay_at(list, track, interval, slot * interval);
-    const double tolerance_m = slot < 95.0 ? 1e-9 : 3e-8;  // beyond the last slot's start
+    const double tolerance_m = slot < 95.0 ? 1e-9 : 3e-8;  // extrapolated after the start of the last slot
     EXPECT_NEAR(at.delay_s * speed_of_light / 2, delay(slot * interval) * speed_of_light / 2, tolerance_m)
         << slot;
     EXPECT_NEAR(at.rate * speed_of_light / 2, rate(slot * interval) * speed_of_light / 2, tolerance_m / 5e-6)

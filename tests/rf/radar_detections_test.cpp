@@ -13,7 +13,7 @@ using testing::set_row;
 using testing::small_radar;
 using testing::whole_frame;
 
-/// Noise so low that it only fills the map.
+/// Returns a radar with so little noise that the noise only fills the map.
 RadarSignalConfig quiet_radar() {
   RadarSignalConfig config = small_radar();
   config.receiver.noise_figure_db = 0.0;
@@ -71,14 +71,15 @@ TEST(RadarDetections, TurnedArraysSeeTheirOwnFrame) {
   const auto frame = RadarProcessor("front", config, gain, gain).process({lists, attitudes, {}, {1, 2, 3}});
   ASSERT_EQ(frame.detections.size(), 1u);
   EXPECT_NEAR(degrees(frame.detections[0].azimuth), 10.0, 0.05);
-  // The echo was one of isotropic elements: what is read is larger by both elements' loss.
+  // The echo is that of isotropic elements. So the cross-section is overestimated by the loss of both
+  // elements.
   EXPECT_NEAR(frame.detections[0].rcs_m2 * std::pow(std::cos(radians(10.0)), 4), 1.0, 0.003);
 }
 
 TEST(RadarDetections, TwoTargetsAreResolvedAndNamed) {
   RadarSignalConfig config = quiet_radar();
-  // The strong one stands among the weak one's training cells: their mean would hide it, their order does
-  // not.
+  // The strong target is among the training cells of the weak one. The mean of these cells would hide the
+  // weak target, their order statistic does not.
   config.processing.cfar.kind = RadarCfar::Kind::ordered_statistic;
   const double bin = config.waveform.range_bin_m();
   std::vector<Echo> echoes{point_echo(config, 25 * bin, 0.0), point_echo(config, 25 * bin + 3 * bin, 0.0),
@@ -101,7 +102,7 @@ TEST(RadarDetections, WhatNoEchoExplainsHasNoInstance) {
   const auto frame = frame_of(config, {});
   ASSERT_GT(frame.detections.size(), 3u);
   for (const RadarDetection& d : frame.detections) EXPECT_EQ(d.instance, 0u);
-  // An echo far below the noise does not claim what noise made.
+  // An echo far below the noise is not assigned to detections of noise.
   Echo weak = point_echo(
       config, frame.detections[0].range_m + config.waveform.carrier_hz / config.waveform.slope_hz_per_s * 0,
       0.0);

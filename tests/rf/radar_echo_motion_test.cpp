@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delays of echoes while a frame lasts.
+// Checks the delays of echoes during a frame.
 #include <gtest/gtest.h>
 
 #include "rf/radar/echoes/echo_tracks.h"
@@ -16,7 +16,7 @@ using namespace rf::testing;
 constexpr double slot_s = 50e-6;
 constexpr uint32_t slots = 200;  // 10 ms
 
-/// A plate of 10 cm in a body of its own, which looks along -x.
+/// Returns a plate of 10 cm that faces -x, in a body of its own.
 TinyScene plate_on_a_body() {
   TinyScene tiny;
   const uint32_t body = tiny.body("plate");
@@ -32,7 +32,7 @@ EchoMotion frame() {
   return motion;
 }
 
-/// Records, submits, collects.
+/// Records a search, submits it and collects the echoes.
 EchoList trace(EchoScene& scene, const EchoOptions& options, const EchoMotion& motion) {
   EchoFinder finder(scene.gpu, scene.surfaces(), EchoEnd{}, std::nullopt, options);
   const std::vector<Pose> poses{Pose{}, motion.body(1, motion.traced_s)};
@@ -87,7 +87,8 @@ TEST(RadarEchoMotion, RadarThatMovesApproachesAtItsSpeedTimesTheCosine) {
     EXPECT_NEAR(echo.delay.coefficients[1] * speed_of_light, -24.0, 0.1);
 }
 
-/// A blade's tip at 200 turns a second goes round twice in a frame: no cubic follows it, a table does.
+/// A blade with 200 turns per second turns twice during a frame. A table describes its delay because no cubic
+/// does.
 TEST(RadarEchoMotion, RotorGetsATable) {
   EchoScene scene(plate_on_a_body());
   EchoMotion motion = frame();
@@ -114,7 +115,8 @@ TEST(RadarEchoMotion, RotorGetsATable) {
   EXPECT_EQ(list.tables.size(), tables * slots);
 }
 
-/// Of two halves that turn against each other members are told apart by their rate.
+/// The two halves of a turning plate move in opposite directions. Merging keeps echoes with different rates
+/// apart.
 TEST(RadarEchoMotion, MergingKeepsDopplerApart) {
   EchoScene scene(plate_on_a_body());
   EchoMotion motion = frame();
@@ -131,7 +133,7 @@ TEST(RadarEchoMotion, MergingKeepsDopplerApart) {
     least = std::min(least, rate), most = std::max(most, rate);
   }
   EXPECT_GT(list.echoes.size(), 10u);
-  EXPECT_NEAR(most - least, 2.0 * 30.0 * 0.1, 1.0);  // edge against edge: 2 omega a
+  EXPECT_NEAR(most - least, 2.0 * 30.0 * 0.1, 1.0);  // from edge to edge: 2 omega a
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radar cross-sections that closed forms are known for, at 77 GHz, a = 0.1 m.
+// Checks radar cross-sections with known closed forms at 77 GHz, for a = 0.1 m.
 #include <gtest/gtest.h>
 
 #include "tests/rf/radar_reflectors.h"
@@ -31,8 +31,8 @@ TEST(RadarEchoRcs, PlateAcrossBothItsSides) {
   EXPECT_NEAR(section_db(field_of(list), range_m, range_m), expected, 0.01);
 }
 
-/// One place, two polarizations: not monostatic for the search, but no way leads from one element to the
-/// other.
+/// Two polarizations are at one place. The search does not regard this as monostatic, but there is no direct
+/// path between the elements.
 TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
   EchoScene scene(plate());
   const Pose at = looking(from(5.0, 0.0), dvec3(0.0));
@@ -48,8 +48,8 @@ TEST(RadarEchoRcs, CrossPolarizedElementsAtOnePlace) {
   EXPECT_LT(std::abs(field(horizontal)), 1e-6 * std::abs(alone));
 }
 
-/// Physical optics with the field across the plane of incidence: cos(theta_i) from the currents, and the
-/// phases of both ways.
+/// In physical optics with the field perpendicular to the plane of incidence, the cross-section has the
+/// factor cos(theta_i) of the currents and the phases of both directions.
 TEST(RadarEchoRcs, BistaticPlate) {
   EchoScene scene(plate());
   for (const auto& [tx, rx] :
@@ -68,8 +68,8 @@ TEST(RadarEchoRcs, BistaticPlate) {
   }
 }
 
-/// Two reflections send back what a plate of the width 2 a min(sin, cos) would. The faces by themselves add
-/// their own edges, which are some -20 dBsm.
+/// Two reflections have the cross-section of a plate of the width 2 a min(sin, cos). In addition, the single
+/// faces contribute their own edges, about -20 dBsm.
 TEST(RadarEchoRcs, DihedralAtSeveralAngles) {
   EchoScene scene(dihedral());
   const dvec3 middle(0.0, 0.0, 0.5 * a);
@@ -102,7 +102,8 @@ TEST(RadarEchoRcs, TrihedralAtSeveralAngles) {
   }
 }
 
-/// pi r^2 within 1/(k r) = .6 %, what the shadow's edge adds to the lit half in physical optics.
+/// The cross-section is pi r^2 within 1/(k r) = 0.6 %, the contribution of the shadow boundary to the lit
+/// half in physical optics.
 TEST(RadarEchoRcs, SphereByFacets) {
   EchoScene scene(ball(0.1, 60));
   EchoOptions options = exact(0.105, 40000);
@@ -112,8 +113,8 @@ TEST(RadarEchoRcs, SphereByFacets) {
   EXPECT_NEAR(section_db(field_of(list), range_m, range_m), -15.029, 0.15);
 }
 
-/// Tubes that are wider than the facets of a mesh miss some; from a third of a facet on the rest is in the
-/// silhouette.
+/// Tubes that are wider than the facets of a mesh miss some facets. Below a third of a facet, the remaining
+/// error is that of the silhouette.
 TEST(RadarEchoRcs, ErrorFallsWithTheWidthOfTubes) {
   EchoScene scene(ball(0.1, 20));
   const dvec3 radar(range_m, 0.0, 0.0);
@@ -125,7 +126,7 @@ TEST(RadarEchoRcs, ErrorFallsWithTheWidthOfTubes) {
     errors.push_back(std::abs(
         section_db(field_of(scene.find(options, looking(radar, dvec3(0.0)))), range_m, range_m) - expected));
   }
-  // Of the facets' 7.9 mm these tubes are 10.5, 5.2, 2.6 and 1.3 mm wide.
+  // The facets have a side of 7.9 mm; the tubes are 10.5, 5.2, 2.6 and 1.3 mm wide.
   EXPECT_GT(errors[0], errors[1]);
   EXPECT_GT(errors[1], errors[2]);
   EXPECT_LT(errors[1], 1.0);
@@ -133,7 +134,8 @@ TEST(RadarEchoRcs, ErrorFallsWithTheWidthOfTubes) {
   EXPECT_LT(errors[3], 0.05);
 }
 
-/// P_r/P_t = G^2 lambda^2 sigma/((4 pi)^3 R^4): 40 dB a decade; the far field is 2 a^2/lambda = 5 m away.
+/// P_r/P_t = G^2 lambda^2 sigma/((4 pi)^3 R^4) is 40 dB per decade. The far field begins at 2 a^2/lambda = 5
+/// m.
 TEST(RadarEchoRcs, RadarEquation) {
   EchoScene scene(plate());
   EchoEnd end;
@@ -149,7 +151,7 @@ TEST(RadarEchoRcs, RadarEquation) {
   }
 }
 
-/// Power reflected by a half-space at normal incidence: ((1 - n)/(1 + n))^2.
+/// A half-space at normal incidence reflects the share ((1 - n)/(1 + n))^2 of the power.
 TEST(RadarEchoRcs, DielectricPlate) {
   RadioSurface surface;
   surface.front = surface.back = {{Complex(4.0, 0.0), 0.0}};

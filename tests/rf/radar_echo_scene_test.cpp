@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Echoes in scenes: ghosts, what stands in the way, motion, merging, and what is refused.
+// Checks echoes in scenes: ghosts, occlusion, motion, merging and refused options.
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using namespace rf::testing;
 
 double range_of(const Echo& echo) { return 0.5 * speed_of_light * echo.delay.coefficients[0]; }
 
-/// Power of the echoes of so many bounces whose range lies within `room` of `range_m`.
+/// Returns the power of the echoes with `bounces` bounces whose range is within `room` of `range_m`.
 double power_at(const EchoList& list, double range_m, double room, uint32_t bounces) {
   Complex sum(0.0);
   for (const Echo& echo : list.echoes)
@@ -37,8 +37,8 @@ EchoOptions sector(double half_azimuth_deg, double half_elevation_deg, uint32_t 
   return options;
 }
 
-/// A corner reflector with its apex at (20, 0, 0) that looks back at the origin, and a wall in the plane y =
-/// 6. `hides`: a screen between the radar and the reflector.
+/// Returns a corner reflector with its apex at (20, 0, 0) that faces the origin, and a wall in the plane y =
+/// 6. `hides` adds a screen between the radar and the reflector.
 TinyScene corner_by_a_wall(bool hides = false) {
   TinyScene tiny;
   const dvec3 o(20.0, 0.0, 0.0);
@@ -53,7 +53,7 @@ TinyScene corner_by_a_wall(bool hides = false) {
   return tiny;
 }
 
-/// A target that sends waves from anywhere to anywhere: a ball of facets.
+/// Adds a ball of facets, which scatters waves from any direction to any direction.
 TinyScene ball_at(const dvec3& center, double radius, TinyScene tiny) {
   tiny.object("ball");
   const int n = 24;
@@ -76,8 +76,9 @@ TinyScene wall_alone() {
   return tiny;
 }
 
-/// A plate of side 0.1 m at (15, 0, 0) sends what comes from the wall's image of the radar, (0, 12, 0), to
-/// the radar: at the mean of 15 m and 19.21 m, which is behind the wall where it comes in over the wall.
+/// A plate with a side of 0.1 m at (15, 0, 0) reflects waves from the image of the radar in the wall, (0, 12,
+/// 0), to the radar. The range of the echo is the mean of 15 m and 19.21 m. If the wave arrives over the
+/// wall, the echo appears behind the wall.
 TEST(RadarEchoScene, GhostsOverAWallAreWhereGeometrySaysBothWays) {
   const dvec3 center(15, 0, 0), image(0, 12, 0);
   const dvec3 normal = glm::normalize(glm::normalize(-center) + glm::normalize(image - center));
@@ -99,12 +100,13 @@ TEST(RadarEchoScene, GhostsOverAWallAreWhereGeometrySaysBothWays) {
         std::polar(1.0, -2.0 * pi * std::remainder(radar_carrier_hz * echo.delay.coefficients[0], 1.0));
     const bool last_is_wall = echo.instance == 1;
     (last_is_wall ? in_over_wall : out_over_wall) += field;
-    // The side over the wall points at the image of the plate, the other one at the plate.
+    // The direction that leads over the wall points at the image of the plate, the other direction at the
+    // plate.
     const dvec3& side = last_is_wall ? echo.arrival : echo.departure;
     EXPECT_NEAR(degrees(std::atan2(side.y, side.x)), degrees(2.0 * half), 1.0);
     EXPECT_NEAR((last_is_wall ? echo.departure : echo.arrival).y, 0.0, 0.01);
   }
-  // lambda/(4 pi) (a^2 cos/lambda)/(r1 r2): physical optics of the plate between the two distances.
+  // lambda/(4 pi) (a^2 cos/lambda)/(r1 r2): physical optics of the plate for the two distances.
   const double expected = decibels(std::pow(0.01 * std::cos(half) / (4.0 * pi * direct * over_wall), 2));
   EXPECT_NEAR(decibels(std::norm(out_over_wall)), expected, 0.2);
   EXPECT_NEAR(decibels(std::norm(in_over_wall)), expected, 0.2);
@@ -113,14 +115,14 @@ TEST(RadarEchoScene, GhostsOverAWallAreWhereGeometrySaysBothWays) {
 TEST(RadarEchoScene, WhatIsHiddenIsNotSeen) {
   EchoOptions options = sector(8.0, 4.0, 20000);
   EchoScene open(corner_by_a_wall()), hidden(corner_by_a_wall(true));
-  EXPECT_GT(power_at(open.find(options, Pose{}), 20.0, 0.1, 3),
-            1e-11);  // lambda^2 4 pi a^4/(3 lambda^2)/((4 pi)^3 R^4): 2.1e-11
+  // The expected power is lambda^2 4 pi a^4/(3 lambda^2)/((4 pi)^3 R^4) = 2.1e-11.
+  EXPECT_GT(power_at(open.find(options, Pose{}), 20.0, 0.1, 3), 1e-11);
   EXPECT_EQ(power_at(hidden.find(options, Pose{}), 20.0, 0.1, 3), 0.0);
-  EXPECT_GT(power_at(hidden.find(options, Pose{}), 8.0, 0.1, 1), 1e-11);  // the screen
+  EXPECT_GT(power_at(hidden.find(options, Pose{}), 8.0, 0.1, 1), 1e-11);  // the echo of the screen
 }
 
-/// Of a large smooth wall only the glint is left where nothing of its border is seen: lambda/(4 pi 2 R), the
-/// image's field.
+/// If the border of a large smooth wall is out of view, only the specular echo remains: lambda/(4 pi 2 R),
+/// the field of the image.
 TEST(RadarEchoScene, LargeWallReflectsAsItsImageWhateverTheTubes) {
   TinyScene tiny;
   tiny.object("wall").quad({10, 40, -40}, {10, -40, -40}, {10, -40, 40}, {10, 40, 40});
@@ -137,8 +139,8 @@ TEST(RadarEchoScene, LargeWallReflectsAsItsImageWhateverTheTubes) {
   }
 }
 
-/// Ends swapped: where the surface reflects from one to the other, exactly so; beside that physical optics is
-/// not reciprocal (cos(theta_i) against cos(theta_s)).
+/// The ends are swapped. The field is reciprocal where the surface reflects from one end to the other.
+/// Elsewhere physical optics is not reciprocal (cos(theta_i) instead of cos(theta_s)).
 TEST(RadarEchoScene, Reciprocity) {
   TinyScene tiny;
   tiny.object("plate").quad({0, -0.2, -0.2}, {0, 0.2, -0.2}, {0, 0.2, 0.2}, {0, -0.2, 0.2});
@@ -251,9 +253,9 @@ TEST(RadarEchoScene, PartsOfTheOwnBodyAreNotSeen) {
 TEST(RadarEchoScene, DeviceAndHostMeetTheSame) {
   EchoScene scene(ball_at({15, 0, 0}, 0.3, wall_alone()));
   EchoOptions options = sector(60.0, 8.0, 4000);
-  options.border_floor_m2 = 1e-6;  // with what comes over three bounces
+  options.border_floor_m2 = 1e-6;  // keeps the contributions of three bounces
   options.targets = {1};
-  const Pose radar{{0.013, -0.021, 0.017}};  // in no plane of symmetry: no ray along an edge
+  const Pose radar{{0.013, -0.021, 0.017}};  // in no plane of symmetry: no ray meets an edge
   const std::vector<std::optional<Pose>> receivers{std::nullopt, Pose{{2, 3, 1}}};
   for (const std::optional<Pose>& receiver : receivers) {
     options.tracing = EchoTracing::device;
@@ -295,7 +297,8 @@ TEST(RadarEchoScene, HardCase63ThreadsChangeNoByte) {
   }
 }
 
-/// Field over the band and over an aperture of a beam's width: merged against each tube by itself.
+/// Compares the field of merged echoes with that of all tubes, over the band and over an aperture as wide as
+/// the beam requires.
 TEST(RadarEchoScene, MergingStaysWithinItsBound) {
   EchoScene scene(ball_at({15, 0, 0}, 0.6, wall_alone()));
   EchoOptions options = sector(60.0, 8.0, 8000);
@@ -320,8 +323,8 @@ TEST(RadarEchoScene, MergingStaysWithinItsBound) {
   const double half_aperture = 0.5 * radar_wavelength_m / options.beam_rad;
   for (const double offset : {-0.5e9, 0.5e9})
     for (const double aperture : {-half_aperture, half_aperture}) {
-      // A member is at most a cell off: phases of pi B share/B and pi share, in the mean a third of their
-      // sum.
+      // A merged echo is displaced by at most one cell: by phases of pi B share/B and pi share, on average by
+      // a third of their sum.
       const Complex expected = field(all, offset, aperture);
       EXPECT_LT(std::abs(field(merged, offset, aperture) - expected), 0.25 * std::abs(field(all, 0, 0)));
     }
@@ -340,7 +343,7 @@ TEST(RadarEchoScene, BeyondTheCapTheWeakestAreCounted) {
   EXPECT_GT(statistics.left_out_power, 0.0);
 }
 
-/// The floor takes edges and corners away that a body of 1 mm^2 would outshine.
+/// The floor removes edges and corners that are weaker than a body of 1 mm^2.
 TEST(RadarEchoScene, FloorOfEdgesIsWhatItSays) {
   TinyScene tiny;
   tiny.object("plate").quad({10, 0.5, -0.5}, {11, -0.5, -0.5}, {11, -0.5, 0.5}, {10, 0.5, 0.5});
@@ -357,8 +360,9 @@ TEST(RadarEchoScene, FloorOfEdgesIsWhatItSays) {
 }
 
 TEST(RadarEchoScene, HiddenFloorGrowsWithTheFourthPowerOfDistance) {
-  // Border contributions of a slanted plate 10 m away, and of one ten times as large and as far: their
-  // cross-sections at the same aspect are those of edges, which grow with the square of the size.
+  // Compares border contributions of a slanted plate at 10 m with those of a plate that is ten times as large
+  // and as far away. At the same aspect their cross-sections are those of edges, which grow with the square
+  // of the size.
   const auto find = [](double scale, double border_m2, double hidden_m2, EchoStatistics* statistics) {
     TinyScene tiny;
     tiny.object("plate").quad(dvec3(10, 0.5, -0.5) * scale, dvec3(11, -0.5, -0.5) * scale,
@@ -370,11 +374,11 @@ TEST(RadarEchoScene, HiddenFloorGrowsWithTheFourthPowerOfDistance) {
     return scene.find(options, Pose{}, {}, statistics).echoes.size();
   };
   for (const double scale : {1.0, 10.0}) {
-    const double r4 = std::pow(10.0 * scale, 4.0);  // of the nearest corners, 10.01 m and farther
+    const double r4 = std::pow(10.0 * scale, 4.0);  // for the nearest corners, at 10.01 m and beyond
     EchoStatistics none, below, above, fixed_below, fixed_above;
     const size_t all = find(scale, 0.0, 0.0, &none);
     EXPECT_EQ(none.below_floor, 0u);
-    // Nearest and farthest corners, (10.012/10)^4 and (11.023/10)^4, bracket the floor of every piece.
+    // The nearest and the farthest corner, (10.012/10)^4 and (11.023/10)^4, bracket the floor of every piece.
     find(scale, 1e-5 * 1.0048, 0.0, &fixed_below);
     find(scale, 1e-5 * 1.4768, 0.0, &fixed_above);
     const size_t kept = find(scale, 0.0, 1e-5 / r4, &below);
@@ -403,8 +407,8 @@ TEST(RadarEchoScene, DiffuseIsOffByDefaultAndHasThePowerOfItsModel) {
   const double off = clutter(scene.find(options, Pose{}));
   options.diffuse = true;
   const double on = clutter(scene.find(options, Pose{}));
-  // Lambert: the integral of S^2 cos(theta_s) cos(theta_i)/pi over the ground, cos = 2/R, (lambda/4
-  // pi)^2/R^4; half the ring of ranges 10 to 12 m lies within |y| < 5 and 20 degrees.
+  // Lambert's law: the integral of S^2 cos(theta_s) cos(theta_i)/pi over the ground with cos = 2/R, times
+  // (lambda/4 pi)^2/R^4. It covers ranges from 10 to 12 m within |y| < 5 m and 20 degrees of azimuth.
   double expected = 0.0;
   for (double x = 5.0; x < 25.0; x += 0.02)
     for (double y = -5.0; y < 5.0; y += 0.02) {

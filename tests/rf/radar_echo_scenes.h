@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reflectors whose radar cross-sections are known, and what the echoes make of them.
+// Provides reflectors with known radar cross-sections and computes cross-sections from their echoes.
 #pragma once
 
 #include <cmath>
@@ -19,21 +19,21 @@ namespace greatx::rf::testing {
 inline constexpr double radar_carrier_hz = 77e9;
 inline constexpr double radar_wavelength_m = speed_of_light / radar_carrier_hz;
 
-/// A perfect conductor, but for 1e-7.
+/// Returns a perfect conductor. Its reflection coefficients differ from +-1 by about 1e-7.
 inline RadioSurface conductor() {
   RadioSurface surface;
   surface.front = surface.back = {{Complex(1.0, -1e14), 0.0}};
   return surface;
 }
 
-/// A frame whose +x axis looks from `at` towards `target`.
+/// Returns a pose at `at` whose +x axis points towards `target`.
 inline Pose looking(const dvec3& at, const dvec3& target) {
   const dvec3 d = target - at;
   return {at,
           orientation_from_yaw_pitch_roll(std::atan2(d.y, d.x), -std::atan2(d.z, std::hypot(d.x, d.y)), 0.0)};
 }
 
-/// Sum of all echoes at the carrier; of those of so many bounces.
+/// Returns the sum of all echoes at the carrier, or of the echoes with `bounces` bounces if it is not 0.
 inline Complex field_of(const EchoList& list, uint32_t bounces = 0) {
   Complex sum(0.0);
   for (const Echo& echo : list.echoes)
@@ -43,14 +43,16 @@ inline Complex field_of(const EchoList& list, uint32_t bounces = 0) {
   return sum;
 }
 
-/// dBsm of echoes at distances r1, r2, elements of gain 1.
+/// Returns the radar cross-section, dBsm, from the field of echoes at the distances r1 and r2, for elements
+/// of gain 1.
 inline double section_db(const Complex& field, double r1, double r2) {
   const double four_pi = 4.0 * pi;
   return decibels(std::norm(field) * four_pi * four_pi * four_pi * r1 * r1 * r2 * r2 /
                   (radar_wavelength_m * radar_wavelength_m));
 }
 
-/// Elements without pattern; tubes over a square of `half_m` around what is looked at.
+/// Returns options for elements without a pattern, with tubes over a square of half width `half_m` around the
+/// target.
 inline EchoOptions around(double half_m, double distance_m, uint32_t tubes) {
   EchoOptions options;
   const double half = std::atan(half_m / distance_m);
@@ -60,7 +62,7 @@ inline EchoOptions around(double half_m, double distance_m, uint32_t tubes) {
   return options;
 }
 
-/// One scene on the device, with every material a conductor unless told otherwise.
+/// Holds one scene on the device. All its materials are perfect conductors unless `surfaces` is given.
 class EchoScene {
  public:
   explicit EchoScene(const test::TinyScene& tiny, std::vector<RadioSurface> surfaces = {},

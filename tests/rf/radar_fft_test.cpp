@@ -12,7 +12,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Sizes of the template's radices, and others.
+/// The sizes cover the radices of the template and other factors.
 class RadarFft : public ::testing::TestWithParam<uint32_t> {};
 
 TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
@@ -40,7 +40,7 @@ TEST_P(RadarFft, IsTheSumThatItStandsForInEachLane) {
         for (uint32_t n = 0; n < size; ++n)
           sum += std::complex<double>(signals[lane][n]) *
                  std::polar(1.0, sign * 2.0 * std::numbers::pi * double(uint64_t{k} * n % size) / size);
-        // Roundings of 2^-24 of sqrt(size/6), some of each radix.
+        // The rounding error is a few times 2^-24 sqrt(size/6) for each radix.
         ASSERT_LT(std::abs(sum - std::complex<double>(spectra[lane][k])), 1e-6 * std::sqrt(size))
             << "lane " << lane << ", " << k << " of " << size;
       }

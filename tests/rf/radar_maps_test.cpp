@@ -15,7 +15,8 @@ using testing::set_row;
 using testing::small_radar;
 using testing::whole_frame;
 
-/// 4 x 4 antennas, 200 MHz over 250 samples (187 m), 32 chirps of each transmitter (up to 4.06 m/s).
+/// Returns a radar with 4 x 4 antennas, 200 MHz over 250 samples (187 m) and 32 chirps of each transmitter
+/// (up to 4.06 m/s).
 RadarSignalConfig long_range_radar() {
   RadarSignalConfig config;
   config.waveform.slope_hz_per_s = 4e12;
@@ -27,7 +28,7 @@ RadarSignalConfig long_range_radar() {
   return config;
 }
 
-/// Of a target whose tone stands at these bins, Doppler counted in turns.
+/// Returns the echo of a target whose tone is at these bins. Doppler is counted in turns.
 Echo at_bins(const RadarSignalConfig& config, double range_bins, double turns) {
   const RadarWaveform& w = config.waveform;
   const double nu = turns / (w.chirps() * w.repetition_s());
@@ -38,8 +39,8 @@ Echo at_bins(const RadarSignalConfig& config, double range_bins, double turns) {
 }
 
 TEST(RadarChain, RadarEquationToAHundredthOfADecibel) {
-  // 12 dBm, 12 dBi, 1 m^2, 77 GHz, 100 m: P_r = P_t G^2 lambda^2 sigma/((4 pi)^3 R^4) = -125.1697 dBm,
-  // through echo, cube, transforms and detection.
+  // For 12 dBm, 12 dBi, 1 m^2, 77 GHz and 100 m, P_r = P_t G^2 lambda^2 sigma/((4 pi)^3 R^4) = -125.1697 dBm.
+  // The test covers echo, cube, transforms and detection.
   RadarSignalConfig config = long_range_radar();
   const double gain = from_decibels(12.0);
   for (const double velocity : {0.0, 3.21, -3.7})
@@ -77,22 +78,22 @@ TEST(RadarChainHardCase, N62_AtABinsCentreBetweenBinsAndBeyondTheSpan) {
       return maps.range_doppler(maps.spectrum(testing::cube_of(config, whole_frame(config, {echo})), 0), 0);
     };
     double power;
-    // A bin's centre: that bin, the received power.
+    // At the centre of a bin, this bin shows the received power.
     auto map = map_of(20.0, 0.0, power);
     EXPECT_EQ(peak_of(map), 20 * chirps + zero);
     EXPECT_NEAR(decibels(map[peak_of(map)] / power), 0.0, 1e-4);
-    // Between bins: the scalloping loss, alike on both sides.
+    // Between two bins, both show the scalloping loss.
     map = map_of(20.5, 0.0, power);
     const double loss = decibels(maps.range_window().scalloping_loss());
     EXPECT_NEAR(decibels(map[20 * chirps + zero] / power), -loss, 1e-3);
     EXPECT_NEAR(decibels(map[21 * chirps + zero] / power), -loss, 1e-3);
-    map = map_of(20.0, 4.5, power);  // moves by a small part of a bin within the frame
+    map = map_of(20.0, 4.5, power);  // moves by a small part of a bin during the frame
     EXPECT_NEAR(decibels(map[20 * chirps + zero + 4] / power),
                 -decibels(maps.doppler_window().scalloping_loss()), 0.02);
     EXPECT_NEAR(decibels(map[20 * chirps + zero + 5] / power),
                 -decibels(maps.doppler_window().scalloping_loss()), 0.02);
-    // Beyond v_max: the turns less a multiple of the chirps; beyond R_max: the bin less a multiple of the
-    // samples.
+    // Beyond v_max, the turns alias by a multiple of the chirps; beyond R_max, the bin aliases by a multiple
+    // of the samples.
     map = map_of(20.0, chirps / 2 + 3, power);
     EXPECT_EQ(peak_of(map), 20 * chirps + 3);  // -chirps/2 + 3 turns
     map = map_of(20.0, -int(chirps) - 2, power);
@@ -114,7 +115,8 @@ TEST(RadarChain, DetectionsBeyondTheSpanReadTheDocumentedAlias) {
   };
   auto found = detection(30.0, 0.5 * span + 1.0);
   EXPECT_NEAR(found.velocity_m_s, -0.5 * span + 1.0, 0.01);
-  // The range is set right by the velocity that is read: off by f_c/S times what it misses.
+  // The measured velocity corrects the range; an aliased velocity leaves an error of f_c/S times the velocity
+  // error.
   EXPECT_NEAR(found.range_m, 30.0 + w.carrier_hz / w.slope_hz_per_s * span, 0.01);
   found = detection(w.range_span_m() + 30.0, 2.0);
   EXPECT_NEAR(found.range_m, 30.0, 0.01);
@@ -144,9 +146,10 @@ TEST(RadarChain, ProcessingGainIsSamplesTimesChirpsOverNoiseBandwidths) {
     for (const float cell : frame.range_doppler) mean += cell / double(frame.range_doppler.size());
     const double bandwidths = maps.range_window().noise_bandwidth() * maps.doppler_window().noise_bandwidth();
     const double expected = per_sample * bandwidths / (64.0 * 64.0);
-    // 4 antennas x 64 x 64 cells, as many independent ones as the bandwidths leave; 1e-5.
+    // The map averages 4 antennas and 64 x 64 cells; the bandwidths reduce the number of independent cells.
+    // The significance is 1e-5.
     EXPECT_LT(std::abs(mean / expected - 1.0) * std::sqrt(4 * 64.0 * 64.0 / bandwidths), 4.42);
-    // So a target at a bin's centre gains 10 log10(N M) less the windows' bandwidths.
+    // A target at the centre of a bin gains 10 log10(N M) minus the noise bandwidths of the windows.
     const Echo echo = at_bins(config, 30.0, 5.0);
     const double in = std::norm(echo.amplitude) * config.transmit_power_w / per_sample;
     RadarSignalConfig silent = config;
@@ -175,8 +178,8 @@ TEST(RadarChain, RangeAzimuthShowsPowerAndDirectionWhateverTheVelocity) {
 }
 
 TEST(RadarChain, RotorsFrequencyFromATable) {
-  // A blade's tip as a row of a table. The frequency from chirp to chirp swings by 2 r omega/lambda at the
-  // rotor's frequency.
+  // A row of a table describes the tip of a blade. The frequency from chirp to chirp varies by 2 r
+  // omega/lambda at the frequency of the rotor.
   RadarSignalConfig config = small_radar();
   set_row(config, 1, 1);
   config.waveform.samples = 16;
@@ -196,7 +199,7 @@ TEST(RadarChain, RotorsFrequencyFromATable) {
                            2 / speed_of_light * radius * omega * std::cos(angle)});
   }
   const auto cube = testing::cube_of(config, list);
-  // Instantaneous frequency from chirp to chirp, and its own spectrum at the rotor's frequency and beside it.
+  // Returns the spectral line at `hz` of the frequency from chirp to chirp.
   const auto line = [&](double hz) {
     std::complex<double> sum = 0.0;
     for (uint32_t s = 0; s + 1 < list.slots; ++s) {

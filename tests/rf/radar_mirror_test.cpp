@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Targets that a radar sees over a mirror, out and back: each sends back what it would to a radar at the
-// image of this one.
+// Checks targets that a radar sees over a mirror in both directions. Each target has the echo that a radar at
+// the image of this radar would receive.
 #include <gtest/gtest.h>
 
 #include "tests/rf/radar_reflectors.h"
@@ -16,8 +16,8 @@ dvec3 mirrored(const dvec3& p, const dvec3& on, const dvec3& normal) {
   return p - 2.0 * glm::dot(normal, p - on) * normal;
 }
 
-/// A mirror of 16 m a quarter of the way from `image` to `target`, at 45 degrees to it and upright as seen
-/// from there; where the radar is then whose image that is.
+/// Adds a mirror of 16 m a quarter of the way from `image` to `target`, at 45 degrees to this line and
+/// upright as seen from there. Holds the position of the radar whose image in the mirror is `image`.
 struct Mirror {
   dvec3 at, normal;
   dvec3 radar;
@@ -33,7 +33,8 @@ struct Mirror {
   Pose looking_at_it() const { return looking(radar, at); }
 };
 
-/// dBsm of what comes over the mirror both ways, with `on_target` bounces on the target; 0: any.
+/// Returns the cross-section, dBsm, of the echoes over the mirror in both directions, with `on_target`
+/// bounces on the target (0: any number).
 double over_mirror_db(TinyScene tiny, const dvec3& image, const dvec3& target, const EchoOptions& options,
                       uint32_t on_target) {
   const Mirror mirror(tiny, image, target);
@@ -62,7 +63,7 @@ TEST(RadarMirror, DihedralAtSeveralAngles) {
   }
 }
 
-/// Five surfaces with the default of three bounces: the mirror does not count.
+/// The path meets five surfaces with the default of three bounces: the mirror does not count.
 TEST(RadarMirror, TrihedralAtSeveralAngles) {
   const double axis = degrees(std::atan(std::sqrt(0.5)));
   for (const auto& [az, el] : {std::pair(45.0, axis), std::pair(45.0, 25.0), std::pair(20.0, 20.0)}) {
@@ -78,7 +79,7 @@ TEST(RadarMirror, SphereByFacets) {
               0.15);
 }
 
-/// What is seen directly is what is seen over the mirror, tube by tube: the sum over all orders.
+/// The sum over all orders is the same directly and over the mirror, tube by tube.
 TEST(RadarMirror, AllOrdersTogetherAreThoseOfTheImage) {
   const dvec3 at = from(35.0, 40.0), middle(a / 4);
   EchoScene direct(trihedral());
@@ -87,7 +88,8 @@ TEST(RadarMirror, AllOrdersTogetherAreThoseOfTheImage) {
   EXPECT_NEAR(over_mirror_db(trihedral(), middle + at, middle, exact(0.1, 400), 0), expected, 0.05);
 }
 
-/// In a wide view, with the default numbers of tubes: cells are ten times as wide as what they have to meet.
+/// Describes a scene with a wide view and the default numbers of tubes. Cells are ten times as wide as the
+/// target.
 struct Street {
   static constexpr double wall_y = 6.0;
   const dvec3 center{15, 0, 0}, image{0, 2.0 * wall_y, 0};
@@ -100,8 +102,8 @@ struct Street {
     options.targets = {1};
     return options;
   }
-  /// A plate of `side_m` whose normal is `turn_deg` off the direction of the radar's image; `screen` hides
-  /// the wall from it.
+  /// Returns a plate with a side of `side_m` whose normal is turned by `turn_deg` from the direction of the
+  /// radar's image. `screen` adds a screen between the wall and the plate.
   TinyScene with_plate(double side_m, double turn_deg, bool screen = false) const {
     TinyScene tiny;
     tiny.object("wall").quad({0, wall_y, -3}, {30, wall_y, -3}, {30, wall_y, 3}, {0, wall_y, 3});
@@ -112,7 +114,7 @@ struct Street {
     if (screen) tiny.object("screen").quad({8, 3, -1}, {14, 3, -1}, {14, 3, 1}, {8, 3, 1});
     return tiny;
   }
-  /// Of what comes over the wall both ways.
+  /// Returns the power of the echoes over the wall in both directions.
   double power(const EchoList& list) const {
     Complex sum(0.0);
     for (const Echo& echo : list.echoes)
@@ -132,7 +134,7 @@ TEST(RadarMirror, GhostsBothWaysInAWideViewAtSeveralAspects) {
     EchoStatistics statistics;
     const double power = street.power(scene.find(Street::wide(), Pose{}, {}, &statistics));
     const double shape = std::cos(radians(turn)) * sinc(k * side * std::sin(radians(turn)));
-    // lambda/(4 pi) a^2/(lambda R^2), physical optics of a plate from where the image is.
+    // lambda/(4 pi) a^2/(lambda R^2): physical optics of a plate as seen from the image.
     const double expected = std::pow(side * side * shape / (4.0 * pi * street.range() * street.range()), 2);
     EXPECT_NEAR(decibels(power), decibels(expected), 0.2) << turn;
     EXPECT_GT(statistics.mirror_tubes, 0u);
@@ -165,7 +167,7 @@ TEST(RadarMirror, BudgetBoundsTheTubesAndFewerBouncesHaveNoGhosts) {
   EXPECT_EQ(none.mirror_tubes, 0u);
 }
 
-/// The device's rays and the host's have the same tubes and the same bounces beyond the limit.
+/// Tracing on the device and on the host yields the same tubes and the same bounces beyond the limit.
 TEST(RadarMirror, DeviceAndHostMeetTheSame) {
   const Street street;
   EchoScene scene(street.with_plate(0.3, 0.7));

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""radar_points.py FOLDER: point targets before an FMCW radar, from the phase that is sent, and a cube held
-against it.
+"""radar_points.py FOLDER: computes the beat signal of point targets before an FMCW radar from the transmitted
+phase, and compares a cube with it.
 
-Nothing here is an expansion: the oscillator's phase is evaluated when a sample is taken and when the wave
-that arrives then was sent, twice the point's distance at that sample before. Waves are plane over the
-elements, from where the point is at the frame's middle.
+The reference uses no expansion. It evaluates the phase of the oscillator at the time of a sample and at the
+time at which the wave that arrives then was transmitted: earlier by twice the distance of the point at that
+sample, divided by c. Waves are plane over the elements; their direction is that of the point in the middle of
+the frame.
 """
 import pathlib
 import sys
@@ -27,7 +28,7 @@ sent_from, received_at = elements[:transmitters], elements[transmitters:]
 points = read("points.bin").reshape(-1, 8)
 cube = read("cube.bin", np.complex64).reshape(receivers, transmitters, slots // transmitters, samples)
 
-# When the ramp starts it has this frequency: it passes the carrier when half of the samples are taken.
+# Frequency at the start of the ramp, which passes the carrier when half of the samples are taken.
 start_hz = carrier - slope * (adc_start + (samples // 2) / rate)
 frame_middle = (slots - 1) / 2 * interval + adc_start + (samples // 2) / rate
 
@@ -51,7 +52,7 @@ for x, y, z, vx, vy, vz, amplitude, phase in points:
             turns = oscillator_turns(since_ramp) - oscillator_turns(since_ramp - delay)
             received = amplitude * np.exp(
                 1j * phase
-            )  # of e^{+j omega t}; the mixer conjugates what is received
+            )  # with e^{+j omega t}; the mixer conjugates the received signal
             expected[receiver, transmitter, chirp] += (
                 np.sqrt(power) * np.conj(received) * np.exp(2j * np.pi * turns)
             )

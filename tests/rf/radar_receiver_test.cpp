@@ -10,7 +10,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Bounds of a test at a significance of 1e-5, two-sided.
+/// Bound of a two-sided test at a significance of 1e-5, standard deviations.
 constexpr double z_bound = 4.42;
 
 TEST(RadarReceiver, FunctionsOfLanes) {
@@ -60,7 +60,8 @@ TEST(RadarReceiver, HiddenEchoIsAHundredthOfTheNoiseOfAWholeFrame) {
   config.receiver.noise_figure_db = 9.0;
   const double section = hidden_section_m2(config, 5.0, 2.0), r = 40.0,
                lambda = config.waveform.wavelength_m();
-  // The radar equation of a body of that section times r^4, each antenna; amplitudes of all samples add up.
+  // The radar equation for a body of this cross-section times r^4 at each antenna. The amplitudes of all
+  // samples add up.
   const double each = 0.02 * 5.0 * 2.0 * lambda * lambda * section * std::pow(r, 4) /
                       (std::pow(4.0 * pi, 3) * std::pow(r, 4));
   const double samples = 256.0 * 512.0 * 3.0;
@@ -71,7 +72,7 @@ TEST(RadarReceiver, HiddenEchoIsAHundredthOfTheNoiseOfAWholeFrame) {
 }
 
 TEST(RadarReceiver, NoisePowerIsThermal) {
-  // k T_0 = -173.975 dBm/Hz; 10 MHz and 12 dB: -91.975 dBm.
+  // k T_0 = -173.975 dBm/Hz; with 10 MHz and 12 dB the noise power is -91.975 dBm.
   const double power = noise_power_w(10e6, 12.0);
   EXPECT_NEAR(testing::dbm_of(power), -91.975, 1e-3);
   RadarCube cube(1 << 18);
@@ -99,7 +100,7 @@ TEST(RadarReceiver, NoisePowerIsThermal) {
 }
 
 TEST(RadarReceiver, PhaseNoiseCancelsByRange) {
-  // Variance of phi(t) - phi(t - tau) of one pole: 2 sigma^2 (1 - e^{-2 pi f_p tau}).
+  // The variance of phi(t) - phi(t - tau) for one pole is 2 sigma^2 (1 - e^{-2 pi f_p tau}).
   RadarWaveform w;
   w.samples = 256;
   w.slots = 256;
@@ -124,8 +125,8 @@ TEST(RadarReceiver, PhaseNoiseCancelsByRange) {
     const double mean = sum / w.slots;
     double spread = 0.0;
     for (const double value : of_slots) spread += (value - mean) * (value - mean);
-    const double deviation =
-        std::sqrt(spread / (w.slots - 1) / w.slots);  // of the mean: slots are independent
+    // Slots are independent, which gives the deviation of their mean.
+    const double deviation = std::sqrt(spread / (w.slots - 1) / w.slots);
     const double expected = 2 * std::pow(walk.deviation(), 2) * (1 - std::exp(-2 * pi * 0.2e6 * tau));
     EXPECT_LT(std::abs(mean - expected) / deviation, z_bound) << range;
     EXPECT_GT(mean, nearest);
@@ -161,7 +162,7 @@ TEST(RadarReceiver, ConverterRoundsToTheMiddleAndCountsWhatIsBeyond) {
   EXPECT_EQ(cube[1], std::complex<float>(0.5625f, -0.9375f));
   EXPECT_EQ(cube[2], std::complex<float>(0.9375f, 0.0625f));
   EXPECT_EQ(cube[3], std::complex<float>(0.0625f, -0.9375f));
-  // Noise of step^2/12 in each part: 6.02 dB a bit.
+  // The noise of each part is step^2/12: 6.02 dB per bit.
   RadarCube tone(1 << 16);
   for (size_t i = 0; i < tone.size(); ++i)
     tone[i] = std::polar(0.99f, static_cast<float>(std::fmod(double(i) * 0.7548776662466927, 1.0) * 2 * pi));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reflectors of a = 0.1 m at 77 GHz, and the closed forms of their radar cross-sections, dBsm.
+// Provides reflectors with the size a = 0.1 m at 77 GHz and the closed forms of their radar cross-sections,
+// dBsm.
 #pragma once
 
 #include <algorithm>
@@ -37,9 +38,10 @@ inline TinyScene trihedral() {
   return tiny;
 }
 
-/// A sphere of some 24 n^2 triangles about a step of r pi/(2 n) wide: a cube of n x n squares a face, blown
-/// up, and turned and shaken so that no rows of facets stand half a wavelength behind each other (those of a
-/// regular mesh do somewhere near the shadow's edge, and send back their own Bragg reflection: up to .7 dB).
+/// Returns a sphere of 12 n^2 triangles with a side of about r pi/(2 n). The sphere is a cube with n x n
+/// squares on each face, projected onto the sphere. The mesh is turned and its vertices are displaced at
+/// random. In a regular mesh, rows of facets near the shadow boundary lie half a wavelength behind each other
+/// and add a Bragg reflection of up to 0.7 dB.
 inline TinyScene ball(double radius, int n) {
   TinyScene tiny;
   tiny.object("ball");
@@ -51,7 +53,7 @@ inline TinyScene ball(double radius, int n) {
       const double sign = face < 3 ? 1.0 : -1.0;
       dvec3 p(sign, sign * u, v);
       p = glm::normalize(face % 3 == 0 ? p : face % 3 == 1 ? dvec3(p.z, p.x, p.y) : dvec3(p.y, p.z, p.x));
-      const dvec3 place = glm::floor(p * 1e6 + 0.5);  // what faces share is shaken the same way
+      const dvec3 place = glm::floor(p * 1e6 + 0.5);  // shared vertices get the same displacement
       RandomStream random(1, static_cast<uint32_t>(int64_t(place.x) * 7919 + int64_t(place.y)),
                           static_cast<uint32_t>(int64_t(place.z)));
       const double step = 0.25 * 0.5 * pi / n;
@@ -66,8 +68,8 @@ inline TinyScene ball(double radius, int n) {
   return tiny;
 }
 
-/// Physical optics of a convex mesh of conductors by brute force: quadrature over 2 m^2 points of every lit
-/// triangle.
+/// Returns the cross-section, dBsm, of a convex mesh of conductors in physical optics by brute force:
+/// quadrature over m^2 points of every lit triangle.
 inline double brute_force_db(const scene::Scene& scene, const dvec3& radar, int m) {
   Complex sum(0.0);
   const double distance = glm::length(radar);
@@ -99,8 +101,8 @@ inline double plate_db(double pattern) {
   return decibels(4.0 * pi * std::pow(a, 4) / (radar_wavelength_m * radar_wavelength_m) * pattern * pattern);
 }
 
-/// 4 pi a^4/lambda^2 (cos(theta) sinc(k a sin(theta)))^2 (C. A. Balanis, Advanced Engineering
-/// Electromagnetics, 11.3).
+/// Returns the cross-section of the plate, dBsm: 4 pi a^4/lambda^2 (cos(theta) sinc(k a sin(theta)))^2 (C. A.
+/// Balanis, Advanced Engineering Electromagnetics, 11.3).
 inline double plate_db_at(double degrees) {
   return plate_db(std::cos(radians(degrees)) * sinc(k * a * std::sin(radians(degrees))));
 }
@@ -112,9 +114,9 @@ inline EchoOptions exact(double half_m, uint32_t tubes) {
   return options;
 }
 
-/// 4 pi A^2/lambda^2 of the part of the aperture whose mirror image in the apex is in it, too (A. C.
-/// Bonkowski et al. 1953; for direction cosines (l, m, n), ascending, A = a^2 4 l m/(l + m + n) if l + m <=
-/// n, else a^2 (l + m + n - 2/(l + m + n))).
+/// Returns the cross-section of the trihedral, dBsm: 4 pi A^2/lambda^2. A is the part of the aperture whose
+/// mirror image in the apex also lies in the aperture (A. C. Bonkowski et al. 1953). For the direction
+/// cosines l <= m <= n, A = a^2 4 l m/(l + m + n) if l + m <= n, else A = a^2 (l + m + n - 2/(l + m + n)).
 inline double trihedral_db(dvec3 d) {
   const double low = std::min({d.x, d.y, d.z}), high = std::max({d.x, d.y, d.z}), sum = d.x + d.y + d.z,
                mid = sum - low - high;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radars and point targets for tests.
+// Provides radars and point targets for tests.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace greatx::rf::testing {
 inline double dbm_of(double power_w) { return decibels(power_w) + 30.0; }
 inline double isotropic(const dvec3&) { return 1.0; }
 
-/// A row of transmitters * receivers virtual antennas along y, half a wavelength apart: what is nearest is
-/// the receivers.
+/// Sets a row of transmitters * receivers virtual antennas along y, half a wavelength apart. The receivers
+/// have that spacing; the transmitters are one row of receivers apart.
 inline void set_row(RadarSignalConfig& config, uint32_t transmitters, uint32_t receivers) {
   const double half = 0.5 * config.waveform.wavelength_m();
   config.waveform.transmitters = transmitters;
@@ -28,8 +28,8 @@ inline void set_row(RadarSignalConfig& config, uint32_t transmitters, uint32_t r
   for (uint32_t r = 0; r < receivers; ++r) config.arrays.receive_m.push_back({0, half * r, 0});
 }
 
-/// 77 GHz, 213 MHz over 64 samples (0.70 m a bin, 45 m in all), 32 chirps of each of two transmitters (up to
-/// 8.1 m/s), two receivers.
+/// Returns a radar at 77 GHz with 213 MHz over 64 samples (0.70 m per bin, 45 m in all), 32 chirps of each of
+/// two transmitters (velocities up to 8.1 m/s) and two receivers.
 inline RadarSignalConfig small_radar() {
   RadarSignalConfig config;
   config.waveform.slope_hz_per_s = 5e12;
@@ -41,8 +41,8 @@ inline RadarSignalConfig small_radar() {
   return config;
 }
 
-/// The echo of a point at `range_m` (at the frame's middle) that recedes at `velocity_m_s`, in a direction by
-/// azimuth and elevation: radar equation, elements of gain `gain`.
+/// Returns the echo of a point at `range_m` in the middle of the frame, which recedes at `velocity_m_s`, in
+/// the given direction. Its amplitude follows from the radar equation for elements of gain `gain`.
 inline Echo point_echo(const RadarSignalConfig& config, double range_m, double velocity_m_s,
                        double azimuth = 0.0, double elevation = 0.0, double rcs_m2 = 1.0, double gain = 1.0) {
   Echo echo;
@@ -79,7 +79,7 @@ inline RadarFrame frame_of(const RadarSignalConfig& config, const std::vector<Ec
   return RadarProcessor("front", config, gains, gains).process({lists, attitudes, {}, seeds});
 }
 
-/// Index of the largest value.
+/// Returns the index of the largest value.
 inline size_t peak_of(const std::vector<float>& map) {
   return std::max_element(map.begin(), map.end()) - map.begin();
 }

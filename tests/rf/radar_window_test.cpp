@@ -16,7 +16,8 @@ TEST(RadarWindow, FiguresOfHarrisTable1) {
     RadarWindow kind;
     double gain, bandwidth, scalloping_db;
   };
-  // F. J. Harris, table 1; Hamming's and Blackman's by the closed form, which the table rounds (1.36, 1.73).
+  // F. J. Harris, table 1. The table rounds the values of Hamming and Blackman (1.36, 1.73); here they are
+  // those of the closed form.
   for (const Row& row : {Row{RadarWindow::rectangular, 1.0, 1.0, 3.9224},
                          {RadarWindow::hann, 0.5, 1.5, 1.4236},
                          {RadarWindow::hamming, 0.54, 1.362826, 1.7514},

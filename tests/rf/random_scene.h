@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small scenes drawn from a seed, that can be shifted, turned, cut finer and renumbered. Corners are
+// Draws small scenes from a seed. A scene can be shifted, turned, subdivided and renumbered. Corners are
 // multiples of 2^-10 m, so that a shift by whole metres is exact in fp64 up to 10^9 m.
 #pragma once
 
@@ -20,17 +20,18 @@ struct RandomScene {
     uint32_t material = 0;
   };
   std::string name;
-  std::vector<Face> faces;  ///< one facet each
-  dvec3 transmitter{0.0};   ///< about the middle of the scene, like the receivers
+  std::vector<Face> faces;  ///< each face is one facet
+  dvec3 transmitter{0.0};   ///< in the same box about the middle of the scene as the receivers
   std::vector<dvec3> receivers;
 };
 
-/// What is done to a scene before it is built.
+/// Describes the changes to a scene before it is built.
 struct Change {
-  dvec3 shift{0.0}, origin{0.0};  ///< of all corners; of the local coordinates, in the shifted world
+  /// `shift` moves all corners. `origin` is the origin of the local coordinates, in the shifted world.
+  dvec3 shift{0.0}, origin{0.0};
   dquat turn{1.0, 0.0, 0.0, 0.0};
-  bool split = false;           ///< each triangle into four
-  std::vector<uint32_t> order;  ///< facet i of the built scene is face order[i]; empty: as they are
+  bool split = false;           ///< splits each triangle into four
+  std::vector<uint32_t> order;  ///< facet i of the built scene is face order[i]; empty: the original order
 };
 
 class SceneDraw {
@@ -58,18 +59,18 @@ class SceneDraw {
 
  private:
   double snapped(double low, double high) { return std::round(random_.uniform(low, high) * 1024.0) / 1024.0; }
-  /// Of add_radio_materials: three of four let waves pass.
+  /// Returns an index into add_radio_materials. Three of four draws let waves pass.
   uint32_t material() {
     static constexpr uint32_t draws[] = {0, 1, 1, 1, 2, 2, 2, 3};
     return draws[random_.below(8)];
   }
 
-  /// A parallelogram; its front is where along x up looks.
+  /// Adds a parallelogram. Its normal is along `along` x `up`.
   void quad(const dvec3& corner, const dvec3& along, const dvec3& up) {
     const dvec3 b = corner + along, c = b + up, d = corner + up;
     made_.faces.push_back({{{corner, b, c}, {corner, c, d}}, material()});
   }
-  /// On its base u x v, faces outwards.
+  /// Adds a box on the base u x v with its normals outwards.
   void box(const dvec3& corner, const dvec3& u, const dvec3& v, double height) {
     const dvec3 w(0, 0, height);
     quad(corner, v, u);
@@ -102,7 +103,8 @@ class SceneDraw {
       box({snapped(-5, 2), snapped(-5, 2), 0.25}, {snapped(0.5, 3), 0, 0}, {0, snapped(0.5, 3), 0},
           snapped(0.5, 3));
   }
-  /// Houses that share a wall, which is there twice: once for each, looking either way.
+  /// Adds houses in a row. Two neighbours share a wall, which exists twice: once for each house, with
+  /// opposite normals.
   void terrace() {
     double y = -12.0;
     const double x = snapped(-4, 4), depth = snapped(5, 9), height = snapped(6, 11);
@@ -123,7 +125,7 @@ inline RandomScene random_scene(uint64_t seed, uint32_t kind, uint32_t receivers
   return SceneDraw(seed).draw(kind, receivers);
 }
 
-/// Concrete ground, a thin wall, a glass pane, metal.
+/// Adds the materials concrete ground, thin wall, glass pane and metal.
 inline std::vector<uint32_t> add_radio_materials(test::TinyScene& tiny) {
   const auto add = [&](const char* name, double relative, double sigma, double thickness_m) {
     scene::RadioMedium medium;

@@ -14,7 +14,7 @@
 namespace greatx::rf {
 namespace {
 
-/// Does the line from the image to the point pass the window, in fp64?
+/// Returns whether the line from the image to the point passes the window, in fp64.
 bool passes(const ImageWindow& image, double distance, double u, double v) {
   if (image.distance * distance >= 0.0) return false;
   const double t = image.distance / (image.distance - distance);
@@ -22,7 +22,7 @@ bool passes(const ImageWindow& image, double distance, double u, double v) {
   return at_u >= image.min_u && at_u <= image.max_u && at_v >= image.min_v && at_v <= image.max_v;
 }
 
-/// Of any magnitude from 1e-7 to 1e5, either sign, now and then 0.
+/// Draws a number with a magnitude from 1e-7 to 1e5 and either sign, or sometimes 0.
 double draw(RandomStream& random) {
   const double magnitude = std::pow(10.0, random.uniform(-7.0, 5.0));
   return random.below(50) == 0 ? 0.0 : random.below(2) == 0 ? magnitude : -magnitude;
@@ -71,7 +71,7 @@ TEST(ReachFilter, LosesNothingOnTheWindowsBorder) {
     std::vector<ImageWindow> images = draw_images(random, 1, 1);
     ImageWindow& image = images[0];
     if (image.distance == 0.0) continue;
-    // A point whose line from the image meets the corner of the window, as far as fp64 can tell.
+    // The line from the image to this point meets the corner of the window to the precision of fp64.
     const double beyond = std::pow(10.0, random.uniform(-3.0, 3.0));
     const double u = image.max_u + beyond * (image.max_u - image.u),
                  v = image.min_v + beyond * (image.min_v - image.v);
@@ -104,7 +104,7 @@ TEST(ReachFilter, NothingIsSeenFromThePlaneOrFromTheImagesOwnSide) {
   EXPECT_TRUE(seen(2, 3.0).empty());
 }
 
-// The look in fp32 changes no path: reach() has none, solve() has.
+// The filter in fp32 changes no path: solve() uses it, reach() does not.
 TEST(ImageTree, SolvesWhatEachSequenceReaches) {
   testing::HandScene hand;
   hand.room({9.0, 7.0, 3.0});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Either way the same, and however the antennas stand.
+// Checks that paths are reciprocal for any orientation of the antennas.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ GeometricPath reversed(GeometricPath path) {
   return path;
 }
 
-/// Response between V and H ports, [rx][tx], of antennas at the given ends.
+/// Returns the response between V and H ports, [rx][tx], of antennas with the given orientations.
 std::array<std::array<Complex, 2>, 2> ports(const std::vector<Path>& paths, const dquat& tx,
                                             const dquat& rx) {
   ArrayPose from, to;
@@ -39,9 +39,9 @@ std::array<std::array<Complex, 2>, 2> ports(const std::vector<Path>& paths, cons
   return {{{h[0], h[1]}, {h[2], h[3]}}};
 }
 
-/// Relative difference between one way and the other, for V, H and both circular polarizations at either end.
-/// An antenna that sends V + jH takes up E_V + jE_H: its receiving pattern under C_R^H is the conjugate of
-/// its transmitting one.
+/// Returns the relative difference between both directions for V, H and both circular polarizations at either
+/// end. An antenna that transmits V + jH receives E_V + jE_H: its receiving pattern under C_R^H is the
+/// conjugate of its transmitting one.
 double reciprocity_error(const std::vector<Path>& forward, const std::vector<Path>& backward) {
   const dquat a = orientation_from_yaw_pitch_roll(0.7, 0.2, -0.4),
               b = orientation_from_yaw_pitch_roll(-2, 0.5, 1);
@@ -63,7 +63,7 @@ double reciprocity_error(const std::vector<Path>& forward, const std::vector<Pat
   return error / scale;
 }
 
-/// A room with a thin screen in it, all of one material.
+/// Holds a room with a thin screen in it, all of one material.
 struct ScreenRoom {
   HandScene hand;
   scene::Wedge wedge{
@@ -76,9 +76,9 @@ struct ScreenRoom {
 };
 
 TEST(ReciprocityHardCase, N52_ConductorScene) {
-  // Reflections to depth 3 and the diffraction at the screen's edge, one by one and in sum. Luebbers'
-  // coefficients are not reciprocal: with 1e7 S/m a diffracted path alone is off by 5e-6 of itself, and what
-  // is left of it in the sum by less.
+  // The test covers reflections to depth 3 and the diffraction at the edge of the screen, separately and in
+  // sum. Luebbers' coefficients are not reciprocal: with 1e7 S/m, a single diffracted path has a relative
+  // error of 5e-6, and its contribution to the sum has a smaller one.
   for (const double conductivity : {1e7, 1e30}) {
     const ScreenRoom room(conductivity);
     const FacetWorld world(room.hand.scene);
@@ -104,8 +104,7 @@ TEST(ReciprocityHardCase, N52_ConductorScene) {
 }
 
 TEST(Reciprocity, LayeredWalls) {
-  // Reflected and passed from either side; a wall of layers is not the same from behind, yet lets through the
-  // same.
+  // A wall of layers transmits the same from both sides, although its reflection differs.
   HandScene hand;
   const uint32_t wall = hand.material("plaster on concrete", 2.73, 0.01, 0.02);
   hand.scene.materials[wall].radio->layers.push_back({*scene::itu_medium("concrete"), 0.1});
@@ -121,8 +120,8 @@ TEST(Reciprocity, LayeredWalls) {
 }
 
 TEST(ReciprocityHardCase, N50_UprightAntennas) {
-  // Pitch of +-90 degrees: the rotation stays one, the field follows it continuously, and yaw and roll are
-  // one angle.
+  // At a pitch of +-90 degrees the rotation remains orthogonal, the field follows the pitch continuously, and
+  // yaw and roll are one angle.
   RandomStream random(50, 0);
   for (const double pitch : {pi / 2, -pi / 2})
     for (int i = 0; i < 20; ++i) {
@@ -147,8 +146,8 @@ TEST(ReciprocityHardCase, N50_UprightAntennas) {
 }
 
 TEST(ReciprocityHardCase, N51_HalfTurns) {
-  // a -> -a: antennas turned over, and an echo that comes back the way it went. No NaN, no power lost; twice
-  // is nothing.
+  // a -> -a: antennas are turned over, and an echo returns the way it came. No value is NaN, the power
+  // remains, and two half turns change nothing.
   RandomStream random(51, 0);
   for (int i = 0; i < 50; ++i) {
     const auto direction = [&] {
@@ -175,8 +174,7 @@ TEST(ReciprocityHardCase, N51_HalfTurns) {
   ASSERT_EQ(paths.size(), 1u);
   const Path echo = path_field(paths[0], {&world, &surfaces}, {}, {});
   EXPECT_EQ(echo.departure, echo.arrival);
-  // Straight down and back: a conductor turns the field over, and both ends have the same theta-hat and
-  // phi-hat.
+  // Straight down and back, a conductor inverts the field, and both ends have the same theta-hat and phi-hat.
   EXPECT_LT(std::abs(echo.transfer[0] * 6.0 + 1.0) + std::abs(echo.transfer[3] * 6.0 + 1.0), 1e-12);
   EXPECT_LT(std::abs(echo.transfer[1]) + std::abs(echo.transfer[2]), 1e-12);
 }

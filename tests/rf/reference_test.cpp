@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference against closed forms, and against the image tree with every sequence as a candidate.
+// Checks the reference against closed forms and against the image tree with every sequence as a candidate.
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ TEST(Reference, ShoeBoxHasEveryImageOnce) {
   HandScene hand;
   const dvec3 size(7.3, 5.1, 3.2), from(1.7, 2.9, 2.1), to(6.1, 1.3, 1.4);
   hand.room(size);
-  // Images of the receiver: +-x + 2 n a along each axis, of order |2 n| or |2 n - 1|.
+  // Images of the receiver are at +-x + 2 n a along each axis, of order |2 n| or |2 n - 1|.
   std::vector<std::vector<double>> lengths(5);
   for (int i = -4; i <= 4; ++i)
     for (int j = -4; j <= 4; ++j)
@@ -84,7 +84,7 @@ TEST(Reference, OpaqueWallsBlockAndBudgetedOnesArePassedInOrder) {
   EXPECT_THAT(search(hand.scene, kinds, from, {to}, {.max_depth = 3, .max_transmissions = 1}).paths[0],
               IsEmpty());
   const auto paths = search(hand.scene, kinds, from, {to}, {.max_depth = 3, .max_transmissions = 2}).paths[0];
-  ASSERT_THAT(paths, SizeIs(2));  // straight, and by the ground; by a wall would take it too far
+  ASSERT_THAT(paths, SizeIs(2));  // straight, and by the ground; a reflection by a wall exceeds the depth
   EXPECT_THAT(paths[0].interactions, ElementsAre(Interaction{InteractionType::transmission, 2},
                                                  Interaction{InteractionType::transmission, 1}));
   EXPECT_NEAR(paths[0].vertices[1].x, 4.0, 1e-12);
@@ -92,7 +92,7 @@ TEST(Reference, OpaqueWallsBlockAndBudgetedOnesArePassedInOrder) {
   EXPECT_NEAR(paths[0].length_m, glm::distance(from, to), 1e-12);
   EXPECT_THAT(types(paths[1]), ElementsAre(InteractionType::transmission, InteractionType::transmission,
                                            InteractionType::reflection));
-  // Depth counts walls too.
+  // Walls count towards the depth, too.
   EXPECT_THAT(search(hand.scene, kinds, from, {to}, {.max_depth = 2, .max_transmissions = 2}).paths[0],
               SizeIs(1));
 }
@@ -121,9 +121,9 @@ TEST(Reference, FoliageAndWhatIsAbsentNeitherReflectNorBlock) {
 TEST(Reference, EndsInAPlaneAndInnerCorners) {
   HandScene hand;
   hand.room({6, 5, 3});
-  // On the floor: no reflection there, and none of zero length; the other five walls stay.
+  // On the floor there is no reflection by the floor and none of zero length; the other five walls remain.
   EXPECT_THAT(search(hand.scene, {2, 2, 0}, {{4, 3, 1}}, {.max_depth = 1}).paths[0], SizeIs(6));
-  // Straight into the edge of two walls: xy and yx are one path.
+  // A path straight into the edge of two walls: xy and yx are one path.
   const auto corner = search(hand.scene, {2, 2, 1}, {{3, 3, 1}}, {.max_depth = 2}).paths[0];
   size_t at_edge = 0;
   for (const GeometricPath& path : corner)
@@ -146,11 +146,14 @@ TEST(Reference, MovingBodiesStandWhereTheyAre) {
                             {.max_depth = 1, .transmitter_body = transmitter_body})
         .paths;
   };
-  EXPECT_THAT(paths(0), ElementsAre(IsEmpty(), SizeIs(3)));  // the plate hides one, and mirrors to the other
+  EXPECT_THAT(
+      paths(0),
+      ElementsAre(IsEmpty(), SizeIs(3)));  // the plate hides one receiver and reflects to the other one
   EXPECT_THAT(paths(body), ElementsAre(SizeIs(2), SizeIs(3)));
 }
 
-/// The image tree with every sequence there is, and the reference's occlusion.
+/// Returns the paths of the image tree with every sequence as a candidate, with the occlusion of the
+/// reference.
 std::vector<GeometricPath> by_image_tree(const scene::Scene& scene, const FacetKinds& kinds,
                                          const dvec3& from, const dvec3& to, uint32_t depth) {
   const FacetWorld world(scene);

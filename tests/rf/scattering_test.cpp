@@ -26,7 +26,8 @@ struct Direction {
   double weight;  ///< sr
 };
 
-/// Gauss and Legendre in the cosine with `normal`, equal steps about it: exact for lobes up to `order`.
+/// Returns directions of the hemisphere about `normal`, by Gauss-Legendre quadrature in the cosine and equal
+/// steps of azimuth. The quadrature is exact for lobes up to the exponent `order`.
 std::vector<Direction> hemisphere(const dvec3& normal, uint32_t order) {
   const uint32_t count = order / 2 + 2, turns = order + 2;
   const dvec3 aside = std::abs(normal.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
@@ -34,7 +35,7 @@ std::vector<Direction> hemisphere(const dvec3& normal, uint32_t order) {
   std::vector<Direction> directions;
   for (uint32_t i = 0; i < count; ++i) {
     double x = std::cos(pi * (i + 0.75) / (count + 0.5)), slope = 1.0;
-    for (int step = 0; step < 50; ++step) {  // Newton on P_count
+    for (int step = 0; step < 50; ++step) {  // Newton's method on P_count
       double before = 1.0, here = x;
       for (uint32_t k = 2; k <= count; ++k) {
         const double next = ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k;
@@ -53,12 +54,13 @@ std::vector<Direction> hemisphere(const dvec3& normal, uint32_t order) {
   return directions;
 }
 
-dvec3 incoming(double zenith, double azimuth) {  // onto a surface whose normal is +z
+// The surface has the normal +z.
+dvec3 incoming(double zenith, double azimuth) {
   return {std::sin(zenith) * std::cos(azimuth), std::sin(zenith) * std::sin(azimuth), -std::cos(zenith)};
 }
 
 TEST(Scattering, LobeNormalisationFigures) {
-  // F_alpha(0) = 4 pi/(alpha + 1) (1 - 2^-(alpha + 1)); F_4(45 degrees) to eight decimals.
+  // F_alpha(0) = 4 pi/(alpha + 1) (1 - 2^-(alpha + 1)); F_4(45 degrees) is known to eight decimals.
   for (const uint32_t alpha : {1u, 2u, 3u, 4u, 10u, 50u, 100u}) {
     const double expected = 4.0 * pi / (alpha + 1.0) * (1.0 - std::pow(0.5, alpha + 1.0));
     EXPECT_NEAR(lobe_normalisation(alpha, 1.0) / expected, 1.0, 1e-14) << alpha;
@@ -121,7 +123,7 @@ TEST(Scattering, LobesPointWhereTheyShould) {
               1e-14);
   surface.backscatter_share = 1.0;
   EXPECT_NEAR(scattering_pattern(surface, in, -in, normal), peak, 1e-14);
-  // Nothing goes through, nothing along.
+  // No power is scattered through the surface or along it.
   for (const DiffuseScattering& each : surfaces_of_all_patterns()) {
     EXPECT_EQ(scattering_pattern(each, in, in, normal), 0.0);
     EXPECT_EQ(scattering_pattern(each, in, {1, 0, 0}, normal), 0.0);
@@ -146,8 +148,8 @@ TEST(Scattering, MatrixIsUnitaryAndAFunctionOfThePatch) {
 }
 
 TEST(Scattering, PhasesAreUniformAndIndependent) {
-  // A sum of n independent unit phasors has |sum|^2 distributed exponentially with mean n: beyond 14 n with
-  // probability e^-14 = 8e-7. Six sums.
+  // The squared magnitude of a sum of n independent unit phasors is distributed exponentially with mean n. It
+  // exceeds 14 n with a probability of e^-14 = 8e-7. The test has six sums.
   constexpr uint32_t count = 20'000;
   Complex te{0.0}, tm{0.0}, crossed{0.0}, both{0.0}, apart{0.0}, neighbours{0.0};
   ScatteringMatrix before = scattering_matrix(0.5, 3, 99, 0);
@@ -165,7 +167,7 @@ TEST(Scattering, PhasesAreUniformAndIndependent) {
     EXPECT_LT(std::norm(sum), 14.0 * count);
 }
 
-/// A ground that scatters, and a path over a patch of it.
+/// Holds a ground that scatters, and makes paths over a patch of it.
 struct Patch {
   HandScene hand;
   double area_m2 = 0.02;
@@ -189,7 +191,7 @@ struct Patch {
 };
 
 TEST(Scattering, EnergyBalanceOfAPatch) {
-  // The integral of |E_s|^2 r^2 over the hemisphere = S^2 Gamma^2 |E_i|^2 cos(theta_i) dA, for any
+  // The integral of |E_s|^2 r^2 over the hemisphere is S^2 Gamma^2 |E_i|^2 cos(theta_i) dA for any
   // polarization.
   const dvec3 point(3, -2, 0);
   const struct {
@@ -214,7 +216,8 @@ TEST(Scattering, EnergyBalanceOfAPatch) {
                           std::norm(t[2] * sent[i].theta + t[3] * sent[i].phi));
       }
       for (int i = 0; i < 4; ++i) {
-        // Over a horizontal surface theta-hat lies in the plane of incidence (TM), phi-hat across it (TE).
+        // On a horizontal surface theta-hat lies in the plane of incidence (TM) and phi-hat is perpendicular
+        // to it (TE).
         const double gamma2 = std::norm(sent[i].theta * fresnel.r_tm) + std::norm(sent[i].phi * fresnel.r_te);
         const double incident = 1.0 / 16.0;  // |E_i|^2 at 4 m
         const double expected = 0.16 * gamma2 * incident * std::cos(zenith) * patch.area_m2;
@@ -255,8 +258,8 @@ TEST(Scattering, BothSidesOfAWallScatter) {
 }
 
 TEST(Scattering, ReflectionsBeforeAndAfterAreImages) {
-  // A conducting wall x = 10: what comes to the patch over it comes from the mirrored transmitter, and what
-  // leaves over it goes to the mirrored receiver.
+  // With a conducting wall x = 10, a wave that reaches the patch over the wall comes from the mirrored
+  // transmitter. A wave that leaves over the wall goes to the mirrored receiver.
   Patch patch({.coefficient = 0.5, .pattern = ScatteringPattern::directive, .cross_polarization = 0.1}, 4.0,
               0.0);
   const uint32_t conductor = patch.hand.material("conductor", 1.0, 1e30);
@@ -297,8 +300,8 @@ TEST(Scattering, ReflectionsBeforeAndAfterAreImages) {
 }
 
 TEST(Scattering, WhatIsScatteredIsNotReflected) {
-  // S^2 to the hemisphere and 1 - S^2 of the reflected power straight on: together what a smooth surface
-  // reflects.
+  // A share S^2 of the reflected power is scattered into the hemisphere and 1 - S^2 is reflected. Together
+  // they are the reflection of a smooth surface.
   Patch patch({.coefficient = 0.6}, 4.0, 0.0);
   const FacetWorld world(patch.hand.scene);
   const RadioSurfaces surfaces(patch.hand.scene, scattered_hz);
@@ -311,7 +314,8 @@ TEST(Scattering, WhatIsScatteredIsNotReflected) {
 }
 
 TEST(Scattering, DopplerOfAMovingPatch) {
-  // nu = -(f/c) d(s' + s)/dt: against the difference of lengths, ends and patch moving.
+  // nu = -(f/c) d(s' + s)/dt. The rate follows from a difference of lengths while the ends and the patch
+  // move.
   Patch patch({.coefficient = 0.5}, 4.0, 0.0);
   const uint32_t body = patch.hand.body();
   const uint32_t plate = patch.hand.quad({0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, 0, body);

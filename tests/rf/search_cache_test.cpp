@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using rf::testing::SearchScene;
 
-/// A folder of its own, and a result with windows, wedges and beams.
+/// Provides a temporary folder and a search result with windows, wedges and beams.
 class SearchCacheTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -47,7 +47,7 @@ class SearchCacheTest : public ::testing::Test {
     return search_key(FacetWorld(scene_.scene()), scene_.facet_kinds(), wedges_, scene_.source, options);
   }
   fs::path file() const { return folder_ / "deeper" / (key() + ".beams"); }
-  /// Results under keys of one letter: 64 times.
+  /// Returns a key that consists of 64 times the same letter.
   std::string other_key(char letter) const { return std::string(64, letter); }
   fs::path file(const std::string& key) const { return folder_ / "deeper" / (key + ".beams"); }
   SearchCache cache() const { return SearchCache(folder_ / "deeper"); }
@@ -74,7 +74,7 @@ TEST_F(SearchCacheTest, WhatIsStoredIsReadBackTheSame) {
                 a.walls == b.walls)
         << i;
   }
-  // No draft is left behind; storing again replaces.
+  // No draft remains; storing again replaces the file.
   cache().store(key(), result_);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deeper"), fs::directory_iterator()), 1);
 }
@@ -104,7 +104,7 @@ TEST_F(SearchCacheTest, DamagedAndTruncatedFilesAreAsGoodAsNone) {
     EXPECT_FALSE(with(good.substr(0, length))) << length << " bytes";
   EXPECT_FALSE(with(good + "more"));
   EXPECT_FALSE(with(std::string(1000, 'x')));
-  // And it is replaced by the next search.
+  // The next search replaces the file.
   cache().store(key(), result_);
   EXPECT_TRUE(cache().load(key(), extent_).has_value());
 }
@@ -124,7 +124,7 @@ TEST_F(SearchCacheTest, WhateverChangesTheResultChangesTheKey) {
   const auto add = [&](const FacetWorld& of, std::span<const scene::Wedge> wedges, const dvec3& source) {
     keys.push_back(search_key(of, kinds, wedges, source, plain));
   };
-  scene::Scene moved = scene_.scene();  // a corner of a wall, by a millimetre
+  scene::Scene moved = scene_.scene();  // moves a corner of a wall by a millimetre
   moved.facet_triangles.back().corners[1].x += 1e-3;
   add(FacetWorld(moved), wedges_, scene_.source);
   add(world, {}, scene_.source);
@@ -175,14 +175,14 @@ TEST_F(SearchCacheTest, WhatIsNoFileOfItsKeyIsReplaced) {
     return cache().load(key(), extent_).has_value();
   };
   ASSERT_TRUE(good());
-  // Of another key, whole as it is.
+  // The file belongs to another key, although it is complete.
   fs::rename(file(), file(other_key('a')));
   EXPECT_FALSE(cache().load(other_key('a'), extent_).has_value());
-  // Whole, but of a scene that has more.
+  // The file is complete, but belongs to a scene with more facets or wedges.
   ASSERT_TRUE(good());
   EXPECT_FALSE(cache().load(key(), {extent_.facets - 1, extent_.wedges}).has_value());
   EXPECT_FALSE(cache().load(key(), {extent_.facets, extent_.wedges - 1}).has_value());
-  // A pipe, which nobody writes to; a link to nowhere, or to itself.
+  // A pipe without a writer, and a link to itself.
   fs::remove(file());
   ASSERT_EQ(mkfifo(file().c_str(), 0600), 0);
   EXPECT_FALSE(cache().load(key(), extent_).has_value());
@@ -191,7 +191,7 @@ TEST_F(SearchCacheTest, WhatIsNoFileOfItsKeyIsReplaced) {
   fs::create_symlink(file().filename(), file());
   EXPECT_FALSE(cache().load(key(), extent_).has_value());
   EXPECT_TRUE(good());
-  // A folder, empty or not, stays: it is not the cache's. The run goes on without.
+  // A folder is not a file of the cache and remains, empty or not. The run continues without the cache.
   fs::remove(file());
   fs::create_directories(file() / "inner");
   EXPECT_FALSE(cache().load(key(), extent_).has_value());
@@ -213,7 +213,7 @@ TEST_F(SearchCacheTest, WhatWasNotUsedForLongestGoes) {
   fs::remove(file());
   for (const char letter : {'a', 'b', 'c'}) small.store(other_key(letter), result_);
   used('a', 30), used('b', 20), used('c', 10);
-  // What is not the cache's is not counted and not touched, nor is a draft that somebody may be writing.
+  // Other files do not count and are not touched, nor is a draft that a process may be writing.
   std::ofstream(folder_ / "deeper" / "notes.beams") << std::string(4 * one, 'x');
   std::ofstream(folder_ / "deeper" / "thesis.tmp") << "mine";
   fs::last_write_time(folder_ / "deeper" / "thesis.tmp", fs::file_time_type{});
@@ -231,7 +231,7 @@ TEST_F(SearchCacheTest, WhatWasNotUsedForLongestGoes) {
   EXPECT_TRUE(fs::exists(folder_ / "deeper" / "thesis.tmp"));
   EXPECT_TRUE(fs::exists(folder_ / "deeper" / (other_key('d') + ".7.tmp")));
   EXPECT_FALSE(fs::exists(folder_ / "deeper" / (other_key('e') + ".7.tmp")));
-  // A result that is beyond the limit by itself takes nothing else's place.
+  // A result that alone exceeds the limit does not displace others.
   const SearchCache tiny(folder_ / "deeper", one - 1);
   tiny.store(other_key('0'), result_);
   EXPECT_FALSE(fs::exists(file(other_key('0'))));
@@ -298,7 +298,7 @@ TEST_F(SearchCacheTest, AFolderThatCannotBeWrittenIsNoError) {
   const SearchCache blocked(folder_ / "file" / "cache");
   EXPECT_NO_THROW(blocked.store(key(), result_));
   EXPECT_FALSE(blocked.load(key(), extent_).has_value());
-  // Where permissions hold (not for root): a folder that is there but read-only.
+  // A folder that exists but is read-only, where permissions apply (not for root).
   fs::create_directory(folder_ / "locked");
   fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_NO_THROW(SearchCache(folder_ / "locked").store(key(), result_));

@@ -22,7 +22,8 @@ using Links = std::vector<std::vector<GeometricPath>>;
 
 const std::vector<Pose> at_rest{Pose{}};
 
-/// False: dark. Else walls are among the path's interactions and vertices.
+/// Returns whether `path` passes all occluders within the budget of walls. On success the walls that it
+/// passes are among its interactions and vertices.
 bool pass(const reference::Occluders& occluders, const SearchScene& scene, GeometricPath& path) {
   const size_t reflections = path.interactions.size();
   if (reflections > scene.depth) return false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small scenes that are hard to search, and what has to be found in them.
+// Provides small scenes that are hard to search, and checks a search of them against the reference.
 #pragma once
 
 #include <string>
@@ -16,29 +16,29 @@ namespace greatx::rf::testing {
 
 struct SearchScene {
   HandScene hand;
-  FacetKinds kinds;  ///< empty: all opaque
+  FacetKinds kinds;  ///< empty: all facets are opaque
   dvec3 source{0.0};
-  dvec3 low{-10.0, -10.0, 0.2}, high{10.0, 10.0, 8.0};  ///< receivers are drawn in this box
-  std::vector<dvec3> receivers;                         ///< and these as well
+  dvec3 low{-10.0, -10.0, 0.2}, high{10.0, 10.0, 8.0};  ///< random receivers lie in this box
+  std::vector<dvec3> receivers;                         ///< further receivers
   uint32_t drawn = 40;
   uint32_t depth = 3, walls = 0;
 
   const scene::Scene& scene() const { return hand.scene; }
   FacetKinds facet_kinds() const;
-  /// Those that are given and those that are drawn, from a seed.
+  /// Returns the given receivers and those drawn from a seed.
   std::vector<dvec3> points() const;
   BeamSearchOptions options() const;
-  /// Faces outwards: two x, two y, two z.
+  /// Adds a box with its normals outwards, in the order two x faces, two y faces, two z faces.
   void box(const dvec3& low, const dvec3& high);
 };
 
-/// What a search and all that follows find: [receivers], line of sight, reflections and walls passed;
-/// canonical order. Crossings by the reference's occluders, on the host.
+/// Returns the paths of `list` after all further steps, [receivers], in canonical order: line of sight,
+/// reflections and passed walls. The occluders of the reference find the crossings on the host.
 std::vector<std::vector<GeometricPath>> solve(const SearchScene& scene, const CandidateList& list);
 
-/// The default options and no clearance at all: every path of the reference, none twice and no other, whether
-/// bounded by windows or not; one and two threads the same. Returns the reference's paths by number of
-/// interactions.
+/// Expects that the search finds every path of the reference once and no other path. The options are the
+/// default ones with zero clearance, with and without bounds by windows, with one and with two threads.
+/// Returns the number of the reference's paths by number of interactions.
 std::vector<size_t> expect_perfect(const SearchScene& scene, const std::string& name);
 
 }  // namespace greatx::rf::testing

@@ -18,8 +18,8 @@ constexpr Complex j{0.0, 1.0};
 
 double error(Complex found, Complex expected) { return std::abs(found - expected); }
 
-/// int_0^x e^{-j t^2} dt by Gauss and Legendre's rule, five points a panel: shares nothing with the code
-/// under test.
+/// Returns int_0^x e^{-j t^2} dt by Gauss-Legendre quadrature with five points per panel, independently of
+/// the code under test.
 Complex fresnel_integral(double x) {
   constexpr double node[3] = {0.0, 0.5384693101056831, 0.9061798459386640};
   constexpr double weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
@@ -37,9 +37,9 @@ Complex fresnel_integral(double x) {
   return sum;
 }
 
-/// Sommerfeld's half-plane: u(beta) = e^{jk rho cos(beta)} (e^{j pi/4}/sqrt(pi)) int_{-sqrt(2 k rho)
-/// cos(beta/2)}^inf e^{-j t^2} dt; the field is u(phi - phi') -+ u(phi + phi') (Born and Wolf, Principles of
-/// Optics, 7th ed., 11.5).
+/// Returns Sommerfeld's solution for a half-plane: the field is u(phi - phi') -+ u(phi + phi') with u(beta) =
+/// e^{jk rho cos(beta)} (e^{j pi/4}/sqrt(pi)) int_{-sqrt(2 k rho) cos(beta/2)}^inf e^{-j t^2} dt (Born and
+/// Wolf, Principles of Optics, 7th ed., 11.5).
 Complex sommerfeld(double k_rho, double incident, double observed, double hard) {
   const auto part = [&](double beta) {
     const double c = std::cos(0.5 * beta), x = std::sqrt(2.0 * k_rho) * std::abs(c);
@@ -50,7 +50,8 @@ Complex sommerfeld(double k_rho, double incident, double observed, double hard) 
   return part(observed - incident) + hard * part(observed + incident);
 }
 
-/// Plane wave on a wedge: geometrical optics and the diffracted field, k rho from the edge.
+/// Returns the total field of a plane wave on a wedge, geometrical optics and diffraction, at k rho from the
+/// edge.
 Complex total(const UtdAngles& angles, double k_rho, const Complex& reflection_0,
               const Complex& reflection_n) {
   const double phi = angles.observed, incident = angles.incident, wide = 2.0 * angles.n * pi;
@@ -67,7 +68,7 @@ Complex total(const UtdAngles& angles, double k_rho, const Complex& reflection_0
 }
 
 TEST(Utd, ErfcxOnTheDiagonal) {
-  // mpmath, 40 digits.
+  // The figures were computed with 40 digits (mpmath).
   const struct {
     double w;
     Complex value;
@@ -94,8 +95,8 @@ TEST(Utd, ErfcxOnTheDiagonal) {
 }
 
 TEST(Utd, ErfcxIsSmoothWhereTheFormulaChanges) {
-  // The pole's term is dropped near w = 4.5, t^4 beside w^4 at w = 1e5: no step. The derivative there is 2
-  // z^2/w e - ...
+  // The formula drops the term of the pole near w = 4.5, and t^4 relative to w^4 at w = 1e5. Neither change
+  // causes a step.
   for (const double w : {40.0 / (std::sqrt(2.0) * pi) * std::sqrt(pi / 12.5), 1e5}) {
     const Complex below = erfcx_on_diagonal(w * (1.0 - 1e-15)), above = erfcx_on_diagonal(w * (1.0 + 1e-15));
     EXPECT_LT(error(above, below), 5e-15 * std::abs(below));
@@ -108,12 +109,12 @@ TEST(Utd, TransitionFunction) {
   EXPECT_LT(error(transition_function(100.0), {0.999925065463363614, 0.0049981279426342198}), 1e-15);
   EXPECT_EQ(transition_function(0.0), Complex(0.0));
   EXPECT_LT(error(transition_function(1e12), 1.0), 1e-12);
-  // F -> sqrt(pi x) e^{j pi/4} as x -> 0.
+  // F -> sqrt(pi x) e^{j pi/4} for x -> 0.
   EXPECT_LT(error(transition_function(1e-12) / 1e-6, std::sqrt(pi) * std::polar(1.0, 0.25 * pi)), 3e-6);
 }
 
 TEST(Utd, SameAsCotTimesF) {
-  // Kouyoumjian and Pathak's own form, away from its poles.
+  // The expected value is the original form of Kouyoumjian and Pathak, away from its poles.
   RandomStream random(11, 0);
   for (int i = 0; i < 2000; ++i) {
     const double n = random.uniform(1.05, 2.0), incident = random.uniform(0.0, n * pi),
@@ -143,7 +144,7 @@ TEST(Utd, SameAsCotTimesF) {
 }
 
 TEST(Utd, ConductingHalfPlaneIsSommerfelds) {
-  // A plane wave on a half-plane: the uniform theory is exact.
+  // For a plane wave on a half-plane the uniform theory is exact.
   RandomStream random(12, 0);
   double worst = 0.0;
   for (const double k_rho : {0.01, 0.3, 1.0, 7.0, 50.0, 1000.0}) {
@@ -158,8 +159,8 @@ TEST(Utd, ConductingHalfPlaneIsSommerfelds) {
   RecordProperty("worst", fmt::format("{:.1e}", worst));
 }
 
-/// The exact field of a conducting wedge in a plane wave (D. S. Jones, "The Theory of Electromagnetism",
-/// 9.19): (2/n) sum eps_m j^{m/n} J_{m/n}(k rho) cos cos, or 4/n sum j^{m/n} J sin sin.
+/// Returns the exact field of a conducting wedge in a plane wave (D. S. Jones, "The Theory of
+/// Electromagnetism", 9.19): (2/n) sum eps_m j^{m/n} J_{m/n}(k rho) cos cos, or 4/n sum j^{m/n} J sin sin.
 Complex wedge_series(double n, double k_rho, double incident, double observed, bool hard) {
   Complex sum = hard ? Complex(0.5 * std::cyl_bessel_j(0.0, k_rho)) : Complex(0.0);
   for (int m = 1; m / n < 2.0 * k_rho + 60.0; ++m) {
@@ -176,7 +177,7 @@ TEST(Utd, ConductingWedge) {
   const Complex found = total(utd_angles(1.5, radians(45.0), radians(240.0)), 100.0, -1.0, -1.0);
   EXPECT_LT(error(exact, {0.108257, -0.009321}), 1e-6);
   EXPECT_LT(error(found, {0.108274, -0.009396}), 1e-6);
-  // Everywhere: the error of the theory falls as (k rho)^{-3/2}.
+  // At all angles, the error of the theory falls as (k rho)^{-3/2}.
   RandomStream random(13, 0);
   for (const double n : {1.25, 1.5, 1.75, 1.95}) {
     for (const double k_rho : {20.0, 100.0}) {
@@ -221,8 +222,8 @@ TEST(Utd, ConductorIsReciprocal) {
 }
 
 TEST(UtdHardCase, N44_ContinuousAcrossEveryBoundary) {
-  // The total field at, 1e-12 and 1e-5 rad beside each boundary; its slope there is some sqrt(k rho) per
-  // radian.
+  // Compares the total field on each boundary with that 1e-12 and 1e-5 rad beside the boundary. Its slope
+  // there is about sqrt(k rho) per radian.
   const Complex r0(-0.6, 0.1), rn(0.35, -0.2);
   for (const double n : {1.2, 1.5, 1.9, 2.0}) {
     for (const double incident : {0.4, 0.9 * (n - 1.0) * pi, 0.5 * n * pi, 0.7 * n * pi}) {
@@ -234,7 +235,7 @@ TEST(UtdHardCase, N44_ContinuousAcrossEveryBoundary) {
           ASSERT_TRUE(std::isfinite(at.real()) && std::isfinite(at.imag()));
           for (const double beside : {-1e-12, 1e-12, -1e-5, 1e-5}) {
             const Complex near = total(utd_angles(n, incident, boundary + beside), k_rho, r0, rn);
-            // The phase of waves that cross the boundary at an angle turns by k rho beside.
+            // The phase of waves that cross the boundary at an angle turns by k rho times this angle.
             EXPECT_LT(error(near, at), 4.0 * (k_rho + 1.0) * std::abs(beside) + 1e-14 * (k_rho + 10.0))
                 << n << ' ' << incident << ' ' << boundary << ' ' << k_rho << ' ' << beside;
           }
@@ -245,7 +246,7 @@ TEST(UtdHardCase, N44_ContinuousAcrossEveryBoundary) {
 }
 
 TEST(UtdHardCase, N44_ExactlyOnABoundary) {
-  // From directions: the boundary's own direction gives delta = 0 exactly, and a half on either side.
+  // For vectors, the direction of the boundary itself gives delta = 0 exactly, and one half on either side.
   const auto delta = [](const UtdAngles& angles, UtdTerm term) {
     return angles.delta[static_cast<uint32_t>(term)];
   };
@@ -258,7 +259,7 @@ TEST(UtdHardCase, N44_ExactlyOnABoundary) {
     const UtdAngles mirror = utd_angles(n, source, {-source.x, source.y});
     EXPECT_EQ(delta(mirror, UtdTerm::reflection_0), 0.0);
     EXPECT_EQ(utd_terms(mirror, 50.0, 7.0)[UtdTerm::reflection_0], Complex(-0.5));
-    // One part in 1e15 to either side: sign and size.
+    // One part in 1e15 to either side determines the sign; the magnitude is one half.
     const UtdAngles past = utd_angles(n, source, -source + dvec2(1e-15, -4e-15)),
                     before = utd_angles(n, source, -source + dvec2(-1e-15, 4e-15));
     EXPECT_GT(delta(past, UtdTerm::shadow_0), 0.0);
@@ -267,7 +268,7 @@ TEST(UtdHardCase, N44_ExactlyOnABoundary) {
     EXPECT_LT(error(utd_terms(past, 50.0, 7.0)[UtdTerm::shadow_0], 0.5), 1e-12);
     EXPECT_LT(error(utd_terms(before, 50.0, 7.0)[UtdTerm::shadow_0], -0.5), 1e-12);
   }
-  // Both ways of asking agree.
+  // Angles and vectors give the same result.
   RandomStream random(15, 0);
   for (int i = 0; i < 1000; ++i) {
     const double n = random.uniform(1.05, 2.0), a = random.uniform(0.0, n * pi),
@@ -282,8 +283,8 @@ TEST(UtdHardCase, N44_ExactlyOnABoundary) {
 }
 
 TEST(UtdHardCase, N45_GrazingTheEdgeIsFinite) {
-  // L -> 0 (sin beta_0 -> 0 or s -> 0): each term without dimension tends to its value on the boundary, 1/2
-  // times the angular factor; sqrt(L)/sin(beta_0) = sqrt(s s'/(s + s')) has no pole either.
+  // For L -> 0 (sin beta_0 -> 0 or s -> 0), each dimensionless term tends to its value on the boundary, 1/2
+  // times the angular factor. sqrt(L)/sin(beta_0) = sqrt(s s'/(s + s')) has no pole either.
   const UtdAngles angles = utd_angles(1.5, 0.7, 3.0);
   const UtdTerms none = utd_terms(angles, 100.0, 0.0);
   for (const double distance : {1e-300, 1e-30, 1e-12}) {
@@ -338,18 +339,18 @@ TEST(Utd, LuebbersAnglesAreTheReflectionsOnTheirBoundaries) {
       }
     }
   }
-  // Luebbers' own: R_0 at phi', R_n at n pi - phi.
+  // Luebbers' own choice is R_0 at phi' and R_n at n pi - phi.
   const FaceAngles own = luebbers_angles(utd_angles(1.5, 0.3, 4.0));
   EXPECT_EQ(own.face_0, 0.3);
   EXPECT_NEAR(std::sin(own.face_n), std::sin(1.5 * pi - 4.0), 1e-14);
-  // No grazing incidence in the extended plane of the far face, (n - 1) pi.
+  // In the extended plane of the far face, (n - 1) pi, there is no grazing incidence.
   EXPECT_EQ(luebbers_angles(utd_angles(1.5, 0.3, 0.5 * pi)).face_n, 0.5 * pi);
 }
 
 TEST(Utd, KnifeEdge) {
-  // An absorbing half-plane far away: Fresnel and Kirchhoff's knife edge, 20 log10 |(1 + j)/2 int_nu^inf
-  // e^{-j pi t^2/2}| (Rec. ITU-R P.526): 6.0206 dB at nu = 0, 13.8641 dB at nu = 1, and 1.0010 dB of gain at
-  // nu = -1.
+  // A distant absorbing half-plane is the knife edge of Fresnel and Kirchhoff with the loss 20 log10 |(1 +
+  // j)/2 int_nu^inf e^{-j pi t^2/2}| (Rec. ITU-R P.526): 6.0206 dB at nu = 0, 13.8641 dB at nu = 1, and a
+  // gain of 1.0010 dB at nu = -1.
   const double k_distance = 1e9;
   for (const auto& [nu, loss_db] :
        {std::pair{0.0, 6.0206}, std::pair{1.0, 13.8641}, std::pair{-1.0, -1.0010}}) {
@@ -357,7 +358,7 @@ TEST(Utd, KnifeEdge) {
     const Complex d =
         utd_coefficients(utd_angles(2.0, 0.5 * pi, 1.5 * pi + delta), 1.0, k_distance, 1.0, {}, {}).soft /
         std::sqrt(k_distance);
-    // The direct wave is ahead of the diffracted one by w^2.
+    // The direct wave is ahead of the diffracted wave by w^2.
     const double ahead = 0.5 * pi * nu * nu;
     const Complex sum = d + (nu <= 0.0 ? std::polar(1.0, ahead) : Complex(0.0));
     EXPECT_NEAR(-20.0 * std::log10(std::abs(sum)), loss_db, 1e-3) << nu;

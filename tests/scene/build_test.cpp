@@ -24,7 +24,7 @@ ModelPlacement placement_of(const Model& model, const std::string& name = "") {
   return placement;
 }
 
-/// Origin at zero, so that local = world.
+/// Returns options with the origin at zero, so that local = world.
 BuildOptions at_zero() {
   BuildOptions options;
   options.origin = dvec3(0.0);
@@ -36,14 +36,15 @@ Scene build_one(const GltfWriter& writer, const BuildOptions& options = at_zero(
   return build_scene({placement_of(model)}, options);
 }
 
-/// A quad in the file's axes.
+/// Writes a quad in the file's axes.
 GltfWriter quad(const std::vector<vec3>& corners = test::unit_quad()) {
   GltfWriter writer;
   writer.add_triangles("wall", corners, test::quad_indices(), writer.itu_material());
   return writer;
 }
 
-/// A closed box from (0, 0, 0) to (1, 1, 1), wound outwards, 12 triangles on 8 vertices, in the file's axes.
+/// Writes a closed box from (0, 0, 0) to (1, 1, 1), wound outwards, 12 triangles on 8 vertices, in the file's
+/// axes.
 GltfWriter box() {
   const std::vector<vec3> corners = {vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0), vec3(0, 1, 0),
                                      vec3(0, 0, 1), vec3(1, 0, 1), vec3(1, 1, 1), vec3(0, 1, 1)};
@@ -61,7 +62,7 @@ dvec3 geometric_normal(const Scene& scene, size_t triangle) {
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
-/// Six times the volume that the triangles enclose; positive if they are wound outwards.
+/// Returns six times the volume that the triangles enclose. It is positive if they are wound outwards.
 double enclosed(const Scene& scene) {
   double sum = 0.0;
   for (const FacetTriangle& triangle : scene.facet_triangles) {
@@ -165,14 +166,14 @@ TEST(BuildScene, MovingBodiesKeepTheirOwnFrame) {
   EXPECT_EQ(scene.body_index("taxi"), 2u);
   EXPECT_EQ(scene.bodies[1].bounds.min, dvec3(0, -2, 0.5));
   EXPECT_EQ(scene.bodies[1].bounds.max, dvec3(2, 0, 2.5));
-  EXPECT_EQ(scene.bounds.size(), dvec3(1, 0, 1));  // of what stands still
+  EXPECT_EQ(scene.bounds.size(), dvec3(1, 0, 1));  // of the static world alone
   ASSERT_EQ(scene.instances.size(), 3u);
   EXPECT_EQ(scene.instances[0].name, "ground/wall");
   EXPECT_EQ(scene.instances[1].name, "car/box");
   EXPECT_EQ(scene.instances[1].semantic_class, SemanticClass::vehicle);
   EXPECT_EQ(scene.facets.size(), 1u + 6u + 6u);
   EXPECT_EQ(scene.facets.back().body, 2u);
-  EXPECT_EQ(scene.materials.size(), 1u);  // equal ones once
+  EXPECT_EQ(scene.materials.size(), 1u);  // equal materials are merged
   second.name = "car";
   expect_user_error([&] { build_scene({moving, second}, {}); }, {"moving object 'car'"});
   second.name = "";
@@ -196,7 +197,7 @@ TEST(BuildScene, PoseAndScaleOfAPlacement) {
   placement.pose.orientation = orientation_from_yaw_pitch_roll(pi / 2, 0, 0);
   placement.scale = dvec3(2, 1, 3);
   const Scene scene = build_scene({placement}, at_zero());
-  // East 0…2 turns to north, up 0…3.
+  // East 0...2 turns to north, up is 0...3.
   EXPECT_NEAR(glm::distance(scene.bounds.min, dvec3(10, 20, 30)), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(scene.bounds.max, dvec3(10, 22, 33)), 0.0, 1e-12);
   ModelPlacement bad = placement;
@@ -268,7 +269,7 @@ TEST(BuildScene, LightsMoveWithTheirPlacement) {
   EXPECT_NEAR(glm::distance(scene.lights[1].position, dvec3(1, 0, 2)), 0.0, 1e-12);
 }
 
-/// A quad that carries a normal map; `uvs` in the order of unit_quad().
+/// Builds a quad that carries a normal map. `uvs` are in the order of unit_quad().
 Scene normal_mapped(const std::vector<vec2>& uvs, bool mirrored_scale = false, bool given = false) {
   GltfWriter writer;
   writer.append("images", {{"uri", "data:image/png;base64," +
@@ -289,7 +290,7 @@ Scene normal_mapped(const std::vector<vec2>& uvs, bool mirrored_scale = false, b
 }
 
 TEST(BuildScene, TangentsPointAlongU) {
-  // The picture stands upright on the wall: u east, v down.
+  // The picture is upright on the wall: u east, v down.
   const Scene scene = normal_mapped({vec2(0, 1), vec2(1, 1), vec2(1, 0), vec2(0, 0)});
   expect_consistent(scene);
   for (const vec4& tangent : scene.tangents)
@@ -297,20 +298,20 @@ TEST(BuildScene, TangentsPointAlongU) {
   // glTF 2.0, section 3.7.2.1: bitangent = cross(normal, tangent) * w, up the picture.
   const vec3 bitangent = glm::cross(scene.normals[0], vec3(scene.tangents[0])) * scene.tangents[0].w;
   EXPECT_NEAR(glm::distance(bitangent, vec3(0, 0, 1)), 0.0f, 1e-6f);
-  // Mirrored left to right.
+  // Now the picture is mirrored left to right.
   for (const vec4& tangent : normal_mapped({vec2(1, 1), vec2(0, 1), vec2(0, 0), vec2(1, 0)}).tangents) {
     EXPECT_NEAR(glm::distance(tangent, vec4(-1, 0, 0, -1)), 0.0f, 1e-6f);
   }
 }
 
 TEST(BuildScene, VerticesBetweenMirroredTrianglesAreDoubled) {
-  // The second triangle (0, 2, 3) sees the map mirrored.
+  // The second triangle (0, 2, 3) has a mirrored map.
   const Scene scene = normal_mapped({vec2(0, 0), vec2(1, 0), vec2(1, -1), vec2(1, 0)});
   expect_consistent(scene);
   EXPECT_EQ(scene.positions.size(), 6u);
   for (size_t index = 0; index < 3; ++index) EXPECT_EQ(scene.tangents[scene.indices[index]].w, 1.0f);
   for (size_t index = 3; index < 6; ++index) EXPECT_EQ(scene.tangents[scene.indices[index]].w, -1.0f);
-  EXPECT_EQ(scene.facets.size(), 1u);  // facets do not care
+  EXPECT_EQ(scene.facets.size(), 1u);  // tangents do not affect facets
 }
 
 TEST(BuildScene, GivenTangentsFollowTheTransform) {
@@ -355,8 +356,8 @@ TEST(BuildScene, HashCoversWhatReachesASensor) {
 
 // ------------------------------------------------------------------------------------------------ facets
 
-/// `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of the
-/// world); `lift` moves vertices off it.
+/// Writes `columns` x `rows` cells of a metre, two triangles each, in the plane y = 0 of the file (z = 0 of
+/// the world). `lift` moves vertices off the plane.
 GltfWriter grid(uint32_t columns, uint32_t rows, const std::function<float(uint32_t, uint32_t)>& lift) {
   std::vector<vec3> positions;
   std::vector<uint32_t> indices;
@@ -394,8 +395,8 @@ TEST(HardCase, N18_ATessellatedWallMakesOneFacet) {
 }
 
 TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
-  // Offsets that sit on the rounding edge of every decimal grid, jittered across it by less than the
-  // tolerance.
+  // The offsets lie on the rounding edge of every decimal grid, and a jitter below the tolerance crosses this
+  // edge.
   for (const float offset : {0.0f, 0.5e-4f, 1e-4f, 0.5e-3f, 0.5f, 1.0f, 12.345f}) {
     const auto jitter = [&](uint32_t column, uint32_t row) {
       return offset + ((column + row) % 2 ? 4e-5f : -4e-5f);
@@ -406,7 +407,7 @@ TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
     EXPECT_EQ(scene.facets.size(), 1u) << offset;
     expect_consistent(scene);
   }
-  // Walls tilted so that their normals straddle the bins of direction.
+  // Walls are tilted so that their normals straddle bins of direction.
   for (int step = -5; step <= 5; ++step) {
     const double angle = pi / 4 + step * 1e-5;
     ModelPlacement placement;
@@ -418,14 +419,14 @@ TEST(HardCase, N22_APlaneAtTheEdgeOfAnyBinIsNotSplit) {
 }
 
 TEST(Facets, WhatIsFurtherOffThanTheDistanceStaysApart) {
-  // A shallow fold: 1 mm rise per metre on the right half.
+  // A shallow fold rises by 1 mm per metre on the right half.
   const auto fold = [](uint32_t column, uint32_t) {
     return column > 5 ? static_cast<float>(column - 5) * 1e-3f : 0.0f;
   };
   const Scene scene = build_one(grid(10, 4, fold));
   expect_consistent(scene);
   EXPECT_EQ(scene.facets.size(), 2u);
-  // A curve whose neighbours agree within the angle must not creep round: every corner keeps the distance.
+  // A facet must not follow a curve whose neighbours agree within the angle. Every corner keeps the distance.
   BuildOptions loose = at_zero();
   loose.coplanar_angle_rad = 0.1;
   const auto curve = [](uint32_t column, uint32_t) { return static_cast<float>(column * column) * 1e-5f; };
@@ -469,7 +470,8 @@ TEST(Facets, UnconnectedCoplanarTrianglesStayApart) {
 }
 
 TEST(Facets, ASliverOfAWallJoinsIt) {
-  // A 100 m wall far from its file's origin whose fp32 corners tilt a 2 cm strip: the noise is allowed for.
+  // A 100 m wall lies far from its file's origin, where fp32 corners tilt a 2 cm strip. The merge allows for
+  // this noise.
   std::vector<vec3> positions;
   const double turn = 0.3;
   const auto wall = [&](double along, double up) {
@@ -503,7 +505,7 @@ TEST(HardCase, N04_DegenerateTrianglesNeverReachTheScene) {
 }
 
 TEST(HardCase, N05_SliversOnAClosedMeshStayInTheMesh) {
-  // A box whose front has a strip 1e-4 m wide.
+  // The front of the box has a strip 1e-4 m wide.
   const std::vector<vec3> positions = {vec3(0, 0, 0), vec3(0.5f, 0, 0), vec3(0.5001f, 0, 0), vec3(1, 0, 0),
                                        vec3(0, 1, 0), vec3(0.5f, 1, 0), vec3(0.5001f, 1, 0), vec3(1, 1, 0)};
   GltfWriter writer;
@@ -520,7 +522,7 @@ TEST(HardCase, N07_ShiftedToUtmEqualsUnshifted) {
   writer.document["nodes"][0]["rotation"] = {0, std::sin(0.2), 0, std::cos(0.2)};
   writer.document["nodes"][0]["translation"] = {12.3, 0.1, -7.7};
   const Model model = writer.load();
-  // The same place by the placement's pose and by a node above.
+  // The scene moves to the same place by the placement's pose and by a parent node.
   const dvec3 utm(500000.0, 500000.0, 100.0);
   GltfWriter nodes = writer;
   const int top = nodes.append("nodes", {{"children", {0}}, {"translation", {utm.x, utm.z, -utm.y}}});
@@ -556,7 +558,7 @@ TEST(HardCase, N07_ShiftedToUtmEqualsUnshifted) {
       EXPECT_LE(glm::distance(far->positions[index], near.positions[index]), 2e-6f);  // one fp32 step at 16 m
     }
   }
-  // Shifted by its pose with numbers that fp64 holds exactly: the same to the last bit.
+  // A shift by the pose with numbers that fp64 holds exactly gives the same bits.
   EXPECT_EQ(by_pose.positions, near.positions);
 }
 
@@ -585,9 +587,9 @@ TEST(HardCase, N08_ATinyPartBesideALargeTileKeepsItsBounds) {
   const Bounds& bounds = scene.instances.at(1).bounds;
   EXPECT_NEAR(bounds.size().x, 1e-4, 1e-12);
   EXPECT_NEAR(bounds.size().z, 1e-4, 1e-12);
-  EXPECT_EQ(scene.facets.size(), 1u + 6u);  // smaller than the tolerance along no edge: six sides
+  EXPECT_EQ(scene.facets.size(), 1u + 6u);  // no edge is shorter than the tolerance: six sides
   EXPECT_FALSE(has_note(scene.notes, "too small for fp32"));
-  // Where fp32 cannot hold it any more, the loader says so.
+  // Where fp32 cannot resolve the part any more, the loader notes it.
   small.pose.position = dvec3(4900.0, 4900.0, 0.0);
   EXPECT_TRUE(has_note(build_scene({placement_of(tile, "tile"), small}, {}).notes, "too small for fp32"));
 }
@@ -609,7 +611,7 @@ TEST(HardCase, N14_NegativeScaleMendsWindingAndNormals) {
 }
 
 TEST(HardCase, N14_NonUniformScaleTurnsNormalsByTheInverseTranspose) {
-  // A smooth-shaded slope with the plane's own normal: after any scale it must still be the plane's normal.
+  // A smooth-shaded slope has the plane's own normal. After any scale it must still have the plane's normal.
   const vec3 slope_normal = glm::normalize(vec3(-1, 1, 0));
   for (const dvec3& scale : {dvec3(4, 1, 1), dvec3(-4, 1, 1), dvec3(1, -0.25, 2), dvec3(-1, -1, -1)}) {
     GltfWriter writer;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges that many triangles share, against every triangle asked about every other.
+// Checks edges that many triangles share against a merge that compares every triangle with every other one.
 #include "scene/build/facets.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t nobody = std::numeric_limits<uint32_t>::max();
 
-/// Triangles about the edge from `a` to `b`, each with an apex of its own.
+/// Triangles around the edge from `a` to `b`, each with its own apex.
 class Fan {
  public:
   Fan(const dvec3& a, const dvec3& b) : a_(a), b_(b) {
@@ -55,8 +55,8 @@ void expect_same(const FacetInput& input, const BuildOptions& options, uint32_t 
   }
 }
 
-// Clusters about the angles that are allowed, sizes over two decades, edges long and hardly there, noise of
-// none and much.
+// The angles form clusters about the allowed ones, sizes extend over two decades, edges are long or almost
+// zero, and the noise is zero or large.
 TEST(Facets, ACrowdedEdgeGivesTheSameFacets) {
   RandomStream random(5, 17);
   BuildOptions options;
@@ -84,7 +84,7 @@ TEST(Facets, ACrowdedEdgeGivesTheSameFacets) {
   EXPECT_GT(apart, 5u);
 }
 
-// Every edge of a bumpy net counts as crowded.
+// Every edge of a bumpy mesh counts as crowded.
 TEST(Facets, ANetWhoseEdgesAllCountAsCrowdedGivesTheSame) {
   constexpr uint32_t side = 24;
   RandomStream random(6, 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small glTF files written inline by the tests of scene/.
+// Writes the small glTF files of the tests of scene/.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace greatx::scene::test {
 
 using nlohmann::json;
 
-/// A glTF document and its one buffer. Every member of `document` may be changed before it is written.
+/// A glTF document and its one buffer. Tests may change every member of `document` before it is written.
 class GltfWriter {
  public:
   json document = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", json::array()}}}}};
@@ -60,7 +60,7 @@ class GltfWriter {
     return accessor(values, "SCALAR", 5125, values.size());
   }
   int material(json fields) { return append("materials", std::move(fields)); }
-  /// A material with radio properties by its name.
+  /// Adds a material whose name gives its radio properties.
   int itu_material(const std::string& name = "itu_concrete") { return material({{"name", name}}); }
   int mesh(const std::string& name, json primitives) {
     return append("meshes", {{"name", name}, {"primitives", std::move(primitives)}});
@@ -70,7 +70,7 @@ class GltfWriter {
     document["scenes"][0]["nodes"].push_back(index);
     return index;
   }
-  /// A mesh of indexed triangles with positions alone, placed by a root node of the same name.
+  /// Adds a mesh of indexed triangles with positions alone, placed by a root node of the same name.
   int add_triangles(const std::string& name, const std::vector<vec3>& positions,
                     const std::vector<uint32_t>& indices, int material_index) {
     const json primitive = {{"attributes", {{"POSITION", vec3s(positions)}}},
@@ -106,7 +106,7 @@ class GltfWriter {
   }
 };
 
-/// A folder of its own for one test, removed at its end.
+/// A folder for one test, removed at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -138,7 +138,7 @@ class TemporaryFolder {
   std::filesystem::path path;
 };
 
-/// `action` throws a UserError whose message has every one of `parts`.
+/// Expects that `action` throws a UserError whose message contains every one of `parts`.
 inline void expect_user_error(const std::function<void()>& action, const std::vector<std::string>& parts) {
   try {
     action();

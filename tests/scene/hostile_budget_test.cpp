@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small files that ask for much memory or time: refused by name before it is allocated, or done in time that
-// grows with the file. No test here measures time: what was quadratic would run into the time limit of the
-// test run.
+// Checks small files that ask for much memory or time. They are refused by name before memory is allocated,
+// or are processed in a time that grows about linearly with the file. No test here measures time: a quadratic
+// algorithm would exceed the time limit of the test run.
 #include <cmath>
 
 #include "core/budget.h"
@@ -21,7 +21,7 @@ using test::json;
 using test::TemporaryFolder;
 
 TEST(HostileBudget, ElementsThatNoByteStandsBehind) {
-  // Each accessor is within what one may have; a few dozen of them were gigabytes.
+  // Each accessor is within the limit of one accessor, but a few dozen of them would take gigabytes.
   GltfWriter writer;
   json primitives = json::array();
   for (int i = 0; i < 24; ++i) {
@@ -128,14 +128,16 @@ Scene built(const GltfWriter& writer) {
   return build_scene({{"", &model, {}, dvec3(1.0), false, {}, {}}}, {"s", {}});
 }
 
-/// Triangles around one edge, `layers` of them in each of `directions`: one facet each.
+/// Writes triangles around one edge, `layers` of them in each of `directions`. Each direction makes one
+/// facet.
 GltfWriter fan(uint32_t directions, uint32_t layers) {
   std::vector<vec3> positions = {vec3(0, 0, 0), vec3(0, 0, 1)};
   std::vector<uint32_t> indices;
   for (uint32_t layer = 0; layer < layers; ++layer)
     for (uint32_t i = 0; i < directions; ++i) {
       const double angle = 6.283185307179586 * i / directions;
-      const double length = 1.0 + 0.25 * layer;  // exact multiples: in one plane to a rounding
+      // exact multiples, so that the layers lie in one plane up to rounding
+      const double length = 1.0 + 0.25 * layer;
       indices.insert(indices.end(), {0u, 1u, static_cast<uint32_t>(positions.size())});
       positions.emplace_back(std::cos(angle) * length, std::sin(angle) * length, 0.5);
     }
@@ -154,7 +156,7 @@ TEST(HostileBudget, TrianglesAroundOneEdgeMergeByDirection) {
 }
 
 TEST(HostileBudget, ThousandsOfTrianglesAroundOneEdge) {
-  // Neighbours are 0.25 mrad apart, each 0.13 mrad from what the two would make: more than may merge.
+  // Neighbours are 0.25 mrad apart. Each is 0.13 mrad from the plane of both, which is more than may merge.
   EXPECT_EQ(built(fan(25000, 1)).facets.size(), 25000u);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files that are broken, by accident or on purpose: each is refused with a message that names file and mesh.
+// Checks files that are broken, by accident or on purpose. Each is refused with a message that names file and
+// mesh.
 #include <cmath>
 #include <limits>
 
@@ -23,7 +24,7 @@ GltfWriter itu_quad(const std::string& name = "wall") {
   return writer;
 }
 
-/// `change` breaks a good file.
+/// Expects that loading a good file after `change` fails with a message that contains `parts`.
 void refuse(const std::function<void(GltfWriter&)>& change, std::vector<std::string> parts) {
   GltfWriter writer = itu_quad();
   EXPECT_NO_THROW(writer.load());
@@ -115,7 +116,7 @@ TEST(HostileFile, UrisStayInTheFolder) {
                                  std::string("")}) {
     expect_user_error([&] { load_uri(bad); }, {"wall.gltf", "buffer 0"});
   }
-  // Decoded once only: this is a file called "%2e%2e", which does not exist.
+  // Escapes are decoded once only: the URI names a file called "%2e%2e", which does not exist.
   expect_user_error([&] { load_uri("%252e%252e/secret.bin"); }, {"cannot be opened"});
   expect_user_error([&] { load_uri("none.bin"); }, {"wall.gltf", "none.bin", "cannot be opened"});
   std::filesystem::create_directory(inside / "folder.bin");
@@ -330,7 +331,7 @@ TEST(HostileFile, RequiredExtensionsThatAreNotSupported) {
 }
 
 TEST(HostileFile, AnyJsonValueAnywhereIsSurvived) {
-  // Every member of the document replaced by every kind of value: loaded or refused, nothing else.
+  // Every member of the document is replaced by every kind of value. The file is either loaded or refused.
   const json replacements = {nullptr,
                              true,
                              -1,
@@ -391,7 +392,7 @@ TEST(HardCase, N13_ZeroAreaAndDuplicateVerticesAreDroppedByName) {
   std::vector<vec3> positions = test::unit_quad();
   positions.push_back(positions[0]);         // 4: the same place as 0
   positions.emplace_back(0.5f, 0.0f, 0.0f);  // 5: on the edge 0–1
-  // Good, repeated index, duplicate vertex, collinear, good.
+  // The triangles are: good, repeated index, duplicate vertex, collinear, good.
   const std::vector<uint32_t> indices = {0, 1, 2, 0, 1, 1, 0, 4, 1, 0, 5, 1, 0, 2, 3};
   GltfWriter writer;
   writer.add_triangles("facade", positions, indices, writer.itu_material());

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes of Mitsuba 3 and Sionna RT: what is read, that it comes through glTF unchanged, and what is refused.
+// Checks the import of scenes of Mitsuba 3 and Sionna RT: what is read, that the result passes through glTF
+// unchanged, and what is refused.
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -39,7 +40,7 @@ class Folder {
     std::ofstream(file, std::ios::binary) << content;
     return file;
   }
-  /// A scene with these elements, beside meshes/wall.ply.
+  /// Writes a scene with these elements, and meshes/wall.ply.
   std::filesystem::path scene(const std::string& elements) const {
     write("meshes/wall.ply", ascii_triangle);
     return write("scene.xml", "<scene version=\"2.1.0\">\n" + elements + "</scene>\n");
@@ -84,7 +85,8 @@ void put(std::string& out, T value, bool big_endian) {
   out += bytes;
 }
 
-/// Two triangles as one quadrilateral, doubles, an element to be skipped between.
+/// Returns two triangles as one quadrilateral, with doubles and with an element between them that must be
+/// skipped.
 std::string binary_quad(bool big_endian) {
   std::string file =
       std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
@@ -204,7 +206,7 @@ TEST(ImportMitsuba, RadioPropertiesReachTheLoaderAndTheSidecarOverrulesThem) {
   const io::Bytes glb = imported_glb(imported, "scene");
   const RadioMaterial radio = *load_model("scene.glb", glb, {}).materials.at(0).radio;
   EXPECT_EQ(radio.layers.at(0).medium.source, "ITU-R P.2040-4 Table 3, concrete");
-  EXPECT_EQ(radio.layers[0].thickness_m, 0.1);  // Sionna RT's, said
+  EXPECT_EQ(radio.layers[0].thickness_m, 0.1);  // Sionna RT's value, which a note reports
   std::string text = imported_sidecar(imported, "scene.xml");
   text.replace(text.find("0.1"), 3, "0.4");
   LoadOptions options;
@@ -230,7 +232,7 @@ TEST(ImportMitsuba, TransformsApplyInTheirOrder) {
   near(placed("<rotate z=\"1\" angle=\"90\"/>").positions[2], dvec3(-corner.y, corner.x, corner.z));
   near(placed("<matrix value=\"0 0 1 5  1 0 0 6  0 1 0 7  0 0 0 1\"/>").positions[2],
        dvec3(corner.z + 5, corner.x + 6, corner.y + 7));
-  // A mirrored shape keeps its outside.
+  // A mirrored shape keeps its outer side.
   EXPECT_EQ(placed("<scale x=\"-1\"/>").indices, (std::vector<uint32_t>{0, 2, 1}));
   EXPECT_EQ(placed("<scale x=\"-1\" y=\"-1\"/>").indices, (std::vector<uint32_t>{0, 1, 2}));
 }
@@ -259,7 +261,7 @@ TEST(ImportMitsuba, NormalsAreTheFilesUnlessFacesAreFlat) {
   const ImportedObject flipped = object("<boolean name=\"flip_normals\" value=\"true\"/>");
   EXPECT_EQ(flipped.normals[0], vec3(0, 0, -1));
   EXPECT_EQ(flipped.indices, (std::vector<uint32_t>{0, 2, 1}));
-  // Non-uniform scale: normals follow the inverse transpose.
+  // Under non-uniform scale, normals follow the inverse transpose.
   EXPECT_EQ(object("<transform name=\"to_world\"><scale z=\"4\"/></transform>").normals[0], vec3(0, 0, 1));
 }
 
@@ -283,7 +285,7 @@ TEST(ImportMitsuba, IdsAreUtf8AndATerminalObeysNone) {
               HasSubstr("scene.xml:3: expected UTF-8, found the byte 0xff in 'mesh-\\xff'"));
   EXPECT_THAT(message_of([&] { folder.import(concrete + "<shape type=\"obj\" id=\"a&#10;&#27;[2J\"/>"); }),
               HasSubstr("shape 'a\\u000a\\u001b[2J': expected the type ply"));
-  // As Latin 1 the byte is a letter.
+  // In Latin 1 the byte is a letter.
   const auto file = folder.scene(concrete + wall("mat-itu_concrete"));
   folder.write("scene.xml", "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<scene version=\"2.1.0\">" +
                                 concrete +

@@ -22,7 +22,7 @@ TEST(ItuMaterials, AgreeWithIndependentFiguresAt9GHz) {
     const char* name;
     double real, sigma, tolerance;
   };
-  // P.2040-3, printed to the digits shown.
+  // values of P.2040-3, with the digits that are printed there
   for (const Figure& figure :
        {Figure{"concrete", 5.24, 0.25766, 5e-6}, Figure{"brick", 3.91, 0.033826, 5e-7},
         Figure{"glass", 6.31, 0.068299, 5e-7}, Figure{"marble", 7.074, 0.04209, 5e-6}}) {

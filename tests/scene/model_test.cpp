@@ -28,7 +28,7 @@ TEST(Model, YUpBecomesZUp) {
   writer.add_triangles("wall", test::unit_quad(), test::quad_indices(), writer.itu_material());
   const Model model = writer.load();
   ASSERT_EQ(model.instances.size(), 1u);
-  // x east, y north = -z, z up = y.
+  // The axes are x east, y north = -z, z up = y.
   expect_near(placed(model.instances[0], {1, 0, 0}), {1, 0, 0});
   expect_near(placed(model.instances[0], {0, 1, 0}), {0, 0, 1});
   expect_near(placed(model.instances[0], {0, 0, 1}), {0, -1, 0});
@@ -40,7 +40,7 @@ TEST(Model, HierarchyInDoublePrecision) {
   const int leaf = writer.add_triangles("leaf", test::unit_quad(), test::quad_indices(), material);
   writer.document["nodes"][static_cast<size_t>(leaf)]["scale"] = {2, 3, -4};
   writer.document["scenes"][0]["nodes"] = json::array();
-  // A quarter turn about y: x -> -z. And a matrix that moves by 5e5 m and 1 mm.
+  // A quarter turn about y takes x to -z. A matrix moves by 5e5 m; a translation adds 1 mm.
   const int turned = writer.append("nodes", {{"rotation", {0, 0.70710678118654752, 0, 0.70710678118654752}},
                                              {"translation", {0, 0, 0.001}},
                                              {"children", {leaf}}});
@@ -119,12 +119,12 @@ TEST(Model, IndexTypes) {
 
 TEST(Model, NormalizedIntegersAndStrides) {
   GltfWriter writer;
-  // UVs as normalized unsigned shorts, interleaved with four bytes of something else.
+  // UVs are normalized unsigned shorts, interleaved with four other bytes.
   const std::vector<uint16_t> uv_values = {0, 65535, 7, 7, 65535, 0, 7, 7, 32768, 16384, 7, 7};
   const int uvs = writer.accessor(uv_values, "VEC2", 5123, 3);
   writer.document["accessors"][static_cast<size_t>(uvs)]["normalized"] = true;
   writer.document["bufferViews"].back()["byteStride"] = 8;
-  // Normals as normalized signed bytes, -128 clamped to -1.
+  // Normals are normalized signed bytes. -128 is clamped to -1.
   const std::vector<int8_t> normal_values = {0, 0, 127, 0, 0, 0, -128, 0, 0, 127, 0, 0};
   const int normals = writer.accessor(normal_values, "VEC3", 5120, 3);
   writer.document["accessors"][static_cast<size_t>(normals)]["normalized"] = true;
@@ -215,7 +215,7 @@ TEST(Model, MaterialFactorsAndAlpha) {
   }
 }
 
-/// A textured quad; the image is given by `image`.
+/// Writes a textured quad with the image `image`.
 GltfWriter textured(json image) {
   GltfWriter writer;
   writer.append("images", std::move(image));
@@ -273,7 +273,7 @@ TEST(Model, GltfWithExternalFiles) {
   folder.write("maps/wall picture+1.png", test::encode_png(2, 1, two_pixels));
   GltfWriter writer = textured({{"uri", "maps/wall%20picture+1.png"}});
   auto padded = writer.binary;
-  padded.resize(padded.size() + 3);  // files may be longer than the buffer says
+  padded.resize(padded.size() + 3);  // files may be longer than the buffer declares
   folder.write("street.bin", padded);
   writer.document["buffers"] = json::array({{{"byteLength", writer.binary.size()}, {"uri", "./street.bin"}}});
   const Model model = load_model(folder.write("street.gltf", writer.document.dump(2)), {});
@@ -317,7 +317,7 @@ TEST(Model, PunctualLights) {
                                         {"range", 15.0},
                                         {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
                                        {{"type", "directional"}, {"intensity", 3.0}}}}}}};
-  // Turned so that -z of the node points down (-y): a quarter turn about x, backwards.
+  // A quarter turn about x, backwards, makes -z of the node point down (-y).
   const double half = 0.70710678118654752;
   writer.root({{"name", "lamp"},
                {"translation", {1, 6, 2}},
@@ -372,7 +372,7 @@ TEST(Model, SemanticClassFromExtrasAndParents) {
   writer.document["scenes"][0]["nodes"] = json::array();
   writer.root({{"name", "thing"}, {"extras", {{"greatx_class", "mast"}}}, {"children", {leaf}}});
   EXPECT_EQ(writer.load().instances.at(0).semantic_class, SemanticClass::mast);
-  writer.document["nodes"][leaf]["extras"] = {{"greatx_class", "roof"}};  // nearer wins
+  writer.document["nodes"][leaf]["extras"] = {{"greatx_class", "roof"}};  // the nearer class wins
   EXPECT_EQ(writer.load().instances.at(0).semantic_class, SemanticClass::roof);
   writer.document["nodes"][leaf]["extras"] = {{"greatx_class", "castle"}};
   test::expect_user_error([&] { writer.load(); }, {"node 'Cube.001'", "castle", "building"});

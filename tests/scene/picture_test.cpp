@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of every kind against an independent decoder (stb_image, which is safe on files that this test has
-// made), and damaged ones.
+// Compares pictures of every kind with an independent decoder (stb_image, which is safe on files that this
+// test has made), and checks that damaged pictures are handled.
 #include "scene/files/picture.h"
 
 #include <cmath>
@@ -88,7 +88,7 @@ Bytes png_of(const PngKind& kind, uint32_t w = width, uint32_t h = height) {
     png_set_tRNS(png, info, alphas, 2, nullptr);
   if (kind.transparent && kind.color_type != PNG_COLOR_TYPE_PALETTE)
     png_set_tRNS(png, info, nullptr, 1, &clear);
-  png_set_gAMA(png, info, 0.7);  // stands in files, and is not applied
+  png_set_gAMA(png, info, 0.7);  // stored in the file, but not applied
   png_write_info(png, info);
   std::mt19937 random(5);
   const size_t row_bytes = png_get_rowbytes(png, info);
@@ -108,11 +108,11 @@ struct JpegKind {
   int components = 3;
   bool progressive = false;
   int sampling = 2;
-  J_COLOR_SPACE stored = JCS_UNKNOWN;  ///< the library's choice
+  J_COLOR_SPACE stored = JCS_UNKNOWN;  ///< JCS_UNKNOWN: the library chooses
   bool adobe = true;
 };
 
-/// A smooth picture, so that decoders that interpolate colour differently differ little.
+/// Returns a smooth picture, so that decoders that interpolate colour differently give similar results.
 Bytes jpeg_of(const JpegKind& kind, uint32_t w = width, uint32_t h = height) {
   jpeg_compress_struct jpeg{};
   jpeg_error_mgr errors{};
@@ -246,8 +246,8 @@ TEST(Picture, WhatIsCutOffOrForeignIsRefused) {
           << size;
 }
 
-/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files: decoded or refused, nothing
-/// else (under the sanitizers too).
+/// Debian's stb_image 2.27 overran an array in its Huffman tables on such files. The decoder either decodes
+/// or refuses them and does nothing else (also under the sanitizers).
 TEST(Picture, DamageIsSurvived) {
   std::mt19937 random(17);
   size_t refused = 0;
@@ -263,7 +263,7 @@ TEST(Picture, DamageIsSurvived) {
   EXPECT_GT(refused, 300u);
 }
 
-/// Tables whose counts of codes lie: those that stb_image's overran.
+/// Files whose Huffman tables give false numbers of codes, such as those that overran stb_image's tables.
 TEST(Picture, HuffmanTablesThatLie) {
   const Bytes good = jpeg_of({3});
   size_t tables = 0;

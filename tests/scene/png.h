@@ -8,7 +8,7 @@
 
 namespace greatx::scene::test {
 
-/// RGBA8 pixels as a PNG file.
+/// Returns RGBA8 pixels as a PNG file.
 std::vector<unsigned char> encode_png(int width, int height, const std::vector<uint8_t>& rgba);
 std::string base64(const std::vector<unsigned char>& bytes);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a material's radio properties come from: name, extension, sidecar.
+// Checks the sources of a material's radio properties: name, extension, sidecar.
 #include <set>
 
 #include "scene/build/build.h"
@@ -181,7 +181,7 @@ TEST(RadioMaterial, EveryMemberCountsInEqualityAndHash) {
     EXPECT_NE(changed.materials[0], scene.materials[0]) << i;
     EXPECT_TRUE(hashes.insert(hash_of(changed)).second) << i;
   }
-  // Names and sources are told apart, but decide nothing.
+  // Names and sources take part in the comparison, but not in the hash.
   Scene renamed = scene;
   renamed.materials[0].name = "other";
   EXPECT_NE(renamed.materials[0], scene.materials[0]);
@@ -271,7 +271,7 @@ TEST(RadioMaterial, UsedMaterialsWithoutRadioAreListedInOneError) {
   LoadOptions optical;
   optical.optical_only = true;
   const Model model = writer.load(optical);
-  EXPECT_EQ(model.materials.size(), 5u);  // the unused one is not kept
+  EXPECT_EQ(model.materials.size(), 5u);  // without the unused material
   EXPECT_FALSE(model.materials.at(0).radio);
 }
 

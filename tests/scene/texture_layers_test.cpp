@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which images textures become: layers of their size, side by side in larger ones, roughness in the alpha of
-// colours.
+// Checks the images that hold textures: layers of their own size, textures side by side in larger layers, and
+// roughness in the alpha of colours.
 #include "scene/device/texture_layers.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(TextureLayers, FillArrayAfterArray) {
 TEST(TextureLayers, SmallOnesLieSideBySide) {
   const std::vector<Texture> textures{texture_of(8, 4), texture_of(4, 4), texture_of(2, 1), texture_of(6, 4)};
   const TextureLayers plan = plan_texture_layers(textures, one_each(4), {.tiled_bytes = 1u << 20});
-  ASSERT_EQ(plan.arrays.size(), 2u);  // 6 divides nothing here
+  ASSERT_EQ(plan.arrays.size(), 2u);  // a size of 6 fits no other size
   const TextureReference small = plan.materials[2].base_color;
   EXPECT_EQ(array_of(small), array_of(plan.materials[0].base_color));
   EXPECT_EQ(tiles_u(small), 2u);
@@ -104,7 +104,8 @@ TEST(TextureLayers, LieSideBySideOnlyIfTheyRepeatAndThereIsRoom) {
 
 TEST(TextureLayers, RoughnessStandsInTheAlphaOfItsColour) {
   std::vector<Texture> textures{texture_of(4, 2, true), texture_of(4, 2)};
-  for (size_t i = 2; i < textures[1].rgba.size(); i += 4) textures[1].rgba[i] = 51;  // one metallic value
+  // the same metallic value everywhere
+  for (size_t i = 2; i < textures[1].rgba.size(); i += 4) textures[1].rgba[i] = 51;
   const TextureLayers plan = plan_texture_layers(textures, std::vector{painted(0, 1), painted(0)}, {});
   ASSERT_EQ(plan.arrays.size(), 1u);
   const MaterialTextures& all = plan.materials[0];
@@ -131,7 +132,7 @@ TEST(TextureLayers, RoughnessStandsApartWhereAlphaOrMetalIsNeeded) {
   EXPECT_FALSE(plan.materials[0].roughness_in_alpha);
   EXPECT_FALSE(plan.materials[1].roughness_in_alpha);  // its metallic values differ
   EXPECT_FALSE(plan.materials[2].roughness_in_alpha);  // another size
-  EXPECT_TRUE(plan.materials[3].roughness_in_alpha);   // no metal whatever they are
+  EXPECT_TRUE(plan.materials[3].roughness_in_alpha);   // its metallic factor is 0
   EXPECT_GE(plan.materials[0].metallic_roughness, 0);
 }
 

@@ -13,7 +13,7 @@
 namespace greatx::scene {
 namespace {
 
-/// Facets by hand, with whatever triangles.
+/// Makes facets by hand, from arbitrary triangles.
 struct Hand {
   Hand() { scene.bodies.resize(1); }
 
@@ -29,8 +29,8 @@ struct Hand {
     scene.facets.push_back(made);
     return static_cast<uint32_t>(scene.facets.size() - 1);
   }
-  /// The parallelogram at `o` with sides u and v, in cells_u x cells_v quads of two triangles each, facing u
-  /// x v.
+  /// Adds the parallelogram at `o` with sides u and v, in cells_u x cells_v quads of two triangles each. It
+  /// faces u x v.
   uint32_t plate(const dvec3& o, const dvec3& u, const dvec3& v, int cells_u = 1, int cells_v = 1,
                  uint32_t body = 0) {
     std::vector<FacetTriangle> triangles;
@@ -46,7 +46,7 @@ struct Hand {
     }
     return facet(triangles, body);
   }
-  /// Six facets facing outwards: bottom (unless left out), top, y low, y high, x low, x high.
+  /// Adds six facets that face outwards: bottom (unless left out), top, y low, y high, x low, x high.
   void box(const dvec3& o, const dvec3& size, bool bottom = true, uint32_t body = 0) {
     const dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
     if (bottom) plate(o, y, x, 1, 1, body);
@@ -61,7 +61,7 @@ struct Hand {
 };
 
 dvec3 direction(const Wedge& wedge) { return glm::normalize(wedge.b - wedge.a); }
-/// `angle` from face 0 into the exterior.
+/// Returns the direction at `angle` from face 0 into the exterior.
 dvec3 around(const Wedge& wedge, double angle) {
   return std::cos(angle) * wedge.tangent_0 + std::sin(angle) * wedge.normal_0;
 }
@@ -90,7 +90,7 @@ std::vector<Wedge> wedges_of(const Hand& hand, bool free_edges = false) {
   return wedges;
 }
 
-/// Wedges with both ends in the plane z = height.
+/// Returns the number of wedges with both ends in the plane z = height.
 size_t at_height(const std::vector<Wedge>& wedges, double height) {
   return static_cast<size_t>(std::count_if(wedges.begin(), wedges.end(), [&](const Wedge& wedge) {
     return std::abs(wedge.a.z - height) < 1e-6 && std::abs(wedge.b.z - height) < 1e-6;
@@ -113,7 +113,7 @@ TEST(FindWedges, BoxHasTwelve) {
   const dvec3 middle = corner + 0.5 * size;
   for (const Wedge& wedge : wedges) {
     EXPECT_NEAR(wedge.n, 1.5, 1e-15);
-    // Outside is where the exterior's middle points to, away from the box.
+    // The middle of the exterior points away from the box.
     EXPECT_GT(glm::dot(around(wedge, 0.75 * pi), 0.5 * (wedge.a + wedge.b) - middle), 0.0);
     EXPECT_LT(glm::distance(wedge.normal_0, hand.scene.facets[wedge.facet_0].normal), 1e-15);
   }
@@ -123,7 +123,7 @@ TEST(FindWedges, BoxHasTwelve) {
 }
 
 TEST(FindWedges, WindingDoesNotMatter) {
-  // A room: the same walls, wound inwards.
+  // A room has the same walls, wound inwards.
   Hand out, in;
   out.box({0, 0, 0}, {4, 5, 6});
   in.box({0, 0, 0}, {4, 5, 6});
@@ -162,11 +162,11 @@ TEST(FindWedges, FromAFile) {
 }
 
 TEST(FindWedges, BoxOnAGroundHasNoneAlongItsFoot) {
-  Hand shared;  // eight plates around the foot, with its vertices
+  Hand shared;  // eight plates around the foot, which use its vertices
   for (int i = -1; i <= 1; ++i)
     for (int k = -1; k <= 1; ++k)
       if (i != 0 || k != 0) shared.plate(dvec3(10 * i, 10 * k, 0), {10, 0, 0}, {0, 10, 0});
-  Hand apart, open;  // one plate underneath
+  Hand apart, open;  // one plate underneath, of one cell or of 49
   apart.plate({-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
   open.plate({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}, 7, 7);
   shared.box({0, 0, 0}, {10, 10, 5});
@@ -176,7 +176,7 @@ TEST(FindWedges, BoxOnAGroundHasNoneAlongItsFoot) {
     const std::vector<Wedge> wedges = wedges_of(*hand);
     EXPECT_EQ(wedges.size(), 8u);
     EXPECT_EQ(at_height(wedges, 0.0), 0u);
-    // The ground's own border, and nothing of the foot.
+    // The border of the ground has free edges, the foot of the box has none.
     EXPECT_EQ(at_height(wedges_of(*hand, true), 0.0), hand == &shared ? 12u : 4u);
   }
 }
@@ -186,11 +186,12 @@ TEST(FindWedges, WallOnAGroundMeetsNothing) {
   hand.plate({-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
   hand.plate({0, -3, 0}, {0, 6, 0}, {0, 0, 4});
   EXPECT_TRUE(wedges_of(hand).empty());
-  EXPECT_EQ(wedges_of(hand, true).size(), 4u + 3u);  // the ground's border; the wall's, but not its foot
+  // the border of the ground, and the edges of the wall without its foot
+  EXPECT_EQ(wedges_of(hand, true).size(), 4u + 3u);
 }
 
 TEST(FindWedges, FootBeyondTheGround) {
-  // Half of the box stands out over the ground's border (x = 5): there its foot diffracts.
+  // Half of the box extends over the border of the ground (x = 5). There its foot diffracts.
   Hand hand;
   hand.plate({-50, -50, 0}, {55, 0, 0}, {0, 100, 0});
   hand.box({0, 0, 0}, {10, 10, 5});
@@ -201,8 +202,8 @@ TEST(FindWedges, FootBeyondTheGround) {
 }
 
 TEST(FindWedges, LShapedHouse) {
-  // 6 uprights, 6 edges of the roof, 6 of the floor: one upright is a corner of a yard, and its wide side
-  // lies inside.
+  // There are 6 uprights, 6 edges of the roof and 6 of the floor. One upright is the corner of a yard, and
+  // its wide side lies inside.
   Hand hand;
   const std::vector<dvec3> plan{{0, 0, 0}, {8, 0, 0}, {8, 3, 0}, {3, 3, 0}, {3, 8, 0}, {0, 8, 0}};
   const dvec3 up(0, 0, 4);
@@ -244,7 +245,7 @@ TEST(FindWedges, FreeEdgesOnRequest) {
   hand.plate({0, 0, 0}, {0, 0, 2}, {0, 3, 0});
   EXPECT_TRUE(wedges_of(hand).empty());
   EXPECT_EQ(wedges_of(hand, true).size(), 4u);
-  // Round plates: no run is longer than straight.
+  // A round plate has one free edge per straight run.
   Hand disk;
   std::vector<FacetTriangle> slices;
   for (int i = 0; i < 24; ++i) {
@@ -258,7 +259,7 @@ TEST(FindWedges, FreeEdgesOnRequest) {
 }
 
 TEST(FindWedges, MoreThanTwoFacetsOnAnEdge) {
-  // Fins around the z axis, at these degrees: the widest gap decides, and only beyond pi.
+  // Fins stand around the z axis at these degrees. The widest gap decides, and only if it is wider than pi.
   const auto fins = [](std::initializer_list<double> degrees) {
     Hand hand;
     for (const double at : degrees)
@@ -276,7 +277,7 @@ TEST(FindWedges, MoreThanTwoFacetsOnAnEdge) {
   EXPECT_TRUE(wedges_of(fins({0, 90, 179})).empty());  // 181 degrees: flat
   EXPECT_NEAR(wedges_of(fins({0, 90, 170}))[0].n, 190.0 / 180.0, 1e-12);
   EXPECT_NEAR(wedges_of(fins({10, 11}))[0].n, 359.0 / 180.0, 1e-12);
-  // Facets in one place: the lowest.
+  // Of facets in one place the lowest index counts.
   const std::vector<Wedge> twice = wedges_of(fins({90, 0, 90, 0}));
   ASSERT_EQ(twice.size(), 1u);
   EXPECT_EQ(twice[0].facet_0, 0u);
@@ -284,17 +285,17 @@ TEST(FindWedges, MoreThanTwoFacetsOnAnEdge) {
 }
 
 TEST(FindWedges, TouchingHouses) {
-  Hand flush;  // side by side and as high: no wedge on the common roof line, but on the taller pair's
+  Hand flush;  // side by side and equally high: no wedge on the common roof line
   flush.box({0, 0, 0}, {4, 4, 4});
   flush.box({4, 0, 0}, {4, 4, 4});
-  // Of 24 edges those around the common wall make flat seams: 4 less on each box; the long ones stay per
-  // facet pair.
+  // Of the 24 edges, the 4 of each box around the common wall make flat seams. The long edges stay separate
+  // for each pair of facets.
   EXPECT_EQ(wedges_of(flush).size(), 16u);
   Hand steps;
   steps.box({0, 0, 0}, {4, 4, 4});
   steps.box({4, 0, 0}, {4, 4, 7});
-  // The lower one loses its four edges at the common wall; of the taller's the top stays, and its uprights
-  // from 4 to 7.
+  // The lower house loses its four edges at the common wall. Of the taller house's edges at this wall, the
+  // top remains, and its uprights from 4 to 7.
   const std::vector<Wedge> wedges = wedges_of(steps);
   EXPECT_EQ(wedges.size(), 8u + 11u);
   Hand diagonal;
@@ -362,7 +363,7 @@ TEST(FindWedgesHardCase, N46_FlatSeamsAreIgnored) {
 }
 
 TEST(FindWedges, PagesOfABookHaveOneSpine) {
-  // Asked once for each page, the spine would take the square of their number.
+  // The spine must not be processed once for each page, which would take quadratic time.
   const int pages = 2000;
   Hand book;
   for (int page = 0; page < pages; ++page) {
@@ -377,8 +378,8 @@ TEST(FindWedges, PagesOfABookHaveOneSpine) {
 }
 
 TEST(FindWedgesHardCase, N47_SplitEdgesAndDiagonalsMakeNoMore) {
-  // Each wall and the roof in another grid, no common vertices but the corners: still 12 edges of full
-  // length.
+  // Each wall and the roof has another grid, and they have no common vertices but the corners. There are
+  // still 12 edges of full length.
   Hand hand;
   const dvec3 x(4, 0, 0), y(0, 5, 0), z(0, 0, 6), o(7, 8, 9);
   hand.plate(o, y, x, 3, 2);
@@ -396,7 +397,7 @@ TEST(FindWedgesHardCase, N47_SplitEdgesAndDiagonalsMakeNoMore) {
     EXPECT_NEAR(wedge.n, 1.5, 1e-12);
   }
   EXPECT_EQ(wedges_of(hand, true).size(), 12u);
-  // An opening in a wall interrupts an edge: two pieces, two wedges, between the same facets.
+  // An opening in a wall interrupts an edge. The result is two wedges between the same facets.
   Hand gap;
   gap.plate({0, 0, 3}, {10, 0, 0}, {0, 5, 0});
   gap.facet({{{dvec3(0, 0, 0), dvec3(4, 0, 0), dvec3(4, 0, 3)}},

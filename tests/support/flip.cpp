@@ -15,7 +15,7 @@ namespace {
 
 using glm::dmat3;
 
-/// The matrix from linear Rec. 709 to XYZ, and the white of its (1, 1, 1).
+/// Matrix from linear Rec. 709 to XYZ, and the white point, XYZ of (1, 1, 1).
 const dmat3 xyz_from_rgb = glm::transpose(dmat3(dvec3(10135552.0, 8788810.0, 4435075.0) / 24577794.0,
                                                 dvec3(2613072.0, 8788810.0, 887015.0) / 12288897.0,
                                                 dvec3(1425312.0, 8788810.0, 70074185.0) / 73733382.0));
@@ -24,7 +24,7 @@ const dvec3 white = xyz_from_rgb * dvec3(1.0);
 struct Plane {
   int64_t height = 0, width = 0;
   std::vector<dvec3> pixels;
-  /// Returns a pixel. Outside the picture, the edge goes on.
+  /// Returns a pixel. The pixels at the border continue outside the picture.
   const dvec3& at(int64_t y, int64_t x) const {
     return pixels[static_cast<size_t>(std::clamp<int64_t>(y, 0, height - 1) * width +
                                       std::clamp<int64_t>(x, 0, width - 1))];
@@ -33,8 +33,8 @@ struct Plane {
 
 double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
-/// Returns a colour in the opponent space of section 4.1.1. It is linear in light, and contrast sensitivities
-/// were measured in it.
+/// Returns a colour in the opponent space YCxCz of section 4.1.1. The space is linear in light, and contrast
+/// sensitivities were measured in it.
 dvec3 ycxcz_from_rgb(const dvec3& rgb) {
   const dvec3 n = (xyz_from_rgb * rgb) / white;
   return {116.0 * n.y - 16.0, 500.0 * (n.x - n.y), 200.0 * (n.y - n.z)};
@@ -67,7 +67,7 @@ Plane ycxcz(const Array& picture) {
   return plane;
 }
 
-/// Holds weights at offsets -radius..radius in both directions, one per channel.
+/// Holds the weights at the offsets -radius..radius in both directions, one per channel.
 struct Kernel {
   int64_t radius = 0;
   std::vector<dvec3> weights;
@@ -90,7 +90,8 @@ struct Kernel {
   }
 };
 
-/// Returns the contrast sensitivity as Gaussians (table 1): achromatic, red-green, blue-yellow.
+/// Returns the filter of contrast sensitivity as sums of Gaussians (table 1) for the achromatic, red-green
+/// and blue-yellow channels.
 Kernel contrast_sensitivity(double ppd) {
   struct Gaussians {
     double a1, b1, a2, b2;
@@ -114,9 +115,9 @@ Kernel contrast_sensitivity(double ppd) {
   return kernel;
 }
 
-/// Returns the first (edges) or second (points) derivative of a Gaussian along x, as wide as an edge's
-/// response (section 4.2). Its positive weights sum to 1, its negative ones to -1. The first channel is along
-/// x, the second the same along y.
+/// Returns the first derivative (edges) or the second one (points) of a Gaussian with the width of an edge
+/// response (section 4.2). The positive weights sum to 1, the negative ones to -1. The first channel
+/// differentiates along x, the second one along y.
 Kernel feature_detector(double ppd, bool points) {
   const double sd = 0.5 * 0.082 * ppd;
   const auto weight = [&](double along, double across) {
@@ -132,7 +133,7 @@ Kernel feature_detector(double ppd, bool points) {
   return kernel;
 }
 
-/// Returns how strong the feature is at each pixel.
+/// Returns the strength of the feature at each pixel.
 std::vector<double> feature_strength(const Plane& plane, const Kernel& detector) {
   Plane lightness = plane;
   for (dvec3& pixel : lightness.pixels) pixel = dvec3((pixel.x + 16.0) / 116.0);
@@ -144,8 +145,8 @@ std::vector<double> feature_strength(const Plane& plane, const Kernel& detector)
 
 constexpr double color_exponent = 0.7, feature_exponent = 0.5;
 
-/// Returns the error of section 4.1.3: differences up to 40 % of the largest possible one fill 95 % of the
-/// range.
+/// Returns the colour error of section 4.1.3. Differences of up to 40 % of the largest possible difference
+/// fill 95 % of the range.
 double color_error(const dvec3& reference, const dvec3& test) {
   static const double largest =
       std::pow(hyab(hunt_lab({0.0, 1.0, 0.0}), hunt_lab({0.0, 0.0, 1.0})), color_exponent);
@@ -154,7 +155,7 @@ double color_error(const dvec3& reference, const dvec3& test) {
   return d < knee ? pt / knee * d : pt + (d - knee) / (largest - knee) * (1.0 - pt);
 }
 
-/// Returns the part of a picture that the eye perceives at that distance, as CIELAB.
+/// Returns the picture as an observer at that distance perceives it, in CIELAB.
 Plane perceived(const Plane& plane, const Kernel& filter) {
   Plane lab = filter.filter(plane);
   for (dvec3& pixel : lab.pixels) pixel = hunt_lab(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));

@@ -13,12 +13,12 @@
 namespace greatx::test {
 
 struct Flip {
-  std::vector<float> error;  ///< [h, w], 0: the same, 1: as black and white
+  std::vector<float> error;  ///< [h, w], 0: equal, 1: as different as black and white
   double mean = 0.0;
 };
 
-/// Compares two u8 [h, w, 3] sRGB pictures of one shape. 67 pixels per degree is a monitor of 0.7 m and 3840
-/// pixels seen from 0.7 m.
+/// Compares two u8 [h, w, 3] sRGB pictures of equal shape. The default of 67 pixels per degree is that of a
+/// monitor with a width of 0.7 m and 3840 pixels, seen from a distance of 0.7 m.
 Flip flip(const Array& reference, const Array& test, double pixels_per_degree = 67.0);
 
 }  // namespace greatx::test

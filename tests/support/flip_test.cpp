@@ -41,8 +41,8 @@ Array spot() {
 }
 
 TEST(Flip, AgreesWithItsAuthorsProgram) {
-  // The values are from the authors' own evaluator (flip-evaluator 1.x, LDR, 67 pixels per degree): mean,
-  // pixel (24, 18), pixel (7, 5).
+  // The authors' own evaluator (flip-evaluator 1.x, LDR, 67 pixels per degree) yields these values: the mean,
+  // pixel (24, 18) and pixel (7, 5).
   const auto expect = [](const Array& a, const Array& b, double mean, double middle, double corner) {
     const Flip f = flip(a, b);
     EXPECT_NEAR(f.mean, mean, 2e-4);

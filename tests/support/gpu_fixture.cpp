@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   testing::UnitTest::GetInstance()->listeners().Append(new ValidationListener);
   int result = RUN_ALL_TESTS();
   if (shared_device == nullptr) return result;
-  // Objects that outlive the device, and leaks, are reported while the device is destroyed.
+  // The validation layer reports leaks, and objects that outlive the device, while the device is destroyed.
   const std::shared_ptr<gpu::ValidationLog> log = shared_device->validation_log();
   shared_device.reset();
   for (const std::string& message : log->take()) {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs a sequence of a scenario without files, and keeps everything that it delivered and its work on the
-// GPU.
+// Runs a sequence of a scenario without files, and keeps all data that it delivers and its work on the GPU.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +25,7 @@ struct KeptRun {
   std::vector<Packet> packets;
   sim::RunStatistics statistics;
   sim::EffectPlan plan;
-  gpu::Counters counters;  ///< of this run alone, its set-up included
+  gpu::Counters counters;  ///< counters of this run alone, including its set-up
   std::vector<scene::Instance> instances;
 
   const SensorSpec& spec(const std::string& sensor) const {
@@ -34,7 +33,7 @@ struct KeptRun {
       if (spec.name == sensor) return spec;
     throw std::runtime_error("no sensor " + sensor);
   }
-  /// Returns an array of a sensor in a packet; null if the sensor did not fire.
+  /// Returns an array of a sensor in a packet, or null if the sensor did not fire.
   const Array* find(size_t packet, const std::string& sensor, const std::string& name) const {
     return find(packets.at(packet), sensor, name);
   }
@@ -46,14 +45,14 @@ struct KeptRun {
   std::span<const T> array(size_t packet, const std::string& sensor, const std::string& name) const {
     return array(packet, sensor, name).as<T>();
   }
-  /// Returns an array of every record of a sensor, in order of ticks.
+  /// Returns an array from every record of a sensor, in the order of ticks.
   std::vector<Array> arrays(const std::string& sensor, const std::string& name) const {
     std::vector<Array> all;
     for (const Packet& packet : packets)
       if (const Array* found = find(packet, sensor, name)) all.push_back(*found);
     return all;
   }
-  /// Returns ragged arrays joined.
+  /// Returns the concatenation of an array over all records, for ragged arrays.
   template <typename T>
   std::vector<T> joined(const std::string& sensor, const std::string& name) const {
     std::vector<T> all;
@@ -62,7 +61,7 @@ struct KeptRun {
     return all;
   }
   uint64_t counter(const std::string& name) const { return statistics.counters.at(name); }
-  /// Returns an empty text if there is no such note.
+  /// Returns the text of a note, or an empty text if the note does not exist.
   std::string note(const std::string& name) const {
     for (const auto& [key, text] : statistics.notes)
       if (key == name) return text;
@@ -87,7 +86,7 @@ struct KeptRun {
   }
 };
 
-/// Returns the counts of `after` beyond those of `before`.
+/// Returns the counts of `after` minus those of `before`.
 inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
   after.pipelines.erase(after.pipelines.begin(),
                         after.pipelines.begin() + static_cast<std::ptrdiff_t>(before.pipelines.size()));
@@ -102,7 +101,8 @@ inline gpu::Counters since(const gpu::Counters& before, gpu::Counters after) {
   return after;
 }
 
-/// Ticks before `first_tick` are left out, as by a resume.
+/// Runs `sequence` and returns everything it delivers. The run leaves out ticks before `first_tick`, as a
+/// resumed run does.
 inline KeptRun keep_run(const sim::Experiment& experiment, uint32_t sequence = 0, int64_t first_tick = 0) {
   struct Keep : RecordSink {
     std::vector<Packet> packets;
@@ -128,7 +128,7 @@ inline KeptRun keep_run(const std::string& yaml, uint32_t sequence = 0, int64_t 
   return keep_run(sim::make_experiment(sim::parse_scenario(yaml, "test.yaml", ".")), sequence, first_tick);
 }
 
-/// Compares every record of two packets with the same sensors.
+/// Expects equal bytes in all records of two packets from the same sensors.
 inline void expect_same_bytes(const std::vector<SensorSpec>& sensors, const Packet& a, const Packet& b,
                               const std::string& what = {}) {
   ASSERT_EQ(a.tick, b.tick) << what;
@@ -146,7 +146,7 @@ inline void expect_same_bytes(const std::vector<SensorSpec>& sensors, const Pack
     }
   }
 }
-/// Compares every array of every packet.
+/// Expects equal bytes in all arrays of all packets.
 inline void expect_same_bytes(const KeptRun& a, const KeptRun& b, const std::string& what = {}) {
   ASSERT_EQ(a.packets.size(), b.packets.size()) << what;
   for (size_t p = 0; p < a.packets.size(); ++p)

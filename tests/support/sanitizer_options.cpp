@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// In a build with AddressSanitizer, leaks of the Vulkan loader, its layers and drivers are not faults of
-// greatx; all others are. The sanitizers choose the names of these functions (sanitizer/lsan_interface.h).
+// Suppresses leaks of the Vulkan loader, its layers and drivers in a build with AddressSanitizer, because
+// they are not faults of greatx. All other leaks count. The sanitizers prescribe the names of these functions
+// (sanitizer/lsan_interface.h).
 #include <dlfcn.h>
 
-// The loader and the sanitizers' library look for these functions in the program, where all others are
-// hidden.
+// The loader and the library of the sanitizers look these functions up in the program, which hides all its
+// other symbols.
 #pragma GCC visibility push(default)
 extern "C" {
 
-/// Keeps drivers loaded: a leak can be attributed to its library only while the library is in memory.
+/// Keeps drivers loaded, because a leak can only be attributed to a library that is still in memory.
 int dlclose(void* /*handle*/) noexcept { return 0; }
 
 const char* __lsan_default_suppressions();

@@ -9,7 +9,7 @@
 
 namespace greatx::test {
 
-/// Makes a folder of its own and removes it with the object.
+/// Makes a new temporary folder and removes it in the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

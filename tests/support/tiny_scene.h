@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes scenes of a few triangles, written in the test that needs them, without a loader or a file.
+// Makes scenes of a few triangles in the test that needs them, without a loader or a file.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace greatx::test {
 
 using Triangle = std::array<dvec3, 3>;
 
-/// Builds objects (one instance and one primitive each) from flat faces (one facet each).
+/// Builds objects from flat faces. Each object is one instance and one primitive; each face is one facet.
 class TinyScene {
  public:
   TinyScene() {
@@ -26,7 +26,7 @@ class TinyScene {
     material("default", 0.5f);
   }
 
-  /// Adds a Lambertian material with this reflectance at 905 nm, and half of it at 1550 nm.
+  /// Adds a Lambertian material with the given reflectance at 905 nm and half of it at 1550 nm.
   uint32_t material(const std::string& name, float reflectance_905nm) {
     scene::Material material;
     material.name = name;
@@ -42,32 +42,32 @@ class TinyScene {
     textures_.push_back(texture);
     return static_cast<uint32_t>(textures_.size() - 1);
   }
-  /// Adds a body that can move; 0 is the static world.
+  /// Adds a movable body. Body 0 is the static world.
   uint32_t body(const std::string& name) {
     scene::Body body;
     body.name = name;
     bodies_.push_back(body);
     return static_cast<uint32_t>(bodies_.size() - 1);
   }
-  /// Begins an object, to which the next faces belong. Instances are numbered in the order of bodies, then of
-  /// calls.
+  /// Begins an object, to which the next faces belong. Instances are numbered by body first and then in the
+  /// order of the calls.
   TinyScene& object(const std::string& name, uint32_t body = 0, uint32_t material = 0) {
     objects_.push_back({name, body, material, {}});
     return *this;
   }
-  /// Adds coplanar triangles of one facet, counter-clockwise seen from the side of its normal.
+  /// Adds coplanar triangles as one facet. Their corners run counter-clockwise as seen from the side of the
+  /// normal.
   TinyScene& face(const std::vector<Triangle>& triangles) {
     if (objects_.empty()) object("object");
     objects_.back().faces.push_back(triangles);
     return *this;
   }
   TinyScene& triangle(const dvec3& a, const dvec3& b, const dvec3& c) { return face({{a, b, c}}); }
-  /// Adds a quad. Its corners are counter-clockwise, with uv (0,0), (1,0), (1,1), (0,1). It is split along
-  /// a-c.
+  /// Adds a quad, split along a-c. Its corners run counter-clockwise, with uv (0,0), (1,0), (1,1), (0,1).
   TinyScene& quad(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
     return face({{a, b, c}, {a, c, d}});
   }
-  /// Adds a closed box with its normals outwards: six quads.
+  /// Adds a closed box of six quads with normals that point outwards.
   TinyScene& box(const dvec3& low, const dvec3& high) {
     const auto p = [&](int x, int y, int z) {
       return dvec3(x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z);
@@ -80,8 +80,8 @@ class TinyScene {
         .quad(p(1, 0, 0), p(1, 1, 0), p(1, 1, 1), p(1, 0, 1));
   }
 
-  /// Builds the scene. `origin` is the world position of the local origin. Faces are given in world
-  /// coordinates (body 0) or in their body's.
+  /// Builds the scene. `origin` is the world position of the local origin. Faces of body 0 are given in world
+  /// coordinates, all others in the coordinates of their body.
   scene::Scene build(const dvec3& origin = dvec3(0.0)) const {
     scene::Scene scene;
     scene.name = "tiny";

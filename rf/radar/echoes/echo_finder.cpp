@@ -207,7 +207,7 @@ std::vector<TargetBox> EchoFinder::targets(std::span<const Pose> body_poses) con
                         scene.owner_of(instance.body) != transmitter_.own_body;
     if (!named && !moving) continue;
     scene::Bounds bounds = instance.bounds;
-    // with the parts that the body carries
+    // The box includes the parts that the body carries.
     if (instance.body != 0) bounds.add(scene.reach_of(instance.body));
     boxes.push_back({bounds, instance.body == 0 ? Pose{} : body_poses[instance.body], i, instance.body});
   }

@@ -93,7 +93,7 @@ EchoTracer::EchoTracer(const scene::Scene& scene, const FacetTrees& trees) {
 }
 
 /// Partitions [first, first + count) of `order` at the best cut. Returns the number of entries before the
-/// cut.
+/// cut, or half of `count` if all centres coincide.
 static uint32_t cut_by_area(std::vector<uint32_t>& order, const std::vector<scene::Bounds>& bounds,
                             uint32_t first, uint32_t count, uint32_t bins) {
   scene::Bounds centers;

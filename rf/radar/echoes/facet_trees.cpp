@@ -12,7 +12,7 @@
 namespace greatx::rf {
 namespace {
 
-/// corners of a convex piece, counter-clockwise about the facet's normal
+/// The corners of a convex piece, counter-clockwise about the facet's normal.
 using Corners = std::vector<uint32_t>;
 
 /// Joins the triangles of one facet greedily: across every edge that two pieces share, if the joined piece is
@@ -64,8 +64,8 @@ class Joiner {
       const uint32_t other = found->second;
       if (other == piece || own.size() + pieces[other].size() - 2 > FacetTrees::most_corners) continue;
       Corners& theirs = pieces[other];
-      // The joined outline runs from b around this piece to a, then around the other piece from after a to
-      // before b.
+      // The joined outline runs from b around this piece to a. Then it follows the other piece from the
+      // corner after a to the corner before b.
       Corners joined(own);
       std::rotate(joined.begin(), joined.begin() + (i + 1) % own.size(), joined.end());
       const size_t at_a = std::find(theirs.begin(), theirs.end(), a) - theirs.begin();

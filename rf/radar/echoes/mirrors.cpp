@@ -8,10 +8,10 @@
 namespace greatx::rf {
 namespace {
 
-/// relative tolerance between two computations of the distance to a mirror
+/// Relative tolerance between two computations of the distance to a mirror.
 constexpr double same_distance = 1e-6;
 
-/// A target that is looked for over mirrors.
+/// Describes a target that is searched for over mirrors.
 struct Sought {
   const TargetBox* box = nullptr;
   std::array<dvec3, 9> points;  ///< the centre of the box, and the points halfway to its corners
@@ -61,8 +61,8 @@ std::vector<TargetImage> MirrorFinder::find(std::span<const TargetBox> targets, 
       const PosedFacet& posed = world.facet(mirror.facet);
       const double side = posed.distance(radar), there = posed.distance(target.points[0]);
       if (!(side * there > 0.0)) continue;
-      // The point where the ray to the image of the centre meets the plane. It may lie outside the facet by
-      // as much as the ray to a corner may lie beside it.
+      // The point where the ray to the image of the centre meets the plane. It may lie beside the facet by
+      // `room`, since the rays to the corners of the box meet the plane up to that far from it.
       const double share = side / (side + there);
       const dvec2 from = posed.plane_coordinates(radar),
                   at = from + share * (posed.plane_coordinates(target.points[0]) - from);

@@ -203,7 +203,7 @@ std::array<dvec3, 4> RayGrid::corners(uint32_t tube) const {
 }
 
 uint32_t RayGrid::tube_at(const dvec3& direction) const {
-  // multiplication by the transpose turns into the radar's frame
+  // Multiplication by the transpose turns the direction into the radar's frame.
   const dvec3 d = direction * local_from_radar_;
   const double turn = 2.0 * pi, azimuths = view_.azimuth_max - view_.azimuth_min;
   double azimuth = std::fmod(std::atan2(d.y, d.x) - view_.azimuth_min, turn);

@@ -331,7 +331,7 @@ void TubeEchoes::send_over(Job& job, uint32_t last, const Polygon& part, uint32_
 
 void TubeEchoes::send_back(Job& job, uint32_t bounce, const Polygon& part, uint32_t facet, bool whole) const {
   if (bounce > 0 && mirrors(world_, facet, job.chain[bounce - 1])) {
-    // the previous surface has already sent this path back
+    // The previous surface has already sent this path back.
     if (bounce > 1 && home_ && facet == job.chain[0]) return;
     return send_over(job, bounce - 1, part, facet, Over::other, false);
   }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nearest_m = 1e-5;  ///< distance from the source below which nothing is seen
 
-/// A piece after cuts by two planes, each of which adds at most one corner.
+/// Holds a piece after cuts by two planes, each of which adds at most one corner.
 struct SpaceCorners {
   std::array<dvec3, FacetTrees::most_corners + 2> points;
   uint32_t count = 0;

@@ -42,8 +42,7 @@ double gamma_quantile(uint32_t looks, double tail) {
 constexpr int steps = 800;
 
 /// Returns the mean of f(x) over the rank-th smallest x of n Gamma(looks) variates. n and rank are real
-/// numbers. The midpoint rule is applied in the logit of F(x), whose density follows from Beta(rank, n - rank
-/// + 1).
+/// numbers. The midpoint rule is applied in the logit of F(x). F(x) follows Beta(rank, n - rank + 1).
 template <typename Function>
 double order_statistic_mean(double cells, double rank, const std::vector<double>& quantiles,
                             const Function& f) {
@@ -86,8 +85,8 @@ double statistic_mean(double cells, double rank, uint32_t looks, const std::vect
 double cell_averaging_factor(double cells, uint32_t looks, double false_alarm) {
   const double shape = cells * looks;
   const auto tail = [&](double p) {
-    // The first term is (1+p)^-shape. Each term follows from the previous one by the factor (shape + k)
-    // p/((k+1)(1+p)). The terms are computed as logarithms.
+    // The first term is (1+p)^-shape. The factor from one term to the next is (shape + k) p/((k+1)(1+p)). The
+    // terms are computed as logarithms.
     const double by = std::log(p) - std::log1p(p);
     double log_term = -shape * std::log1p(p), sum = std::exp(log_term);
     for (uint32_t k = 0; k + 1 < looks; ++k) {

@@ -37,12 +37,12 @@ struct Echo {
   /// Ratio of the field at the receiver's port to that at the transmitter's port, with the patterns and
   /// polarizations of both elements, all losses and the spreading. |amplitude|^2 = P_r/P_t; for a monostatic
   /// radar P_r = P_t G^2 lambda^2 sigma/((4 pi)^3 R^4). The phase e^{-j 2 pi f_c tau} is not included; the
-  /// beat signal adds it in turns.
+  /// beat signal adds it and computes it in turns.
   std::complex<double> amplitude;
   dvec3 departure{0.0};  ///< unit vector, world axes, leaving the transmitter
   dvec3 arrival{0.0};    ///< unit vector, world axes, pointing from the receiver back along the path
   DelayTrack delay;
-  dvec3 point{0.0};       ///< last vertex of the path, local coordinates
+  dvec3 point{0.0};       ///< last vertex of the path of the strongest tube, local coordinates
   uint32_t instance = 0;  ///< index into Scene::instances + 1 of the last vertex; 0: none
   uint32_t material = 0;  ///< index into Scene::materials + 1
   uint32_t bounces = 1;   ///< number of surfaces met

@@ -204,7 +204,7 @@ std::vector<float> RadarMaps::range_azimuth(std::span<const std::complex<float>>
       add_scaled(2.0f * product_re, 2.0f * product_im, &steering_[2 * i * azimuths],
                  &steering_[(2 * i + 1) * azimuths], static_cast<uint32_t>(azimuths), out);
     }
-    // rounding errors may be below zero
+    // Rounding errors may make the sum negative.
     for (size_t k = 0; k < azimuths; ++k) out[k] = std::max(out[k], 0.0f) * factor;
   });
   return map;

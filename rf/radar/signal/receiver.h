@@ -55,9 +55,9 @@ uint64_t digitize(const AnalogToDigital& adc, uint32_t threads, std::span<std::c
 ///
 /// The phase of a pole is an Ornstein-Uhlenbeck process. It is drawn exactly at the times of the samples.
 /// Between samples it is drawn from its distribution conditioned on both neighbours. Echoes share the phase
-/// of the nearest delay of a series that grows by a quarter from node to node: the delay is right within 12
-/// %, and the power of the noise within 0.5 dB. Each ramp draws a new phase. This is valid if interval_s is
-/// many times 1/(2 pi f_p).
+/// of the nearest node of a series of delays that grow by a quarter. The delay is then right within 12 %, and
+/// the power of the noise within 0.5 dB. Each ramp draws a new phase. This is valid if interval_s is many
+/// times 1/(2 pi f_p).
 class PhaseWalk {
  public:
   PhaseWalk(const PhaseNoise& noise, const RadarWaveform& waveform, const RadarSeeds& seeds);

@@ -24,7 +24,7 @@ class ToneKernel {
   static constexpr int taps = 8;
   static constexpr int first_tap = -3;  ///< offset of the first tap from the grid frequency below the tone
   static constexpr int orders = 4;      ///< kernels: T_0, T_2, T_4, T_6
-  /// parts of the interval between two grid frequencies, one parabola each
+  /// Parts of the interval between two grid frequencies, with one parabola each.
   static constexpr int segments = 64;
   /// Largest bend for which the truncation error of the kernels is below 1e-6 of the tone, rad. Tones that
   /// bend more are summed sample by sample.

@@ -94,8 +94,8 @@ GREATX_LANES void spread(const ToneKernel& kernel, const BlockTones& tones, cons
   for (uint32_t i = 0; i < count; ++i) {
     const int32_t orders = tones.orders[i];
     if (orders == 0) continue;
-    // The loop runs over the receivers of a tone, because tones with similar delays add to the same cells,
-    // and each addition would wait for the previous store.
+    // The receivers are in the inner loop, because successive tones have similar delays and add to the same
+    // cells: each addition would wait for the previous store.
     for (uint32_t r = 0; r < receivers; ++r) {
       const float u = taps[r].u[i], re = taps[r].re[i], im = taps[r].im[i];
       const int32_t segment = taps[r].segment[i] * row;

@@ -25,12 +25,12 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// Meshes that many nodes share, and running numbers for the nodes' names.
+/// Holds the meshes that many nodes share, and the running numbers in the names of the nodes.
 class CityFurniture {
  public:
   explicit CityFurniture(SceneWriter& writer) : writer_(writer) {}
 
-  /// `kind` of make_tree.
+  /// `kind` is as in make_tree.
   void tree(const dvec2& where, double z, int kind, RandomStream& random) {
     const int shape = static_cast<int>(random.below(4)) % 2;
     const int mesh = shared(fmt::format("tree_{}_{}", kind, shape), [&] { return make_tree(kind, shape); });
@@ -111,9 +111,9 @@ class CityFurniture {
 
 double heading(const dvec2& direction) { return std::atan2(direction.y, direction.x); }
 
-/// Lamps every 28 m or so: along both sides of an avenue, staggered; along the south and west edges of other
-/// blocks, so that each street has one row. Trees along avenues, of one species; signals, signs, shelters,
-/// bins.
+/// Places the furniture of a block's pavements. Lamps stand about every 34 m along both sides of an avenue,
+/// staggered, and about every 30 m along the south and west edges of other blocks, so that each street has
+/// one row. Trees of one species stand along avenues. There are also signals, signs, shelters and bins.
 void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furniture, RandomStream& random) {
   for (int edge = 0; edge < 4; ++edge) {
     if (!block.street[static_cast<size_t>(edge)]) continue;
@@ -136,7 +136,8 @@ void furnish_pavement(const Block& block, uint64_t seed, CityFurniture& furnitur
         taken.push_back(at);
       }
     }
-    // Drivers beside this pavement come from b: what speaks to them stands near a and looks along the edge.
+    // Drivers beside this pavement come from b. Signals and signs for them therefore stand near a and face
+    // along the edge.
     const bool crossing = block.street[static_cast<size_t>((edge + 3) % 4)];
     if (avenue && crossing && free(2.2, 0.8)) {
       furniture.signal(spot(2.2, 0.45), heading(along), edge % 2 == 0);
@@ -175,7 +176,7 @@ void park_cars(const CityPlan& plan, CityFurniture& furniture, RandomStream& ran
   }
 }
 
-/// Lawn with paths, trees and benches around a small plaza with a fountain.
+/// Adds a lawn with paths, trees and benches around a small plaza with a fountain.
 void add_park(SceneWriter& writer, const Block& block, CityFurniture& furniture, RandomStream& random) {
   const std::vector<dvec2> quad = inset(block.sharp, block.pavement_m);
   const auto at = [&](double u, double v) {

@@ -16,16 +16,16 @@ namespace {
 
 constexpr double floor_height = 3.2;
 constexpr double shop_height = 4.2;
-constexpr double parapet_height = 0.8;  // stays within the plain foot of a façade's floor
+constexpr double parapet_height = 0.8;  // within the plain lowest part of a façade's floor
 constexpr double parapet_width = 0.35;
-constexpr double foundation = -0.45;  // below the pavement's level, so that nothing ends in its plane
+constexpr double foundation = -0.45;  // below the level of the pavement, so that no face ends in its plane
 
-/// A lot in the block's (u, v) square.
+/// A lot in the (u, v) square of the block.
 struct Lot {
   double u0, v0, u1, v1;
 };
 
-/// A footprint in a lot's unit square, counter-clockwise, and spots for things on its roof.
+/// A footprint in the unit square of a lot, counter-clockwise, and positions for objects on its roof.
 struct Shape {
   std::vector<dvec2> outline;
   std::vector<dvec2> spots;
@@ -58,7 +58,7 @@ Shape make_shape(uint32_t kind, bool flip_u, bool flip_v) {
   return shape;
 }
 
-/// Divides the unit square; `gap` is an alley's width as fractions.
+/// Divides the unit square into lots with alleys of 5 m between them.
 std::vector<Lot> make_lots(const dvec2& size_m, RandomStream& random) {
   const double gu = 5.0 / size_m.x, gv = 5.0 / size_m.y;
   const auto spread = [&](double low, double high) { return random.uniform(low, high); };
@@ -101,7 +101,7 @@ struct Style {
 Style make_style(int floors, RandomStream& random) {
   struct Option {
     const char *facade, *blind;
-    double low_weight, high_weight;  // for up to 6 floors, for more
+    double low_weight, high_weight;  // for up to 6 floors, and for more
   };
   static constexpr std::array<Option, 10> options{{{"facade_brick_red", "blind_brick", 3, 1},
                                                    {"facade_brick_yellow", "", 2, 1},
@@ -133,8 +133,8 @@ Style make_style(int floors, RandomStream& random) {
   return style;
 }
 
-/// Boxes of plant and the head of the stairs, sunk a little into the roof: where they fit within `roof` and
-/// apart. Returns their middles.
+/// Adds boxes of plant and the head of the stairs, sunk a little into the roof, where they fit within `roof`
+/// and keep a distance from each other. Returns the middles of these boxes.
 std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& roof,
                                  const std::vector<dvec2>& spots, const dvec2& along, double roof_z,
                                  RandomStream& random) {
@@ -143,7 +143,7 @@ std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& ro
   const size_t count = 1 + random.below(static_cast<uint32_t>(spots.size()));
   std::vector<dvec2> taken;
   for (size_t i = 0; i < count; ++i) {
-    const dvec2 half{random.uniform(1.1, 1.9), random.uniform(0.9, 1.4)};  // braces: in this order
+    const dvec2 half{random.uniform(1.1, 1.9), random.uniform(0.9, 1.4)};  // braces evaluate in this order
     const double height = i == 0 ? 2.5 : random.uniform(1.1, 1.9);
     std::vector<dvec2> corners;
     for (const dvec2& c : {dvec2(-1, -1), dvec2(1, -1), dvec2(1, 1), dvec2(-1, 1)})
@@ -160,7 +160,7 @@ std::vector<dvec2> add_equipment(MeshBuilder& mesh, const std::vector<dvec2>& ro
   return taken;
 }
 
-/// More faces than the choice of a style has: others of the same kind of wall.
+/// Replaces some façades by others of the same kind of wall, for more variety.
 void vary(Style& style, RandomStream& looks) {
   const double pick = looks.uniform();
   if (style.facade == "facade_concrete_grey" && pick < 0.55)
@@ -180,19 +180,19 @@ bool old_town(const Style& style) {
 struct Site {
   std::vector<dvec2> footprint;  ///< about the building's origin
   std::vector<dvec2> spots;
-  std::vector<bool> alley;  ///< whether edge i looks at a neighbour
+  std::vector<bool> alley;  ///< whether edge i faces a neighbour
   dvec2 along;
 };
 
-/// Rings of a façade from `bottom` to `top`, one for every two floors, so that each starts with a bay of its
-/// own: no two walls show the same windows lit.
+/// Adds the rings of a façade from `bottom` to `top`. There is one ring for every two floors, and each starts
+/// at another bay, so that no two walls show the same lit windows.
 void add_facade(RingSolid& solid, double inset, double bottom, double base, double top, int facade,
                 RandomStream& looks) {
   for (double z = base; z < top - 0.01; z += 2.0 * floor_height)
     solid.rings.push_back({inset, z == base ? bottom : z, facade, true, z, 1u + looks.below(0x7fffffffu)});
 }
 
-/// A sign that sticks out of the wall from a to b at height z, lit by night.
+/// Adds a sign, lit by night, that stands out of the wall from a to b at height z.
 void add_neon(MeshBuilder& mesh, const dvec2& a, const dvec2& b, double z, RandomStream& looks) {
   static constexpr std::array<const char*, 4> colors{"neon_red", "neon_blue", "neon_green", "neon_amber"};
   const double length = glm::length(b - a);
@@ -226,7 +226,8 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
       !tower && floors <= 6 && site.footprint.size() == 4 && old_town(style) && looks.uniform() < 0.8;
   double top = street_level + floor_height * lower;
 
-  // A pitched roof wants right angles: the largest rectangle along the street, in axes of its own.
+  // A pitched roof needs right angles. It covers the largest rectangle along the street, in the rectangle's
+  // own axes.
   std::vector<dvec2> footprint = site.footprint;
   std::vector<bool> alley = site.alley;
   dvec2 half(0.0);
@@ -241,7 +242,8 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
     for (int k = 0; k < 2; ++k) half[k] = std::floor(100.0 * std::min(-low[k], high[k])) / 100.0;
     footprint = {-half, dvec2(half.x, -half.y), half, dvec2(-half.x, half.y)};
     *yaw = std::atan2(site.along.y, site.along.x);
-    // Its edges look south, east, north and west; whoever looked that way before knows of the neighbour.
+    // The edges of the rectangle face south, east, north and west. An edge has a neighbour if the footprint's
+    // edge on that side has one.
     const std::array<dvec2, 4> outwards{-across, site.along, across, -site.along};
     for (size_t i = 0; i < 4; ++i)
       for (size_t k = 0; k < 4; ++k)
@@ -273,7 +275,8 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
     for (const double side : {-1.0, 1.0})
       mesh.box(material("blind_brick"), {side * x - 0.35, side * y - 0.5, top + 0.1},
                {side * x + 0.35, side * y + 0.5, ridge + 0.8});
-    MeshBuilder unused;  // what a flat roof would have drawn: the next building does not change
+    // Draws the random numbers that a flat roof would draw, so that the next building does not change.
+    MeshBuilder unused;
     add_equipment(unused, inset(site.footprint, parapet_width + 0.3), spots, site.along, top, random);
   } else {
     solid.rings.push_back({0.0, top + parapet_height, stone});
@@ -286,11 +289,11 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
       solid.rings.push_back({setback, top + parapet_height, stone});
       solid.rings.push_back({setback + parapet_width, top + parapet_height, stone});
     }
-    // Parapets are as wide as the wall is thick: fall back to the roof inside them.
+    // Parapets are as wide as the wall is thick. Inside them the solid goes down to the roof.
     solid.rings.push_back({solid.rings.back().inset_m, top, roof});
     add_ring_solid(mesh, solid);
     if (tower)
-      for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of its smaller roof
+      for (dvec2& spot : spots) spot *= 0.6;  // towards the middle of the smaller roof
     const std::vector<dvec2> roof_edge = inset(site.footprint, solid.rings.back().inset_m + 0.3);
     const std::vector<dvec2> taken = add_equipment(mesh, roof_edge, spots, site.along, top, random);
     add_roof_details(mesh, roof_edge, taken, site.along, top, looks);
@@ -307,7 +310,7 @@ MeshBuilder make_building(const Site& site, int floors, bool tower, RandomStream
 
 std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
                                      RandomStream& random) {
-  // The block inside its pavements and a strip in front of the walls.
+  // The buildings keep clear of the pavements and of a strip in front of the walls.
   std::array<double, 4> insets{};
   for (size_t i = 0; i < 4; ++i) insets[i] = block.pavement_m[i] + 0.9;
   const std::vector<dvec2> quad = inset(block.sharp, insets);
@@ -342,7 +345,7 @@ std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, u
     const bool tower = roomy && shape.convex && random.uniform() < 0.2 + 0.45 * nearness;
     const int floors = tower ? 8 + static_cast<int>(random.below(5))
                              : std::clamp(static_cast<int>(random.uniform(2.6, 6.5) + 3.0 * nearness), 2, 9);
-    // Looks have a stream of their own: what a building wears moves no other one.
+    // The looks have their own random stream, so that the looks of one building do not change another one.
     RandomStream looks(seed, 64, static_cast<uint32_t>(first + static_cast<int>(buildings.size())));
     double yaw = 0.0;
     MeshBuilder mesh = make_building(site, floors, tower, random, looks, &yaw);

@@ -10,15 +10,16 @@
 
 namespace greatx::scene::generator {
 
-/// A building about its own origin, which stands at `position` on the pavement's level.
+/// A building about its own origin. The origin stands at `position`, on the level of the pavement.
 struct Building {
   MeshBuilder mesh;
   dvec3 position{0.0};
   double yaw = 0.0;
 };
 
-/// The buildings of a block: footprints of several shapes on its lots, 8 to 45 m high, taller towards the
-/// centre. `first` is the number of the first of them in the city.
+/// Makes the buildings of a block. They have footprints of several shapes on the lots of the block and are 8
+/// to 45 m high, taller towards the centre. `first` is the number of the first of these buildings in the
+/// city.
 std::vector<Building> make_buildings(const CityPlan& plan, const Block& block, uint64_t seed, int first,
                                      RandomStream& random);
 

@@ -11,18 +11,20 @@ namespace greatx::scene::generator {
 
 namespace {
 
-constexpr double frame_side_m = 0.15;  ///< what stays whole along the kerbs, and
-constexpr double frame_end_m = 0.7;    ///< at both ends, so that neighbours meet a street in single edges
+/// The frame of a street is a margin without cuts along the kerbs and at both ends, so that neighbours meet a
+/// street in single edges.
+constexpr double frame_side_m = 0.15;
+constexpr double frame_end_m = 0.7;
 
-/// A row across the street within the frame: `cuts` are fractions of the street's width, cell i lies between
-/// cuts i and i + 1.
+/// A row across the street within the frame. `cuts` are fractions of the width of the street. Cell i lies
+/// between the cuts i and i + 1.
 struct Row {
   double length_m = 0.0;
   std::vector<double> cuts;
   std::vector<bool> marked;
 };
 
-/// Marks [first, second] of each pair of `marks` (fractions, ascending).
+/// Makes a row with a marking [first, second] for each pair of `marks` (fractions of the width, ascending).
 Row make_row(double length, double width, const std::vector<std::pair<double, double>>& marks) {
   Row row{length, {frame_side_m / width}, {}};
   for (const auto& [from, to] : marks) {
@@ -34,14 +36,14 @@ Row make_row(double length, double width, const std::vector<std::pair<double, do
   return row;
 }
 
-/// Dashes (or solid lines) of 0.12 m around `lines`, fractions of the width.
+/// Makes a row with lines of 0.12 m (dashes or solid lines) around `lines`, fractions of the width.
 Row line_row(double length, double width, const std::vector<double>& lines) {
   std::vector<std::pair<double, double>> marks;
   for (const double line : lines) marks.emplace_back(line - 0.06 / width, line + 0.06 / width);
   return make_row(length, width, marks);
 }
 
-/// Bars of 0.5 m, 0.6 m apart, along the direction of travel.
+/// Makes a row of a zebra crossing: bars of 0.5 m, 0.6 m apart, along the direction of travel.
 Row zebra_row(double width) {
   const int bars = static_cast<int>((width - 0.6) / 1.1);
   const double first = 0.5 * (width - 1.1 * bars + 0.6);
@@ -51,20 +53,21 @@ Row zebra_row(double width) {
   return make_row(3.0, width, marks);
 }
 
-/// What lies between the two ends of the frame, `length` apart.
+/// Makes the rows between the two ends of the frame, which are `length` apart.
 std::vector<Row> make_rows(const Street& street, double length, double width, RandomStream& random) {
   const Row plain = make_row(1.5, width, {});
   const auto crossing = [&](bool junction) { return junction && (street.avenue || random.uniform() >= 0.5); };
   const bool head = crossing(street.junction[0]), tail = crossing(street.junction[1]);
-  // Traffic keeps to the right: it stops before the crossing at the far end on the right half, at the near
-  // end on the left half.
+  // Traffic keeps to the right. It stops before the crossing at the far end on the right half, and before the
+  // one at the near end on the left half.
   const double rim = 0.35 / width, middle = 0.2 / width;
   const Row stop_left = make_row(0.4, width, {{rim, 0.5 - middle}}),
             stop_right = make_row(0.4, width, {{0.5 + middle, 1.0 - rim}});
   std::vector<Row> rows;
   if (head) rows = {zebra_row(width), plain, stop_left, plain};
   const double used = (head ? 6.4 : 0.0) + (tail ? 6.4 : 0.0);
-  // Dashes of 3 m every 9 m, stretched to fit; an avenue has a solid line in the middle and two dashed ones.
+  // Dashes are 3 m long, every 9 m, stretched to fit. An avenue has a solid line in the middle and two dashed
+  // lines.
   const int dashes = std::max(1, static_cast<int>((length - used + 6.0) / 9.0));
   const double unit = (length - used) / (3.0 * dashes - 2.0);
   for (int i = 0; i < dashes; ++i) {
@@ -78,7 +81,7 @@ std::vector<Row> make_rows(const Street& street, double length, double width, Ra
 
 using Chain = std::vector<dvec2>;
 
-/// Texture coordinates along a street: its wheel tracks follow the lanes.
+/// Gives texture coordinates along a street, so that the wheel tracks of the texture follow the lanes.
 struct Lane {
   dvec2 middle{0.0}, along{0.0, 1.0};
   dvec2 uv(int material, const dvec2& p) const {
@@ -121,7 +124,7 @@ void add_street(const Street& street, RandomStream& random, MeshBuilder& road, M
   const dvec2 start_middle = 0.5 * (street.left[0] + street.right[0]);
   const Lane lane{start_middle, glm::normalize(0.5 * (street.left[1] + street.right[1]) - start_middle)};
 
-  // The points on the boundary below row i: the cuts of both rows that meet there.
+  // The points on the boundary below row i are the cuts of both rows that meet there.
   std::vector<std::vector<double>> cuts(rows.size() + 1);
   for (size_t i = 0; i < rows.size(); ++i)
     for (const size_t boundary : {i, i + 1})
@@ -206,7 +209,7 @@ void add_base(const CityPlan& plan, MeshBuilder& base) {
   const int last = plan.blocks - 1;
   for (int edge = 0; edge < 4; ++edge)
     for (int i = 0; i <= last; ++i) {
-      // Counter-clockwise around the model; between two blocks a street ends.
+      // The edges are counter-clockwise around the model. Between two blocks a street ends.
       const auto block = [&](int k) -> const Block& {
         switch (edge) {
           case 0:

@@ -7,17 +7,18 @@
 
 namespace greatx::scene::generator {
 
-inline constexpr double pavement_height_m =
-    0.15;  ///< kerb: pavements and courtyards lie this high above the road
+/// The height of pavements and courtyards above the road (the kerb), metres.
+inline constexpr double pavement_height_m = 0.15;
 
-/// Streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane, not laid
-/// over it: radio sees one flat road.
+/// Adds streets and junctions at z = 0. Lane markings and zebra crossings are cut into the same plane instead
+/// of lying over it, so that radio sees one flat road.
 void add_streets(const CityPlan& plan, uint64_t seed, MeshBuilder& road, MeshBuilder& markings);
 
-/// Pavement with its kerb, and the land within it (`surface`), of one block.
+/// Adds the pavement of one block with its kerb, and the land inside the pavement with the material
+/// `surface`.
 void add_block_ground(const Block& block, int surface, MeshBuilder& pavement, MeshBuilder& courtyard);
 
-/// What closes the ground: sides down to z = -1 m and the underside.
+/// Closes the ground with sides down to z = -1 m and an underside.
 void add_base(const CityPlan& plan, MeshBuilder& base);
 
 }  // namespace greatx::scene::generator

@@ -11,7 +11,7 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A street's middle: x = at + tilt y (or y = at + tilt x), or the model's edge with no width.
+/// The middle line of a street: x = at + tilt y (or y = at + tilt x), or the edge of the model with no width.
 struct Line {
   double at = 0.0, tilt = 0.0, half_width = 0.0;
   bool avenue = false;
@@ -24,7 +24,7 @@ std::vector<Line> make_lines(double half, int blocks, RandomStream& random) {
   for (int i = 1; i < blocks; ++i) {
     const bool avenue = i == blocks / 2;
     const double nominal = -half + pitch * i;
-    // Together at most a tenth of the pitch: neighbours never meet.
+    // Tilt and shift move a line by at most a tenth of the pitch together, so that neighbours never meet.
     const double tilt = random.uniform(-0.03, 0.03);
     const double shift = random.uniform(-0.08, 0.08) * pitch;
     lines.push_back({avenue ? 0.0 : nominal + shift, avenue ? 0.3 * tilt : tilt * std::min(1.0, 150.0 / half),
@@ -34,13 +34,13 @@ std::vector<Line> make_lines(double half, int blocks, RandomStream& random) {
   return lines;
 }
 
-/// Where x = a + t y meets y = b + s x.
+/// Returns the point where x = a + t y meets y = b + s x.
 dvec2 meet(double a, double t, double b, double s) {
   const double x = (a + t * b) / (1.0 - t * s);
   return snap(dvec2(x, b + s * x));
 }
 
-/// A corner rounded with a quadratic Bezier curve from `radius` before to `radius` after it.
+/// Rounds a corner with a quadratic Bezier curve from `radius` before the corner to `radius` after it.
 std::vector<dvec2> rounded(const dvec2& before, const dvec2& corner, const dvec2& after, double radius) {
   const dvec2 start = corner + radius * glm::normalize(before - corner);
   const dvec2 end = corner + radius * glm::normalize(after - corner);
@@ -72,7 +72,7 @@ Block make_block(const std::vector<Line>& across, const std::vector<Line>& along
 }
 
 std::vector<dvec2> junction_outline(const CityPlan& plan, int i, int j) {
-  // Counter-clockwise around the junction, hence clockwise around each block's corner.
+  // The outline is counter-clockwise around the junction and hence clockwise around the corner of each block.
   std::vector<dvec2> outline;
   const auto add = [&](const Block& block, size_t corner) {
     const std::vector<dvec2>& arc = block.corners[corner];
@@ -96,7 +96,7 @@ std::vector<dvec2> Block::outline() const {
 std::vector<double> Block::outline_insets() const {
   std::vector<double> widths;
   for (size_t i = 0; i < 4; ++i) {
-    // The arc's edges take a width between those of the two sides, the last point starts edge i.
+    // The edges of the arc take a width between those of the two sides. The last point starts edge i.
     for (size_t k = 0; k + 1 < corners[i].size(); ++k) {
       const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(corners[i].size() - 1);
       widths.push_back((1.0 - t) * pavement_m[(i + 3) % 4] + t * pavement_m[i]);

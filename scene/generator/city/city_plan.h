@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The city seen from above: slightly tilted straight streets that cross, blocks with rounded corners between
-// them. Streets, junctions and blocks share their corners exactly, so that the ground is one closed surface.
+// Plans the city as seen from above: straight, slightly tilted streets that cross, and blocks with rounded
+// corners between them. Streets, junctions and blocks share their corners exactly, so that the ground is one
+// closed surface.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace greatx::scene::generator {
 
-/// Edges 0 south, 1 east, 2 north, 3 west; corner i lies between edges i - 1 and i: south-west, south-east,
-/// ...
+/// Describes a block. Its edges are 0 south, 1 east, 2 north, 3 west. Corner i lies between the edges i - 1
+/// and i: south-west, south-east, and so on.
 struct Block {
   int column = 0, row = 0;
   std::array<bool, 4> street{};        ///< whether a street runs along the edge (else the model ends there)
@@ -22,17 +23,18 @@ struct Block {
   std::array<dvec2, 4> sharp;          ///< corners before rounding
   std::array<std::vector<dvec2>, 4> corners;  ///< one point, or four on an arc; counter-clockwise
   std::vector<dvec2> outline() const;
-  /// Width of the pavement along each edge of outline().
+  /// Returns the width of the pavement along each edge of outline().
   std::vector<double> outline_insets() const;
   dvec2 edge_start(int edge) const { return corners[static_cast<size_t>(edge)].back(); }
   dvec2 edge_end(int edge) const { return corners[static_cast<size_t>((edge + 1) % 4)].front(); }
 };
 
-/// A stretch of street between two junctions, or a junction and the model's edge.
+/// A stretch of street between two junctions, or between a junction and the edge of the model.
 struct Street {
-  dvec2 left[2], right[2];  ///< kerb lines, seen in the direction of increasing x or y; [0] start, [1] end
+  /// Kerb lines, as seen in the direction of increasing x or y; [0] is the start, [1] the end.
+  dvec2 left[2], right[2];
   bool avenue = false;
-  bool junction[2] = {false, false};  ///< whether it ends at a junction
+  bool junction[2] = {false, false};  ///< whether the street ends at a junction
 };
 
 struct CityPlan {

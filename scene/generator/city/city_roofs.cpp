@@ -15,7 +15,7 @@ namespace {
 
 constexpr double sunk = 0.06;
 
-/// A dormer whose front looks along +x from the origin: 1.5 m wide, 1.6 m high, `depth` deep.
+/// Makes a dormer whose front faces +x from the origin: 1.5 m wide, 1.6 m high, `depth` deep.
 MeshBuilder make_dormer(double depth, bool lit) {
   MeshBuilder mesh;
   const int sheet = material("roof_zinc"), front = material(lit ? "dormer" : "dormer_dark");
@@ -42,7 +42,7 @@ bool inside(const std::vector<dvec2>& polygon, const dvec2& p) {
 }
 
 double add_hip_roof(MeshBuilder& mesh, const dvec2& half, double eaves, int tiles) {
-  // In axes of its own: a along the ridge, b across.
+  // The roof has its own axes: a along the ridge, b across.
   const bool turned = half.y > half.x;
   const double overhang = 0.4, long_half = std::max(half.x, half.y) + overhang,
                short_half = std::min(half.x, half.y) + overhang;
@@ -83,7 +83,7 @@ double add_mansard(MeshBuilder& mesh, const dvec2& half, double eaves, RandomStr
                  {0.0, eaves + 0.24, material("roof_slate")},
                  {run, eaves + 0.24 + rise, material("roof_zinc")}};
   add_ring_solid(mesh, solid);
-  for (int side = half.x > half.y ? 1 : 0; side < 4; side += 2) {  // the long ones
+  for (int side = half.x > half.y ? 1 : 0; side < 4; side += 2) {  // the long sides
     const double yaw = 0.5 * pi * side;
     const double out = side % 2 == 0 ? h.x : h.y, width = 2.0 * (side % 2 == 0 ? h.y : h.x);
     const int count = static_cast<int>((width - 4.0) / 4.0);
@@ -126,7 +126,7 @@ void add_roof_details(MeshBuilder& mesh, const std::vector<dvec2>& roof, std::ve
     taken.push_back(spot);
     ++placed;
     if (solar) {
-      // A wedge that leans towards the lower edge: the panel on its long slope.
+      // A wedge that leans towards the lower edge carries the panel on its long slope.
       const int panel = material("solar_panel"), frame = material("roof_equipment");
       const dvec3 a(corners[0], roof_z - 0.1), b(corners[1], roof_z - 0.1), c(corners[2], roof_z - 0.1),
           d(corners[3], roof_z - 0.1);

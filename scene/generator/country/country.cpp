@@ -26,12 +26,12 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// Fields: on each side of the road two bands, each cut across at rows of its own.
+/// A field. On each side of the road there are two bands of fields, each divided at its own rows.
 struct Field {
   int row0, row1, column0, column1;  ///< cells [row0, row1) x [column0, column1)
   int material;
-  double angle = 0.0;  ///< of its rows, rad
-  dvec2 offset{0.0};   ///< of its texture
+  double angle = 0.0;  ///< angle of the rows of its crop, rad
+  dvec2 offset{0.0};   ///< offset of its texture
 };
 
 class Country {
@@ -54,7 +54,7 @@ class Country {
  private:
   dvec2 find_pond();
   void choose_sites();
-  /// Fields of a band that are not for crops, by row.
+  /// Returns the fields of a band that are not for crops, in order of rows.
   std::vector<Field> reserved(const std::array<int, 2>& band) const;
   double wood_radius() const { return std::min(0.2 * terrain_.half(), 26.0); }
   void choose_fields();
@@ -92,7 +92,7 @@ bool Country::near_site(const dvec2& point, double margin) const {
 }
 
 dvec2 Country::find_pond() {
-  // Of random places the first that is clear of road and farms, or else the one that is clearest.
+  // Of random places take the first that is clear of road and farms, or else the one with the most room.
   const double limit = terrain_.half() - pond_.outer_m - 4.0;
   dvec2 best(0.0);
   double best_room = -1e9;
@@ -115,7 +115,7 @@ dvec2 Country::find_pond() {
 }
 
 void Country::choose_sites() {
-  // A farm on each side of the road, and a pond away from both.
+  // There is a farm on each side of the road, and a pond away from both.
   const double half = terrain_.half();
   const auto beside_road = [&](double x, double distance, double side) {
     const dvec2 along = terrain_.road_direction(x);
@@ -139,7 +139,7 @@ void Country::choose_sites() {
   double shore = 1e9;
   for (const dvec2& p : regular_polygon(24, pond_.outer_m, pond_.center))
     shore = std::min(shore, terrain_.height(p));
-  pond_.level = snap(shore - 3.0);  // of the bed; the water stands 1.7 m above it
+  pond_.level = snap(shore - 3.0);  // the level of the bed; the water stands 1.7 m above it
   terrain_.flatten(pond_);
   for (const double sign : {-1.0, 1.0})
     woods_.emplace_back(random_.uniform(-0.75, 0.75) * half, sign * 0.72 * half);
@@ -187,7 +187,7 @@ void Country::choose_fields() {
         row = end;
       }
     };
-    // Yards, the pond's banks and woods stand on grass.
+    // Yards, the banks of the pond and woods stand on grass.
     for (const Field& field : reserved(band)) {
       fill(field.row0);
       if (field.row1 <= row) continue;
@@ -215,7 +215,7 @@ void Country::add_ground() {
     return column == south ? Terrain::Cover{.material = material("country_road"), .along_road = true}
                            : Terrain::Cover{};
   });
-  // A disc that reaches into the banks all round: the shore is where they meet.
+  // The water is a disc that reaches into the banks all around. The shore is where disc and banks meet.
   water.flat_polygon(material("water"), regular_polygon(20, 0.9 * pond_.outer_m, pond_.center),
                      pond_.level + 1.7, true);
   add("terrain", land, SemanticClass::ground);
@@ -225,7 +225,7 @@ void Country::add_ground() {
 
 // These functions add hedges, trees, farms, poles and lamps.
 
-/// A closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
+/// Makes a closed hedge over a chain of ground points, 1.2 m wide and 1.7 m high.
 MeshBuilder make_hedge(const std::vector<dvec3>& chain) {
   MeshBuilder mesh;
   const int leaves = material("hedge");
@@ -265,7 +265,7 @@ void Country::add_hedges() {
     const int from = std::max(field.column0, 1), to = std::min(field.column1, terrain_.columns() - 2);
     for (int column = from; column <= to; ++column) {
       const dvec3 p = terrain_.vertex(field.row0, column);
-      // Stations of one hedge end a metre and a half short of the next band's.
+      // The last station of a hedge lies a quarter of a step before the hedge of the next band.
       if (near_site(dvec2(p), 5.0)) {
         flush();
         continue;
@@ -282,7 +282,7 @@ void Country::add_hedges() {
 void Country::add_tree(const dvec2& where, bool conifer) {
   const dvec2 at = snap(where);
   if (std::max(std::abs(at.x), std::abs(at.y)) > terrain_.half() - 3.0 || near_site(at, 3.0)) return;
-  // Mostly oaks, maples and lindens; few poplars and copper beeches.
+  // Most trees are oaks, maples and lindens. Poplars and copper beeches are rare.
   static constexpr std::array<int, 12> kinds{2, 2, 1, 0, 2, 3, 1, 2, 4, 0, 3, 5};
   const int kind = kinds[random_.below(kinds.size())], shape = static_cast<int>(random_.below(2));
   const int mesh =
@@ -327,7 +327,7 @@ void Country::add_farms() {
                       .position = dvec3(at, farm.level),
                       .yaw = yaw + random_.uniform(-0.6, 0.6),
                       .semantic_class = SemanticClass::vehicle});
-    // A few trees around the yard.
+    // a few trees around the yard
     for (int i = 0; i < 5; ++i) {
       const double angle = random_.uniform(0.0, 2.0 * pi);
       add_tree(
@@ -353,7 +353,7 @@ void Country::add_woods() {
 }
 
 void Country::add_poles() {
-  std::vector<dvec3> tops;  // where the wires hang, to the left and right of each pole
+  std::vector<dvec3> tops;  // ends of the wires, to the left and right of each pole
   int count = 0;
   for (double x = -terrain_.half() + 15.0; x < terrain_.half() - 5.0; x += 38.0) {
     const dvec2 along = terrain_.road_direction(x), side(-along.y, along.x);
@@ -396,7 +396,7 @@ void Country::add_lamps() {
     const dvec2 along = terrain_.road_direction(farm.center.x), across(-along.y, along.x);
     for (const dvec2& at : {dvec2(-2.0, 1.0), dvec2(4.0, -9.0)})
       lamp(LampKind::yard, farm.center + scale * (at.x * along + at.y * across), farm.level, 0.7);
-    // Along the lane past the yard, on the side without poles.
+    // Lamps also stand along the lane past the yard, on the side without poles.
     for (const double shift : {-30.0, 0.0, 30.0}) {
       const double x = farm.center.x + scale * shift;
       const dvec2 direction = terrain_.road_direction(x), side(-direction.y, direction.x);

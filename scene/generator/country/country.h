@@ -8,7 +8,7 @@
 
 namespace greatx::scene::generator {
 
-/// Farmland on a Terrain: fields, hedges, farms, woods, a pond, a road with poles and lamps.
+/// Writes farmland on a Terrain: fields, hedges, farms, woods, a pond, and a road with poles and lamps.
 void write_country(SceneWriter& writer, double size_m, uint64_t seed);
 
 }  // namespace greatx::scene::generator

@@ -26,7 +26,8 @@ Terrain::Terrain(double size_m, RandomStream& random) : half_(snap(0.5 * size_m)
     waves_.push_back({k * dvec2(std::cos(angle), std::sin(angle)),
                       0.0085 * wavelength * random.uniform(0.5, 1.0), random.uniform(0.0, 2.0 * pi)});
   }
-  const double tightness = std::clamp(half_ / 150.0, 0.4, 1.0);  // a small model has a small road's bends
+  // The road of a small model has tighter bends.
+  const double tightness = std::clamp(half_ / 150.0, 0.4, 1.0);
   for (const double wavelength :
        {tightness * random.uniform(240.0, 320.0), tightness * random.uniform(110.0, 150.0)})
     bends_.push_back({dvec2(2.0 * pi / wavelength, 0.0), 0.06 * wavelength, random.uniform(0.0, 2.0 * pi)});
@@ -52,7 +53,7 @@ double Terrain::hills(const dvec2& point) const {
 }
 
 double Terrain::height(const dvec2& point) const {
-  // The road runs level across and takes the ground beside it along; sites are flat within.
+  // The road is level across, and the ground beside it follows. Sites are level inside.
   const double road = road_y(point.x);
   const double distance = std::abs(point.y - road) * road_direction(point.x).x;
   double z = glm::mix(hills({point.x, road}), hills(point),

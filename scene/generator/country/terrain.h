@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The country's ground: one warped grid whose columns follow the road, so that the road is part of the
-// surface and not laid over it.
+// Makes the ground of the country scene: one warped grid whose columns follow the road, so that the road is
+// part of the surface and does not lie over it.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace greatx::scene::generator {
 
-/// A level place (a farmyard) or a hollow (a pond): heights go from `level` inside to the hills' outside.
+/// A level place (a farmyard) or a hollow (a pond). Heights change from `level` within `inner_m` to those of
+/// the hills beyond `outer_m`.
 struct Site {
   dvec2 center{0.0};
   double inner_m = 0.0, outer_m = 0.0;
@@ -25,37 +26,39 @@ class Terrain {
   Terrain(double size_m, RandomStream& random);
 
   double half() const { return half_; }
-  /// Middle of the road at x, and its direction there.
+  /// Return the y of the middle of the road at x, and the direction of the road there.
   double road_y(double x) const;
   dvec2 road_direction(double x) const;
-  /// Length of the road from the west edge to x, m.
+  /// Returns the length of the road from the west edge to x, m.
   double road_length(double x) const;
-  /// Height of the formula behind the grid, m.
+  /// Returns the height that the grid samples, m.
   double height(const dvec2& point) const;
 
   void flatten(const Site& site) { sites_.push_back(site); }
 
-  /// Grid, after every site is known. Row i has x = row_x(i); columns run south to north, 0...columns() - 1.
+  /// Builds the grid; all sites must be known. The vertices of a row have the same x, and rows run west to
+  /// east. Columns run south to north, 0...columns() - 1.
   void build_grid();
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  /// Columns of the road's south and north edge.
+  /// Return the columns of the south and the north edge of the road.
   int road_south() const { return side_ + 1; }
   int road_north() const { return side_ + 2; }
   const dvec3& vertex(int row, int column) const {
     return grid_[static_cast<size_t>(row * columns_ + column)];
   }
 
-  /// What a cell looks like: -1 leaves it out.
+  /// Describes the look of a cell. Material -1 leaves the cell out.
   struct Cover {
     int material = -1;
-    double angle = 0.0;       ///< of the texture's x axis against the world's, rad
-    dvec2 offset{0.0};        ///< of the texture, in tiles
-    bool along_road = false;  ///< the texture follows the road, one width of it across
+    double angle = 0.0;       ///< angle from the world's x axis to the texture's, rad
+    dvec2 offset{0.0};        ///< offset of the texture, in tiles
+    bool along_road = false;  ///< the texture follows the road, one tile across its width
   };
-  /// The surface; `cover_of(row, column)` for the cell north-east of that vertex. Smooth normals.
+  /// Adds the surface with smooth normals. `cover_of(row, column)` returns the cover of the cell north-east
+  /// of that vertex.
   void add_surface(MeshBuilder& mesh, const std::function<Cover(int row, int column)>& cover_of) const;
-  /// Sides and underside.
+  /// Adds the sides and the underside.
   void add_base(MeshBuilder& mesh) const;
 
  private:

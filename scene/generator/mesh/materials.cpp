@@ -9,15 +9,15 @@ namespace greatx::scene::generator {
 
 namespace {
 
-// Radio side. Media are those of ITU-R P.2040-4, Table 3, by name where it has them. Scattering coefficients
-// are plausible figures for the effective-roughness model (smooth glass and metal least, rough ground most),
-// not measurements of these surfaces.
+// Radio properties. Media are those of ITU-R P.2040-4, Table 3, by name where the table has them. Scattering
+// coefficients are plausible values for the effective-roughness model (lowest for smooth glass and metal,
+// highest for rough ground), not measurements of these surfaces.
 const char* const concrete_wall =
     R"({"itu":"concrete","thickness_m":0.25,"scattering_coefficient":0.2,"cross_polarization":0.1})";
 const char* const concrete_ground =
     R"({"itu":"concrete","scattering_coefficient":0.2,"cross_polarization":0.1})";
-const char* const brick_wall =
-    R"({"itu":"brick","extrapolate":true,"thickness_m":0.3,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+const char* const brick_wall = R"({"itu":"brick","extrapolate":true,"thickness_m":0.3,)"
+                               R"("scattering_coefficient":0.3,"cross_polarization":0.1})";
 // Double glazing, outer pane first.
 const char* const glazing = R"({"layers":[{"itu":"glass","thickness_m":0.006},)"
                             R"({"relative_permittivity":1.0,"conductivity":0.0,"thickness_m":0.016},)"
@@ -26,12 +26,12 @@ const char* const pane = R"({"itu":"glass","thickness_m":0.005})";
 const char* const sheet_metal = R"({"itu":"metal","thickness_m":0.002,"scattering_coefficient":0.1})";
 const char* const asphalt_ground =
     R"({"itu":"asphalt_concrete","extrapolate":true,"scattering_coefficient":0.2})";
-// The table's row for soil ends at 10 GHz; its formula is carried on above that, and the file says so.
+// The table's row for soil ends at 10 GHz. Its formula is extrapolated above 10 GHz, and the file says so.
 const char* const soil =
     R"({"itu":"medium_dry_ground","extrapolate":true,"scattering_coefficient":0.4,"cross_polarization":0.2})";
 const char* const timber = R"({"itu":"wood","thickness_m":0.05,"scattering_coefficient":0.2})";
 const char* const trunk = R"({"itu":"wood","thickness_m":0.25,"scattering_coefficient":0.3})";
-// A volume: no face that reflects, loss by the depth.
+// A volume: its faces do not reflect, and the loss grows with the depth.
 const char* const canopy = R"({"foliage":"weissberger"})";
 const char* const rubber = R"({"relative_permittivity":3.0,"conductivity":0.02,"thickness_m":0.02})";
 const char* const plastic = R"({"relative_permittivity":2.8,"conductivity":0.003,"thickness_m":0.003})";
@@ -39,15 +39,15 @@ const char* const radome = R"({"relative_permittivity":3.5,"conductivity":0.005,
 // Carbon fibre composite conducts well enough to reflect like metal.
 const char* const carbon_fibre =
     R"({"relative_permittivity":1.0,"conductivity":10000.0,"thickness_m":0.003})";
-// Fresh water near 20 C at a few GHz; not frequency-dependent as Debye's model would be.
+// Fresh water near 20 C at a few GHz. Unlike Debye's model, the values do not depend on frequency.
 const char* const fresh_water = R"({"relative_permittivity":75.0,"conductivity":2.5})";
-const char* const clay_tiles =
-    R"({"itu":"brick","extrapolate":true,"thickness_m":0.03,"scattering_coefficient":0.3,"cross_polarization":0.1})";
+const char* const clay_tiles = R"({"itu":"brick","extrapolate":true,"thickness_m":0.03,)"
+                               R"("scattering_coefficient":0.3,"cross_polarization":0.1})";
 
 std::vector<MaterialSpec> make_library() {
   const dvec2 facade(3.0 * facade_bays, 6.4);
-  // What a white texel of TextureMaps::lit gives. A warm lit pane has 0.6 of a white one's luminance
-  // (docs/generator.md).
+  // Luminance of a white texel of TextureMaps::lit, in units of 1000 cd/m^2. A warm lit pane has 0.6 of the
+  // luminance of a white one (docs/generator.md).
   const vec3 home_light(0.05f), office_light(0.05f), shop_light(0.12f);
   return {
       // name, texture, tile, bays, colour, roughness, metallic, emissive, radio
@@ -148,7 +148,7 @@ std::vector<MaterialSpec> make_library() {
 
       {"painted_metal", "", dvec2(1.0), 0, vec3(0.1f, 0.12f, 0.13f), 0.45f, 0.0f, vec3(0), sheet_metal},
       {"galvanised_metal", "", dvec2(1.0), 0, vec3(0.55f, 0.57f, 0.58f), 0.5f, 0.7f, vec3(0), sheet_metal},
-      // Emission of lamps: docs/generator.md has the luminances.
+      // docs/generator.md states the luminances of the lamps.
       {"lamp_glass", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_4000k * 14.0f, pane},
       {"lamp_glass_warm", "", dvec2(1.0), 0, vec3(0.9f), 0.3f, 0.0f, lamp_color_3000k * 14.0f, pane},
       {"signal_housing", "", dvec2(1.0), 0, vec3(0.03f, 0.035f, 0.03f), 0.6f, 0.0f, vec3(0), plastic},

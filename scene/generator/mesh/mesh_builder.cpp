@@ -80,7 +80,7 @@ void MeshBuilder::triangle(int material, const std::array<dvec3, 3>& corners,
 }
 
 void MeshBuilder::quad(int material, const std::array<dvec3, 4>& corners, const std::array<dvec2, 4>& uvs) {
-  // One normal for both halves, from the diagonals.
+  // Both halves get one normal, from the diagonals.
   const dvec3 normal =
       glm::normalize(glm::cross(snap(corners[2]) - snap(corners[0]), snap(corners[3]) - snap(corners[1])));
   triangle(material, {corners[0], corners[1], corners[2]}, {normal, normal, normal},
@@ -101,7 +101,7 @@ void MeshBuilder::polygon(int material, std::span<const dvec3> corners) {
   for (size_t i = 0; i < corners.size(); ++i)
     area += glm::cross(snap(corners[i]), snap(corners[(i + 1) % corners.size()]));
   const dvec3 normal = glm::normalize(area);
-  // Drop the axis along which the polygon is thinnest; keep it counter-clockwise.
+  // Drop the axis along which the polygon is thinnest, and keep the polygon counter-clockwise.
   const dvec3 size = glm::abs(normal);
   const int drop = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
   std::vector<dvec2> flat;

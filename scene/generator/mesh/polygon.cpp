@@ -17,7 +17,7 @@ struct Point {
   int64_t x, y;
 };
 
-/// Twice the signed area, exact.
+/// Returns twice the signed area, exactly.
 int64_t twice_area(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -46,7 +46,7 @@ std::vector<std::array<uint32_t, 3>> triangulate(std::span<const dvec2> corners)
   std::iota(left.begin(), left.end(), 0u);
   std::vector<std::array<uint32_t, 3>> triangles;
   while (left.size() > 3) {
-    // Of the ears, the one with the shortest new edge: keeps slivers away.
+    // Of the ears, cut the one with the shortest new edge. This avoids slivers.
     size_t best = left.size();
     int64_t best_length = 0;
     for (size_t i = 0; i < left.size(); ++i) {
@@ -88,7 +88,8 @@ std::vector<dvec2> inset(std::span<const dvec2> corners, std::span<const double>
     const dvec2 d0 = glm::normalize(corners[i] - corners[before]);
     const dvec2 d1 = glm::normalize(corners[(i + 1) % n] - corners[i]);
     const dvec2 n0(-d0.y, d0.x), n1(-d1.y, d1.x);  // inwards
-    // corners[i] + n1 distances[i] + d1 t, with t such that it lies distances[before] from the edge before.
+    // The new corner is corners[i] + n1 distances[i] + d1 t. Choose t such that the corner lies
+    // distances[before] from the edge before.
     const double sine = d0.x * d1.y - d0.y * d1.x;
     if (std::abs(sine) < 1e-6) {
       moved.push_back(snap(corners[i] + n1 * distances[i]));
@@ -106,7 +107,7 @@ std::vector<dvec2> inset(std::span<const dvec2> corners, double distance) {
 
 namespace {
 
-/// The walls between ring r and the next one above it.
+/// Adds the walls between ring r and the next ring above it.
 void add_walls(MeshBuilder& mesh, const RingSolid& solid, size_t r, const std::vector<dvec2>& corners) {
   const Ring& low = solid.rings[r];
   const Ring& high = solid.rings[r + 1];
@@ -122,7 +123,8 @@ void add_walls(MeshBuilder& mesh, const RingSolid& solid, size_t r, const std::v
     const double bay = spec.tile_m.x / spec.bays;
     const double u = std::max(1.0, std::round(glm::length(b - a) / bay)) / spec.bays;
     const double v0 = -(low.z - low.base_z) / spec.tile_m.y, v1 = -(high.z - low.base_z) / spec.tile_m.y;
-    // By whole pairs of bays, so that what alternates from bay to bay stays in line from floor to floor.
+    // Shift by whole pairs of bays, so that features that alternate from bay to bay stay aligned from floor
+    // to floor.
     const uint32_t pairs = static_cast<uint32_t>(std::max(1, spec.bays / 2));
     const double u0 = low.shift == 0
                           ? 0.0
@@ -144,7 +146,7 @@ void add_ring_solid(MeshBuilder& mesh, const RingSolid& solid) {
       add_walls(mesh, solid, r, corners);
       continue;
     }
-    // A sloping strip is planar where opposite edges are parallel to the millimetre: over rectangles.
+    // A sloping strip is planar if opposite edges are parallel to the millimetre, as over rectangles.
     const std::vector<dvec2> inner = inset(solid.footprint, high.inset_m);
     for (size_t i = 0; i < corners.size(); ++i) {
       const size_t j = (i + 1) % corners.size();

@@ -16,7 +16,7 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A number with no more digits in the file than the value deserves.
+/// Rounds to 1e-6, so that the file holds no more digits than the value is accurate to.
 double micro(double value) { return static_cast<double>(std::llround(value * 1e6)) / 1e6; }
 dvec3 micro(const vec3& v) { return {micro(v.x), micro(v.y), micro(v.z)}; }
 
@@ -39,7 +39,7 @@ int SceneWriter::add_mesh(const std::string& name, const MeshBuilder& mesh) {
                                 .normals = data.normals,
                                 .uvs = data.uvs,
                                 .indices = data.indices});
-    // A material's textures lie behind the first triangles that show them.
+    // The textures of a material lie in the file behind the first triangles that show them.
     if (is_new) add_material(data.material);
   }
   return index;

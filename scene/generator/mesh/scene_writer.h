@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A generated scene as glTF: meshes with the materials that they name, nodes, lights.
+// Writes a generated scene as glTF: meshes with the materials that they name, nodes, and lights.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace greatx::scene::generator {
 
 struct NodeSpec {
   std::string name;
-  int mesh = -1;        ///< of add_mesh; -1: none
+  int mesh = -1;        ///< from add_mesh; -1: none
   dvec3 position{0.0};  ///< m, z up, in the parent's frame
   double yaw = 0.0;     ///< rad about z
   double scale = 1.0;
   SemanticClass semantic_class = SemanticClass::unlabeled;
-  int parent = -1;   ///< of add_node; -1: the scene
-  int light = -1;    ///< of add_light
-  dvec3 shine{0.0};  ///< where the light looks, in the parent's frame; 0: as `yaw` says
+  int parent = -1;   ///< from add_node; -1: the scene
+  int light = -1;    ///< from add_light; -1: none
+  dvec3 shine{0.0};  ///< direction of the light in the parent's frame; 0: given by `yaw`
 };
 
 struct LightSpec {
@@ -33,31 +33,33 @@ struct LightSpec {
   double intensity_cd = 0.0;
   double range_m = 0.0;
   double inner_cone = 0.0, outer_cone = 0.0;  ///< rad from the axis; 0: a point light
-  /// What it gives off, lm, by KHR_lights_punctual's fall-off between the cones, the square of a ramp in the
-  /// cosine.
+  /// Returns the luminous flux of the light, lm. Between the cones KHR_lights_punctual's intensity falls with
+  /// the square of a ramp in the cosine.
   double flux_lm() const;
 };
 
-/// Numbers are rounded on their way into the file, so that its bytes do not depend on the last bit of a sine.
+/// Collects the parts of the file. It rounds numbers before they go into the file, so that the bytes do not
+/// depend on the last bit of a sine.
 class SceneWriter {
  public:
   SceneWriter();
-  /// Takes the mesh; the number to name it by.
+  /// Adds the mesh and returns its index for NodeSpec.
   int add_mesh(const std::string& name, const MeshBuilder& mesh);
   int add_node(const NodeSpec& node);
   int add_light(const LightSpec& light);
-  /// The whole file.
+  /// Returns the bytes of the whole file.
   std::vector<std::byte> finish(const std::string& scene_name);
 
  private:
-  /// glTF textures of the maps of one surface; -1: not in the file, or none.
+  /// Holds the glTF textures of the maps of one surface; -1: not in the file, or none.
   struct Textures {
     int color = -1, surface = -1, normal = -1;
     std::array<int, lit_pictures> lit{-1, -1};
   };
-  /// Writes the material, and the textures that no material before it had.
+  /// Writes the material, and those of its textures that no earlier material has written.
   void add_material(int library_index);
-  /// Adds the raster when it is first asked for; -1 if it is empty.
+  /// Returns the texture in `index`, which it adds to the file at the first call, or -1 if the raster is
+  /// empty. If `exact`, the PNG holds exactly the raster's values.
   int texture(int& index, const std::string& name, const Raster& raster, bool exact = false);
   const TextureMaps& maps(const std::string& name);
 

@@ -15,8 +15,8 @@ struct House {
   int wall, gable, roof;
 };
 
-/// Walls and gables under a roof that is a closed slab of its own, 0.25 m thick, overhanging; it reaches 5 cm
-/// into the body, so that no two faces share a plane.
+/// Adds walls and gables under a roof that is a closed, overhanging slab of its own, 0.25 m thick. The slab
+/// reaches 5 cm into the body, so that no two faces share a plane.
 void add_house(MeshBuilder& mesh, const House& h) {
   const double w = snap(h.half_width), l = snap(h.half_length), bottom = -1.0;
   const double eaves = snap(h.eaves), ridge = snap(h.ridge);
@@ -79,7 +79,7 @@ MeshBuilder make_silo(double scale) {
 }
 
 void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag) {
-  // A thin prism of three sides along a parabola, in three pieces.
+  // The wire is a thin prism of three sides along a parabola, in three pieces.
   const int wire = material("wire");
   const dvec2 along = glm::normalize(dvec2(to - from)), left(-along.y, along.x);
   const auto section = [&](int i) {
@@ -95,7 +95,7 @@ void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag)
   for (int i = 0; i < 3; ++i) {
     const auto a = section(i), b = section(i + 1);
     for (size_t k = 0; k < 3; ++k) {
-      // Triangles: millimetres bend what would be a quadrilateral.
+      // The sides are triangles, since rounding to millimetres would bend a quadrilateral.
       const size_t j = (k + 1) % 3;
       mesh.polygon(wire, std::array{a[k], b[k], b[j]});
       mesh.polygon(wire, std::array{a[k], b[j], a[j]});

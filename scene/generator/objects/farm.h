@@ -6,12 +6,12 @@
 
 namespace greatx::scene::generator {
 
-// Ridge along y, ground at z = 0, foundations 1 m deep.
+// Buildings have the ridge along y, the ground at z = 0, and foundations 1 m deep.
 MeshBuilder make_farmhouse(double scale);
 MeshBuilder make_barn(double scale, bool red);
 MeshBuilder make_silo(double scale);
 MeshBuilder make_pole();
-/// A wire between two points that hangs through by `sag` in the middle, 4 cm thick.
+/// Adds a wire 4 cm thick between two points. It sags by `sag` in the middle, metres.
 void add_wire(MeshBuilder& mesh, const dvec3& from, const dvec3& to, double sag);
 
 }  // namespace greatx::scene::generator

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Single objects, foot at the origin, z up; vehicles look along x.
+// Makes single objects with the foot at the origin and z up.
 #pragma once
 
 #include <string>
@@ -12,16 +12,17 @@
 namespace greatx::scene::generator {
 
 MeshBuilder make_bench();
-/// Steel mast for a base station; nothing reaches above 24.6 m, so that an antenna at 25 m sees all around.
+/// Makes a steel mast for a base station. No part reaches above 24.6 m, so that an antenna at 25 m sees all
+/// around.
 MeshBuilder make_mast();
 
-/// A quadrotor in parts, origin at its centre.
+/// A quadrotor in parts, with the origin at its centre.
 struct Quadrotor {
   MeshBuilder body;
   MeshBuilder rotor;                 ///< about its own hub, z up
   std::vector<dvec3> rotor_centers;  ///< front left, front right, rear right, rear left
 };
-/// `diagonal_m`: distance between opposite motors.
+/// Makes a quadrotor. `diagonal_m` is the distance between opposite motors.
 Quadrotor make_quadrotor(double diagonal_m);
 
 }  // namespace greatx::scene::generator

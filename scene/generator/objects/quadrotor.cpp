@@ -11,7 +11,7 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A rectangle with its corners cut by `cut`, counter-clockwise.
+/// Returns a rectangle with its corners cut by `cut`, counter-clockwise.
 std::vector<dvec2> chamfered(double half_x, double half_y, double cut, double shift_x = 0.0) {
   std::vector<dvec2> corners{{half_x - cut, -half_y},  {half_x, -half_y + cut}, {half_x, half_y - cut},
                              {half_x - cut, half_y},   {-half_x + cut, half_y}, {-half_x, half_y - cut},
@@ -27,7 +27,7 @@ void add_landing_gear(MeshBuilder& body, double d) {
     const double y = side * 0.13 * d;
     body.box(dark, {-0.2 * d, y - w, -0.2 * d}, {0.2 * d, y + w, -0.2 * d + 2 * w});
     for (const double x : {-0.1 * d, 0.1 * d}) {
-      // Legs go up into the hull, within its outline.
+      // The legs go up into the hull, within its outline.
       const double inner = side * 0.085 * d;
       const double y0 = std::min(inner, y) - 0.5 * w, y1 = std::max(inner, y) + 0.5 * w;
       body.box(dark, {x - 0.7 * w, y - 0.6 * w, -0.2 * d + w}, {x + 0.7 * w, y + 0.6 * w, -0.055 * d});
@@ -43,7 +43,7 @@ MeshBuilder make_rotor(double d) {
   rotor.prism(material("motor_metal"), material("motor_metal"), regular_polygon(8, std::max(0.006, 0.02 * d)),
               -0.01 * d, 0.018 * d);
   for (const double side : {-1.0, 1.0}) {
-    // Root, widest at a third of the length, narrow tip.
+    // blade: root, widest at a third of the length, narrow tip
     std::vector<dvec2> blade{{0.008 * d, -0.008 * d}, {0.33 * r, -0.03 * d}, {0.97 * r, -0.014 * d}, {r, 0.0},
                              {0.97 * r, 0.008 * d},   {0.33 * r, 0.016 * d}, {0.008 * d, 0.008 * d}};
     for (dvec2& p : blade) p = snap(side * p);
@@ -62,7 +62,7 @@ Quadrotor make_quadrotor(double d) {
   body.prism(dark, dark, chamfered(0.14 * d, 0.08 * d, 0.04 * d, -0.02 * d), 0.025 * d, 0.06 * d);
   body.prism(material("uav_accent"), material("uav_accent"),
              chamfered(0.06 * d, 0.03 * d, 0.015 * d, -0.05 * d), 0.05 * d, 0.068 * d);
-  // Arms from within the hull to the motors.
+  // arms from within the hull to the motors
   const double reach = 0.5 * d, half = std::max(0.005, 0.018 * d);
   for (int i = 0; i < 4; ++i) {
     const double yaw = pi / 4 - pi / 2 * i;  // front left, front right, rear right, rear left
@@ -73,13 +73,13 @@ Quadrotor make_quadrotor(double d) {
     const double motor_radius = std::max(0.01, 0.036 * d);
     body.prism(material("motor_metal"), dark, regular_polygon(10, motor_radius, dvec2(motor)), -0.035 * d,
                0.035 * d);
-    // Navigation lights: red to the left (port), green to the right.
+    // Navigation lights are red on the left (port) and green on the right.
     body.prism(material(i == 0 || i == 3 ? "navigation_red" : "navigation_green"), dark,
                regular_polygon(6, 0.7 * motor_radius, dvec2(motor)), -0.046 * d, -0.03 * d);
     result.rotor_centers.push_back(snap(motor + dvec3(0.0, 0.0, 0.044 * d)));
   }
   add_landing_gear(body, d);
-  // Camera under the nose.
+  // camera under the nose
   body.box(dark, {0.13 * d, -0.012 * d, -0.09 * d}, {0.15 * d, 0.012 * d, -0.05 * d});
   body.box(dark, {0.115 * d, -0.035 * d, -0.125 * d}, {0.185 * d, 0.035 * d, -0.075 * d});
   body.box(material("camera_glass"), {0.17 * d, -0.022 * d, -0.118 * d}, {0.192 * d, 0.022 * d, -0.082 * d});

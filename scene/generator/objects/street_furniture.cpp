@@ -11,8 +11,8 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A spot of this flux (LightSpec::flux_lm) with full intensity up to `inner` and none beyond `outer`,
-/// degrees from straight down.
+/// Makes a spot light with this luminous flux (LightSpec::flux_lm). It has full intensity up to the angle
+/// `inner` and none beyond `outer`, both in degrees from straight down.
 LightSpec downlight(const vec3& color, double flux_lm, double inner, double outer, double range_m) {
   LightSpec light{.color = color,
                   .intensity_cd = 1.0,
@@ -23,7 +23,7 @@ LightSpec downlight(const vec3& color, double flux_lm, double inner, double oute
   return light;
 }
 
-/// Pole, arm and head; the glass is the head's underside.
+/// Makes pole, arm and head. The glass is the underside of the head.
 MeshBuilder arm_lamp(double height, double reach, const char* glass) {
   MeshBuilder mesh;
   const int metal = material("painted_metal");

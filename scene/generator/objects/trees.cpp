@@ -13,7 +13,8 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A four-sided trunk that narrows to a point inside the crown: triangles, so that each side is one plane.
+/// Adds a four-sided trunk that narrows to a point inside the crown. Its sides are triangles, so that each is
+/// one plane.
 void add_trunk(MeshBuilder& mesh, double radius, double top) {
   const int bark = material("bark");
   const std::vector<dvec2> foot = regular_polygon(4, radius, dvec2(0.0), 0.4);
@@ -25,7 +26,7 @@ void add_trunk(MeshBuilder& mesh, double radius, double top) {
   mesh.flat_polygon(bark, foot, -0.2, false);
 }
 
-/// The unit sphere by three staggered rings between two poles: 48 triangles.
+/// The unit sphere as three staggered rings between two poles: 48 triangles.
 struct Sphere {
   std::vector<dvec3> points;
   std::vector<std::array<size_t, 3>> faces;
@@ -55,16 +56,16 @@ Sphere make_sphere() {
   return sphere;
 }
 
-/// How a species' crown is built.
+/// Describes the shape of a species' crown.
 struct Crown {
   const char* leaves;
   double low, high, radius;
-  double widest;  ///< height of the greatest width, as a share of the crown's
-  double taper;   ///< how pointed the top is: 0 round, 1 a cone
+  double widest;  ///< height of the greatest width, as a fraction of the crown's height
+  double taper;   ///< shape of the top: 0 round, 1 a cone
   double lumps;   ///< relative depth of the gaps between boughs
 };
 
-/// A closed body with boughs and gaps.
+/// Adds a closed body with boughs and gaps.
 void add_crown(MeshBuilder& mesh, const Crown& crown, uint32_t seed) {
   static const Sphere sphere = make_sphere();
   const int leaves = material(crown.leaves);
@@ -73,7 +74,8 @@ void add_crown(MeshBuilder& mesh, const Crown& crown, uint32_t seed) {
   std::vector<dvec3> points;
   for (size_t i = 0; i < sphere.points.size(); ++i) {
     const dvec3 d = sphere.points[i];
-    // Boughs: three waves around with a phase of their own, and each corner a little in or out.
+    // Boughs are three waves around the trunk with their own phase. Each corner also moves a little in or
+    // out.
     const double around = std::atan2(d.y, d.x);
     const double bough = 0.6 * std::sin(3.0 * around + 6.0 * d.z + noise(-1, 3) * pi) +
                          0.5 * std::sin(5.0 * around - 4.0 * d.z + noise(-2, 3) * pi);
@@ -102,11 +104,12 @@ void add_crown(MeshBuilder& mesh, const Crown& crown, uint32_t seed) {
       n[k] = glm::normalize(n[k] + 0.35 * flat);
       if (glm::dot(n[k], flat) < 0.1) n[k] = flat;
       const dvec3 d = sphere.points[face[k]];
-      // Around, unwrapped next to the face's middle; at a pole, the face's own.
+      // The angle around the trunk is unwrapped next to the middle of the face. At a pole it is that of the
+      // face.
       double angle = std::abs(d.z) > 0.999 ? around : std::atan2(d.y, d.x);
       if (angle - around > pi) angle -= 2.0 * pi;
       if (around - angle > pi) angle += 2.0 * pi;
-      // Tops and undersides from above, sides from around.
+      // Tops and undersides are mapped from above, sides from around.
       uv[k] = std::abs(flat.z) > 0.75 ? dvec2(p[k].x, p[k].y) / 3.0
                                       : dvec2(angle * crown.radius / 3.0, -p[k].z / 3.0);
     }

@@ -12,7 +12,7 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// A wheel pair as one octagonal prism from side to side; what lies within the body is hidden.
+/// Adds a pair of wheels as one octagonal prism from side to side. The body hides the part within it.
 void add_axle(MeshBuilder& mesh, double x, double radius, double half_track, bool rims) {
   const auto disc = [&](double r) {
     std::vector<dvec2> profile = regular_polygon(8, r, dvec2(x, radius), pi / 8);
@@ -23,7 +23,8 @@ void add_axle(MeshBuilder& mesh, double x, double radius, double half_track, boo
     mesh.prism_along_y(material("wheel_rim"), disc(0.6 * radius), -half_track - 0.015, half_track + 0.015);
 }
 
-/// A frustum with glass all round and a roof; edges of opposite faces are parallel, so every face is planar.
+/// Adds a frustum with glass all around and a roof. Edges of opposite faces are parallel, so that every face
+/// is planar.
 void add_cabin(MeshBuilder& mesh, int roof, double z0, double z1, const dvec2& x0, const dvec2& x1, double y0,
                double y1) {
   const int glass = material("car_glass");
@@ -36,7 +37,8 @@ void add_cabin(MeshBuilder& mesh, int roof, double z0, double z1, const dvec2& x
   mesh.quad(roof, low[3], low[2], low[1], low[0]);
 }
 
-/// Head lights at z.x, tail lights at z.y, a little proud of the body; of a parked car dark.
+/// Adds head lights at height z.x and tail lights at z.y, slightly proud of the body. They are dark unless
+/// `on`.
 void add_lights(MeshBuilder& mesh, double front, double rear, double half_width, const dvec2& z, bool on) {
   const int head = material(on ? "headlight" : "headlight_off"),
             tail = material(on ? "tail_light" : "tail_light_off");
@@ -47,7 +49,7 @@ void add_lights(MeshBuilder& mesh, double front, double rear, double half_width,
   }
 }
 
-/// A closed box that leans: its floor [low, high] at height low.z, moved by `shift` at the top.
+/// Adds a closed box that leans: its floor [low, high] is at height low.z, and its top is moved by `shift`.
 void add_leaning_box(MeshBuilder& mesh, int material, const dvec3& low, const dvec2& high,
                      const dvec3& shift) {
   const std::array<dvec3, 4> floor{low, dvec3(high.x, low.y, low.z), dvec3(high, low.z),
@@ -60,7 +62,7 @@ void add_leaning_box(MeshBuilder& mesh, int material, const dvec3& low, const dv
   mesh.quad(material, floor[0] + shift, floor[1] + shift, floor[2] + shift, floor[3] + shift);
 }
 
-/// Pillars of the hatchback's cabin, on its glass, and mirrors.
+/// Adds the pillars of the hatchback's cabin, on its glass, and the mirrors.
 void add_pillars(MeshBuilder& mesh, int paint) {
   struct Pillar {
     double x0, x1, lean;
@@ -121,7 +123,8 @@ MeshBuilder make_car(const std::string& variant, const std::string& paint, bool 
 
 namespace {
 
-/// Low beam: 12 000 cd on an axis 1.5 degrees below the horizon, nothing above 23.5; falls from the axis on.
+/// Returns the low beam: 12 000 cd within 3 degrees of an axis 1.5 degrees below the horizon. The intensity
+/// falls to zero at 25 degrees from the axis, which is 23.5 degrees above the horizon.
 LightSpec low_beam() {
   return {.color = head_lamp_color,
           .intensity_cd = 12000.0,
@@ -130,9 +133,9 @@ LightSpec low_beam() {
           .outer_cone = 25.0 * pi / 180.0};
 }
 
-/// Both tail lights together, behind the car: position lights give some 5 cd each.
+/// Returns the light of both tail lights together, behind the car. Position lights give some 5 cd each.
 LightSpec tail_glow() {
-  // Signal red, luminance 1.
+  // signal red, luminance 1
   return {.color = vec3(4.6f, 0.025f, 0.055f), .intensity_cd = 5.0, .range_m = 4.0};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cars, on the ground, looking along x.
+// Makes cars that stand on the ground and face +x.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace greatx::scene::generator {
 
-/// `variant` "hatchback" or "van"; `paint` a material; `detailed` adds rims, plates and pillars for close
-/// views, and switches the lamps on: without it, a parked car.
+/// Makes a car. `variant` is "hatchback" or "van", `paint` names a material. `detailed` adds rims, plates and
+/// pillars for close views and switches the lamps on; without `detailed` this is a parked car.
 MeshBuilder make_car(const std::string& variant, const std::string& paint, bool detailed);
 
-/// A car that drives: its mesh with low beams and tail lights (KHR_lights_punctual).
+/// Writes a driving car: its mesh with low beams and tail lights (KHR_lights_punctual).
 void write_car(SceneWriter& writer, const std::string& variant);
 
 }  // namespace greatx::scene::generator

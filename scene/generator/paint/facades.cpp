@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Walls of eight bays and two floors.
+// Paints walls of eight bays and two floors.
 #include "scene/generator/paint/texture_painter.h"
 #include "scene/generator/paint/textures.h"
 #include "scene/generator/paint/windows.h"
@@ -22,7 +22,7 @@ void bricks(TexturePainter& painter, const Rgb& brick, const Rgb& mortar, uint32
     }
 }
 
-/// Bars of 2 pixels every 6 between x0 and x1, with a rail on top.
+/// Paints bars of 2 pixels every 6 between x0 and x1, with a rail on top.
 void railing(TexturePainter& painter, int x0, int x1, int y0, int y1) {
   for (int x = x0; x < x1; x += 6) painter.rect(x, y0, x + 2, y1, {44, 45, 48}, 120);
   painter.rect(x0, y0 - 2, x1, y0 + 1, {44, 45, 48}, 120);
@@ -85,7 +85,7 @@ TextureMaps facade_plaster() {
 TextureMaps facade_stone() {
   TexturePainter painter(wall_px, 2 * floor_px, {204, 192, 168});
   painter.use_roughness(235);
-  // Ashlar: courses of 0.4 m, blocks of 0.75 m.
+  // Ashlar has courses of 0.4 m and blocks of 0.75 m.
   for (int row = 0; row < 16; ++row)
     for (int i = 0; i < wall_px / 32; ++i) {
       const int x = 32 * i + (row % 2) * 16, y = 16 * row;
@@ -103,7 +103,7 @@ TextureMaps facade_stone() {
     window(painter, x, y, x + 48, y + 82, {.frame = {232, 230, 224}, .columns = 2, .rows = 3}, 268);
     if (top == 0 || bay % 4 == 1) railing(painter, x - 12, x + 62, y + 46, y + 84);
   });
-  // A balcony's slab along the whole upper floor, and a cornice.
+  // the slab of a balcony along the whole upper floor, and a cornice
   painter.rect(0, 96, wall_px, 102, {214, 206, 186}, 225);
   painter.shade(0, 102, wall_px, 108, -44);
   painter.rect(0, 224, wall_px, 229, {218, 210, 190}, 225);
@@ -204,7 +204,7 @@ TextureMaps facade_balcony() {
       streaks(painter, left + 30, left + 92, top + 88, 273);
       return;
     }
-    // A loggia: shaded recess, glass door, slab and a parapet of frosted glass.
+    // a loggia: a shaded recess, a glass door, a slab and a parapet of frosted glass
     painter.rect(left + 4, top + 8, left + 124, top + 100, {150, 146, 140}, 235);
     painter.shade(left + 4, top + 8, left + 124, top + 26, -46);
     painter.shade(left + 4, top + 8, left + 16, top + 100, -30);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fronts that are no wall of bays: shops, farmhouses, dormers, posters.
+// Paints fronts that are not walls of bays: shops, farmhouses, dormers, posters.
 #include "scene/generator/paint/texture_painter.h"
 #include "scene/generator/paint/textures.h"
 #include "scene/generator/paint/windows.h"
@@ -26,7 +26,7 @@ TextureMaps shopfront() {
     window(painter, left + 12, 48, left + 96, 160, display, seed);
     window(painter, left + 160, 48, left + 244, 160, display, seed + 2);
     window(painter, left + 104, 48, left + 152, 178, door, seed + 4);
-    for (int i = 0; i < 14; ++i) {  // what is for sale
+    for (int i = 0; i < 14; ++i) {  // goods
       const int side = i % 2 == 0 ? 18 : 166, x = left + side + static_cast<int>(hash(i, shop, 248) % 62);
       const int w = 4 + static_cast<int>(hash(i, shop, 249) % 8),
                 h = 8 + static_cast<int>(hash(i, shop, 250) % 34);

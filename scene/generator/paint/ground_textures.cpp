@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lies on the ground: streets, pavements, lawns, fields.
+// Paints ground: streets, pavements, lawns, fields.
 #include <algorithm>
 #include <cstdlib>
 
@@ -10,8 +10,8 @@
 
 namespace greatx::scene::generator {
 
-/// 16 m across x 32 m along a street, its middle at x = 256: wheel tracks of the lanes, oil between them,
-/// patches, cracks and a few covers.
+/// Paints 16 m across x 32 m along a street, with its middle at x = 256: wheel tracks of the lanes, oil
+/// between them, patches, cracks and a few manhole covers.
 TextureMaps asphalt() {
   TexturePainter painter(512, 1024, {80, 80, 82});
   painter.blotches(256, 7, 11);
@@ -44,7 +44,7 @@ TextureMaps asphalt() {
     painter.crack(static_cast<int>(hash(i, 4, 14) % 512), static_cast<int>(hash(i, 5, 14) % 1024),
                   40 + static_cast<int>(hash(i, 6, 14) % 150), -22, 15 + static_cast<uint32_t>(i));
   painter.speckle(8, 13);
-  for (int i = 0; i < 5; ++i) {  // covers of 0.6 m and gullies
+  for (int i = 0; i < 5; ++i) {  // manhole covers of 0.6 m, and gullies
     const int x = i < 3 ? 256 + (i - 1) * 62 : 256 + (i == 3 ? -1 : 1) * 110, y = 120 + 190 * i;
     for (int dy = -10; dy <= 10; ++dy)
       for (int dx = -10; dx <= 10; ++dx) {
@@ -57,7 +57,8 @@ TextureMaps asphalt() {
   return painter.maps();
 }
 
-/// 6 m across x 24 m along: worn edges, a broken line in the middle, solid ones along the sides.
+/// Paints 6 m across x 24 m along a road: worn edges, a broken line in the middle, solid lines along the
+/// sides.
 TextureMaps country_road() {
   TexturePainter painter(128, 512, {88, 86, 84});
   painter.blotches(64, 8, 16);
@@ -83,7 +84,7 @@ TextureMaps country_road() {
 }
 
 TextureMaps pavement() {
-  // 2.4 m: slabs of 0.6 m, each of its own shade.
+  // The texture covers 2.4 m with slabs of 0.6 m. Each slab has its own shade.
   TexturePainter painter(128, 128, {158, 154, 147});
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x)
@@ -98,7 +99,7 @@ TextureMaps pavement() {
 
 namespace {
 
-/// Blades of grass, two pixels long, all over a square picture.
+/// Paints blades of grass, two pixels long, all over a square texture.
 void blades(TexturePainter& painter, int size, uint32_t seed) {
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
@@ -123,7 +124,7 @@ TextureMaps grass() {
   return painter.maps();
 }
 
-/// 40 m x 40 m of pasture: softer and larger than a lawn.
+/// Paints 40 m x 40 m of pasture, softer and larger than a lawn.
 TextureMaps pasture() {
   TexturePainter painter(512, 512, {92, 108, 56});
   painter.blotches(256, 8, 45);
@@ -140,9 +141,9 @@ TextureMaps pasture() {
   return painter.maps();
 }
 
-/// 48 m x 48 m of a field, light grey, coloured by the material: rows of 0.75 m along x, the wheel tracks of
-/// a sprayer every 24 m, patches that grew better or worse. What is low is dark: colour and relief have the
-/// same heights.
+/// Paints 48 m x 48 m of a field in light grey, which the material colours: rows of 0.75 m along x, the wheel
+/// tracks of a sprayer every 24 m, and patches that grew better or worse. Low places are dark: colour and
+/// relief have the same heights.
 TextureMaps crop() {
   TexturePainter painter(512, 512, {204, 204, 198});
   painter.blotches(256, 14, 51);
@@ -153,8 +154,8 @@ TextureMaps crop() {
       const int phase = y % 8, furrow = 5 * std::min(phase, 8 - phase);
       const int clod = 5 * static_cast<int>(hash(x / 2, y / 2, 54) % 5) - 10, height = clod - furrow;
       painter.add(x, y, {height, height, height});
-      // Of a pixel of 9.4 cm: furrows 12 cm deep, clods as high. In steps of 5 there are few slopes: a small
-      // file.
+      // A pixel is 9.4 cm wide. Furrows are 12 cm deep, and clods are as high. Steps of 5 leave few different
+      // slopes, which keeps the file small.
       painter.raise(x, y, x + 1, y + 1, height);
     }
   for (int y = 40; y < 512; y += 256)

@@ -61,7 +61,7 @@ void TexturePainter::blotches(int cell, int amount, uint32_t seed) {
   const auto node = [&](int x, int y) {
     return static_cast<int>(hash(x % columns, y % rows, seed) % 257) - 128;
   };
-  const auto smooth = [&](int t) { return (3 * cell - 2 * t) * t * t; };  // of cell^3
+  const auto smooth = [&](int t) { return (3 * cell - 2 * t) * t * t; };  // as a fraction of cell^3
   const int cube = cell * cell * cell;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
@@ -122,7 +122,8 @@ Raster TexturePainter::normals() const {
     for (int x = 0; x < width_; ++x) {
       const int dx = relief_[index(x + 1, y)] - relief_[index(x - 1, y)];
       const int up = relief_[index(x, y - 1)] - relief_[index(x, y + 1)];
-      // Over two pixels of 16 units; the root of an integer is the same everywhere.
+      // The slopes extend over two pixels of 16 units. The square root of an integer is the same on every
+      // machine.
       const double length = std::sqrt(static_cast<double>(dx * dx + up * up + 32 * 32));
       for (const int part : {-dx, -up, 32})
         result.rgb.push_back(static_cast<uint8_t>(std::lround(127.5 + 127.5 * part / length)));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paints the texture maps of a surface, which repeat in both directions. All of it is in integers, so that
-// the maps are the same on every machine.
+// Paints the texture maps of a surface, which repeat in both directions. The arithmetic is in integers, so
+// that the maps are the same on every machine.
 #pragma once
 
 #include <array>
@@ -16,10 +16,11 @@ struct Rgb {
   int r = 0, g = 0, b = 0;
 };
 
-/// 32 well-mixed bits of (x, y, seed).
+/// Returns 32 well-mixed bits of (x, y, seed).
 uint32_t hash(int x, int y, uint32_t seed);
 
-/// Every coordinate wraps around; rectangles are half-open, [x0, x1) x [y0, y1).
+/// Paints into the maps of one surface. Every coordinate wraps around. Rectangles are half-open: [x0, x1) x
+/// [y0, y1).
 class TexturePainter {
  public:
   TexturePainter(int width, int height, const Rgb& color);
@@ -28,26 +29,28 @@ class TexturePainter {
   int height() const { return height_; }
   void fill(const Rgb& color) { rect(0, 0, width_, height_, color); }
   void rect(int x0, int y0, int x1, int y1, const Rgb& color);
-  /// The same with a roughness (0...255) of its own, not metallic.
+  /// Paints a rectangle that has its own roughness (0...255) and is not metallic.
   void rect(int x0, int y0, int x1, int y1, const Rgb& color, int roughness);
   void add(int x, int y, const Rgb& change);
-  /// Lighter or darker by `change`.
+  /// Makes a rectangle lighter or darker by `change`.
   void shade(int x0, int y0, int x1, int y1, int change);
-  /// Noise per pixel: five levels within +-amount.
+  /// Adds noise to each pixel: five levels within +-amount.
   void speckle(int amount, uint32_t seed);
-  /// Smooth noise: values within +-amount on a lattice of `cell` pixels (which divides width and height).
+  /// Adds smooth noise: values within +-amount on a lattice of `cell` pixels. `cell` divides width and
+  /// height.
   void blotches(int cell, int amount, uint32_t seed);
-  /// A wandering line of `length` pixels, mostly along y, darker by `change`: a crack.
+  /// Draws a crack: a wandering line of `length` pixels, mostly along y, darker by `change`.
   void crack(int x, int y, int length, int change, uint32_t seed);
-  /// Starts a metallic-roughness picture.
+  /// Starts a metallic-roughness map.
   void use_roughness(int roughness);
   void metal_everywhere(int metallic);
-  /// Light that comes out by night, picture `layer` of lit_pictures; starts that picture, dark.
+  /// Paints light that is visible by night into the map `layer` of lit_pictures. Starts that map, dark, if it
+  /// does not exist.
   void light(int layer, int x0, int y0, int x1, int y1, const Rgb& color);
-  /// Height over the plane, in pixels/16; starts a normal picture.
+  /// Sets the height over the plane, in pixels/16. Starts a normal map if there is none.
   void raise(int x0, int y0, int x1, int y1, int height);
-  /// What is lit at half the resolution: nobody sees the difference. Roughness as large as the colour: a
-  /// renderer may then look both up at once.
+  /// Returns the maps. The lit maps have half the resolution, which makes no visible difference. The
+  /// roughness map is as large as the colour map, so that a renderer may look both up at once.
   TextureMaps maps() const;
 
  private:

@@ -21,7 +21,7 @@ TextureMaps concrete() {
   return painter.maps();
 }
 
-/// 3 m x 3 m of foliage: clumps of leaves in the light before dark gaps.
+/// Paints 3 m x 3 m of foliage: clumps of lit leaves in front of dark gaps.
 TextureMaps leaves() {
   TexturePainter painter(128, 128, {40, 58, 24});
   painter.blotches(32, 10, 61);
@@ -29,7 +29,7 @@ TextureMaps leaves() {
     for (int i = 0; i < 420; ++i) {
       const int x = static_cast<int>(hash(i, 3 * pass, 62) % 128),
                 y = static_cast<int>(hash(i, 3 * pass + 1, 62) % 128);
-      // Leaves gather where the coarse noise says so: gaps stay dark.
+      // Leaves gather where the coarse noise is high. The gaps stay dark.
       const uint32_t clump = hash(x / 16, y / 16, 63) % 4;
       if (clump == 0 && pass > 0) continue;
       const int tone =
@@ -52,7 +52,7 @@ TextureMaps bark() {
   return painter.maps();
 }
 
-/// 18 m x 18 m of a flat roof: sheets of bitumen or gravel, puddles dried up, moss.
+/// Paints 18 m x 18 m of a flat roof: sheets of bitumen or gravel, dried puddles, moss.
 TextureMaps roof() {
   TexturePainter painter(256, 256, {140, 136, 130});
   painter.blotches(128, 10, 81);
@@ -73,7 +73,7 @@ TextureMaps roof() {
   return painter.maps();
 }
 
-/// 3.2 m: slates in courses of 0.2 m.
+/// Paints 3.2 m x 3.2 m of slates in courses of 0.2 m.
 TextureMaps slate() {
   TexturePainter painter(128, 128, {92, 98, 108});
   for (int row = 0; row < 16; ++row)
@@ -87,7 +87,7 @@ TextureMaps slate() {
   return painter.maps();
 }
 
-/// 1.6 m x 1.0 m photovoltaic modules.
+/// Paints a photovoltaic module of 1.6 m x 1.0 m.
 TextureMaps solar() {
   TexturePainter painter(64, 64, {26, 34, 58});
   for (int i = 0; i < 64; i += 8) {
@@ -122,8 +122,8 @@ TextureMaps boards() {
   return painter.maps();
 }
 
-/// 2.4 m: eight courses of clay tiles that overlap, staggered; each bulges across and lies with its lower
-/// edge, a tile's thickness up, on the next.
+/// Paints 2.4 m x 2.4 m of clay tiles: eight courses that overlap, staggered. Each tile bulges across. Its
+/// lower edge lies on the next tile, the thickness of a tile higher.
 TextureMaps roof_tiles() {
   TexturePainter painter(128, 128, {150, 82, 58});
   for (int row = 0; row < 8; ++row)
@@ -145,7 +145,7 @@ TextureMaps roof_tiles() {
   return painter.maps();
 }
 
-/// 2.56 m: stretchers of 0.16 m by 0.08 m.
+/// Paints 2.56 m x 2.56 m of stretchers of 0.16 m by 0.08 m.
 TextureMaps brick() {
   TexturePainter painter(128, 128, {164, 154, 142});
   for (int row = 0; row < 32; ++row)

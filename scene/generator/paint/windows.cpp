@@ -8,7 +8,7 @@ namespace greatx::scene::generator {
 
 namespace {
 
-/// Light behind a window of a home, sRGB: bulbs of 2700 to 3500 K, shades, a kitchen, a screen.
+/// Returns the light behind a window of a home, sRGB: bulbs of 2700 to 3500 K, shades, a kitchen, a screen.
 Rgb home_light(uint32_t pick) {
   static constexpr Rgb lights[] = {{255, 196, 120}, {255, 206, 140}, {240, 170, 92}, {255, 214, 158},
                                    {196, 128, 66},  {255, 226, 190}, {170, 104, 50}, {96, 124, 190}};
@@ -59,7 +59,7 @@ void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const Windo
   painter.rect(x0, y0, x1, y1, style.frame, 120);
   const int w = (x1 - x0 - style.frame_px * (style.columns + 1)) / style.columns;
   const int h = (y1 - y0 - style.frame_px * (style.rows + 1)) / style.rows;
-  // The same in all panes: one household. Shops show what they have.
+  // All panes have the same dressing, since one household lives behind them. Shops have none.
   const uint32_t dressing = style.use == Use::shop ? 9u : hash(x0, y0, seed) % 10;
   const Rgb cloth = hash(x0, y0, seed + 3) % 3 == 0 ? Rgb{122, 96, 80} : Rgb{168, 162, 150};
   for (int c = 0; c < style.columns; ++c)

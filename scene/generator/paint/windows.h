@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Windows painted into a façade, as they look by day and lit by night.
+// Paints windows into a façade, as they look by day and lit by night.
 #pragma once
 
 #include "scene/generator/paint/texture_painter.h"
 
 namespace greatx::scene::generator {
 
-/// Who is behind a window decides when and how it is lit.
+/// Names the use of the room behind a window, which determines when and how the window is lit.
 enum class Use { home, office, shop };
 
 struct WindowStyle {
@@ -18,22 +18,22 @@ struct WindowStyle {
   Use use = Use::home;
 };
 
-/// A colour at so many percent.
+/// Returns the colour multiplied by `percent` / 100.
 Rgb dimmed(const Rgb& color, int percent);
 
-/// Whether window (x, y) is lit in `layer`, and its light; black: dark. Offices go out by rooms of three
-/// windows.
+/// Returns the light of window (x, y) in the lit map `layer`; black if the window is dark. Offices are lit or
+/// dark by rooms of three windows.
 Rgb night_light(Use use, int layer, int x, int y, uint32_t seed);
 
-/// A lit pane: brighter towards the lamp above, furniture dark against it.
+/// Paints a lit pane: brighter towards the lamp at the top, with dark furniture in front of the light.
 void light_pane(TexturePainter& painter, int layer, int x0, int y0, int x1, int y1, const Rgb& light, Use use,
                 uint32_t seed);
 
-/// A window set back in its wall: shadow under the lintel, frame, panes that mirror a paler sky towards the
-/// top, perhaps a curtain or a blind. By night some are lit.
+/// Paints a window set back in its wall: the shadow under the lintel, the frame, panes that mirror a paler
+/// sky towards the top, and perhaps a curtain or a blind. Some windows are lit by night.
 void window(TexturePainter& painter, int x0, int y0, int x1, int y1, const WindowStyle& style, uint32_t seed);
 
-/// Soot and rain under a sill.
+/// Paints soot and rain streaks under a sill.
 void streaks(TexturePainter& painter, int x0, int x1, int y, uint32_t seed);
 
 }  // namespace greatx::scene::generator

@@ -54,7 +54,8 @@ TEST(Generate, RotationsAreFloats) {
     if (!node.contains("rotation")) continue;
     ++rotations;
     for (const double value : node["rotation"]) {
-      const volatile float rounded = static_cast<float>(value);  // GCC 12 would drop both conversions
+      // volatile, since GCC 12 would drop both conversions
+      const volatile float rounded = static_cast<float>(value);
       EXPECT_EQ(static_cast<double>(rounded), value);
     }
   }
@@ -119,7 +120,7 @@ TEST(Generate, CityStaysWithinItsBudget) {
     EXPECT_LE(scene.triangle_count(), 27000u) << "seed " << seed;
     EXPECT_LE(scene.facets.size(), 12000u) << "seed " << seed;
     EXPECT_GT(scene.facets.size(), 3000u) << "seed " << seed;
-    // All of the street is one mirror.
+    // The whole street is one mirror.
     size_t road_facets = 0;
     for (const Facet& facet : scene.facets) {
       if (scene.instances[facet.instance].name != "road") continue;
@@ -156,7 +157,7 @@ TEST(Generate, LibraryNamesAreUniqueAndTexturesExist) {
     const generator::TextureMaps maps = generator::make_texture(spec.texture);
     EXPECT_EQ(maps.color.rgb.size(), 3ull * maps.color.width * maps.color.height) << spec.texture;
     EXPECT_EQ(maps.metallic_roughness.empty(), maps.color.empty() || spec.bays == 0) << spec.texture;
-    // Not one flat colour.
+    // The map is not one flat colour.
     EXPECT_GT(std::set<uint8_t>(maps.color.rgb.begin(), maps.color.rgb.end()).size(), 8u) << spec.texture;
   }
   EXPECT_THROW(generator::material("unobtainium"), ContractError);

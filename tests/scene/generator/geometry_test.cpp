@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every generated mesh must be: finite, closed, wound outwards, free of faces that lie in each other.
+// Checks every generated mesh: it is finite, closed and wound outwards, and none of its faces lie in each
+// other.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -70,7 +71,7 @@ TEST_P(EveryKind, SolidsAreClosedAndLookOutwards) {
       case SemanticClass::road:
       case SemanticClass::lane_marking:
       case SemanticClass::pavement:
-        // Together they are one solid (park paths are solids of their own).
+        // These classes form one solid together (park paths are solids of their own).
         ground.insert(ground.end(), triangles.begin(), triangles.end());
         continue;
       default:
@@ -84,7 +85,7 @@ TEST_P(EveryKind, SolidsAreClosedAndLookOutwards) {
 }
 
 TEST_P(EveryKind, FoliageEnclosesVolumesOfItsOwn) {
-  // Radio needs an inside of the crown alone, without the trunk that stands in it.
+  // Radio needs the interior of the crown alone, without the trunk inside it.
   size_t volumes = 0;
   for (uint32_t i = 0; i < soup_.model.instances.size(); ++i) {
     std::vector<SoupTriangle> foliage;
@@ -105,8 +106,8 @@ TEST_P(EveryKind, NoFaceLiesInAnother) {
 }
 
 TEST_P(EveryKind, FlatFacesAreFlatToAMicrometre) {
-  // Two triangles of one material across an edge are either one plane, so that they merge into one facet, or
-  // clearly bent. Ground, plants and hedges have shapes of their own.
+  // Two triangles of one material that share an edge either lie in one plane, so that they merge into one
+  // facet, or are clearly bent. Ground, plants and hedges have free shapes.
   using Corner = std::array<int64_t, 3>;
   const auto key = [](const dvec3& p) {
     return Corner{std::llround(p.x * 1e3), std::llround(p.y * 1e3), std::llround(p.z * 1e3)};

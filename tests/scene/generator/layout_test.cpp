@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands where: sizes, heights, free space, the names that other parts rely on.
+// Checks the layout of scenes: sizes, heights, free space, and the names on which other parts rely.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -26,7 +26,7 @@ Bounds bounds_of(const Soup& soup) {
   return all;
 }
 
-/// Height of the highest of these triangles over (x, y); -1e9 where there is none.
+/// Returns the height of the highest of these triangles over (x, y), or -1e9 if there is none.
 double height_over(const std::vector<SoupTriangle>& triangles, const dvec2& p) {
   double best = -1e9;
   for (const SoupTriangle& t : triangles) {
@@ -64,7 +64,7 @@ TEST(City, HasAllThatACityNeeds) {
   EXPECT_EQ(count[SemanticClass::road], 1);
   EXPECT_EQ(count[SemanticClass::lane_marking], 1);
   EXPECT_EQ(static_cast<size_t>(count[SemanticClass::street_lamp]), soup.model.lights.size());
-  // Façades of all four families over a few seeds.
+  // Façades of all four families occur over a few seeds.
   std::map<std::string, int> families;
   for (const uint64_t seed : {1u, 2u, 3u})
     for (const Material& m : load_soup({.kind = "city", .seed = seed, .size_m = 300}).model.materials)
@@ -118,7 +118,7 @@ TEST(Country, RoadPondAndBarns) {
       EXPECT_GE(count[SemanticClass::building], 4) << where;  // two farmhouses, two to four barns, a silo
       EXPECT_LE(count[SemanticClass::building], 7) << where;
       EXPECT_GT(count[SemanticClass::vegetation], 10) << where;
-      // The pond's rim lies in its banks, its middle is open water.
+      // The rim of the pond lies in its banks. Its middle is open water.
       std::vector<SoupTriangle> land = soup.of_class(SemanticClass::ground);
       const std::vector<SoupTriangle> pond = soup.of_class(SemanticClass::water);
       dvec2 middle(0.0);
@@ -178,7 +178,7 @@ TEST(Car, StandsOnItsWheelsAndLooksAlongX) {
     const Bounds b = bounds_of(soup);
     EXPECT_NEAR(b.size().x, length, 0.1) << variant;
     EXPECT_NEAR(b.max.z, height, 0.05) << variant;
-    EXPECT_NEAR(b.min.z, 0.0, 0.03) << variant;  // an octagon's flat side
+    EXPECT_NEAR(b.min.z, 0.0, 0.03) << variant;  // from the flat side of an octagon
     EXPECT_NEAR(b.center().y, 0.0, 1e-3) << variant;
     for (const SoupTriangle& t : soup.triangles)
       if (soup.model.materials[t.material].name == "headlight") {

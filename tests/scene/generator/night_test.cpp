@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What shines by night, and how much: photometry of lamps, luminance and share of lit windows, lamps of
+// Checks the sources of light by night: photometry of lamps, luminance and fraction of lit windows, lamps of
 // vehicles.
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,11 @@
 namespace greatx::scene {
 namespace {
 
-constexpr double full_candelas = 1000.0;  // emission of factor 1.0, cd/m^2
+constexpr double full_candelas = 1000.0;  // emission of an emissive factor of 1.0, cd/m^2
 
 double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }
 
-/// Luminous intensity towards an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone
+/// Returns the luminous intensity at an angle from the axis, cd (KHR_lights_punctual, "Inner and Outer Cone
 /// Angles").
 double candelas(const PunctualLight& light, double angle) {
   const double peak = static_cast<double>(light.intensity) * luminance(light.color);
@@ -32,7 +32,7 @@ double candelas(const PunctualLight& light, double angle) {
   return peak * ramp * ramp;
 }
 
-/// Flux by midpoints over the sphere, lm: not the closed form that the generator inverts.
+/// Returns the flux, lm, by the midpoint rule over the sphere. The generator uses a closed form instead.
 double lumens(const PunctualLight& light) {
   constexpr int steps = 20000;
   double sum = 0.0;
@@ -43,7 +43,7 @@ double lumens(const PunctualLight& light) {
   return sum;
 }
 
-/// Illuminance of level ground from one lamp, lux, without the cut at its range.
+/// Returns the illuminance of level ground by one lamp, lux, without the cut-off at its range.
 double lux_at(const PunctualLight& light, const dvec3& point) {
   const dvec3 from = point - light.position;
   const double d2 = glm::dot(from, from), cosine = -from.z / std::sqrt(d2);
@@ -66,10 +66,10 @@ TEST(Night, StreetLampsGiveTheirFluxDownwards) {
       ++of_flux[static_cast<int>(std::lround(flux / 100.0)) * 100];
       EXPECT_GE(flux, 2450.0) << light.name;
       EXPECT_LE(flux, 9100.0) << light.name;
-      // Warm: red over blue, between 2700 and 4500 K.
+      // The light is warm: its ratio of red to blue is that of 2700 to 4500 K.
       EXPECT_GT(light.color.r / light.color.b, 2.0f) << light.name;
       EXPECT_LT(light.color.r / light.color.b, 9.0f) << light.name;
-      // What the range cuts off is nothing: less than 0.3 lux even on a surface that faces the lamp.
+      // The cut-off at the range removes less than 0.3 lux even on a surface that faces the lamp.
       ASSERT_GT(light.range_m, 0.0f);
       const dvec3 foot(light.position.x, light.position.y, 0.0);
       const double height = kind == std::string("city") ? light.position.z : 5.0;
@@ -80,7 +80,8 @@ TEST(Night, StreetLampsGiveTheirFluxDownwards) {
       const double below = lux_at(light, foot);
       EXPECT_GT(below, 10.0) << light.name;
       EXPECT_LT(below, 60.0) << light.name;
-      // A pool with a dark gap: half-way to the next lamp, 15 m off, both together give a tenth.
+      // The ground is dark between lamps: half-way to the next lamp, at 15 m, both lamps together give less
+      // than a fifth.
       EXPECT_LT(2.0 * lux_at(light, foot + dvec3(15.0, 0.0, 0.0)), 0.2 * below) << light.name;
     }
     if (kind == std::string("city")) {
@@ -104,7 +105,7 @@ TEST(Night, StreetLampsStand25To35MetresApart) {
   ASSERT_GE(gaps.size(), 30u);
   std::sort(gaps.begin(), gaps.end());
   EXPECT_GT(gaps.front(), 7.0);
-  EXPECT_GT(gaps[gaps.size() / 2], 14.0);  // an avenue's are staggered across it
+  EXPECT_GT(gaps[gaps.size() / 2], 14.0);  // the lamps of an avenue are staggered across it
   EXPECT_LT(gaps.back(), 36.0);
 }
 
@@ -143,7 +144,7 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
           full_candelas *
           luminance(spec.emissive * vec3(linear(lit.rgb[i]), linear(lit.rgb[i + 1]), linear(lit.rgb[i + 2])));
       const size_t x = i / 3 % lit.width, y = i / 3 / lit.width;
-      int roughness = 0;  // of the four pixels that the lit one stands for
+      int roughness = 0;  // sum over the four pixels that the lit pixel covers
       for (const size_t at : {2 * y * surface.width + 2 * x, (2 * y + 1) * surface.width + 2 * x})
         roughness += surface.rgb[3 * at + 1] + surface.rgb[3 * at + 4];
       roughness /= 4;
@@ -165,7 +166,7 @@ TEST(Night, AShareOfTheWindowsIsLitAsWindowsAre) {
     } else if (spec.texture != "dormer") {
       EXPECT_GT(share, 0.08) << spec.name;
       EXPECT_LT(share, 0.6) << spec.name;
-      // Walls of a room in 50 to 300 lx.
+      // walls of a room at 50 to 300 lx
       EXPECT_GT(mean, 8.0) << spec.name;
       EXPECT_GT(peak, 25.0) << spec.name;
       EXPECT_LE(peak, 60.0) << spec.name;
@@ -180,7 +181,7 @@ TEST(Night, EveningsAndWallsDiffer) {
     const generator::TextureMaps maps = generator::make_texture(name);
     EXPECT_NE(maps.lit[0].rgb, maps.lit[1].rgb) << name;
   }
-  // Walls start with different bays: more than a few of the eight occur, none is most of them.
+  // Walls start with different bays: more than a few of the eight occur, and no bay occurs on most walls.
   const Soup soup = load_soup({.kind = "city", .seed = 2, .size_m = 300});
   std::map<long, size_t> starts;
   size_t walls = 0;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normal pictures: right for the heights they come from, and the right way round where they are used.
+// Checks normal maps: they match the heights from which they are made, and they have the right orientation
+// where they are used.
 #include <cmath>
 #include <set>
 
@@ -14,21 +15,21 @@
 namespace greatx::scene {
 namespace {
 
-/// glTF's reading of a texel, unit but for rounding.
+/// Returns the normal of a texel as glTF reads it, unit up to rounding.
 dvec3 normal_of(const generator::Raster& raster, uint32_t x, uint32_t y) {
   const uint8_t* const rgb = raster.rgb.data() + 3 * (y * raster.width + x);
   return dvec3(rgb[0], rgb[1], rgb[2]) / 127.5 - 1.0;
 }
 
 TEST(Relief, ARampLeansAgainstItsRise) {
-  // One pixel of rise in four along the columns, half of that along the rows: z = x / 4 + y / 8, y down the
-  // picture.
+  // The ramp rises by one pixel in four along the columns and by half of that along the rows: z = x / 4 + y /
+  // 8, with y down the picture.
   generator::TexturePainter painter(64, 64, {});
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) painter.raise(x, y, x + 1, y + 1, 4 * x + 2 * y);
   const generator::Raster raster = painter.maps().normal;
   ASSERT_EQ(raster.rgb.size(), 3u * 64 * 64);
-  // Perpendicular to (1, 0, 1/4) and, since +y is up the picture, to (0, -1, 1/8).
+  // The normal is perpendicular to (1, 0, 1/4) and, since +y is up the picture, to (0, -1, 1/8).
   const dvec3 expected = glm::normalize(dvec3(-0.25, 0.125, 1.0));
   for (uint32_t y = 1; y < 63; ++y)  // heights wrap around at the rim
     for (uint32_t x = 1; x < 63; ++x) {
@@ -38,7 +39,7 @@ TEST(Relief, ARampLeansAgainstItsRise) {
 }
 
 TEST(Relief, FurrowsAreWhatTheColourShows) {
-  // The mean slope of each of the eight pixels of a row, and its colour: the deeper, the darker.
+  // Compares the mean slope of each of the eight pixels of a row with its colour: low pixels are dark.
   const generator::TextureMaps maps = generator::make_texture("crop");
   std::array<double, 8> slope{}, color{}, count{};
   for (uint32_t y = 0; y < 512; ++y) {
@@ -51,7 +52,7 @@ TEST(Relief, FurrowsAreWhatTheColourShows) {
     }
   }
   for (size_t i = 0; i < 8; ++i) slope[i] /= count[i], color[i] /= count[i];
-  // 5 of 16 per pixel; clods average out.
+  // Heights change by 5/16 per pixel. The clods average out.
   for (const size_t crest_or_bottom : {0, 4}) EXPECT_NEAR(slope[crest_or_bottom], 0.0, 0.015);
   for (const size_t falling : {1, 2, 3}) EXPECT_NEAR(slope[falling], -5.0 / 16.0, 0.015) << falling;
   for (const size_t rising : {5, 6, 7}) EXPECT_NEAR(slope[rising], 5.0 / 16.0, 0.015) << rising;
@@ -82,7 +83,8 @@ TEST(Relief, TangentsFollowTheGroundAndTheRoofs) {
       ASSERT_NEAR(glm::dot(normal, tangent), 0.0f, 1e-5f);
       ASSERT_EQ(scene.tangents[vertex].w, 1.0f) << name << ": no picture is seen from behind";
       const vec3 up_the_picture = glm::cross(normal, tangent);
-      if (roof && normal.z > 0.3f && normal.z < 0.9f) {  // pitches: the picture's top is towards the ridge
+      // Pitches: the top of the picture is towards the ridge.
+      if (roof && normal.z > 0.3f && normal.z < 0.9f) {
         ASSERT_NEAR(up_the_picture.z, std::sqrt(1.0f - normal.z * normal.z), 1e-3f);
         ++tiles;
       }

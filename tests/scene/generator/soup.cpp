@@ -108,7 +108,7 @@ std::vector<double> part_volumes(const std::vector<SoupTriangle>& triangles) {
 
 namespace {
 
-/// What is left of a convex polygon on the left of a -> b.
+/// Returns the part of a convex polygon to the left of a -> b.
 std::vector<dvec2> clip(const std::vector<dvec2>& polygon, const dvec2& a, const dvec2& b) {
   const auto side = [&](const dvec2& p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
   std::vector<dvec2> kept;
@@ -147,7 +147,7 @@ double overlap(const Flat& a, const Flat& b) {
 }  // namespace
 
 double coplanar_overlap(const Soup& soup, std::string* first) {
-  // Planes by normal (0.001) and offset (1 mm); both faces of a sheet count as one plane.
+  // Planes are compared by normal (0.001) and offset (1 mm). Both faces of a sheet count as one plane.
   std::map<std::array<int64_t, 4>, std::vector<Flat>> planes;
   for (const SoupTriangle& t : soup.triangles) {
     dvec3 n = t.normal();
@@ -172,7 +172,7 @@ double coplanar_overlap(const Soup& soup, std::string* first) {
     for (size_t i = 0; i < flats.size(); ++i)
       for (size_t j = i + 1; j < flats.size() && flats[j].low.x < flats[i].high.x; ++j) {
         const double shared = overlap(flats[i], flats[j]);
-        if (shared < 1e-4) continue;  // a triangle's edge moved by a fraction of a millimetre
+        if (shared < 1e-4) continue;  // the edge of a triangle is off by a fraction of a millimetre
         if (total == 0.0 && first != nullptr) {
           const SoupTriangle &a = *flats[i].triangle, &b = *flats[j].triangle;
           *first = fmt::format("{} ({}) and {} ({}) share {:.4f} m^2 near ({:.2f}, {:.2f}, {:.2f})",
