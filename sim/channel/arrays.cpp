@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel delivers: its declaration and the arrays of a record, in the same order.
+// Declares the arrays of a channel and fills them for each record, in the same order.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,8 @@ namespace greatx::sim {
 
 namespace {
 
-/// What a wave at the carrier meets, outermost layer first: null for materials that no facet has.
+/// Describes the layers of each material at the carrier, outermost first; null for materials that no facet
+/// has.
 nlohmann::json describe_walls(const scene::Scene& scene, const rf::RadioSurfaces& surfaces) {
   nlohmann::json walls = nlohmann::json::array();
   for (uint32_t material = 0; material < scene.materials.size(); ++material) {
@@ -41,7 +42,7 @@ nlohmann::json describe_ends(const std::vector<rf::AntennaArray>& arrays, std::s
   return json;
 }
 
-/// An array with a row for each of `rows`, one below the other; `leading`: the shape before the row's.
+/// Returns an array with one row for each of `rows`. `leading` holds the dimensions before those of a row.
 template <typename View>
 Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span<const View> rows) {
   leading.insert(leading.end(), column.row.begin(), column.row.end());
@@ -53,12 +54,12 @@ Array filled(const Column<View>& column, std::vector<int64_t> leading, std::span
 
 }  // namespace
 
-/// Everything of a link that its arrays need.
+/// Holds everything that the arrays of a link need.
 struct ChannelSensor::LinkFacts {
-  LinkView view;  ///< without its pointer: facts move
+  LinkView view;  ///< its pointer is set later, since this struct moves
   rf::LinkStatistics statistics;
   std::vector<std::complex<float>> amplitudes;  ///< [paths, rx_ant, tx_ant]
-  std::vector<std::complex<float>> fields;      ///< [paths, tx_ant, 2], if a power is given
+  std::vector<std::complex<float>> fields;      ///< [paths, tx_ant, 2]; empty without a power
 };
 
 void ChannelSensor::describe() {
@@ -128,14 +129,14 @@ std::string ChannelSensor::metadata() const {
   metadata["time_convention"] = "e^{+j omega t}";
   std::vector<ChannelEnd> transmitters;
   for (const auto& paths : paths_) transmitters.push_back(paths->transmitter());
-  metadata["every_element"] =
-      !near_links_.empty();  // of links nearer than 2 (D_tx + D_rx)^2 / lambda, or all
+  // For links nearer than 2 (D_tx + D_rx)^2 / lambda, or for all links.
+  metadata["every_element"] = !near_links_.empty();
   metadata["transmitters"] = describe_ends(transmitter_arrays_, transmitters);
   metadata["receivers"] = describe_ends(receiver_arrays_, paths_[0]->receivers());
   metadata["pattern_tables"] = describe_pattern_tables({transmitter_arrays_, receiver_arrays_});
-  metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are those of the tick
-  metadata["dispersion"] =
-      dispersion_.has_value();  // off: walls and air are the carrier's at every subcarrier
+  metadata["doppler_in_time_samples"] = doppler_;  // off: all time samples are equal
+  // Off: walls and air have their values at the carrier for every subcarrier.
+  metadata["dispersion"] = dispersion_.has_value();
   metadata["walls"] = describe_walls(experiment_.scene(), radio_->model().surfaces);
   for (const auto& [name, text] : paths_[0]->notes({})) metadata["candidates"][name] = text;
   metadata["candidates"]["bounds"] =
@@ -151,7 +152,7 @@ rf::ArrayPose ChannelSensor::receiver_pose(const Results& results, size_t receiv
   return {receiver_arrays_[receiver], results[0].links[receiver].receiver.orientation};
 }
 
-/// Of all links, [rx, rx_ant, tx, tx_ant, time, last].
+/// Returns a block for all links, [rx, rx_ant, tx, tx_ant, time, last].
 Array ChannelSensor::block_of(const PortBlock& block, const Results& results, uint32_t slot) const {
   const size_t transmitters = results.size(), receivers = results[0].links.size();
   const size_t rx_ports = static_cast<size_t>(columns_.rx_ports),
@@ -162,7 +163,7 @@ Array ChannelSensor::block_of(const PortBlock& block, const Results& results, ui
   const std::span<std::complex<float>> out = array.as<std::complex<float>>();
   parallel_for(receivers * transmitters, 0, [&](size_t index) {
     const size_t r = index / transmitters, t = index % transmitters;
-    // With one transmitter a link's values lie together: no copy.
+    // With one transmitter the values of a link are contiguous, and no copy is needed.
     std::vector<std::complex<float>> apart(transmitters == 1 ? 0 : rx_ports * row);
     const std::span<std::complex<float>> h =
         transmitters == 1 ? out.subspan(r * rx_ports * row, rx_ports * row) : std::span(apart);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes for every pair of ports: sums over a link's paths, such as the frequency response.
-// Which ones, the scenario says; what a row here does not name is not computed.
+// Declares the arrays that a channel writes for every pair of ports. Each is a sum over the paths of a link,
+// such as the frequency response. The scenario selects the arrays; an array that it does not select is not
+// computed.
 #pragma once
 
 #include <complex>
@@ -18,13 +19,13 @@
 
 namespace greatx::sim {
 
-/// A sum over paths between two arrays, into [rx_ant, tx_ant, time, ...]. `world`: the facets that the paths
-/// were solved among. Thread-safe.
+/// Adds up the paths between two antenna arrays into [rx_ant, tx_ant, time, ...]. `world` holds the facets
+/// for which the paths were solved. Thread-safe.
 using LinkSum = std::function<void(std::span<const rf::Path>, const rf::FacetWorld& world,
                                    const rf::ArrayPose& transmitter, const rf::ArrayPose& receiver,
                                    std::span<std::complex<float>> out)>;
 
-/// An array [rx, rx_ant, tx, tx_ant, time, last] of complex64.
+/// Describes an array [rx, rx_ant, tx, tx_ant, time, last] of complex64.
 struct PortBlock {
   std::string name, description;
   int64_t time = 1, last = 1;
@@ -32,11 +33,12 @@ struct PortBlock {
   size_t per_pair() const { return static_cast<size_t>(time * last); }
 };
 
-/// `dispersion`: null if materials are as at the carrier; outlives the blocks.
+/// Returns the arrays of a channel. `dispersion` outlives the blocks; null: materials and air have their
+/// values at the carrier.
 std::vector<PortBlock> port_blocks(const ChannelConfig& config, const rf::ChannelGrid& grid,
                                    const rf::Dispersion* dispersion);
 
-/// The window of a channel's taps; it must have one.
+/// Returns the window of a channel's taps. The channel must have taps.
 rf::TapGrid tap_grid(const ChannelConfig& config, const rf::ChannelGrid& grid);
 
 }  // namespace greatx::sim

@@ -19,7 +19,7 @@ namespace greatx::sim {
 namespace {
 
 bool same_bits(const Motion& a, const Motion& b) {
-  static_assert(sizeof(Motion) == 16 * sizeof(double));  // nothing between the members
+  static_assert(sizeof(Motion) == 16 * sizeof(double));  // no padding
   return std::memcmp(&a, &b, sizeof(Motion)) == 0;
 }
 
@@ -54,14 +54,14 @@ std::shared_ptr<const rf::FacetWorld> RadioWorld::snapshot() {
   const auto is_free = [](const std::shared_ptr<rf::FacetWorld>& one) { return one.use_count() == 1; };
   const auto spare = std::find_if(snapshots_.begin(), snapshots_.end(), is_free);
   if (spare != snapshots_.end()) {
-    // The last one who held it may have done so on another thread.
+    // The last holder may have released the snapshot on another thread.
     std::atomic_thread_fence(std::memory_order_acquire);
     (*spare)->take_poses(model_.facets);
     current_ = *spare;
   } else {
     current_ = snapshots_.emplace_back(std::make_shared<rf::FacetWorld>(model_.facets));
   }
-  std::erase_if(snapshots_, is_free);  // one spare at a time is enough
+  std::erase_if(snapshots_, is_free);  // further free snapshots are not needed
   return current_;
 }
 
@@ -89,7 +89,7 @@ void ChannelPaths::set_points(std::span<const dvec3> points, size_t first) {
   for (size_t i = 0; i < points.size(); ++i) ends_.receivers.push_back(point_end(points[i], first + i));
   search_->set_points();
   ids_known_ = false;
-  if (!placed_.empty()) placed_.resize(1);  // the transmitter's
+  if (!placed_.empty()) placed_.resize(1);  // keeps the transmitter's
 }
 
 std::vector<dvec3> ChannelPaths::receiver_positions(const TickContext& context) const {
@@ -170,7 +170,8 @@ ChannelPaths::Result ChannelPaths::collect(const gpu::TickSlot& slot) {
   return result;
 }
 
-/// A path that was not there at the tick before is born, one that is not there any more has died.
+/// Counts births and deaths of paths. A path that did not exist at the tick before is born; a path that no
+/// longer exists has died.
 void ChannelPaths::note_births(size_t link, const std::vector<rf::Path>& paths) {
   std::vector<uint64_t> now;
   for (const rf::Path& path : paths) now.push_back(path.id());
@@ -185,7 +186,8 @@ void ChannelPaths::note_births(size_t link, const std::vector<rf::Path>& paths) 
   ids_[link] = std::move(now);
 }
 
-/// Says once per end and sequence where it should not be, and counts. Ends at rest are judged once.
+/// Reports each end that is inside, beneath or on something once per sequence, and counts ends inside solids
+/// at every tick. An end at rest is checked once.
 void ChannelPaths::check_placements(const TickContext& context) {
   constexpr size_t most_told = 5;
   placed_.resize(1 + ends_.receivers.size());

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of one transmitter of a channel at a tick: from the poses of the ends to fields, without antennas
-// and files. The channel sensor and `greatx paths` are built on it. Per tick: exact geometry of all
-// candidates on the host, while the GPU is busy with the tick before; what stands in the segments' way in the
-// tick's command buffer; fields of what is lit when the tick is collected.
+// Computes the paths of one transmitter of a channel at a tick, from the poses of the ends to the fields,
+// without antennas and files. The channel sensor and `greatx paths` are built on it. The host computes the
+// exact geometry of all candidates while the GPU works on the tick before. The command buffer of the tick
+// finds the obstacles on the segments, and collecting the tick computes the fields of the paths that are not
+// blocked.
 #pragma once
 
 #include <array>
@@ -25,32 +26,32 @@
 
 namespace greatx::sim {
 
-/// The radio effects of the plan, for rf/.
+/// Returns the radio effects of the plan, with the values that belong to them, as rf/ takes them.
 rf::RadioEffects radio_effects(const Experiment& experiment);
 
-/// The scene as the waves of one channel meet it; all links of the channel share it. Bodies only ever move on
-/// to the next tick that is searched and recorded: a tick in flight has a snapshot, which stays as it is
-/// while anybody holds it.
+/// Holds the scene as the waves of one channel meet it. All links of the channel share it. Its bodies stand
+/// at the tick that was recorded last. A tick in flight holds a snapshot, which does not change while it is
+/// held.
 class RadioWorld {
  public:
   RadioWorld(const Experiment& experiment, uint32_t channel);
-  /// Its facets stand where move_on() put them last.
+  /// Returns the model. Its facets are in the poses that move_on() set last.
   const rf::RadioModel& model() const { return model_; }
   const rf::Surroundings& surroundings() const { return surroundings_; }
-  /// Puts the bodies where `context` has them.
+  /// Moves the bodies to their poses in `context`.
   void move_on(const TickContext& context);
-  /// The facets as move_on() put them last.
+  /// Returns the facets in the poses that move_on() set last.
   std::shared_ptr<const rf::FacetWorld> snapshot();
 
  private:
   rf::RadioModel model_;
   rf::Surroundings surroundings_;
-  std::vector<std::shared_ptr<rf::FacetWorld>> snapshots_;  ///< one held by nobody else is used again
-  std::shared_ptr<const rf::FacetWorld> current_;           ///< null: bodies have moved since
+  std::vector<std::shared_ptr<rf::FacetWorld>> snapshots_;  ///< those that are not held are reused
+  std::shared_ptr<const rf::FacetWorld> current_;  ///< null: bodies have moved since the last snapshot
 };
 
-/// What bounds kept out of links: of searches, and paths beyond max_paths. 0: the guarantee of the search
-/// holds.
+/// Counts the candidates that searches left out, and the paths that links left out beyond max_paths. If both
+/// are 0, the guarantee of the search holds.
 struct LinkLeftOut {
   rf::LeftOut searched;
   uint64_t paths = 0;
@@ -60,9 +61,10 @@ struct LinkLeftOut {
   }
 };
 
+/// Computes the paths from one transmitter of a channel to its receivers, tick by tick.
 class ChannelPaths {
  public:
-  /// What one link had at a tick.
+  /// Describes one link at a tick.
   struct Link {
     rf::EndState receiver;
     double distance_m = 0.0;
@@ -72,25 +74,26 @@ class ChannelPaths {
   struct Result {
     rf::EndState transmitter;
     std::vector<Link> links;                      ///< [receivers]
-    std::shared_ptr<const rf::FacetWorld> world;  ///< the facets that the paths were solved among
+    std::shared_ptr<const rf::FacetWorld> world;  ///< the facets for which the paths were solved
   };
 
-  /// `crossings` is shared by all channels. Throws UserError if `search: once` is asked for and no end of the
-  /// channel stands still, or diffraction is on and candidates come from rays.
+  /// All channels share `crossings`. Throws UserError if `search: once` is asked for and no end of the
+  /// channel stands still, or if diffraction is on and candidates come from rays.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                std::shared_ptr<RadioWorld> radio, uint32_t channel, ChannelEnds ends);
 
-  /// The channel's first transmitter and its receivers, alone.
+  /// Computes the paths from the first transmitter of the channel to its receivers alone.
   ChannelPaths(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                uint32_t channel);
 
-  /// Points at rest, in the world, in place of the receivers; before start(). May be called again between
-  /// ticks with other points: what was found for the transmitter stays.
-  /// `first`: the number of the first of them, for names. May also be called again at the same tick.
+  /// Replaces the receivers by points at rest, world coordinates. The names of the points count from `first`.
+  /// Called before start(), and again with other points at the same tick or between ticks; the candidates
+  /// found from the transmitter are kept.
   void set_points(std::span<const dvec3> points, size_t first = 0);
-  /// Whether it is said and counted if receivers stand inside something.
+  /// Sets whether receivers inside a solid are reported and counted.
   void check_receivers(bool check) { ends_.check_receivers = check; }
-  /// Before the first tick of a sequence: candidates from a static end (from the cache if it has them).
+  /// Called before the first tick of a sequence. Searches candidates from an end that stands still, or takes
+  /// them from the cache.
   void start(const TickContext& context);
   bool looks_ahead() const { return search_->looks_ahead(); }
   void record_ahead(gpu::TickSlot& slot, const TickContext& next);
@@ -100,11 +103,12 @@ class ChannelPaths {
   const ChannelEnd& transmitter() const { return ends_.transmitter; }
   const std::vector<ChannelEnd>& receivers() const { return ends_.receivers; }
   const rf::RadioModel& model() const { return radio_->model(); }
-  /// Candidates, overflows, paths; names without the channel's.
+  /// Adds the counts of candidates, overflows and paths, under names without that of the channel.
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// How candidates are found and what that guarantees of links that `left_out` is of: (name, text).
+  /// Returns (name, text) pairs that say how candidates are found, and which guarantee holds for links with
+  /// these omissions.
   std::vector<std::pair<std::string, std::string>> notes(const LinkLeftOut& left_out) const;
-  /// Of all links so far.
+  /// Returns the omissions of all links so far.
   const LinkLeftOut& left_out() const { return left_out_; }
 
  private:
@@ -138,14 +142,14 @@ class ChannelPaths {
   rf::CrossingPass& crossings_;
   std::optional<ChannelSearch> search_;
   std::array<InFlight, slots_in_flight> in_flight_;
-  std::vector<std::vector<uint64_t>> ids_;  ///< [receivers] of the paths at the tick before, ascending
+  std::vector<std::vector<uint64_t>> ids_;  ///< [receivers] path ids at the tick before, ascending
   bool ids_known_ = false;
-  /// What check_placements() knows of an end in this sequence.
+  /// Records what check_placements() has found for an end in this sequence.
   struct Placed {
     bool checked = false, inside = false, told = false;
   };
-  std::vector<Placed> placed_;  ///< [1 + receivers]: transmitter, receivers; empty: nothing yet
-  size_t placements_told_ = 0;  ///< of this sequence
+  std::vector<Placed> placed_;  ///< [1 + receivers] transmitter, receivers; empty: nothing checked yet
+  size_t placements_told_ = 0;  ///< messages in this sequence
   LinkLeftOut left_out_;
   uint64_t geometric_paths_ = 0, lit_paths_ = 0, births_ = 0, deaths_ = 0, ends_inside_ = 0;
 };

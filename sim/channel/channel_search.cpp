@@ -59,7 +59,8 @@ ChannelSearch::ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& m
 void ChannelSearch::choose(const EffectPlan& plan, const Ends& ends) {
   const bool bounces = plan.reflection.on || plan.diffraction.on || plan.scattering.on;
   if (!bounces || config_.limits.max_depth == 0) return;
-  // A diffraction or scattering needs all that the transmitter reaches, not what leads to the receivers.
+  // Diffraction, scattering and rays need everything that the transmitter reaches, not only sequences that
+  // lead to the receivers.
   const bool whole =
       config_.candidates == ChannelConfig::Candidates::rays || plan.diffraction.on || plan.scattering.on;
   if (config_.search == ChannelConfig::Search::every_tick || (move_facets_ && whole))
@@ -84,7 +85,8 @@ void ChannelSearch::make_beams() {
     options.moving_bodies = move_facets_;
     options.source_body = transmitter_body_;
   }
-  // The last two reflections are cheaper to find from the receivers than for any receiver.
+  // The last two reflections are cheaper to find backwards from known receivers than forwards for any
+  // receiver.
   if (way_ == Way::between_ends) options.stop_depth = std::max(config_.limits.max_depth, 2u) - 2;
   beams_.emplace(model_.facets, model_.kinds, model_.wedges, options);
   moving_searches_.clear();
@@ -92,7 +94,7 @@ void ChannelSearch::make_beams() {
     moving_searches_.emplace_back(model_.facets, model_.kinds, moving_options(config_, walls_, move_facets_));
 }
 
-/// Points come by the thousand: one search from the transmitter serves them all.
+/// One search from the transmitter serves all points, of which there may be thousands.
 void ChannelSearch::set_points() {
   if (rays_ && way_ == Way::once_from_receivers) way_ = Way::every_tick;
   if (!beams_ || way_ == Way::every_tick || (way_ == Way::once_from_transmitter && !move_facets_)) return;
@@ -128,7 +130,7 @@ void ChannelSearch::start(const dvec3& transmitter, std::span<const dvec3> recei
   grow_solvers(from_receivers ? receivers.size() : 1);
   if (from_receivers)
     for (size_t r = 0; r < receivers.size(); ++r) search_from(r, receivers[r], bodies, rf::Source::receiver);
-  else if (!beams_ || way_ == Way::once_from_transmitter)  // else renew() does it
+  else if (!beams_ || way_ == Way::once_from_transmitter)  // otherwise renew() searches
     search_from(0, transmitter, bodies, rf::Source::transmitter);
 }
 
@@ -147,7 +149,7 @@ void ChannelSearch::search_from(size_t index, const dvec3& source, std::span<con
 }
 
 rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
-  // What moves stands elsewhere in the next run.
+  // Results for moving bodies are not worth caching: the next run has other poses.
   if (!once()) return beams_->search(source);
   const rf::SearchCache cache = rf::SearchCache::standard();
   const std::string key =
@@ -165,7 +167,7 @@ rf::BeamSearchResult ChannelSearch::beams(const dvec3& source) {
   return result;
 }
 
-/// What was found becomes images of the source.
+/// Turns a list of candidates into images of the source, and counts what the search left out.
 void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut& left_out,
                          const dvec3& source, rf::Source end) {
   if (left_out.sequences > 0 && overflow_ == 0)
@@ -173,7 +175,7 @@ void ChannelSearch::take(size_t index, rf::CandidateList list, const rf::LeftOut
                  config_.name, left_out.sequences);
   overflow_ += left_out.sequences;
   left_out_[index] = left_out;
-  if (list.size() == 0 || !list.sequence(0).empty()) {  // rays do not list the line of sight
+  if (list.size() == 0 || !list.sequence(0).empty()) {  // the list from rays lacks the line of sight
     list.add({});
     list.make_canonical();
   }
@@ -187,7 +189,7 @@ void ChannelSearch::renew(int64_t tick, const dvec3& transmitter, std::span<cons
   if (way_ == Way::between_ends) return renew_between(transmitter, receivers);
   if (once()) return renew_moving(transmitter, receivers);
   if (way_ == Way::every_tick && beams_) {
-    if (tick == renewed_tick_) return;  // more points at the same tick
+    if (tick == renewed_tick_) return;  // further points at the same tick
     renewed_tick_ = tick;
     search_from(0, transmitter, {}, rf::Source::transmitter);
   } else if (searching_) {

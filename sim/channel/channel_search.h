@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a channel's candidates are found and kept from tick to tick: once where an end and the world stand
-// still, every tick only for what moves.
+// Finds the candidates of a channel and keeps them from tick to tick. Where an end and the world stand still,
+// it searches once; at every tick it searches only for what moves.
 #pragma once
 
 #include <cstdint>
@@ -21,37 +21,41 @@
 
 namespace greatx::sim {
 
+/// Chooses the way to search for candidates, runs the searches, and turns candidates into geometric paths.
 class ChannelSearch {
  public:
-  /// What decides between the ways.
+  /// Describes the ends of a channel, which decide the way to search.
   struct Ends {
     bool transmitter_rests = false, receivers_rest = false;
-    uint32_t transmitter_body = 0;  ///< that carries it; 0: none
+    uint32_t transmitter_body = 0;  ///< the body that carries the transmitter; 0: none
   };
-  /// All arguments but `ends` must outlive this. `gpu_scene` null: notes() alone may be called. Throws
-  /// UserError if `search: once` is asked for and no end stands still, or diffraction is on and candidates
+  /// All arguments but `ends` must outlive this. If `gpu_scene` is null, only notes() may be called. Throws
+  /// UserError if `search: once` is asked for and no end stands still, or if diffraction is on and candidates
   /// come from rays.
   ChannelSearch(scene::GpuScene* gpu_scene, const rf::RadioModel& model, const EffectPlan& plan,
                 const ChannelConfig& config, const Ends& ends);
 
-  /// From now on the receivers are points at rest, perhaps thousands, others at each call of renew().
+  /// Declares that the receivers are points at rest from now on, perhaps thousands, and may differ at each
+  /// call of renew().
   void set_points();
   bool looks_ahead() const { return way_ == Way::every_tick && rays_.has_value(); }
-  /// Rays of the tick after this one.
+  /// Records the rays of the next tick.
   void record_ahead(gpu::TickSlot& slot, const dvec3& transmitter);
-  /// Before the first tick of a sequence; bodies of the model are where they are then, `bodies` as well.
+  /// Called before the first tick of a sequence. The bodies of the model are in their poses at that tick,
+  /// which are also `bodies`.
   void start(const dvec3& transmitter, std::span<const dvec3> receivers, std::span<const Pose> bodies);
-  /// Before the links of a tick are solved, bodies of the model being where they are.
+  /// Updates the candidates for a tick. Called before the links of the tick are solved; the bodies of the
+  /// model are in their poses at the tick.
   void renew(int64_t tick, const dvec3& transmitter, std::span<const dvec3> receivers);
-  /// Every chain that exists geometrically between the transmitter and receiver `index`, and what searches
-  /// left out of them. Writes nothing.
+  /// Returns every path that exists geometrically between the transmitter and receiver `index`, and the
+  /// number of candidates that the searches left out. Changes nothing, so calls may run in parallel.
   rf::LinkGeometry geometry(size_t index, const rf::EndState& transmitter,
                             const rf::EndState& receiver) const;
-  /// For the steps after the geometry, which know of no candidates.
+  /// Returns the solver for the steps after the geometry, which do not depend on the candidates.
   const rf::PathSolver& solver() const { return fixed_.at(0); }
 
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// `left_out`: of what the notes are about.
+  /// Returns notes as (name, text) pairs. `left_out` holds the omissions to report.
   std::vector<std::pair<std::string, std::string>> notes(const rf::LeftOut& left_out = {}) const;
 
  private:
@@ -59,8 +63,8 @@ class ChannelSearch {
     none,
     once_from_transmitter,
     once_from_receivers,
-    between_ends,  ///< both move: every tick, for these receivers alone
-    every_tick     ///< from the transmitter, for any receiver
+    between_ends,  ///< both ends move: at every tick, for these receivers alone
+    every_tick     ///< at every tick from the transmitter, for any receiver
   };
   void choose(const EffectPlan& plan, const Ends& ends);
   void make_beams();
@@ -76,18 +80,19 @@ class ChannelSearch {
   const rf::RadioModel& model_;
   const ChannelConfig& config_;
   bool move_facets_;
-  uint32_t walls_;  ///< that may be passed
+  uint32_t walls_;  ///< the most walls that a path may pass
   uint32_t transmitter_body_;
   Way way_ = Way::none;
   std::optional<rf::BeamSearch> beams_;
   std::optional<rf::CandidateSearch> rays_;
-  std::optional<rf::CandidateSearch::Pending> searching_;  ///< recorded with the tick before
-  /// [sources]: the transmitter, or each receiver if they are. `fixed_` holds what the world at rest has, or
-  /// everything; `moving_`, if facets of moving bodies reflect and an end rests, what they add at this tick.
+  std::optional<rf::CandidateSearch::Pending> searching_;  ///< recorded in the submission before
+  /// [sources]: the transmitter, or each receiver if searches start from the receivers. `fixed_` holds the
+  /// candidates of the world at rest, or all candidates. `moving_` holds the candidates that moving bodies
+  /// add at this tick; it is used if their facets reflect and an end rests.
   std::vector<rf::PathSolver> fixed_, moving_;
-  std::vector<rf::LeftOut> left_out_;  ///< [fixed_] of the search
+  std::vector<rf::LeftOut> left_out_;  ///< [fixed_] omissions of the search
   std::vector<rf::MovingSearch> moving_searches_;
-  std::optional<rf::Seams> seams_;  ///< of this tick
+  std::optional<rf::Seams> seams_;  ///< for the bodies at this tick
   int64_t renewed_tick_ = -1;
   uint64_t fixed_count_ = 0, candidates_ = 0, overflow_ = 0, cache_hits_ = 0;
 };

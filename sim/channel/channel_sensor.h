@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Channel state information between the transmitters and receivers of a channel: the paths of ChannelPaths,
-// seen through the antennas.
+// Computes the channel state information between the transmitters and receivers of a channel from the paths
+// of ChannelPaths and the antennas.
 #pragma once
 
 #include <array>
@@ -21,10 +21,11 @@
 
 namespace greatx::sim {
 
+/// A channel as a sensor of a run: frequency responses, taps, link statistics and paths.
 class ChannelSensor : public Sensor {
  public:
-  /// As ChannelPaths; all but `channel` outlive this. Throws UserError, too, if the transmitters or the
-  /// receivers differ in their number of ports.
+  /// Throws UserError like ChannelPaths, and if the transmitters or the receivers differ in their number of
+  /// ports. All arguments but `channel` outlive this.
   ChannelSensor(scene::GpuScene& gpu_scene, rf::CrossingPass& crossings, const Experiment& experiment,
                 uint32_t channel);
 
@@ -40,16 +41,16 @@ class ChannelSensor : public Sensor {
 
  private:
   using Results = std::vector<ChannelPaths::Result>;  ///< [tx]
-  /// A link of arrays that may come into their near field.
+  /// Describes a link between arrays whose ends may be in their near field.
   struct NearLink {
     size_t receiver = 0, transmitter = 0;
-    double within_m = 0.0;                   ///< nearer than this, every element is solved
-    std::unique_ptr<ElementPaths> elements;  ///< made when it first is; else null
+    double within_m = 0.0;                   ///< below this distance every pair of elements is solved
+    std::unique_ptr<ElementPaths> elements;  ///< null until the distance first is below
     std::array<bool, slots_in_flight> recorded{};
   };
   void find_near_links();
   std::unique_ptr<ElementPaths> make_elements(const NearLink& link) const;
-  /// The link of these ends, if it was solved by elements at the tick of `slot`; else null.
+  /// Returns the element paths of a link if it was solved by elements at the tick of `slot`; else null.
   const ElementPaths* elements_of(size_t receiver, size_t transmitter, uint32_t slot) const;
   void describe();
   std::string metadata() const;
@@ -72,16 +73,16 @@ class ChannelSensor : public Sensor {
   std::vector<rf::AntennaArray> transmitter_arrays_, receiver_arrays_;
   std::vector<NearLink> near_links_;
   bool told_near_ = false;
-  uint64_t near_ticks_ = 0;  ///< links and ticks that were solved by elements
+  uint64_t near_ticks_ = 0;  ///< number of (link, tick) pairs solved by elements
   LinkLeftOut left_out_of_elements_;
   rf::ChannelGrid grid_;
-  std::optional<rf::Dispersion> dispersion_;  ///< none: materials as at the carrier
+  std::optional<rf::Dispersion> dispersion_;  ///< none: materials have their values at the carrier
   ColumnContext columns_;
   std::vector<PortBlock> blocks_;
   std::vector<LinkColumn> link_columns_;
   std::vector<PathColumn> path_columns_;
   SensorSpec spec_;
-  /// Of the record collected last: c times the delay of direct paths against the distance.
+  /// Errors of the record collected last: c times the delay of direct paths against the distance of the ends.
   ErrorStatistics sights_;
 };
 

@@ -38,13 +38,13 @@ ChannelSnapshot::ChannelSnapshot(gpu::Device& device, const Experiment& experime
 void ChannelSnapshot::move(uint32_t sequence, int64_t tick) {
   courses_ = make_courses(experiment_.scenario, *experiment_.world, sequence);
   moment_ = moment_at(*experiment_.world, courses_, Clock(experiment_.scenario.tick_rate_hz), tick);
-  started_ = false;  // as if a sequence began here
+  started_ = false;  // the moment is treated as the start of a sequence
 }
 
 void ChannelSnapshot::solve(const Take& take) { solve_batch(0, take); }
 
 void ChannelSnapshot::solve(std::span<const dvec3> points, size_t first, const Take& take, bool check) {
-  paths_[0]->check_receivers(check);  // once is enough for points that have several transmitters
+  paths_[0]->check_receivers(check);  // one check is enough for points with several transmitters
   for (size_t begin = 0; begin < points.size(); begin += points_at_once) {
     for (const auto& paths : paths_)
       paths->set_points(points.subspan(begin, std::min(points_at_once, points.size() - begin)),

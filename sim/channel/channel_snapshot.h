@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All paths of one channel at one tick, outside a run: between its own ends, or to any points. `greatx
-// paths`, radio maps and Python are built on it.
+// Computes all paths of one channel at one tick, outside a run: between its own ends, or to any points.
+// `greatx paths`, radio maps and Python are built on it.
 #pragma once
 
 #include <functional>
@@ -20,15 +20,16 @@
 
 namespace greatx::sim {
 
+/// A channel at one moment on a device, with everything that solving its links needs.
 class ChannelSnapshot {
  public:
   struct Instant {
     uint32_t sequence = 0;
     int64_t tick = 0;
-    std::optional<uint32_t> transmitter;  ///< this one alone; none: all
+    std::optional<uint32_t> transmitter;  ///< only this one; none: all
   };
-  /// One transmitter and one receiver; positions and orientations in local coordinates (world -
-  /// Scene::origin).
+  /// Describes a link between one transmitter and one receiver. Positions and orientations are in local
+  /// coordinates (world - Scene::origin).
   struct Link {
     uint32_t transmitter = 0;  ///< index in the channel
     size_t receiver = 0;       ///< index in the channel, or in the list of points
@@ -37,25 +38,27 @@ class ChannelSnapshot {
     double distance_m = 0.0;
     LinkLeftOut left_out;
     std::vector<rf::Path> paths;  ///< canonical order (rf::interactions_less)
-    /// The facets that the paths were solved among, which never move.
+    /// The facets for which the paths were solved. They never move.
     std::shared_ptr<const rf::FacetWorld> world;
   };
-  /// `device` and `experiment` outlive this. `options`: of the scene on the GPU, for whoever draws it as
-  /// well; none: the plan's. Throws UserError like ChannelPaths.
+  /// `device` and `experiment` outlive this. `options` are those of the scene on the GPU, for a caller that
+  /// also draws it; none: the options of the plan. Throws UserError like ChannelPaths.
   ChannelSnapshot(gpu::Device& device, const Experiment& experiment, uint32_t channel, const Instant& instant,
                   const std::optional<scene::GpuSceneOptions>& options = {});
 
-  /// To another moment, with the same transmitters: what stands still is neither uploaded nor searched again.
-  /// Gives the same paths as a snapshot that is made there; counters go on.
+  /// Moves to another moment with the same transmitters. The parts that stand still are neither uploaded nor
+  /// searched again. The paths are the same as those of a snapshot made at that moment. The counters
+  /// continue.
   void move(uint32_t sequence, int64_t tick);
 
-  /// Receivers one after the other in their order, each with all transmitters in theirs; false: enough.
+  /// Takes one link. Links come receiver by receiver in their order, each with all transmitters in theirs.
+  /// Returns false to stop.
   using Take = std::function<bool(Link)>;
-  /// The channel's own receivers.
+  /// Solves the links to the receivers of the channel.
   void solve(const Take& take);
-  /// Points at rest in the world instead, `points_at_once` in the memory at a time; nothing depends on the
-  /// number. `first`: the number of the first of them in its list. `check`: points that stand inside
-  /// something are counted and said.
+  /// Solves the links to points at rest in the world instead. `points_at_once` of them are in memory at a
+  /// time; the results do not depend on this number. `first` is the number of the first point in its list.
+  /// With `check`, points inside a solid are counted and reported.
   void solve(std::span<const dvec3> points, size_t first, const Take& take, bool check = true);
   static constexpr size_t points_at_once = 256;
 
@@ -63,16 +66,17 @@ class ChannelSnapshot {
   uint32_t channel() const { return channel_; }
   const Moment& moment() const { return moment_; }
   const rf::RadioModel& model() const { return radio_->model(); }
-  /// The same for those whose results outlive the snapshot.
+  /// Returns the model as a shared pointer, for results that outlive the snapshot.
   std::shared_ptr<const RadioWorld> radio() const { return radio_; }
   size_t transmitters() const { return paths_.size(); }
-  /// Summed over the transmitters.
+  /// Adds the counts of all transmitters.
   void count(std::map<std::string, uint64_t>& counters) const;
-  /// How candidates are found and what that guarantees of links that `left_out` is of: (name, text).
+  /// Returns (name, text) pairs that say how candidates are found, and which guarantee holds for links with
+  /// these omissions.
   std::vector<std::pair<std::string, std::string>> notes(const LinkLeftOut& left_out) const {
     return paths_[0]->notes(left_out);
   }
-  /// The same of all links so far.
+  /// Returns the notes for all links so far.
   std::vector<std::pair<std::string, std::string>> notes() const;
   scene::GpuScene& gpu_scene() { return gpu_scene_; }
   gpu::TickRing& ring() { return ring_; }

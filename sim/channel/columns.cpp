@@ -16,7 +16,7 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// `fill(view, T* row)`.
+/// Returns a column of type T; `fill(view, T* row)` writes one row.
 template <typename T, typename View, typename Fill>
 Column<View> column(const char* name, std::vector<int64_t> row, const char* unit, const char* description,
                     Fill fill) {
@@ -32,14 +32,14 @@ PathColumn of_path(const char* name, std::vector<int64_t> row, const char* unit,
                    Fill fill) {
   return column<T, PathView>(name, std::move(row), unit, text, fill);
 }
-/// A number of a link's statistics.
+/// Returns a column of one number per link.
 template <typename T, typename Value>
 LinkColumn of_link(const char* name, const char* unit, const char* text, Value value) {
   return column<T, LinkView>(name, {}, unit, text,
                              [value](const LinkView& link, T* out) { *out = static_cast<T>(value(link)); });
 }
 
-/// What an interaction touches, as ids on disk: index + 1, 0 is none.
+/// Identifies what an interaction touches by ids as on disk: index + 1, 0: none.
 struct Where {
   uint8_t type = 0;
   uint32_t facet = 0, element = 0, object = 0, material = 0;
@@ -61,7 +61,7 @@ Where where_of(const rf::Interaction& interaction, const ColumnContext& context)
   return where;
 }
 
-/// One member of Where at each of the `depth` interactions.
+/// Returns a column with one member of Where for each of up to `depth` interactions.
 template <typename T>
 PathColumn of_interactions(const char* name, const char* text, const ColumnContext& context, int64_t depth,
                            T Where::*member) {
@@ -88,7 +88,8 @@ void fill_vertices(const PathView& view, const dvec3& origin, size_t depth, doub
   }
 }
 
-/// Volts per metre before the receiver and volts at its ports, rms.
+/// Returns the columns of rms values at a given transmit power: the field at the receiver, V/m, and the
+/// voltage at its ports, V.
 std::vector<PathColumn> received_columns(const ColumnContext& context) {
   const double volts =
       2.0 * std::sqrt(context.config->resistance_ohm * rf::watts(context.config->power_dbm.value()));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a channel writes of every path and of every link, as tables: one row here is one array of the data
-// set, its declaration and its value together.
+// Declares the tables that a channel writes of its paths and links. One column here is one array of the data
+// set; its declaration and the function that fills it stand together.
 #pragma once
 
 #include <complex>
@@ -20,26 +20,26 @@
 
 namespace greatx::sim {
 
-/// A link with everything that its rows may need.
+/// Holds a link with everything that its columns need.
 struct LinkView {
   int32_t receiver = 0, transmitter = 0;  ///< indices in the channel
   const rf::LinkStatistics* statistics = nullptr;
-  bool every_element =
-      false;  ///< its frequency response is of every element, not of a plane wave over the arrays
-  double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< if they are asked for
+  /// The frequency response comes from every pair of elements, not from a plane wave over the arrays.
+  bool every_element = false;
+  double coherence_bandwidth_hz = 0.0, coherence_time_s = 0.0;  ///< set if they are asked for
   double taps_power_outside = 0.0;                              ///< rf::TapCoverage, if there are taps
   uint64_t sequences_left_out = 0, paths_left_out = 0;          ///< LinkLeftOut
 };
 
-/// A path of a link.
+/// Holds a path of a link.
 struct PathView {
   const LinkView* link = nullptr;
   const rf::Path* path = nullptr;
   std::span<const std::complex<float>> amplitude;  ///< [rx_ant, tx_ant]
-  std::span<const std::complex<float>> field;      ///< [tx_ant, 2] V/m, if a power is given
+  std::span<const std::complex<float>> field;      ///< [tx_ant, 2] V/m; set if a power is given
 };
 
-/// An array with one row of `row` elements a path or a link.
+/// Describes an array with one row of `row` elements for each path or link.
 template <typename View>
 struct Column {
   std::string name;
@@ -53,13 +53,14 @@ struct Column {
 using PathColumn = Column<PathView>;
 using LinkColumn = Column<LinkView>;
 
-/// The sizes and tables that rows refer to; outlives the columns.
+/// Holds the sizes and tables to which columns refer. It outlives the columns.
 struct ColumnContext {
   const scene::Scene* scene = nullptr;
   const rf::RadioModel* model = nullptr;
   const ChannelConfig* config = nullptr;
   int64_t rx_ports = 1, tx_ports = 1;
 };
+/// Return the columns of paths and of links that the channel writes.
 std::vector<PathColumn> path_columns(const ColumnContext& context);
 std::vector<LinkColumn> link_columns(const ColumnContext& context);
 

@@ -10,7 +10,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// Each element of an array as an end of its own.
+/// Returns each element of an array as an end of its own.
 std::vector<ChannelEnd> elements_of(const ArrayEnd& whole) {
   std::vector<ChannelEnd> ends;
   const uint32_t polarizations = whole.array.polarization_count();
@@ -23,7 +23,7 @@ std::vector<ChannelEnd> elements_of(const ArrayEnd& whole) {
   return ends;
 }
 
-/// One element, at its own origin.
+/// Returns an array of one such element at its own origin.
 rf::AntennaArray element_alone(rf::AntennaArray array) {
   array.rows = array.columns = 1;
   array.positions_m.clear();
@@ -60,7 +60,7 @@ void ElementPaths::assemble(size_t per_pair, const LinkSum& sum, std::span<std::
                rx_elements = receiver_.array.element_count();
   const size_t tx_ports = transmitter_.array.port_count(), from_ports = from.port_count(),
                to_ports = to.port_count();
-  // One thread: links are shared out to threads already.
+  // One thread suffices, since the caller distributes links over threads.
   parallel_for(tx_elements * rx_elements, 1, [&](size_t index) {
     const size_t s = index / rx_elements, u = index % rx_elements;
     const ChannelPaths::Link& link = results_[s].links[u];

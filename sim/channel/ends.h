@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ends of a channel: antennas on nodes, single elements of them, or bare points.
+// Defines the ends of a channel: antennas on nodes, single elements of antennas, or points.
 #pragma once
 
 #include <optional>
@@ -15,34 +15,36 @@
 
 namespace greatx::sim {
 
+/// Describes one end.
 struct ChannelEnd {
   std::string name;              ///< "node/sensor", or "point 17"
   std::optional<uint32_t> node;  ///< none: a point at rest
-  Pose mount;                    ///< on its node; without a node: in the world
-  uint32_t body = 0;             ///< that carries the node and does not hide it; 0: none
+  Pose mount;                    ///< relative to its node; without a node: to the world
+  uint32_t body = 0;             ///< the body that carries the node and does not block it; 0: none
   bool rests = true;             ///< its node never moves
 };
 
-/// One transmitter and its receivers.
+/// Holds one transmitter and its receivers.
 struct ChannelEnds {
   ChannelEnd transmitter;
   std::vector<ChannelEnd> receivers;
-  /// Whether it is said and counted if an end stands inside something; once is enough for an end of several
-  /// links.
+  /// Whether an end inside a solid is reported and counted. One check is enough for an end of several links.
   bool check_transmitter = true, check_receivers = true;
 };
 
-/// The antenna "node/sensor" of the scenario; it must exist.
+/// Returns the end at the antenna "node/sensor" of the scenario. The antenna must exist.
 ChannelEnd antenna_end(const Experiment& experiment, const std::string& name);
-/// At rest in the world.
+/// Returns an end at rest in the world, called "point N".
 ChannelEnd point_end(const dvec3& point, size_t number);
-/// The ends of a channel's links of transmitter number `transmitter`, which alone has the receivers checked
-/// if it is 0.
+/// Returns the ends of the links of transmitter number `transmitter`. Only transmitter 0 has its receivers
+/// checked.
 ChannelEnds channel_ends(const Experiment& experiment, uint32_t channel, uint32_t transmitter);
 
-/// Local coordinates, with the velocity that the node's turning gives to what is mounted off its origin.
+/// Returns the state of an end in local coordinates. Its velocity includes the contribution of the node's
+/// rotation to an end that is mounted off the node's origin.
 rf::EndState state_of(const ChannelEnd& end, const World& world, const TickContext& context);
-/// Straight from the nodes' poses: what the paths' own lengths are checked against. World, metres.
+/// Returns the world position of an end, metres, directly from the poses of the nodes. The lengths of paths
+/// are checked against these positions.
 dvec3 world_position(const ChannelEnd& end, const TickContext& context);
 
 }  // namespace greatx::sim

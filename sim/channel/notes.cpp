@@ -19,7 +19,7 @@ std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment&
       of.transmitter.rests,
       std::all_of(of.receivers.begin(), of.receivers.end(), [](const ChannelEnd& end) { return end.rests; }),
       of.transmitter.body};
-  // No note speaks of edges, and finding them takes a while.
+  // The notes do not depend on edges, and finding edges takes a while.
   rf::RadioEffects effects = radio_effects(experiment);
   effects.diffraction = false;
   const rf::RadioModel model(experiment.scene(), config.carrier_hz, effects);

@@ -10,8 +10,9 @@
 
 namespace greatx::sim {
 
-/// How the candidates of a channel will be found and what that guarantees: (name, text), as in a run's
-/// summary. Nothing is searched and no device is needed. Throws UserError like ChannelSearch.
+/// Returns (name, text) pairs, as in the summary of a run, that say how the candidates of a channel will be
+/// found and what is guaranteed. It searches nothing and needs no device. Throws UserError like
+/// ChannelSearch.
 std::vector<std::pair<std::string, std::string>> channel_notes(const Experiment& experiment,
                                                                uint32_t channel);
 

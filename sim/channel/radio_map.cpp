@@ -16,7 +16,7 @@ namespace {
 
 constexpr double no_ground = std::numeric_limits<double>::quiet_NaN();
 
-/// A round one.
+/// Returns a round cell size for a map of this extent.
 double default_cell(double extent_m) {
   constexpr double most_cells = 150.0;
   if (!(extent_m > 0.0)) return 1.0;
@@ -55,7 +55,7 @@ void check_plane(double z, scene::Bounds bounds, std::span<const dvec3> ends) {
       bounds.min.z, bounds.max.z, z);
 }
 
-/// World z of every cell.
+/// Returns the world z of every cell, and sets `rule`.
 std::vector<double> heights(const MapGrid& grid, const MapHeight& height, const scene::Scene& scene,
                             std::string& rule) {
   std::vector<double> z(grid.cells(), no_ground);
@@ -105,7 +105,8 @@ MapGrid make_map_grid(const dvec2& min_m, const dvec2& max_m, double cell_m, siz
   if (!(max_m.x > min_m.x && max_m.y > min_m.y))
     throw_user_error("--max: expected more than --min ({} {}) along x and y, found {} {}", min_m.x, min_m.y,
                      max_m.x, max_m.y);
-  // A side of 300 m is 3000 cells of 0.1 m, whatever 0.1 is in binary.
+  // The factor absorbs rounding: a side of 300 m has 3000 cells of 0.1 m, although 0.1 is not exact in
+  // binary.
   const dvec2 count = glm::ceil((max_m - min_m) / cell_m * (1.0 - 1e-12));
   if (count.x * count.y * static_cast<double>(transmitters) > static_cast<double>(most_map_links))
     throw_user_error(
@@ -184,7 +185,8 @@ void RadioMapSolver::solve(const MapCells& cells, size_t first, const Take& take
   size_t next = first;  // the first cell that has not been handed over
   std::vector<ChannelSnapshot::Link> waiting;
   bool go_on = true;
-  /// Those that wait, and the cells without values among and, at the end, behind them.
+  /// Hands over the waiting links and the cells without values between them; at the end, also those after
+  /// them.
   const auto hand_over = [&](bool end) {
     const std::vector<rf::LinkStatistics> solved = statistics_of(waiting);
     waiting.clear();
@@ -202,7 +204,7 @@ void RadioMapSolver::solve(const MapCells& cells, size_t first, const Take& take
     if (waiting.size() == transmitters * ChannelSnapshot::points_at_once) hand_over(false);
     return go_on;
   };
-  snapshot_.solve(points, 0, collect, false);  // place_cells() has looked
+  snapshot_.solve(points, 0, collect, false);  // place_cells() has checked the points
   if (go_on) hand_over(true);
 }
 

@@ -22,9 +22,10 @@ bool is_ground_or_building(SemanticClass c) {
          c == SemanticClass::roof || c == SemanticClass::window;
 }
 
-constexpr double least_slope = 1e-6;  ///< |n_z|; what is steeper is a wall
+constexpr double least_slope = 1e-6;  ///< least |n_z| of a surface; steeper ones are walls
 
-/// Those of the static world that count: by class, and either side up or the normal's alone.
+/// Returns the triangles of the static world whose class counts. With `up_alone`, their normals must point
+/// up; otherwise either side may.
 std::vector<scene::FacetTriangle> surfaces(const scene::Scene& scene,
                                            const std::function<bool(SemanticClass)>& counts, bool up_alone) {
   std::vector<scene::FacetTriangle> triangles;
@@ -37,7 +38,7 @@ std::vector<scene::FacetTriangle> surfaces(const scene::Scene& scene,
   return triangles;
 }
 
-/// Height of the triangle's plane at p if p lies in it or within a rounding of its edges.
+/// Returns the height of the triangle's plane at p if p lies in the triangle or within rounding of its edges.
 std::optional<double> height_at(const scene::FacetTriangle& triangle, const dvec2& p) {
   const dvec3 *a = &triangle.corners[0], *b = &triangle.corners[1], *c = &triangle.corners[2];
   const auto cross = [](const dvec2& u, const dvec2& v) { return u.x * v.y - u.y * v.x; };

@@ -18,7 +18,7 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double boltzmann_j_k = 1.380649e-23;  ///< exact (SI Brochure, 9th edition)
 
-/// Signal of one transmitter over the sum of all others and the noise.
+/// Returns the power of one transmitter over the sum of all others and the noise.
 double sinr(const MapCell& cell, size_t transmitter) {
   double others = cell.noise_w;
   for (size_t t = 0; t < cell.received_w.size(); ++t)
