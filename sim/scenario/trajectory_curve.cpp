@@ -22,9 +22,9 @@ constexpr double negligible = 1e-9;
 /// Below this part the sign of a derivative is only rounding.
 constexpr double noise = 1e-13;
 
-/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Close to a
-/// zero of B' at u0, B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. The side is the one that B' itself shows.
-/// Without one it is before (e < 0), but after at the start.
+/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Near a zero
+/// u0 of B', B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. If B' is above rounding, its sign along B'' gives
+/// the side of u0. Otherwise the side is before u0 (e < 0), but after u0 at the start of the curve.
 template <typename Vector>
 std::optional<Direction<Vector>> direction_of(const Vector& first, const Vector& second, const Vector& third,
                                               double u, double size) {

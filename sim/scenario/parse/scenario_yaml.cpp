@@ -257,7 +257,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   const std::string* best = nullptr;
   size_t best_distance = std::max<size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    // A forgotten unit ("rate" for "rate_hz") is nearer than the distance of the letters says.
+    // A key without its unit ("rate" for "rate_hz") is a closer match than its edit distance says.
     const bool prefix = candidate.starts_with(std::string(word) + "_");
     const size_t distance = prefix ? 1 : edit_distance(word, candidate);
     if (distance >= best_distance || distance >= candidate.size()) continue;

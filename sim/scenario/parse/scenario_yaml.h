@@ -57,7 +57,7 @@ class Field {
   /// Returns the same with a sign, '-' or none.
   TurnRate turn_rate(const std::string& expected) const;
   dvec3 vector3(double most = most_number) const;  ///< each from -most
-  dvec3 position() const;                          ///< of a thing in the world, or a way or extent in it, m
+  dvec3 position() const;                          ///< a position or an extent in the world, m
   dvec3 angles_deg() const;                        ///< yaw, pitch, roll in degrees; returned in rad
   /// Returns the index of the text in `choices`.
   size_t choice(std::initializer_list<std::string_view> choices) const {
