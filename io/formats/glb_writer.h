@@ -83,7 +83,8 @@ class GlbWriter {
   GlbWriter(const GlbWriter&) = delete;
   GlbWriter& operator=(const GlbWriter&) = delete;
 
-  // Each of these functions returns the index of the added object.
+  // The add functions that return int return the index of the added object.
+
   /// Adds a texture with the given PNG picture, which repeats in both directions.
   int add_texture(const std::string& name, std::span<const std::byte> png);
   int add_material(const GlbMaterial& material);
