@@ -18,13 +18,13 @@ namespace greatx {
 /// written out, as any walk over the documents does.
 std::vector<YAML::Node> load_yaml(const std::string& text, const std::string& name);
 
-/// The line on which a value begins, from 1; `fallback` if the library has no place for it.
+/// Returns the line on which a value begins, from 1, or `fallback` if the library has no position for it.
 int line_of(const YAML::Node& node, int fallback = 0);
-/// The line of a fault; 0 if the library has no place for it.
+/// Returns the line of a fault, or 0 if the library has no position for it.
 int line_of(const YAML::Exception& error);
 
-/// These read plain scalars by YAML 1.2's core schema: a quoted one is a text, never a number or a boolean.
-/// They are empty for anything else.
+/// Read a plain scalar by YAML 1.2's core schema. A quoted scalar is a text, never a number or a boolean. The
+/// result is empty for anything else.
 std::optional<double> plain_number(const YAML::Node& node);
 std::optional<bool> plain_boolean(const YAML::Node& node);
 
