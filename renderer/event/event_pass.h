@@ -23,9 +23,9 @@ namespace greatx::render {
 /// Names the rule by which pictures are taken within an interval.
 enum class EventSteps {
   fixed,  ///< at each of `substeps` even instants
-  /// at those of the even instants that keep motion from picture to picture to `wanted` pixels
+  /// At only as many even instants as keep the motion from picture to picture to `wanted` pixels.
   by_flow,
-  /// at those of the even instants that keep the change of any pixel to `wanted` thresholds
+  /// At only as many even instants as keep the change of every pixel to `wanted` thresholds.
   by_brightness,
 };
 

@@ -120,7 +120,7 @@ CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
     return result;
   }
   result.pitch = v.z > 0.0 ? -0.5 * pi : 0.5 * pi;
-  // If the motion is vertical for an instant, the yaw is the one that the horizontal motion beside it shows.
+  // If the motion is vertical at an instant, the horizontal motion just before or after gives the yaw.
   if (const auto level = direction_of(dvec2(first), dvec2(second), dvec2(third), u, size))
     result.yaw = std::atan2(level->value.y, level->value.x);
   return result;
