@@ -8,7 +8,7 @@
 
 namespace greatx {
 
-/// As long as an Activity lives, its thread does `what` ("building the scene"). The text outlives it.
+/// While an Activity lives, its thread does `what` ("building the scene"). The text outlives the Activity.
 /// Activities nest.
 class Activity {
  public:
@@ -21,7 +21,7 @@ class Activity {
   const char* before_;
 };
 
-/// From now on, keeps the activity during which memory last ran out (std::set_new_handler).
+/// Installs a handler (std::set_new_handler) that stores the activity during which memory last ran out.
 void watch_memory();
 /// Returns "out of memory while building the scene", or "out of memory" if there is no activity.
 std::string out_of_memory();

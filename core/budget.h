@@ -35,12 +35,12 @@ inline constexpr Budget model_externals{"the files that a model names", 2 * gib}
 inline constexpr Budget import_xml{"a Mitsuba scene file", 64 * mib};
 /// Counts positions, normals, tangents, texture coordinates and indices as they are in memory.
 inline constexpr Budget model_geometry{"the geometry of a model", 2 * gib};
-/// No byte of the file stands behind these elements.
+/// Counts elements that the file does not store.
 inline constexpr Budget model_zeros{"elements of a model without a buffer view", 256 * mib};
 /// Counts the decoded textures: RGBA of 8 bits.
 inline constexpr Budget model_textures{"the textures of a model", 1 * gib};
 inline constexpr Budget scene_textures{"the textures of a scene", 2 * gib};
-/// Each place of a mesh has its own triangles.
+/// Each placement of a mesh has its own triangles.
 inline constexpr Budget scene_triangles{"a scene", 24'000'000, "triangles"};
 inline constexpr Budget scene_vertices{"a scene", 72'000'000, "vertices"};
 inline constexpr Budget import_geometry{"the geometry of an imported scene", 2 * gib};
@@ -71,7 +71,7 @@ std::string amount(uint64_t value, const Budget& budget);
 /// is beyond the budget. `where` names the file and the field.
 void require_within(const std::string& where, uint64_t planned, const Budget& budget);
 
-/// Represents a budget that several things share. Each of them is stated in turn, before it is allocated.
+/// Represents a budget that several things share. Each thing is counted before it is allocated.
 class Spending {
  public:
   explicit Spending(const Budget& budget) : budget_(budget) {}

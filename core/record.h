@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The simulator delivers one Packet a tick, with one Record of every sensor that fired. Each Record holds the
-// arrays that its SensorSpec declared before the run. A RecordSink takes the packets in order of ticks; the
-// data set's writer in io/ is one, and tests use a vector.
+// Defines the data that the simulator delivers: one Packet per tick, with one Record of every sensor that
+// fired. Each Record holds the arrays that its SensorSpec declared before the run. A RecordSink takes the
+// packets in the order of ticks. The writer of data sets in io/ is a RecordSink; tests use a vector.
 #pragma once
 
 #include <algorithm>
@@ -103,7 +103,7 @@ struct Array {
 struct ArraySpec {
   std::string name;  ///< e.g. "rgb", "points", "cfr"
   DType dtype = DType::f32;
-  std::vector<int64_t> shape;  ///< of one record; a first axis of -1 varies from record to record
+  std::vector<int64_t> shape;  ///< shape of one record; a first axis of -1 varies between records
   std::string unit;            ///< e.g. "m", "1", "s"
   std::string description;     ///< axes and meaning, in one line
 };
@@ -152,8 +152,8 @@ struct Record {
   uint32_t sensor = 0;  ///< index into the SensorSpecs
   int64_t tick = 0;
   int64_t time_ns = 0;        ///< exact time of the tick, rounded to nanoseconds
-  int64_t sample = 0;         ///< k: the sensor's own count
-  std::vector<Array> arrays;  ///< in the order of SensorSpec::arrays
+  int64_t sample = 0;         ///< number of this record of the sensor, from 0
+  std::vector<Array> arrays;  ///< the arrays, in the order of SensorSpec::arrays
 };
 
 /// Holds the complete records of every sensor that was due at one tick.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// These functions convert by IEC 61966-2-1 both ways, exactly, from 0 to 1. The shaders have their own
+// Converts between linear values and sRGB by IEC 61966-2-1, exactly, from 0 to 1. The shaders have their own
 // version (shaders/shared/develop.h).
 #pragma once
 

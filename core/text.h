@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// These functions handle text that came from outside: names in scenes, ids in XML, cells of tables. A
-// terminal obeys control characters, and JSON holds only UTF-8.
+// Handles text that comes from outside: names in scenes, ids in XML, cells of tables. A terminal obeys
+// control characters, and JSON holds only UTF-8.
 #pragma once
 
 #include <cstddef>

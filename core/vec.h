@@ -37,12 +37,12 @@ struct Pose {
   }
 };
 
-/// a_from_c = a_from_b * b_from_c.
+/// Returns a_from_c = a_from_b * b_from_c.
 inline Pose operator*(const Pose& a_from_b, const Pose& b_from_c) {
   return {a_from_b.apply(b_from_c.position), glm::normalize(a_from_b.orientation * b_from_c.orientation)};
 }
 
-/// R = R_z(yaw) R_y(pitch) R_x(roll), radians (3GPP TR 38.901, eq. 7.1-4: alpha, beta, gamma).
+/// Returns R_z(yaw) R_y(pitch) R_x(roll), radians (3GPP TR 38.901, eq. 7.1-4: alpha, beta, gamma).
 inline dquat orientation_from_yaw_pitch_roll(double yaw, double pitch, double roll) {
   return glm::angleAxis(yaw, dvec3(0, 0, 1)) * glm::angleAxis(pitch, dvec3(0, 1, 0)) *
          glm::angleAxis(roll, dvec3(1, 0, 0));

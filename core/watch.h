@@ -22,10 +22,10 @@
 
 namespace greatx {
 
-/// Says how far the work is.
+/// Describes the progress of the work.
 struct WorkState {
   const char* what = nullptr;  ///< null: no long work is underway
-  double share = -1.0;         ///< done, 0 to 1; an estimate, which may fall; < 0: not known
+  double share = -1.0;         ///< share done, 0 to 1; an estimate, which may fall; < 0: unknown
   double seconds = 0.0;        ///< since it began
 };
 
@@ -35,7 +35,7 @@ class Watch {
   virtual ~Watch() = default;
   /// Returns false to stop the work.
   virtual bool look(const WorkState& state) noexcept = 0;
-  /// Is called when the stage that look() reported is over.
+  /// Called when the stage that look() reported is over.
   virtual void stage_ended() noexcept {}
 };
 

@@ -130,7 +130,7 @@ Cmd::Scope::Scope(Cmd& cmd, std::string_view name) : cmd_(cmd), index_(~0u) {
   }
   Timestamps* stamps = cmd.timestamps_;
   if (stamps == nullptr) return;
-  // the scope is labelled and counted, but not timed
+  // The scope is labelled and counted, but not timed.
   if (stamps->names_.size() >= stamps->max_scopes_) return;
   index_ = static_cast<uint32_t>(stamps->names_.size());
   stamps->names_.emplace_back(name);

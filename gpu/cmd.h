@@ -96,7 +96,7 @@ class Timestamps {
   Timestamps& operator=(Timestamps&& other) noexcept;
   /// Returns the times in recording order. The submission must be done.
   std::vector<PassTime> read() const;
-  /// Must be called before the command buffer is recorded anew.
+  /// Resets the timestamps. Called before the command buffer is recorded anew.
   void reset();
 
  private:
@@ -131,7 +131,7 @@ class Cmd {
   [[nodiscard]] Scope scope(std::string_view name) { return Scope(*this, name); }
 
   void barrier(const Sync& from, const Sync& to);
-  /// `discard` says that the old content is not needed.
+  /// Records a transition to the next use. With `discard` the old content is not needed.
   void transition(Image& image, ImageUse use, bool discard = false);
 
   void bind(const Pipeline& pipeline);

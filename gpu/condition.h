@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws and dispatches that the GPU itself leaves out, by VK_EXT_conditional_rendering. Copies, barriers and
+// Lets the GPU itself skip draws and dispatches, by VK_EXT_conditional_rendering. Copies, barriers and
 // timestamps are executed in any case.
 #pragma once
 
@@ -18,9 +18,9 @@ inline constexpr Sync condition_read{VK_PIPELINE_STAGE_2_CONDITIONAL_RENDERING_B
 VkBufferUsageFlags condition_usage(const Device& device);
 bool has_conditions(const Device& device);
 
-/// Until the end of the C++ scope, draws and dispatches happen only if the word at `condition` is not 0 when
-/// the GPU comes to them. With an empty slice they always happen. A barrier must come before, from the writer
-/// of the word to sync::condition_read.
+/// Makes draws and dispatches conditional until the end of the C++ scope. They happen only if the word at
+/// `condition` is not 0 when the GPU reaches them. With an empty slice they always happen. A barrier must
+/// come before, from the writer of the word to sync::condition_read.
 class Condition {
  public:
   Condition(Cmd& cmd, const Slice& condition);

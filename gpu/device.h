@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses a GPU, finds its capabilities, and has the one queue that takes all submissions.
+// Chooses a GPU, queries its capabilities, and owns the one queue that takes all submissions.
 #pragma once
 
 #include <atomic>
@@ -20,19 +20,19 @@ namespace greatx::gpu {
 /// Describes a feature that greatx needs or could use, and whether a device has it.
 struct Capability {
   std::string name;      ///< the name in Vulkan, e.g. "rayQuery"
-  std::string used_for;  ///< in words
+  std::string used_for;  ///< its purpose in words
   bool required = true;
   bool available = false;
 };
 
 struct DeviceInfo {
-  uint32_t index = 0;  ///< in vkEnumeratePhysicalDevices
+  uint32_t index = 0;  ///< index in vkEnumeratePhysicalDevices
   std::string name;
   std::string type;    ///< "discrete", "integrated", "virtual", "cpu", "other"
   std::string driver;  ///< name and version text of the driver
   std::string api_version;
   std::vector<Capability> capabilities;
-  uint64_t memory_bytes = 0;  ///< of the largest device-local heap
+  uint64_t memory_bytes = 0;  ///< size of the largest device-local heap
   /// Returns the names of the required capabilities that are missing. greatx runs on the device if there are
   /// none.
   std::vector<std::string> missing() const;
@@ -74,7 +74,7 @@ struct DeviceOptions {
 struct Counters {
   uint64_t pipelines_built = 0;
   uint64_t setup_submits = 0;  ///< uploads and builds before the first tick
-  uint64_t submits = 0;        ///< one a tick
+  uint64_t submits = 0;        ///< one per tick
   uint64_t passes = 0;         ///< scopes recorded
   uint64_t dispatches = 0;
   uint64_t draws = 0;
@@ -128,8 +128,8 @@ class Device {
   /// Names an object for validation messages and RenderDoc.
   void set_name(VkObjectType type, uint64_t handle, std::string_view name) const;
   void wait_idle() const;
-  /// Buffers that are larger than one descriptor may be register their names here, for the error when they
-  /// are bound whole.
+  /// Registers the name of a buffer that may be larger than one descriptor, for the error message if it is
+  /// bound whole.
   void add_large(VkBuffer buffer, std::string_view name) {
     large_.insert_or_assign(buffer, std::string(name));
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pipelines are made from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording.
-// Set 1, if a pass asks for it, is a table of textures that lives as long as the scene.
+// Makes pipelines from embedded SPIR-V. Set 0 holds push descriptors, which are written while recording. Set
+// 1, if a pass asks for it, is a table of textures that lives as long as the scene.
 #pragma once
 
 #include <cstdint>
@@ -78,7 +78,7 @@ class Pipeline {
 
 struct ComputeDesc {
   std::string shader;                ///< "folder/name.comp"
-  std::vector<Binding> bindings;     ///< of set 0
+  std::vector<Binding> bindings;     ///< bindings of set 0
   uint32_t push_constant_bytes = 0;  ///< at most 128
   /// Values of constant_id 0, 1, 2, ... (bool: 0 or 1; float: its bits).
   std::vector<uint32_t> specialization;

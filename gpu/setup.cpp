@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work outside the ticks is recorded, submitted and waited for here.
+// Records work outside the ticks, submits it and waits for it.
 #include <cstring>
 
 #include "gpu/cmd.h"

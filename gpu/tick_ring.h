@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ring has N slots in flight. Each has a command buffer, an upload and a readback arena, and timestamps.
-// One timeline semaphore counts the submitted ticks. A tick is one submission.
+// Defines a ring of N slots in flight. Each slot has a command buffer, an upload and a readback arena, and
+// timestamps. One timeline semaphore counts the submitted ticks. A tick is one submission.
 #pragma once
 
 #include <algorithm>
@@ -55,8 +55,8 @@ struct TickSlot {
   Arena upload;
   Arena readback;
   Timestamps timestamps;
-  uint64_t submission = 0;  ///< value of the timeline when it is done
-  uint64_t number = 0;      ///< of the device's submissions
+  uint64_t submission = 0;  ///< value of the timeline when the submission is done
+  uint64_t number = 0;      ///< number of the submission on the device
 };
 
 class TickRing {

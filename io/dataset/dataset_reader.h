@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reads a data set from disk: its description, its index, and single arrays of single records.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +18,11 @@ namespace greatx::io {
 
 class NpyFile;
 
-/// A data set on disk, finished or not: of an unfinished one, the whole packets are seen. Frames may be
-/// loaded by several threads at once, stacks by one.
+/// Reads a finished or unfinished data set. Of an unfinished one, it shows the complete packets. Several
+/// threads may load frames at once, but only one thread at a time may load from stacks.
 class DatasetReader {
  public:
-  /// Throws UserError if the folder holds no data set or one that cannot be read.
+  /// Throws UserError if the folder holds no data set or an unreadable one.
   explicit DatasetReader(const std::filesystem::path& folder);
   ~DatasetReader();
   DatasetReader(DatasetReader&&) noexcept;
@@ -29,16 +31,18 @@ class DatasetReader {
   const DatasetInfo& info() const { return info_; }
   const std::vector<SensorSpec>& sensors() const { return info_.sensors; }
   bool finished() const { return finished_; }
-  /// Sequences that have an index or a whole packet.
+  /// Returns the number of sequences that have an index or, in an unfinished data set, that the journal
+  /// knows.
   uint32_t sequences() const { return static_cast<uint32_t>(rows_.size()); }
   const std::vector<IndexRow>& records(uint32_t sequence) const { return rows_.at(sequence); }
-  /// The records of one sensor.
+  /// Returns the records of one sensor.
   std::vector<IndexRow> records_of(uint32_t sequence, size_t sensor) const;
 
-  /// One array of one record, as it was written: [h, w, 3], [n, 4], ... From an output that keeps it exactly
-  /// if there is one (of a depth kept as EXR and as 24-bit PNG: the EXR).
+  /// Loads one array of one record in its written shape: [h, w, 3], [n, 4], ... An output that keeps the
+  /// array exactly is preferred (EXR to 24-bit PNG for depth). Throws UserError if the file is missing or
+  /// does not hold such an array.
   Array load(uint32_t sequence, const IndexRow& row, const std::string& array) const;
-  /// Likewise, from one output.
+  /// Loads an array from the given output. `array` is an index into OutputSpec::arrays.
   Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array) const;
 
  private:

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packets to files. write() checks the packet and hands it to worker threads, which encode, hash and write
-// its pictures and clouds; packets are then committed in their order: stacks are appended, and last a line
-// goes into the journal. So a killed run leaves whole packets, and `resume` cuts away what is beyond the last
-// one.
+// Writes packets to files. write() checks a packet and hands it to worker threads, which encode, hash and
+// write its pictures and clouds. Packets are then committed in their order: their rows are appended to the
+// stacks, and last a line goes into the journal. A run that was killed therefore leaves complete packets, and
+// `resume` removes whatever lies behind the last one.
 //
 //   DatasetWriter writer(folder, info, {.resume = true});
-//   for (auto [sequence, tick, finished] = writer.resume_position(); sequence < info.sequences; ++sequence,
-// tick = 0) {
+//   auto [sequence, tick, finished] = writer.resume_position();
+//   for (; sequence < info.sequences; ++sequence, tick = 0) {
 //     writer.begin_sequence(sequence);
-//     ... writer.write(packet) from `tick` on ...
+//     ... writer.write(packet) for the ticks from `tick` on ...
 //     writer.end_sequence();
 //   }
 //   writer.finish();
@@ -26,46 +26,49 @@
 namespace greatx::io {
 
 struct WriterOptions {
-  uint32_t threads =
-      0;                ///< workers; 0: as many as the machine has processors. The bytes do not depend on it.
-  bool resume = false;  ///< go on with an unfinished data set
-  uint32_t queue_packets = 8;  ///< write() blocks while so many packets are on their way
+  /// Number of workers; 0 stands for the number of processors. The bytes do not depend on it.
+  uint32_t threads = 0;
+  bool resume = false;         ///< continue an unfinished data set
+  uint32_t queue_packets = 8;  ///< write() blocks while so many packets wait for their commit
 };
 
 struct WriterStats {
   int64_t packets = 0, records = 0;  ///< committed by this object
-  int64_t files = 0;                 ///< of the whole data set, once finished
-  uint64_t bytes = 0;                ///< likewise
+  int64_t files = 0;                 ///< files of the whole data set; set by finish()
+  uint64_t bytes = 0;                ///< bytes of the whole data set; set by finish()
   double blocked_s = 0.0;            ///< time that write() waited for the workers
 };
 
+/// Writes a data set, in order of sequences and ticks.
 class DatasetWriter : public RecordSink {
  public:
-  /// Makes the folder, or opens it if `resume`. Throws UserError if it cannot be written, holds other files,
-  /// holds a finished data set (without `resume`), is in use by another process, or holds a different run;
-  /// the message then lists what differs.
+  /// Creates the folder, or opens an existing data set if `resume` is set. Throws UserError if the folder
+  /// cannot be written, holds other files, is in use by another process, or holds a data set without
+  /// `resume`. With `resume`, throws UserError if the folder holds a different run; the message lists the
+  /// differences.
   DatasetWriter(const std::filesystem::path& folder, DatasetInfo info, WriterOptions options = {});
-  /// Commits what was written so far; the data set stays unfinished and can be resumed unless finish() was
-  /// called.
+  /// Commits the packets written so far. Unless finish() was called, the data set stays unfinished and can be
+  /// resumed.
   ~DatasetWriter() override;
 
   struct Position {
-    uint32_t sequence = 0;  ///< to begin with; == DatasetInfo::sequences: only finish() is left
-    int64_t next_tick = 0;  ///< the first tick of it whose packet is not yet in the data set
-    bool finished = false;  ///< the data set is complete, there is nothing to do
+    /// Sequence to begin next. If it equals DatasetInfo::sequences, only finish() remains to be called.
+    uint32_t sequence = 0;
+    int64_t next_tick = 0;  ///< first tick of this sequence whose packet is not yet in the data set
+    bool finished = false;  ///< true if the data set is complete
   };
   Position resume_position() const;
 
-  /// In order, from resume_position().sequence on.
+  /// Begins a sequence. Sequences must be begun in order, from resume_position().sequence on.
   void begin_sequence(uint32_t sequence);
-  /// Throws what went wrong with this packet or one before it. A full disk is a UserError that says how to go
-  /// on.
+  /// Checks and queues the packet. Throws the error of this packet or of an earlier one. If the disk is full,
+  /// this is a UserError that tells how to continue.
   void write(Packet packet) override;
-  /// Waits for all packets, closes the stacks, writes the index.
+  /// Waits for all packets, closes the stacks, and writes the exports and the index.
   void end_sequence();
-  /// Writes the manifest: from then on the data set is complete. Does nothing if it was.
+  /// Writes the manifest, which completes the data set. Does nothing if the data set was complete.
   void finish();
-  /// Waits until everything written so far is committed.
+  /// Waits until all packets written so far are committed. Throws their first error.
   void flush();
 
   WriterStats stats() const;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an unfinished data set holds for certain, and how the rest of it is cleared away before a run goes on.
+// Finds the packets that an unfinished data set holds completely, and removes the rest before a run
+// continues.
 #pragma once
 
 #include <vector>
@@ -12,16 +13,19 @@
 namespace greatx::io {
 
 struct Recovered {
-  std::vector<JournalPacket> packets;  ///< committed, whole, in order
+  std::vector<JournalPacket> packets;  ///< committed and complete, in order
   std::vector<JournalEnd> closed;      ///< sequences 0 .. closed.size()-1
-  uint64_t journal_bytes = 0;          ///< the journal beyond that is to be dropped
+  uint64_t journal_bytes = 0;          ///< the journal must be cut to this size
 };
 
-/// Reads the journal and believes a packet only if its files are there with their size. Changes nothing on
-/// disk.
+/// Reads the journal. Accepts a packet of the open sequence only if its frame files exist with their sizes
+/// and the stacks hold its rows; drops all packets from the first one on that fails this test. Accepts the
+/// packets of closed sequences without a test. Changes nothing on disk. Throws UserError if the journal does
+/// not fit `info`.
 Recovered read_committed(const std::filesystem::path& folder, const DatasetInfo& info);
-/// Removes files of packets that were not committed, gives the open sequence's stacks their `.part` names
-/// back. Throws UserError if a closed sequence lacks a file, because that cannot be mended by going on.
+/// Removes the files of sequences that were not committed, and renames the stacks of the open sequence back
+/// to `.part`. Throws UserError if a file of a closed sequence is missing or has another size, because
+/// resuming cannot restore this file.
 void clear_uncommitted(const std::filesystem::path& folder, const DatasetInfo& info,
                        const Recovered& recovered);
 

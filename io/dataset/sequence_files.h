@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The stacks of the sequence that is being written: one open file for each npy_stack, two for each
-// npy_ragged. They carry the name PATH.part until the sequence is closed, and until then their header says
-// zero rows.
+// Writes the stacks of the open sequence: one file for each npy_stack, two for each npy_ragged. Until the
+// sequence is closed, the files have the name PATH.part, and their headers state zero rows.
 #pragma once
 
 #include <functional>
@@ -16,24 +15,25 @@ namespace greatx::io {
 
 class SequenceFiles {
  public:
-  /// Opens or creates every stack and cuts it to the given number of records of each sensor. Throws UserError
-  /// if a file has less than that.
+  /// Opens or creates every stack and cuts it to the given number of records of its sensor. Throws UserError
+  /// if a file holds fewer records.
   SequenceFiles(const std::filesystem::path& folder, const DatasetInfo& info, uint32_t sequence,
                 std::vector<int64_t> records_per_sensor);
 
-  /// Appends the record's stacked arrays. After an exception the files may hold part of a record. A file that
-  /// somebody else deleted or cut meanwhile is a UserError.
+  /// Appends the record's stacked arrays. After an exception the files may hold part of a record. Throws
+  /// UserError if another process has deleted or resized a file in the meantime.
   void append(const Record& record);
   int64_t records_of(uint32_t sensor) const { return records_[sensor]; }
 
-  /// How many records of each sensor lie whole in its stacks; sensors without stacks: INT64_MAX.
+  /// Returns the number of complete records in the stacks of each sensor, or INT64_MAX for sensors without
+  /// stacks.
   static std::vector<int64_t> whole_records(const std::filesystem::path& folder, const DatasetInfo& info,
                                             uint32_t sequence);
-  /// Final names of all stacks, relative.
+  /// Returns the final paths of all stacks, relative to the data set's folder.
   static std::vector<std::string> stack_paths(const DatasetInfo& info, uint32_t sequence);
 
-  /// Closing in two steps: seal(i) for i in 0 .. file_count()-1, in any order or in parallel, writes the
-  /// header, closes the file and hashes it; publish() renames them all.
+  /// Closes the sequence in two steps. seal(i) must be called for i = 0 .. file_count()-1, in any order or in
+  /// parallel; it writes the header, hashes the file and closes it. publish() then renames all files.
   size_t file_count() const { return files_.size(); }
   FileEntry seal(size_t file);
   void publish();
@@ -41,7 +41,7 @@ class SequenceFiles {
  private:
   struct StackFile {
     File file;
-    std::string path;  ///< final, relative
+    std::string path;  ///< final, relative to the data set's folder
     DType dtype = DType::f32;
     std::vector<int64_t> shape;  ///< shape[0] is the number of rows so far
     uint64_t row_bytes = 0;
@@ -51,7 +51,7 @@ class SequenceFiles {
   struct Slot {
     size_t array;  ///< index into SensorSpec::arrays
     size_t file;   ///< index into files_
-    bool ragged;   ///< then files_[file + 1] holds the offsets
+    bool ragged;   ///< if true, files_[file + 1] holds the offsets
   };
   void open(const std::string& path, DType dtype, std::vector<int64_t> row_shape, int64_t rows);
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Checks a data set against its manifest and its own description.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +18,11 @@ struct Problem {
   std::string str() const;
 };
 
-/// Checks a data set: every file of the manifest is there with its size and SHA-256, no others are; the index
-/// agrees with the sensors' rates, with the frames and with the lengths of the stacks; floating-point arrays
-/// hold no NaN or infinity where there must be none. Empty: all is well. An unfinished data set is one
-/// problem. Throws UserError if the folder holds no data set.
+/// Checks a data set and returns its problems. Every file of the manifest must exist with its size and
+/// SHA-256, and no other file may exist. The index must agree with the sensors' rates, with the frames and
+/// with the lengths of the stacks. Floating-point arrays must pass find_bad_value(). An unfinished data set
+/// is one problem. `threads`: 0 stands for the number of processors. Throws UserError if the folder holds no
+/// data set.
 std::vector<Problem> verify(const std::filesystem::path& folder, uint32_t threads = 0);
 
 }  // namespace greatx::io

@@ -12,18 +12,18 @@
 
 namespace greatx::io {
 
-/// Threads that take jobs in order of submission. Jobs must not throw.
+/// Runs jobs on threads, which take the jobs in order of submission. Jobs must not throw.
 class WorkerPool {
  public:
-  explicit WorkerPool(uint32_t threads);  ///< 0: as many as the machine has processors
-  /// Runs what was submitted, then joins.
+  explicit WorkerPool(uint32_t threads);  ///< 0 stands for the number of processors
+  /// Runs all submitted jobs, then joins the threads.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   void submit(std::function<void()> job);
-  /// Runs job(0) .. job(count-1) on the workers and waits; rethrows the exception of the lowest index that
-  /// had one.
+  /// Runs job(0) .. job(count-1) on the workers and waits for them. These jobs may throw: the exception of
+  /// the lowest index is rethrown. Must not be called from a worker.
   void for_each(size_t count, const std::function<void(size_t)>& job);
 
  private:

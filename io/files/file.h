@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files whose every failure is a UserError that names the file and the system's reason.
+// Reads and writes files. Every failure throws a UserError that names the file and the system's reason.
 #pragma once
 
 #include <cstddef>
@@ -19,24 +19,26 @@ namespace greatx::io {
 
 using Bytes = std::vector<std::byte>;
 
-/// Of a file that is read as a whole.
+/// Largest size of a file that is read as a whole, bytes.
 inline constexpr uint64_t largest_read = uint64_t{4} << 30;
 
-/// A file could not be written: disk full, file-size limit, I/O error, no permission.
+/// Reports that a file could not be written: full disk, file-size limit, I/O error, no permission.
 class WriteError : public UserError {
  public:
   WriteError(const std::filesystem::path& file, int error_number);
 };
 
-/// An open file descriptor, closed with the object. Short writes are continued; a write that makes no
-/// progress throws.
+/// Owns an open file descriptor and closes it in the destructor. Short writes are continued; a write that
+/// makes no progress throws WriteError.
 class File {
  public:
   File() = default;
-  /// For reading. Throws UserError, also for what is no plain file: a FIFO would have to be waited for.
+  /// Opens a file for reading. Throws UserError if it cannot be read or is not a plain file: opening a FIFO
+  /// could block.
   static File open_for_reading(const std::filesystem::path& path);
-  /// For reading and writing, created if missing, kept if there. Throws WriteError; UserError for a symbolic
-  /// link, which nothing is written through, and for what is neither a plain file nor a device (/dev/full,
+  /// Opens a file for reading and writing. Creates it if it does not exist, and keeps its contents otherwise.
+  /// Throws WriteError if it cannot be opened. Throws UserError for a symbolic link, because nothing is
+  /// written through links, and for anything else than a plain file or a character device (/dev/full,
   /// /dev/null).
   static File open_for_writing(const std::filesystem::path& path);
   ~File();
@@ -49,13 +51,14 @@ class File {
   uint64_t size() const;
 
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
-  /// Exactly that many bytes; throws UserError if the file ends before.
+  /// Fills `bytes`. Throws UserError if the file ends earlier.
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;
   void truncate(uint64_t size);
-  /// Throws UserError if the file has been deleted, or has not this size: somebody else was at it while it
-  /// was written.
+  /// Throws UserError if the file has been deleted or does not have this size: another process has changed it
+  /// while it was being written.
   void check_untouched(uint64_t size) const;
-  /// Closes now; a failure that the system reports only then (NFS, quota) throws.
+  /// Closes the file now. Throws WriteError for failures that the system reports only at this point (NFS,
+  /// quota).
   void close();
 
  private:
@@ -65,33 +68,35 @@ class File {
   int descriptor_ = -1;
 };
 
-/// "a folder", "a FIFO", ..., by the mode that stat tells.
+/// Returns a description of the kind of file: "a folder", "a FIFO", ... `mode` is stat's st_mode.
 const char* kind_of_file(mode_t mode);
-/// SHA-256 of all of it.
+/// Returns the SHA-256 of the whole file in hexadecimal digits.
 std::string sha256_of(const File& file);
-/// The name under which a file is written until it is whole: PATH + ".part".
+/// Returns PATH + ".part", the name of a file until it is complete.
 std::filesystem::path part_name(const std::filesystem::path& path);
-/// Writes PATH.part, then renames it to PATH; on failure nothing stays. Throws WriteError.
+/// Writes PATH.part, then renames it to PATH. Removes PATH.part on failure. Throws WriteError, or UserError
+/// if PATH.part is a symbolic link or no plain file.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
-/// mkdir -p. Throws WriteError.
+/// Creates a folder and its parents like mkdir -p. Throws WriteError.
 void create_folders(const std::filesystem::path& folder);
-/// The folder that `file` lies in, if its path names one.
+/// Creates the folder of `file` if its path names one. Throws WriteError.
 void create_folder_of(const std::filesystem::path& file);
-/// All of a file. Throws UserError, also for one of more than `most` bytes.
+/// Reads a whole file. Throws UserError if it cannot be read or has more than `most` bytes.
 Bytes read_file(const std::filesystem::path& path, uint64_t most = largest_read);
 std::string read_text_file(const std::filesystem::path& path, uint64_t most = largest_read);
 
-/// Regular files in a folder and all below it, links not followed. What cannot be read counts as nothing.
 struct FolderSize {
   int64_t files = 0;
   uint64_t bytes = 0;
 };
+/// Counts the regular files in a folder and its subfolders. Does not follow links, and skips entries that
+/// cannot be read.
 FolderSize folder_size(const std::filesystem::path& folder);
 
-/// Makes a write beyond the file-size limit (ulimit -f) an ordinary error instead of the end of the process.
-/// Only the default action is replaced; a handler that the program has set stays.
+/// Ignores SIGXFSZ, so that a write beyond the file-size limit (ulimit -f) is an ordinary error and does not
+/// end the process. Replaces only the default action; a handler that the program has set stays.
 void ignore_file_size_signal();
 
 inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The way to a file of a data set. What a data set says of itself is not believed: its paths stay below its
-// folder, nothing on the way is a symbolic link, and what is opened is a plain file.
+// Resolves paths of files in a data set. The paths that a data set states are not trusted: a path must stay
+// below the data set's folder, must not contain a symbolic link, and must lead to a plain file.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +12,25 @@
 
 namespace greatx::io {
 
-/// Empty if `relative` can be a path below a folder: parts that are neither empty nor "." or "..", between
-/// single '/', without control characters and backslashes; else what was expected.
+/// Checks whether `relative` can be a path below a folder. Its parts, which single '/' separate, must not be
+/// empty, "." or "..", and must not contain control characters or backslashes. Returns an empty string if the
+/// path is good, and otherwise a description of the expected path.
 std::string fault_of_path(const std::string& relative);
 
-/// folder/relative. Throws UserError if the path leads out of the folder, goes over a symbolic link or
-/// through something that is no folder, or names something that is there and no plain file. `folder` itself,
-/// which the user named, may be a link.
+/// Returns folder/relative. Throws UserError if fault_of_path() rejects the path, if a part of it is a
+/// symbolic link, if a parent is not a folder, or if it names something other than a plain file. The file
+/// need not exist. `folder` itself may be a link, because the user named it.
 std::filesystem::path inside(const std::filesystem::path& folder, const std::string& relative);
 
-/// The size of that file; empty if there is none.
+/// Returns the size of the file folder/relative, bytes, or nullopt if it does not exist. Throws UserError
+/// like inside().
 std::optional<uint64_t> size_inside(const std::filesystem::path& folder, const std::string& relative);
 inline bool exists_inside(const std::filesystem::path& folder, const std::string& relative) {
   return size_inside(folder, relative).has_value();
 }
 
-/// Makes the folders of folder/relative, all but `folder` itself not by way of links. Throws WriteError or
-/// UserError.
+/// Creates the folder folder/relative and its parents. Except `folder` itself, none of them may be a symbolic
+/// link. Throws WriteError or UserError.
 void create_folders_inside(const std::filesystem::path& folder, const std::string& relative);
 
 }  // namespace greatx::io

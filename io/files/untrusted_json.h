@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// JSON that somebody else may have written: bounded in size, depth and number of values before anything is
-// built of it, and read by getters that name the file, the line and the field of what is not as expected.
+// Reads untrusted JSON. The size, the depth and the number of values are checked before the text is parsed.
+// The getters throw errors that name the file, the line and the field of an unexpected value.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,15 @@ struct JsonLimits {
 
 class JsonDocument;
 
-/// A value of a JsonDocument, valid as long as that. Every getter throws UserError: "FILE:LINE:
-/// sensors[0].name: expected a string, found 7".
+/// Refers to a value of a JsonDocument, which must outlive it. Every getter throws UserError if the value is
+/// not of its type or range: "FILE:LINE: sensors[0].name: expected a string, found 7".
 class JsonValue {
  public:
   bool is_object() const;
-  bool has(std::string_view key) const;            ///< of an object; false for anything else
-  JsonValue at(std::string_view key) const;        ///< of an object
-  std::vector<JsonValue> list(size_t most) const;  ///< of an array, of at most so many
-  /// An array of exactly so many.
+  bool has(std::string_view key) const;            ///< false if the value is not an object
+  JsonValue at(std::string_view key) const;        ///< member of an object
+  std::vector<JsonValue> list(size_t most) const;  ///< elements of an array of at most `most`
+  /// Returns the elements of an array of exactly `count`.
   std::vector<JsonValue> tuple(size_t count) const;
   std::string text() const;
   bool boolean() const;
@@ -41,7 +41,7 @@ class JsonValue {
   double number(double least, double most) const;
   const nlohmann::ordered_json& json() const { return *json_; }
   std::string dump() const;
-  /// Throws UserError; what was found is added.
+  /// Throws UserError with the place, the given expectation and the value that was found.
   [[noreturn]] void fail(std::string_view expected) const;
 
  private:
@@ -54,8 +54,8 @@ class JsonValue {
 
 class JsonDocument {
  public:
-  /// `where`: the file, and the line on which the text begins (0: none is named in messages). Throws
-  /// UserError.
+  /// Parses `text`. `where` is the file and the line on which the text begins; if the line is 0, messages
+  /// name no line. Throws UserError if the text exceeds a limit or is not JSON.
   JsonDocument(std::string text, const SourceLocation& where, const JsonLimits& limits = {});
   ~JsonDocument();
   JsonDocument(const JsonDocument&) = delete;

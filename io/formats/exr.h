@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenEXR by its library: single part, scan lines, 32-bit float, ZIP compression. NaN and infinities are
-// stored bit for bit. The same pixels always give the same bytes (of one library): no attribute holds a time
-// or an owner.
+// Writes and reads OpenEXR by its library: single part, scan lines, 32-bit float, ZIP compression. NaN and
+// infinities are stored bit for bit. With the same versions of OpenEXR and libdeflate, the same pixels always
+// give the same bytes, because no attribute holds a time or an owner.
 #pragma once
 
 #include "core/record.h"
@@ -11,12 +11,13 @@
 
 namespace greatx::io {
 
-/// f32 [h, w] as one channel "Y", f32 [h, w, 3] as channels R, G, B. Readers of pictures know a single
-/// channel by that name alone: OpenCV and FreeImage (imageio) give zeros for "Z" (docs/dataset.md).
+/// Encodes f32 [h, w] as one channel "Y", and f32 [h, w, 3] as channels R, G, B. A single channel is named
+/// "Y" because OpenCV and FreeImage (imageio) read zeros from a channel "Z" (docs/dataset.md).
 Bytes encode_exr(const Array& image);
-/// The inverse: [h, w] of channel "Y", or of "Z" (data sets of before), else [h, w, 3] of R, G, B. Throws
-/// UserError, also for compressions that greatx does not write, and for a picture that has not the expected
-/// shape (negative extents: any), before room is made for it.
+/// Reads [h, w] from channel "Y" or, if there is none, "Z", which some data sets have; otherwise reads [h, w,
+/// 3] from R, G, B. Throws UserError if the file cannot be read, has a compression other than none, ZIPS and
+/// ZIP, or does not have the expected shape. The shape is checked before memory is allocated; a negative
+/// extent accepts any value.
 Array read_exr(const std::filesystem::path& path, const std::vector<int64_t>& expected_shape = {});
 
 }  // namespace greatx::io

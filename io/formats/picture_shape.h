@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Checks the shape that a picture's header states, before memory is allocated for the pixels.
 #pragma once
 
 #include <string>
@@ -12,9 +14,8 @@
 
 namespace greatx::io {
 
-/// Before room is made for a decoded picture, whose header may say anything: throws UserError unless its
-/// shape is the expected one (negative extents: any; empty: any shape) and takes no more than largest_read
-/// bytes.
+/// Throws UserError unless the picture has the expected shape and takes at most largest_read bytes. A
+/// negative extent in `expected` accepts any value, and an empty `expected` accepts any shape.
 inline void check_picture_shape(const std::string& name, DType dtype, const std::vector<int64_t>& found,
                                 const std::vector<int64_t>& expected) {
   bool fits = expected.empty() || expected.size() == found.size();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// PLY point clouds, binary little endian, one element "vertex". NaN and infinities are stored bit for bit.
+// Writes and reads PLY point clouds, binary little endian, with one element "vertex". NaN and infinities are
+// stored bit for bit.
 #pragma once
 
 #include <map>
@@ -12,10 +13,12 @@
 
 namespace greatx::io {
 
-/// arrays[0] f32 [n, 4] gives the properties x, y, z, intensity; each other array [n] gives the property of
-/// its name. 64-bit integers and complex numbers have no PLY type: ContractError.
+/// Encodes arrays[0], f32 [n, 4], as the properties x, y, z, intensity, and every other array [n] as the
+/// property of its name. Throws ContractError for 64-bit integers and complex numbers, which have no PLY
+/// type, and for i8.
 Bytes encode_ply(const std::vector<std::string>& names, const std::vector<const Array*>& arrays);
-/// Every property as an array [n], by name. Throws UserError.
+/// Returns every property as an array [n], by name. Throws UserError if the file is not such a PLY file.
+/// `name` is the file's name in messages.
 std::map<std::string, Array> decode_ply(std::span<const std::byte> file, const std::string& name);
 
 }  // namespace greatx::io

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Animated pictures as WebP (RFC 9649), lossy, written by libwebp: the same frames always give the same bytes
-// (of one libwebp).
+// Writes animated pictures as lossy WebP (RFC 9649) by libwebp. With the same version of libwebp, the same
+// frames always give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,19 @@ namespace greatx::io {
 /// Longest side of a WebP picture, pixels (RFC 9649, section 2.5).
 inline constexpr int webp_longest_side = 16383;
 
-/// Takes frames in order, gives the file. Without end it starts again after the last frame.
+/// Encodes frames, which are added in order, to a file. The animation repeats for ever.
 class WebpAnimator {
  public:
-  /// Width and height in pixels, 1 to webp_longest_side.
+  /// `width` and `height` are in pixels, from 1 to webp_longest_side.
   WebpAnimator(int width, int height);
   ~WebpAnimator();
   WebpAnimator(const WebpAnimator&) = delete;
   WebpAnimator& operator=(const WebpAnimator&) = delete;
 
-  /// u8 [height, width, 3], shown from `start_ms` until the next one's start; starts rise, the first is 0.
+  /// Adds a frame, u8 [height, width, 3], which is shown from `start_ms` until the start of the next frame.
+  /// The first start must be 0, and starts must increase.
   void add(const Array& rgb, int start_ms);
-  /// The file; the last frame is shown until `end_ms`. Once, after at least one frame.
+  /// Returns the file. The last frame is shown until `end_ms`. Must be called once, after at least one frame.
   Bytes finish(int end_ms);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario's `environment`, changed field by field.
+// Changes a scenario's `environment` field by field.
 #pragma once
 
 #include <string>
@@ -12,12 +12,13 @@
 
 namespace greatx::python {
 
-/// Copies what `key` names, "fog_g_m3" or "sun.azimuth_deg". A place and a time say where sun and moon are,
-/// so a sun by hand takes their place, and the other way round: whoever names one of the sun's angles names
-/// both.
+/// Copies the field that `key` names, e.g. "fog_g_m3" or "sun.azimuth_deg". Place and time determine the
+/// positions of the sun and the moon, so angles of the sun replace place and time, and place and time replace
+/// the angles. A caller that names one angle of the sun must name both.
 void change_environment(sim::Environment& to, const sim::Environment& from, const std::string& key);
 
-/// place and time as a scenario writes them, {latitude_deg, longitude_deg, height_m, time}; null: none.
+/// Returns place and time as a scenario states them, {latitude_deg, longitude_deg, height_m, time}, or null
+/// if the environment has none.
 nlohmann::ordered_json place_facts(const sim::Environment& environment);
 
 }  // namespace greatx::python

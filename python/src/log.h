@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Keeps the engine's log messages for Python's logging, which cannot be called from threads that must not
+// wait for the interpreter.
 #pragma once
 
 #include <string>
@@ -8,10 +11,9 @@
 
 namespace greatx::python {
 
-/// From now on what the engine logs is kept, from whatever thread, until it is taken: Python's logging cannot
-/// be called from threads that may not wait for the interpreter.
+/// Begins to keep all messages that the engine logs, in any thread, until take_log() is called.
 void keep_log();
-/// (level as Python's logging has it, text), in order; those are forgotten here.
+/// Returns the kept messages in order, as (level of Python's logging, text), and discards them here.
 std::vector<std::pair<int, std::string>> take_log();
 
 }  // namespace greatx::python

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Converts a radio map to named arrays for Python.
 #pragma once
 
 #include <span>
@@ -9,8 +11,8 @@
 
 namespace greatx::python {
 
-/// All quantities, and of the cells: z [rows, columns], placement [rows, columns], x [columns], y [rows];
-/// transmitter_position [tx, 3].
+/// Returns all quantities of the map, the cells' z [rows, columns], placement [rows, columns], x [columns]
+/// and y [rows], and transmitter_position [tx, 3].
 MapResult map_result(const sim::RadioMapRun& run, std::span<const rf::LinkStatistics> links,
                      const sim::ChannelConfig& config);
 

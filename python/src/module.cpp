@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// greatx._native: what python/greatx/*.py is a thin layer over. Arrays go to NumPy through the buffer
-// protocol, so that any version of NumPy takes them and nothing is copied; descriptions go as JSON.
+// Defines greatx._native, on which the package python/greatx is a thin layer. Arrays go to NumPy through the
+// buffer protocol, which works with any version of NumPy and copies nothing; descriptions go as JSON.
 #include <chrono>
 #include <cstring>
 #include <pybind11/functional.h>
@@ -26,7 +26,7 @@ namespace {
 
 using Released = py::call_guard<py::gil_scoped_release>;
 
-/// Owns an array's bytes for as long as a NumPy array looks at them.
+/// Owns the bytes of an array as long as a NumPy array refers to them.
 struct Buffer {
   Array array;
 };
@@ -75,7 +75,7 @@ py::object numpy(Array array) {
   return py::module_::import("numpy").attr("asarray")(py::cast(Buffer{std::move(array)}));
 }
 
-/// [(name, unit, description, array)]
+/// Returns [(name, unit, description, array)].
 py::list numpy(NamedArrays arrays) {
   py::list list;
   for (NamedArray& named : arrays)
@@ -94,8 +94,8 @@ std::vector<dvec3> points_of(const py::buffer& buffer) {
   return points;
 }
 
-/// Ctrl-C and the caller's progress, now and then while the engine works without the interpreter; Ctrl-C in
-/// the midst of long work, too (core/watch.h).
+/// Checks for Ctrl-C and calls the caller's progress function from time to time, while the engine works
+/// without the interpreter lock. As a Watch, also checks for Ctrl-C during long work (core/watch.h).
 class CallWatch : public Watch {
  public:
   explicit CallWatch(py::object progress = py::none()) : progress_(std::move(progress)) {}
@@ -108,7 +108,7 @@ class CallWatch : public Watch {
     stopped_ = PyErr_CheckSignals() != 0;
     return !stopped_;
   }
-  /// With the interpreter again: throws what stopped it.
+  /// Throws the Python exception that stopped the work, if any. Needs the interpreter lock.
   void check() const {
     if (stopped_) throw py::error_already_set();
   }
@@ -135,7 +135,8 @@ class CallWatch : public Watch {
   bool stopped_ = false;
 };
 
-/// work(GoOn) without the interpreter.
+/// Calls work(GoOn) without the interpreter lock and returns its result. Throws the Python exception that
+/// stopped it.
 template <typename Work>
 auto watched(const Work& work, py::object progress = py::none()) {
   CallWatch watch(std::move(progress));
@@ -162,7 +163,7 @@ std::shared_ptr<PathSet> solve(Session& session, const std::string& channel, uin
                  progress);
 }
 
-/// (facts, arrays)
+/// Returns (facts, arrays).
 py::object radio_map(Session& session, const std::string& channel, uint32_t sequence, int64_t tick,
                      const std::optional<std::array<double, 2>>& min_m,
                      const std::optional<std::array<double, 2>>& max_m, double cell_m,
@@ -193,7 +194,7 @@ rf::PathSelection selection_of(const std::string& name) {
   throw_user_error("select: expected one of all, line_of_sight, others, found '{}'", name);
 }
 
-/// None, or (tick, time_ns, [(sensor, sample, [arrays])]).
+/// Returns (tick, time_ns, [(sensor, sample, [arrays])]), or None at the end.
 py::object next(Stream& stream) {
   std::optional<Packet> packet = watched([&](const GoOn&) { return stream.next(); });
   if (!packet) return py::none();
@@ -206,9 +207,10 @@ py::object next(Stream& stream) {
   return py::make_tuple(packet->tick, packet->time_ns, records);
 }
 
-/// Waits for the device, which another thread may be working with, without the interpreter. In a fork of the
-/// process that made the object nothing is deleted: the device's threads and whoever held its locks are not
-/// there, it would wait for ever.
+/// Deletes an object without holding the interpreter lock, because the destructor may have to wait for a
+/// device that another thread uses. Deletes nothing in a fork of the process that made the object: the
+/// device's threads and the threads that held its locks do not exist there, so that the destructor would wait
+/// for ever.
 struct ReleasedDelete {
   pid_t maker = ::getpid();
   template <typename T>

@@ -25,9 +25,9 @@ namespace {
 
 using Complex64 = std::complex<float>;
 
-/// Links that are worked out between two looks at whether to go on.
+/// Number of links that are computed between two calls of GoOn.
 constexpr size_t links_at_once = 64;
-/// The most subcarriers, taps or time samples, as scenarios have it.
+/// Largest number of subcarriers, taps or time samples, as in scenarios.
 constexpr uint32_t most_samples = 1u << 20;
 
 uint32_t one_number_of_ports(std::span<const rf::AntennaArray> arrays, const char* ends,
@@ -52,7 +52,8 @@ void check_count(const char* name, uint32_t count) {
 }
 
 rf::ChannelGrid grid_of(const ResponseRequest& request, const sim::ChannelConfig& config, bool doppler) {
-  // Who asks for time samples wants to see them turn, whatever the scenario's own samples do.
+  // A caller that asks for time samples wants their phases to turn with time, even if the scenario's own
+  // samples do not.
   const bool turns = doppler || request.time_samples || request.time_spacing_s;
   const rf::ChannelGrid grid{
       config.carrier_hz, request.subcarrier_spacing_hz.value_or(config.subcarrier_spacing_hz),
@@ -84,7 +85,7 @@ PathSet::PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t cha
 
 void PathSet::add(sim::ChannelSnapshot::Link solved) {
   Link link{std::move(solved), false};
-  if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // nothing asks for the facets again
+  if (!experiment_->plan.dispersion.on) link.solved.world.reset();  // only dispersion needs the facets later
   link.near =
       link.solved.distance_m < sim::every_element_within_m(experiment_->scenario, config_,
                                                            transmitter(link).array, receiver(link).array);
@@ -111,7 +112,8 @@ std::vector<double> PathSet::powers(const Link& link) const {
 }
 
 void PathSet::fill_arrays(const sim::ChannelSnapshot& snapshot) {
-  sim::ChannelConfig config;  // what scenarios may ask for beyond a path's own has functions here
+  // The default configuration leaves out the optional columns, because functions of this class compute them.
+  sim::ChannelConfig config;
   config.limits.max_depth = config_.limits.max_depth;
   const int64_t rx_ports = receivers_[0].port_count(), tx_ports = transmitters_[0].port_count();
   const sim::ColumnContext context{&experiment_->scene(), &snapshot.model(), &config, rx_ports, tx_ports};
@@ -197,8 +199,8 @@ void PathSet::describe(const sim::ChannelSnapshot& snapshot, const std::map<std:
       {"notes", Json::object()}};
   std::map<std::string, uint64_t> counters;
   snapshot.count(counters);
-  // Candidates are those that these paths were solved from, whenever they were searched; births and deaths
-  // are a run's.
+  // Counters of candidates describe the candidates of these paths, whenever they were searched, and are not
+  // differences. Births and deaths of paths have a meaning only in a run.
   for (const auto& [name, count] : counters)
     if (name.starts_with("candidate"))
       json["counters"][name] = count;
@@ -220,7 +222,7 @@ bool PathSet::for_links(const GoOn& go_on, const std::function<void(const Link&,
 Array PathSet::blocks(std::vector<int64_t> columns, const GoOn& go_on,
                       const std::function<void(const Link&, std::span<Complex64>)>& of) const {
   const size_t rx_ports = receivers_[0].port_count(), tx_count = transmitters();
-  size_t row = transmitters_[0].port_count();  // of one port of a receiver and one transmitter
+  size_t row = transmitters_[0].port_count();  // elements for one port of a receiver and one transmitter
   std::vector<int64_t> shape{static_cast<int64_t>(receivers()), static_cast<int64_t>(rx_ports),
                              static_cast<int64_t>(tx_count), static_cast<int64_t>(row)};
   for (const int64_t count : columns) {

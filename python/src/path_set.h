@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paths of all links of a channel at a tick, and what is made of them. Links are in the order of
-// receivers, then transmitters; paths of a link in canonical order.
+// Holds the paths of all links of a channel at a tick and computes channel quantities from them. Links are
+// sorted by receiver, then by transmitter; the paths of a link are in canonical order.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace greatx::python {
 
-/// Where the frequency response is sampled; what is not given is the channel's.
+/// Describes the samples of a frequency response. A value that is not given is taken from the channel.
 struct ResponseRequest {
   std::optional<double> subcarrier_spacing_hz;
   std::optional<uint32_t> subcarriers, time_samples;
@@ -38,46 +38,51 @@ struct ReceivedRequest {
 
 class PathSet {
  public:
-  /// `receiver_arrays`: one for each receiver, or one for all.
+  /// `receiver_arrays` holds one array per receiver, or one for all receivers. Throws UserError if the
+  /// antennas of one side differ in their numbers of ports.
   PathSet(std::shared_ptr<const sim::Experiment> experiment, uint32_t channel,
           std::vector<rf::AntennaArray> receiver_arrays);
 
   void add(sim::ChannelSnapshot::Link link);
-  /// After the last link; `snapshot` is the one they come from, `before` what it had counted until then.
+  /// Must be called after the last link. `snapshot` has solved the links; `before` holds its counters before
+  /// it did.
   void finish(const sim::ChannelSnapshot& snapshot, const std::map<std::string, uint64_t>& before);
 
   size_t receivers() const { return links_.size() / transmitters_.size(); }
   size_t transmitters() const { return transmitters_.size(); }
-  /// Number, carrier, tick, grid, notes, counters, ... as JSON.
+  /// Returns the channel's name, carrier, tick, grid, notes, counters, ... as JSON.
   const std::string& facts() const { return facts_; }
 
-  /// As the data set has them below paths/, [path, ...], and `offsets` int64 [links + 1]. Theirs is the
-  /// memory: once.
+  /// Returns the arrays of the data set below paths/, [path, ...], and `offsets` int64 [links + 1], the
+  /// distances and the positions of the ends. Moves the memory to the caller and must be called only once.
   NamedArrays take_arrays() { return std::move(arrays_); }
 
-  /// complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]. Without a request of its own the bytes of the data
-  /// set.
+  /// Returns complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]. An empty request gives the bytes of the
+  /// data set.
   Array response(const ResponseRequest& request, const GoOn& go_on) const;
-  /// `taps` complex64 [rx, rx_ant, tx, tx_ant, time, tap]; `power_outside`, `paths_outside` [rx, tx].
+  /// Returns `taps` complex64 [rx, rx_ant, tx, tx_ant, time, tap], and `power_outside` and `paths_outside`
+  /// [rx, tx].
   NamedArrays taps(const TapsRequest& request, const GoOn& go_on) const;
-  /// Numbers of links, [rx, tx].
+  /// Returns the statistics of each link, [rx, tx].
   NamedArrays statistics() const;
-  /// [rx, tx], complex as a last axis of 2.
+  /// Returns received powers, voltages and fields, [rx, tx, ...]. Complex values have a last axis of 2.
   NamedArrays received(const ReceivedRequest& request) const;
+  /// Returns the coherence bandwidth and time, [rx, tx], at which the correlation falls to `level`.
   NamedArrays coherence(double level) const;
 
  private:
   struct Link {
     sim::ChannelSnapshot::Link solved;
-    bool near = false;  ///< a run solves every element
+    bool near = false;  ///< a run solves every element of this link's arrays separately
   };
-  /// of(link, its number) for all of them, on all cores, some at a time; false: stopped.
+  /// Calls of(link, number) for all links on all cores, and `go_on` after each group of links. Returns false
+  /// if `go_on` stopped it.
   bool for_links(const GoOn& go_on, const std::function<void(const Link&, size_t)>& of) const;
-  /// The same where each link has a block [rx_ant, tx_ant, columns] of an array [rx, rx_ant, tx, tx_ant,
-  /// columns...].
+  /// Returns an array [rx, rx_ant, tx, tx_ant, columns...]. Calls of(link, block) for each link, which must
+  /// fill the link's block [rx_ant, tx_ant, columns...].
   Array blocks(std::vector<int64_t> columns, const GoOn& go_on,
                const std::function<void(const Link&, std::span<std::complex<float>>)>& of) const;
-  /// An f64 array [rx, tx, width...] of one row a link.
+  /// Makes an f64 array [rx, tx, width...].
   NamedArray table(const char* name, const char* unit, const char* description,
                    std::vector<int64_t> width = {}) const;
   rf::ArrayPose transmitter(const Link& link) const;

@@ -60,15 +60,16 @@ void Gpu::check_validation() {
       fmt::format("{} validation messages:\n{}", messages.size(), fmt::join(messages, "\n")));
 }
 
-/// A snapshot and what it was made for.
+/// Holds a snapshot and the request for which it was made.
 struct Session::Kept {
-  std::shared_ptr<const sim::Experiment> session;  ///< of the session at that time
+  std::shared_ptr<const sim::Experiment> session;  ///< experiment of the session at that time
   std::shared_ptr<Gpu> gpu;
-  std::shared_ptr<const sim::Experiment> experiment;  ///< the same, or with a plan for the points
+  std::shared_ptr<const sim::Experiment>
+      experiment;  ///< the same experiment, or one with a plan for the points
   uint32_t channel = 0, sequence = 0;
   int64_t tick = 0;
   bool points = false;
-  std::unique_ptr<sim::ChannelSnapshot> snapshot;  ///< refers to all of the above
+  std::unique_ptr<sim::ChannelSnapshot> snapshot;  ///< refers to the members above, so it comes last
 };
 
 Session::Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device)
@@ -247,8 +248,8 @@ sim::ChannelSnapshot& Session::snapshot(const std::shared_ptr<const sim::Experim
                                         const std::shared_ptr<Gpu>& gpu, uint32_t channel,
                                         const sim::ChannelSnapshot::Instant& instant,
                                         const std::optional<scene::Bounds>& points) {
-  // Points take the place of the receivers for good, so each has a snapshot of its own. The places of the
-  // points may decide effects.
+  // A snapshot that was solved for points cannot return to the channel's receivers, so both cases have
+  // snapshots of their own. The positions of the points may decide which effects are on.
   const std::shared_ptr<const sim::Experiment> with_points =
       points ? std::make_shared<const sim::Experiment>(
                    sim::make_experiment(experiment->scenario, experiment->world, *points))

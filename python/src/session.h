@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scenario from the interpreter's side: it may be added to; its world, plan and device are made when they
-// are needed. Nothing here knows Python; every call may come from any thread.
+// Holds a scenario for the Python module. Callers may add to the scenario; its world, its plan and the device
+// are made when they are needed. This code does not depend on Python, and every function may be called from
+// any thread.
 #pragma once
 
 #include <atomic>
@@ -27,8 +28,8 @@ namespace greatx::python {
 class PathSet;
 class Stream;
 
-/// One thread at a time, and no thread twice: a progress function that asks its own Simulation for something
-/// would wait for itself for ever.
+/// Admits one thread at a time. Throws UserError if a thread locks it twice: a progress function that calls
+/// its own Simulation would otherwise wait for itself for ever.
 class SessionMutex {
  public:
   void lock() {
@@ -47,16 +48,16 @@ class SessionMutex {
   std::atomic<std::thread::id> owner_;
 };
 
-/// The device of a session. One call at a time has it.
+/// Holds the device of a session. One call at a time uses the device.
 struct Gpu {
   explicit Gpu(const gpu::DeviceOptions& options) : device(options) {}
   gpu::Device device;
-  std::recursive_mutex mutex;  ///< a stream may end while its own thread reports progress
-  /// Throws std::runtime_error if the validation layer had anything to say.
+  std::recursive_mutex mutex;  ///< recursive, because a stream may end while its own thread reports progress
+  /// Throws std::runtime_error if the validation layer has reported messages.
   void check_validation();
 };
 
-/// Called now and then with how many are done; false: enough.
+/// Is called from time to time with the number of finished items. Returns false to stop the work.
 using GoOn = std::function<bool(size_t done)>;
 
 struct NamedArray {
@@ -65,10 +66,10 @@ struct NamedArray {
 };
 using NamedArrays = std::vector<NamedArray>;
 
-/// Bare points in place of a channel's receivers.
+/// Describes points that take the place of a channel's receivers.
 struct PointReceivers {
   std::vector<dvec3> points;  ///< world, m
-  std::string antenna;        ///< a scenario whose first sensor is the antenna at each of them
+  std::string antenna;        ///< text of a scenario whose first antenna stands at each of the points
 };
 
 struct MapResult {
@@ -81,24 +82,29 @@ class Session {
   Session(sim::Scenario scenario, std::string assets, gpu::DeviceOptions device);
   ~Session();
 
-  /// Changes are texts of scenarios: the parser of sim/ checks all that is in them. `where` names the text in
-  /// messages.
+  // The next three functions take the text of a scenario, so that the parser of sim/ checks all of it.
+  // `where` names the text in messages. They throw UserError.
+
+  /// Adds the nodes of the text.
   void add_nodes(const std::string& text, const std::string& where);
-  /// Its channels; their antennas are by name those of this scenario. `no_receivers`: points only.
+  /// Adds the channels of the text. The names of their antennas refer to this scenario. If `no_receivers` is
+  /// set, the channels get no receivers and can be solved for points only.
   void add_channels(const std::string& text, const std::string& where, bool no_receivers);
-  /// What `keys` names of it: seed, ticks, sequences, tolerance_db, effects, environment (field by field).
+  /// Copies the values that `keys` names from the text: seed, ticks, sequences, tolerance_db, effects and
+  /// environment.FIELD.
   void change(const std::string& text, const std::string& where, const std::vector<std::string>& keys);
 
-  /// Descriptions as JSON.
+  // The next four functions return descriptions as JSON.
   std::string facts() const;
   std::string scene_facts();
   std::string explain();
   std::string device_facts();
 
-  /// All paths of a channel. Null: `go_on` said that it is enough.
+  /// Solves all paths of a channel, to `points` if given, else to the channel's receivers. Returns null if
+  /// `go_on` stopped the work.
   std::shared_ptr<PathSet> solve(const std::string& channel, uint32_t sequence, int64_t tick,
                                  const std::optional<PointReceivers>& points, const GoOn& go_on);
-  /// `antenna`: as PointReceivers'. None: stopped.
+  /// Computes a radio map. `antenna` is as in PointReceivers. Returns nullopt if `go_on` stopped the work.
   std::optional<MapResult> radio_map(const std::string& channel, uint32_t sequence, int64_t tick,
                                      const sim::MapRequest& request, const std::string& antenna,
                                      const GoOn& go_on);
@@ -123,10 +129,12 @@ class Session {
   sim::Scenario scenario_;
   std::string assets_;
   gpu::DeviceOptions device_options_;
-  std::shared_ptr<const sim::Experiment>
-      experiment_;  ///< null: to be made of scenario_; results may outlive a change
+  /// Null until it is made from scenario_, and after each change. Shared, because results may outlive a
+  /// change.
+  std::shared_ptr<const sim::Experiment> experiment_;
   std::shared_ptr<Gpu> gpu_;
-  std::unique_ptr<Kept> kept_;  ///< the last snapshot: other points of it need no search
+  std::unique_ptr<Kept>
+      kept_;  ///< last snapshot, kept because solving it for other points needs no new search
 };
 
 }  // namespace greatx::python

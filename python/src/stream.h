@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run whose packets stay in memory.
+// Runs a sequence and delivers its packets in memory.
 #pragma once
 
 #include <deque>
@@ -18,12 +18,12 @@ class Stream {
          int64_t first_tick);
   ~Stream();
 
-  /// Name, kind, arrays and metadata of each sensor, as JSON; index = Record::sensor.
+  /// Returns name, kind, rate, arrays and metadata of each sensor as JSON, in the order of Record::sensor.
   std::string sensors() const;
-  /// None: the sequence is over. Throws UserError after a call that ended with an error or was interrupted:
-  /// the tick that it was in is lost.
+  /// Returns the next packet, or nullopt at the end of the sequence. Throws UserError if an earlier call
+  /// ended with an error or was interrupted, because the tick of that call is lost.
   std::optional<Packet> next();
-  /// Counters and notes of the run so far, as JSON.
+  /// Returns the counters, notes and warnings of the run so far as JSON.
   std::string summary();
 
  private:

@@ -334,7 +334,7 @@ void CameraPass::record_shading(gpu::TickSlot& slot, const CameraView& view) {
   gpu::Cmd& cmd = *slot.cmd;
   const auto scope = cmd.scope(shade_scope_);
   cmd.transition(visibility_, multisampled() ? gpu::ImageUse::sampled : gpu::ImageUse::storage);
-  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // for the readers of the picture before
+  cmd.barrier(gpu::sync::compute, gpu::sync::compute);  // waits for readers of the picture before
   const PictureBuffers& picture = edges_ ? shaded_ : picture_;
   std::vector<gpu::Descriptor> descriptors = scene_->raster_descriptors();
   for (const gpu::Descriptor& descriptor : lighting_->descriptors()) descriptors.push_back(descriptor);

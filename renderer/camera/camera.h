@@ -49,11 +49,11 @@ struct CameraOutputs {
 /// Describes the noise of a sensor of light (docs/film.md). Every draw is a function of (seed, stream,
 /// sequence, tick, pixel) only.
 struct SensorNoise {
-  double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
+  double full_well_e = 10000.0;  ///< electrons that saturate the sensor at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
-  uint32_t bits = 12;            ///< of the converter
+  uint32_t bits = 12;            ///< resolution of the converter
   uint64_t seed = 0;
-  uint32_t stream = 0;  ///< of the sensor: no two of a run share one
+  uint32_t stream = 0;  ///< identifies the sensor, unique within a run
 };
 
 /// Names one picture of a run. Noise differs from one picture to the next.
@@ -69,15 +69,15 @@ struct CameraDesc {
   /// Principal point, pixels; the centre of pixel (column i, row j) is (i + .5, j + .5).
   double cx = 0.0, cy = 0.0;
   double near_m = 0.1;              ///< planar depth of the nearest visible point; there is no far plane
-  uint32_t msaa = 4;                ///< samples a pixel: 1 or 4
-  bool smooth_edges = false;        ///< of one sample a pixel: renderer/camera/edges.h
-  bool parts = false;               ///< exposures of several parts: ExposurePart
-  double exposure_ev100 = 15.0;     ///< not of `automatic_exposure`
-  bool automatic_exposure = false;  ///< each picture by its own meter (renderer/camera/meter.h)
-  double compensation_ev = 0.0;     ///< of `automatic_exposure`: positive is brighter
+  uint32_t msaa = 4;                ///< samples per pixel: 1 or 4
+  bool smooth_edges = false;        ///< smooths pictures with one sample per pixel; renderer/camera/edges.h
+  bool parts = false;               ///< exposures consist of several parts: ExposurePart
+  double exposure_ev100 = 15.0;     ///< used without `automatic_exposure`
+  bool automatic_exposure = false;  ///< meters each picture by itself (renderer/camera/meter.h)
+  double compensation_ev = 0.0;     ///< with `automatic_exposure`: positive is brighter
   Distortion distortion;
-  Vignetting vignetting;             ///< of rgb
-  std::optional<SensorNoise> noise;  ///< of rgb
+  Vignetting vignetting;             ///< applies to rgb
+  std::optional<SensorNoise> noise;  ///< applies to rgb
   CameraOutputs outputs;
   /// The body that carries the camera, if the camera shall see neither it nor its parts.
   std::optional<uint32_t> excluded_body;
@@ -96,7 +96,7 @@ struct ExposurePart {
 /// are in C order, row 0 on top.
 struct CameraImages {
   uint32_t width = 0, height = 0;
-  float ev100 = 0.0f;        ///< of the exposure that rgb was developed with
+  float ev100 = 0.0f;        ///< exposure with which rgb was developed
   std::vector<uint8_t> rgb;  ///< [height, width, 3], sRGB
   /// [height, width, 3], linear Rec. 709, cd/m^2; saturates at 65504 stored_luminance().
   std::vector<float> hdr;
@@ -145,7 +145,7 @@ class CameraPass {
   /// The stored radiance, four halves a pixel. Red, green and blue times stored_luminance() are cd/m^2. The
   /// fourth is the share of the pixel that shows the scene and not the sky.
   const gpu::Buffer& color() const { return picture_.color; }
-  /// Of `outputs.luminance`: float [height * width], cd/m^2.
+  /// Holds float [height * width], cd/m^2, if `outputs.luminance` is set.
   const gpu::Buffer& luminance() const { return picture_.luminance; }
   /// The view of the pixels' centres: uvec2 [height * width], the bits of planar depth (sky: +inf),
   /// triangle + 1 (0: nothing).
@@ -187,8 +187,8 @@ class CameraPass {
   gpu::Image visibility_, depth_;  ///< multisampled if msaa is
   gpu::Sampler texel_sampler_;
   std::unique_ptr<PinholeView> pinhole_;
-  gpu::Image lens_;        ///< where the pinhole picture has the pixels; 1 x 1 if nothing distorts
-  PictureBuffers shaded_;  ///< before its edges are smoothed; nothing if they are not
+  gpu::Image lens_;        ///< position of each pixel in the pinhole picture; 1 x 1 without distortion
+  PictureBuffers shaded_;  ///< the picture before edges are smoothed; empty if they are not
   PictureBuffers picture_;
   gpu::Buffer seen_;
   std::unique_ptr<EdgePass> edges_;       ///< null if not wanted

@@ -16,7 +16,7 @@ PinholeView pinhole_of(const CameraDesc& desc) {
   constexpr double margin = 1.0;  // pixels
   const double width = std::ceil(desc.fx * (bounds.most.x - bounds.least.x) + 2.0 * margin);
   const double height = std::ceil(desc.fy * (bounds.most.y - bounds.least.y) + 2.0 * margin);
-  constexpr double most = 8.0;  // times the picture's own size
+  constexpr double most = 8.0;  // largest size, relative to the picture
   if (!(width <= most * desc.width && height <= most * desc.height))
     throw_user_error(
         "camera {}: distortion: expected a pinhole picture of what the lens sees within {} times {} x {}, "

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// This is the last stage of a camera. It turns radiance and the view of the pixels into arrays in the tick's
-// readback arena. docs/film.md describes exposure, vignetting, sensor noise and tone curve.
+// Implements the last stage of a camera. It turns radiance and the view of the pixels into arrays in the
+// tick's readback arena. docs/film.md describes exposure, vignetting, sensor noise and tone curve.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Smooths the edges of a picture that was shaded once a pixel (shaders/camera/edges.comp.glsl). On a CPU this
-// costs a quarter of four samples a pixel. Objects thinner than a pixel stay as coarse as before.
+// Smooths the edges of a picture that was shaded once per pixel (shaders/camera/edges.comp.glsl). On a CPU
+// this costs a quarter of four samples per pixel. Objects thinner than a pixel stay as coarse as without it.
 #pragma once
 
 #include <string>

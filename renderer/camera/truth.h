@@ -21,7 +21,7 @@ struct TruthOutputs {
   bool any() const { return normals || depth_ray || flow; }
 };
 
-/// Arrays that were not asked for are empty. They are in C order, row 0 on top.
+/// Holds the truth of a picture. Arrays that were not asked for are empty. They are in C order, row 0 on top.
 struct TruthImages {
   /// [height, width, 3] unit, local (= world) axes, on the eye's side; 0 where there is no surface.
   std::vector<float> normals;
@@ -41,8 +41,8 @@ class TruthPass {
   /// Builds the pipeline for `outputs`, at least one, of the camera `desc`, whose `outputs.seen` is set.
   /// `lighting` outlives this.
   TruthPass(const SceneLighting& lighting, const CameraDesc& desc, const TruthOutputs& outputs);
-  /// Is called after CameraPass::record of the same tick; `seen` is its seen(). `next` says where everything
-  /// is when the camera takes its next picture. It is read only for the flow.
+  /// Records the truth of a picture. Called after CameraPass::record of the same tick; `seen` is its seen().
+  /// `next` holds the poses at the time of the camera's next picture. It is read only for the flow.
   void record(gpu::TickSlot& slot, const gpu::Buffer& seen, const TruthInstant& now,
               const TruthInstant& next);
   /// Returns the arrays that were recorded into `slot`, once its submission is done.

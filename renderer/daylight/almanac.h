@@ -52,7 +52,7 @@ double delta_t(double year);
 /// Returns the Julian day of UTC seconds since 1970-01-01.
 double julian_day(double unix_s);
 
-/// These functions follow ch. 25 (low accuracy) and ch. 47. `jde` is the Julian ephemeris day (TT).
+/// Return the geocentric places by ch. 25 (low accuracy) and ch. 47. `jde` is the Julian ephemeris day (TT).
 GeocentricPlace sun_from_earth(double jde);
 GeocentricPlace moon_from_earth(double jde);
 
@@ -67,7 +67,7 @@ double illuminated_share(double phase_angle);
 /// degrees.
 double refraction(double true_elevation, double pressure_hpa, double temperature_k);
 
-/// `unix_s` is UTC seconds since 1970-01-01.
+/// Returns the positions of sun and moon. `unix_s` is UTC seconds since 1970-01-01.
 SunAndMoon sun_and_moon(double unix_s, const Observer& observer);
 
 }  // namespace greatx::render

@@ -33,12 +33,12 @@ struct LayerLight {
   double direct_lux;  ///< on a surface that faces the light
   double sky_lux;     ///< on level ground, all other light
 };
-/// `direct_lux` comes from an elevation with the given sine (0 or less: not at all), and `sky_lux` comes from
-/// the sky, on level ground. The layer has the optical depth `depth` vertically and stands on ground of the
-/// given albedo. Direct light falls as exp(-depth / sine). All light together follows two streams,
-/// T = 1 / (1 + (1 - g) depth / 2) (C. F. Bohren, "Multiple Scattering of Light and Some of Its Observable
-/// Consequences", Am. J. Phys. 55 (1987), eq. 9), and T / (1 - albedo (1 - T)) with the ground's reflections.
-/// The only loss is the light that goes back up.
+/// Returns the light below a layer of fog and rain. `direct_lux` comes from an elevation with the given sine
+/// (0 or less: not at all), and `sky_lux` comes from the sky, on level ground. The layer has the vertical
+/// optical depth `depth` and stands on ground of the given albedo. Direct light falls as exp(-depth / sine).
+/// All light together follows the two-stream approximation, T = 1 / (1 + (1 - g) depth / 2) (C. F. Bohren,
+/// "Multiple Scattering of Light and Some of Its Observable Consequences", Am. J. Phys. 55 (1987), eq. 9),
+/// and T / (1 - albedo (1 - T)) with the ground's reflections. The only loss is the light that goes back up.
 LayerLight through_layer(double direct_lux, double sine, double sky_lux, double depth, double ground_albedo);
 
 }  // namespace greatx::render

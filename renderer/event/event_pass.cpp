@@ -15,11 +15,12 @@ namespace greatx::render {
 
 namespace {
 
-constexpr uint32_t pattern_sequence = ~0u;  ///< for draws that belong to the sensor, not to a sequence
+constexpr uint32_t pattern_sequence = ~0u;  ///< sequence of draws that belong to the sensor alone
 
 constexpr uint32_t groups(uint32_t count, uint32_t size) { return (count + size - 1) / size; }
 
-/// Rounds down, so that k thresholds are never more than k times the number that was asked for.
+/// Converts a threshold to fixed point. It rounds down, so that k thresholds never exceed k times the given
+/// number.
 int32_t fixed_threshold(double c) { return static_cast<int32_t>(std::floor(c * shared::log_one)); }
 
 glm::uvec2 key_of(const EventDesc& desc, uint32_t sequence) {
@@ -54,7 +55,7 @@ void EventPass::check() const {
   constexpr uint32_t largest_edge = 16384;  // 14 bits of an event's place
   require(desc_.width >= 1 && desc_.width <= largest_edge, "width", "1 to 16384", desc_.width);
   require(desc_.height >= 1 && desc_.height <= largest_edge, "height", "1 to 16384", desc_.height);
-  constexpr uint64_t pixel_bytes = 8;  // of the largest value that is kept of each pixel
+  constexpr uint64_t pixel_bytes = 8;  // size of the largest value kept per pixel
   const uint64_t pixels = uint64_t{desc_.width} * desc_.height,
                  most_pixels = scene_->device().limits().maxStorageBufferRange / pixel_bytes;
   if (pixels > most_pixels)

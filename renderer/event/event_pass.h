@@ -22,31 +22,33 @@ namespace greatx::render {
 
 /// Names the rule by which pictures are taken within an interval.
 enum class EventSteps {
-  fixed,          ///< at each of `substeps` even instants
-  by_flow,        ///< at those of them that keep motion from picture to picture to `wanted` pixels
-  by_brightness,  ///< at those that keep the change of any pixel to `wanted` thresholds
+  fixed,  ///< at each of `substeps` even instants
+  /// At only as many even instants as keep the motion from picture to picture to `wanted` pixels.
+  by_flow,
+  /// At only as many even instants as keep the change of every pixel to `wanted` thresholds.
+  by_brightness,
 };
 
 struct EventDesc {
   std::string name = "event camera";  ///< for labels, timestamps and messages
   uint32_t width = 640, height = 480;
-  double fx = 1.0, fy = 1.0, cx = 0.0, cy = 0.0;  ///< pixels; of by_flow alone
-  uint32_t substeps = 4;                          ///< even instants an interval, at most most_substeps
+  double fx = 1.0, fy = 1.0, cx = 0.0, cy = 0.0;  ///< pixels; used only by by_flow
+  uint32_t substeps = 4;                          ///< even instants per interval, at most most_substeps
   EventSteps steps = EventSteps::fixed;
-  double wanted = 0.5;                             ///< of adaptive steps
-  double threshold_on = 0.2, threshold_off = 0.2;  ///< of the natural logarithm, 0.01 to 1
+  double wanted = 0.5;                             ///< largest motion or change of adaptive steps
+  double threshold_on = 0.2, threshold_off = 0.2;  ///< change of the natural logarithm, 0.01 to 1
   double threshold_sigma = 0.0;                    ///< standard deviation from pixel to pixel
   double refractory_s = 0.0;
   double leak_rate_hz = 0.0;
   double shot_rate_hz = 0.0;
   double cutoff_hz = 0.0;       ///< 0: unlimited bandwidth
   double dark_cd_m2 = 1e-3;     ///< added before the logarithm
-  double bright_cd_m2 = 1e3;    ///< of relative intensity 1: bandwidth and shot noise
-  uint32_t capacity = 1 << 20;  ///< room for this many events, an interval
+  double bright_cd_m2 = 1e3;    ///< luminance of relative intensity 1, for bandwidth and shot noise
+  uint32_t capacity = 1 << 20;  ///< room for events per interval
   bool events = true, instance = false, differences = false;
   double difference_on_cd_m2 = 1.0, difference_off_cd_m2 = 1.0;
   uint64_t seed = 0;
-  uint32_t stream = 0;  ///< of the sensor: no two of a run share one
+  uint32_t stream = 0;  ///< identifies the sensor, unique within a run
   bool adaptive() const { return steps != EventSteps::fixed; }
 };
 

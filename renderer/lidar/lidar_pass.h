@@ -24,7 +24,7 @@
 namespace greatx::render {
 
 struct LidarDesc {
-  ScanPattern pattern;       ///< of every sweep, or of the first one if the scan does not repeat
+  ScanPattern pattern;       ///< shots of every sweep, or of the first one if the scan does not repeat
   double min_range_m = 0.5;  ///< the beam begins here, and nearer surfaces are not seen
   double max_range_m = 120.0;
   uint32_t wavelength_nm = 905;           ///< 905 or 1550: selects the reflectance of the materials
@@ -32,7 +32,7 @@ struct LidarDesc {
 
   /// Full angle at 1/e^2, rad. Without rings, only mirrors see the width of the beam (glare of panes).
   double divergence = 0.0;
-  uint32_t rings = 0;  ///< of sub-rays around the axis; 0: one ray a shot
+  uint32_t rings = 0;  ///< rings of sub-rays around the axis; 0: one ray per shot
 
   Receiver receiver;
   ReturnChoice returns;
@@ -52,12 +52,12 @@ struct LidarTarget {
   /// tick_from_shot [instants] takes a point from where the body stands at an instant to where it stands at
   /// the tick, in local coordinates. If it is empty, the body does not move during the sweep.
   std::vector<Pose> motions;
-  dvec3 center{0.0};  ///< local coordinates, of a sphere that holds the body at every instant
+  dvec3 center{0.0};  ///< centre of a sphere that holds the body at every instant, local
   double radius_m = 0.0;
 };
 
-/// Holds the moving bodies of a sweep. If `apart`, bodies are met one by one: those listed and no others,
-/// each where its motion takes it. Otherwise all of them stand where scene.record_update put them for this
+/// Holds the moving bodies of a sweep. If `apart` is set, rays meet only the listed bodies, one by one, each
+/// in the pose of its motion. Otherwise all bodies are in the poses that scene.record_update set for this
 /// tick, except LidarDesc::excluded_body.
 struct LidarTargets {
   bool apart = false;
@@ -105,7 +105,7 @@ class LidarPass {
   std::string name_;
   std::shared_ptr<const ScanPattern> pattern_;
   ReturnModel model_;
-  uint32_t slots_ = 1;  ///< echoes a ray
+  uint32_t slots_ = 1;  ///< echoes per ray
   float refractive_index_ = 1.0f;
   gpu::ComputePipeline pipeline_;
   gpu::Buffer beams_, offsets_, panes_, echoes_;

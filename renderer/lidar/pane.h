@@ -16,13 +16,13 @@ namespace greatx::render {
 /// 12 (1985), pp. 275-288).
 double glass_index(double wavelength_nm);
 
-/// A material is a pane of glass if
+/// Returns the pane of a material, or nothing if it is none. A material is a pane of glass if
 /// - the file says that it lets light through (KHR_materials_transmission, or alpha mode BLEND without a
 ///   texture), by the amount that the file states, or
 /// - its radio layers are glass or clear acrylic of finite thickness, with layers of air between or none, and
 ///   its base colour has no texture and it gives off no light (a picture of a facade shows the rooms behind
 ///   its windows).
-/// `reflectance` (of the surface itself: dirt, frosting) counts where the file states it for the wavelength.
+/// `reflectance` (of the surface itself: dirt, frosting) counts if the file states it for the wavelength.
 /// Otherwise the pane is clean.
 std::optional<shared::LidarPane> pane_of(const scene::Material& material, uint32_t wavelength_nm);
 

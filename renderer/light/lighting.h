@@ -34,12 +34,14 @@ struct Lighting {
   double moon_illuminance_lux = 0.0;     ///< on a surface facing the moon
   double moon_phase_angle = 0.0;         ///< rad: 0 full, pi new; changes only the disc
   double sky_illuminance_lux = 15000.0;  ///< on level ground from the sky alone
-  double sky_glow_cd_m2 = 0.0;  ///< of a city, at the zenith: it has a night sky's colour and gradient
+  /// Luminance of city light at the zenith. It has the colour and gradient of a night sky.
+  double sky_glow_cd_m2 = 0.0;
   SkyModel sky_model = SkyModel::clear;
-  double turbidity = 2.0;              ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
-  double ground_albedo = 0.15;         ///< of the ground below the horizon beyond the scene; clear sky only
-  double haze_extinction_per_m = 0.0;  ///< of fog and rain, renderer/daylight/haze.h
-  double haze_depth = 0.0;             ///< their optical depth between scene and sky, vertically
+  double turbidity = 2.0;  ///< haziness, 1.1 (purest air) to 10 (hazy); clear sky only
+  /// Albedo of the ground below the horizon, beyond the scene; clear sky only.
+  double ground_albedo = 0.15;
+  double haze_extinction_per_m = 0.0;  ///< extinction of fog and rain, renderer/daylight/haze.h
+  double haze_depth = 0.0;             ///< vertical optical depth of fog and rain between scene and sky
   uint64_t star_seed = 1;
   uint32_t static_shadow_texels = 4096;  ///< edge of the map over everything that never moves
   uint32_t moving_shadow_texels = 128;   ///< edge of a moving body's tile, at most
@@ -62,7 +64,7 @@ KeyLight key_light(const Lighting& lighting);
 /// Textures, normal maps and alpha masks need GpuSceneOptions::textures.
 struct CameraEffects {
   bool sun = true;             ///< the key light: sun or moon
-  bool sky = true;             ///< as background, ambient light and reflection
+  bool sky = true;             ///< the sky as background, ambient light and reflection
   bool static_shadows = true;  ///< only with the key light
   bool moving_shadows = true;  ///< only with the key light
   bool textures = true;
@@ -72,7 +74,7 @@ struct CameraEffects {
   bool punctual_lights = true;
   bool haze = false;               ///< fog and rain
   bool night_sky = false;          ///< stars, the moon's disc
-  bool ambient_occlusion = false;  ///< of the sky's light, by bodies that never move
+  bool ambient_occlusion = false;  ///< occlusion of sky light by static bodies
   bool specular = true;            ///< off: every surface is Lambertian
 };
 

@@ -47,7 +47,7 @@ class ShadowMaps {
  private:
   struct Caster {
     uint32_t body = 0;
-    dvec3 center{0.0};  ///< of the bounding sphere, body frame
+    dvec3 center{0.0};  ///< centre of the bounding sphere, body frame
     double radius = 0.0;
     std::vector<uint32_t> opaque, masked;  ///< primitives
   };
@@ -62,7 +62,8 @@ class ShadowMaps {
   gpu::Image static_map_, moving_map_;  ///< 1 x 1 where not wanted
   gpu::Sampler sampler_;
   gpu::GraphicsPipeline moving_opaque_, moving_masked_;
-  dvec3 static_min_{0.0}, static_max_{1.0};  ///< of the static casters in the sun's frame, with margins
+  /// Bounds of the static casters in the sun's frame, with margins.
+  dvec3 static_min_{0.0}, static_max_{1.0};
   std::vector<Caster> casters_;
   uint32_t tiles_across_ = 0;
   gpu::Slice tiles_;

@@ -30,10 +30,10 @@ class Sky {
   Sky(const Lighting& lighting, bool haze);
   /// Returns cd/m^2 per channel from a unit direction, z up, without discs and stars.
   dvec3 radiance(const dvec3& direction) const;
-  /// lux per channel of the key light on a surface that faces it, below fog and rain; zero without a key
-  /// light.
+  /// Returns the lux per channel of the key light on a surface that faces it, below fog and rain; zero
+  /// without a key light.
   const dvec3& key_illuminance() const { return key_illuminance_; }
-  /// lux of all other light on level ground, below fog and rain.
+  /// Returns the lux of all other light on level ground, below fog and rain.
   double illuminance() const { return illuminance_; }
   /// The radiance of endless haze is `ambient` + `directed` (1 + g^2 - 2 g cos)^-1.5, with the cosine of the
   /// angle from the key light.
@@ -46,7 +46,7 @@ class Sky {
   dvec3 clear(const dvec3& direction) const;  ///< above the horizon, without haze
   void add_haze(const Lighting& lighting, const KeyLight& key);
   dvec3 airlight(const dvec3& direction) const;
-  double haze_share(double z) const;  ///< of a view in a direction above the horizon
+  double haze_share(double z) const;  ///< share of haze in a view above the horizon
 
   std::shared_ptr<const Lit> sun_, moon_;
   SkyModel model_;

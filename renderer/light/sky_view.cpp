@@ -16,7 +16,7 @@ namespace {
 
 constexpr int azimuths = 16;
 constexpr double least_cell_m = 0.5;
-constexpr double step_growth = 1.25;  ///< of the distances at which a horizon is looked up
+constexpr double step_growth = 1.25;  ///< ratio of successive distances at which a horizon is sampled
 constexpr double farthest_m = 200.0;
 
 /// Raises the cells whose centres a triangle covers from above. It also raises those of the triangle's

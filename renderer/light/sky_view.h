@@ -21,7 +21,7 @@ struct HeightField {
   dvec2 corner{0.0};  ///< local x, y of the first cell's corner
   double cell_m = 1.0, floor = 0.0;
   uint32_t width = 1, height = 1;
-  std::vector<float> heights;  ///< [height, width], of the highest static surface in the cell
+  std::vector<float> heights;  ///< [height, width] of the highest static surface in the cell
 };
 /// Returns the heights of everything static, with at most `edge` cells along a side.
 HeightField height_field(const scene::Scene& scene, uint32_t edge = 256);

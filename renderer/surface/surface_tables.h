@@ -29,7 +29,7 @@ class SurfaceTables {
 
  private:
   gpu::Buffer triangles_, materials_;  ///< shaders/shared/camera.h: triangle_record_quads
-  gpu::Buffer address_;                ///< of triangles_, where they are too many to be bound
+  gpu::Buffer address_;                ///< address of triangles_, if they are too many to be bound
   gpu::Buffer triangle_primitives_, triangle_ids_;
 };
 

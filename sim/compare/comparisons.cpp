@@ -22,8 +22,8 @@ void keep_rays(const TickEvidence& tick, const KeepErrors& keep) {
       keep(witness, nullptr, *errors);
 }
 
-/// Each LiDAR is held against the depth pictures of its own node alone: both then have the same pose to the
-/// bit.
+/// Compares each LiDAR only with depth pictures of its own node, because both then have bitwise the same
+/// pose.
 void keep_lidar(const TickEvidence& tick, const KeepErrors& keep) {
   for (const Witness& lidar : tick.witnesses) {
     const std::optional<ReturnEvidence>& returns = lidar.evidence.returns;
@@ -44,7 +44,8 @@ void keep_radar(const TickEvidence& tick, const KeepErrors& keep) {
       keep(witness, tick.poses, compare_radar(witness.record, tick.poses->record, tick.boxes));
 }
 
-/// Boxes alone make a run look at instances, too, which are not kept then.
+/// Returns what recomputing needs. A camera with boxes compares instances in a run even if it does not write
+/// them. The figure can then be recomputed only if they are written.
 Comparison::Needs lidar_needs(const SensorSpec& camera) {
   Comparison::Needs needs{{"points", "instance", "material"}, {"depth"}};
   if (std::ranges::any_of(camera.arrays, [](const ArraySpec& s) { return s.name.starts_with("box_"); }))

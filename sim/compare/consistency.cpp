@@ -50,8 +50,8 @@ dvec3 pixel_ray(const render::CameraDesc& camera, double column, double row) {
 std::optional<double> lidar_against_depth(const render::CameraDesc& camera,
                                           const render::CameraImages& images, const ReturnedPoint& point) {
   const double z = point.in_camera.x;
-  if (z <= camera.near_m || point.instance == 0)
-    return std::nullopt;  // 0: the air's own echo, which no picture has
+  // Instance 0 is backscatter of the air, which no picture shows.
+  if (z <= camera.near_m || point.instance == 0) return std::nullopt;
   const double column = camera.cx - camera.fx * point.in_camera.y / z;
   const double row = camera.cy - camera.fy * point.in_camera.z / z;
   if (!(column >= 0.0 && row >= 0.0 && column < images.width && row < images.height)) return std::nullopt;

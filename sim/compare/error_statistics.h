@@ -9,7 +9,7 @@
 
 namespace greatx::sim {
 
-/// Relative errors of a run: how many, the largest, and quantiles, in a fixed amount of memory.
+/// Collects relative errors: their number, the largest, and quantiles, in constant memory.
 class ErrorStatistics {
  public:
   void add(double error) {
@@ -24,8 +24,8 @@ class ErrorStatistics {
   }
   uint64_t count() const { return count_; }
   double max() const { return max_; }
-  /// An upper bound of the `share` quantile, at most 26 % above it (ten buckets a decade); 0 without any
-  /// error added.
+  /// Returns an upper bound of the `share` quantile, at most 26 % above it (ten buckets a decade); 0 if no
+  /// error was added.
   double quantile(double share) const {
     const double wanted = share * static_cast<double>(count_);
     uint64_t below = 0;

@@ -16,32 +16,34 @@ struct CameraImages;
 
 namespace greatx::sim {
 
-/// A depth picture of a pinhole camera, with ids where they were rendered.
+/// Holds a depth picture of a pinhole camera, with ids if they were rendered.
 struct DepthEvidence {
-  uint32_t node = 0;  ///< that carries the camera
+  uint32_t node = 0;  ///< the node that carries the camera
   Pose mount;         ///< body_from_sensor
   const render::CameraDesc* camera = nullptr;
   const render::CameraImages* images = nullptr;
 };
 
-/// The returns of a LiDAR whose shots were all taken at the tick, along the beams' axes and without noise.
+/// Holds the returns of a LiDAR whose shots were all taken at the tick, along the axes of the beams and
+/// without noise.
 struct ReturnEvidence {
-  uint32_t node = 0;                               ///< that carries the LiDAR
+  uint32_t node = 0;                               ///< the node that carries the LiDAR
   Pose mount;                                      ///< body_from_sensor
   std::span<const float> xyzi;                     ///< [4 n] in the LiDAR's frame
   std::span<const uint32_t> instances, materials;  ///< [n]
 };
 
-/// Everything about the record collected last by which a sensor can be compared with another one. A sensor
-/// leaves out what it does not have. Pointers and spans hold until the sensor's next collect().
+/// Holds everything by which the record collected last can be compared with those of other sensors. A sensor
+/// leaves out what it does not have. Pointers and spans are valid until the sensor's next collect().
 struct Evidence {
   std::optional<DepthEvidence> depth;
   std::optional<ReturnEvidence> returns;
-  bool poses = false;       ///< the record is that of the poses of all nodes
-  bool detections = false;  ///< the record has a radar's arrays range, power and instance
-  const ErrorStatistics* pixels_against_rays = nullptr;  ///< of a picture, checked by its own camera
-  const ErrorStatistics* delays_against_distances =
-      nullptr;  ///< of direct paths, checked by their own channel
+  bool poses = false;       ///< the record holds the poses of all nodes
+  bool detections = false;  ///< the record has the arrays range, power and instance of a radar
+  /// Errors of the depth of a picture, which its camera checks.
+  const ErrorStatistics* pixels_against_rays = nullptr;
+  /// Errors of the delays of direct paths, which their channel checks.
+  const ErrorStatistics* delays_against_distances = nullptr;
 };
 
 }  // namespace greatx::sim

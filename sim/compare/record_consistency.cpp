@@ -30,7 +30,8 @@ bool has(const SensorSpec& spec, const std::string& name) {
   return std::ranges::any_of(spec.arrays, [&](const ArraySpec& array) { return array.name == name; });
 }
 
-/// An array whose type is the one wanted and that has so many elements: records come from files, too.
+/// Returns an array. Throws UserError unless it has the given type and number of elements, since records may
+/// come from files.
 Array expect_array(const RecordView& record, const char* name, DType dtype, size_t elements) {
   Array array = record.array(name);
   if (array.dtype != dtype || array.element_count() != static_cast<int64_t>(elements))
@@ -41,7 +42,7 @@ Array expect_array(const RecordView& record, const char* name, DType dtype, size
 
 std::string node_of(const std::string& sensor) { return sensor.substr(0, sensor.find('/')); }
 
-/// The nodes of a tick, and where they go from there.
+/// Holds the poses of the nodes at a tick, and extrapolates them.
 class Nodes {
  public:
   explicit Nodes(const RecordView& poses) {
@@ -66,7 +67,7 @@ class Nodes {
     }
   }
   const Pose& at_tick(const std::string& node) const { return motions_.at(numbers_.at(node)).pose; }
-  /// With the accelerations and angular velocities of the tick.
+  /// Extrapolates by `dt_s` with the velocities, accelerations and angular velocities of the tick.
   Pose after(uint32_t node, double dt_s) const {
     const Motion& m = motions_.at(node);
     Pose pose = m.pose;
@@ -121,21 +122,22 @@ struct Span {
   double near_m = 0.0, far_m = 0.0;
 };
 
-/// Of the distances from a point to a box.
+/// Returns the least and greatest distance from a point to a box.
 Span distances(const dvec3& point, const scene::Bounds& box) {
   const dvec3 nearest = glm::clamp(point, box.min, box.max);
   const dvec3 farthest = glm::max(glm::abs(point - box.min), glm::abs(point - box.max));
   return {glm::distance(point, nearest), glm::length(farthest)};
 }
 
-/// Half the way from one end over a box to the other.
+/// Returns the least and greatest half path from the transmitter over a box to the receiver.
 Span ranges(const dvec3& transmitter, const dvec3& receiver, const Pose& box_pose, const scene::Bounds& box) {
   const Pose back = box_pose.inverse();
   const Span out = distances(back.apply(transmitter), box), home = distances(back.apply(receiver), box);
   return {0.5 * (out.near_m + home.near_m), 0.5 * (out.far_m + home.far_m)};
 }
 
-/// How far a range, known up to multiples of `ambiguity_m`, lies outside; relative.
+/// Returns how far a range, known up to multiples of `ambiguity_m`, lies outside a span, relative to the
+/// range.
 double outside(double range_m, const Span& span, double ambiguity_m, double bin_m) {
   const auto gap = [&](double turns) {
     const double range = range_m + turns * ambiguity_m;
@@ -189,7 +191,7 @@ ErrorStatistics compare_sights(const RecordView& channel, const RecordView& pose
     uint64_t value = 0;
     std::copy_n(&array.bytes[i * size_of(array.dtype)], size_of(array.dtype),
                 reinterpret_cast<std::byte*>(&value));
-    return value;  // unsigned, little-endian
+    return value;  // the arrays are unsigned and little-endian
   };
   ErrorStatistics errors;
   for (size_t i = 0; i < delays.size(); ++i) {

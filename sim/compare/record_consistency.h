@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do the modalities see one world? From arrays and metadata alone, as they are written: a run and the files
-// that it left give the same figures.
+// Checks that the modalities see one world, from arrays and metadata alone, as they are written. A run and
+// its files therefore give the same figures.
 #pragma once
 
 #include <cstdint>
@@ -16,44 +16,48 @@
 
 namespace greatx::sim {
 
-/// Names of the figures, in summaries and files.
+/// The names of the figures in summaries and files.
 inline constexpr const char* depth_figure = "depth_vs_ray";
 inline constexpr const char* lidar_figure = "lidar_vs_depth";
 inline constexpr const char* sight_figure = "line_of_sight_delay_vs_distance";
 inline constexpr const char* radar_figure = "radar_range_vs_box";
 
-/// What one record says against another one of its tick.
+/// Holds the comparison of one record with another record of its tick.
 struct ConsistencyRow {
   std::string figure;
   uint32_t sequence = 0;
   int64_t tick = 0;
-  std::string sensor;  ///< whose record it is
-  std::string other;   ///< the sensor that it is held against
+  std::string sensor;  ///< the sensor of the record
+  std::string other;   ///< the sensor of the other record
   uint64_t compared = 0;
   double largest = 0.0;  ///< relative error
 };
 
-/// A record: what its sensor declares, and its arrays by name (ContractError if it has none of that name).
+/// Gives access to a record: the declaration of its sensor, and its arrays by name (ContractError if there is
+/// no array of that name).
 struct RecordView {
   const SensorSpec& spec;
   std::function<Array(const std::string& name)> array;
 };
-/// A record of a run. Spec and record outlive the view.
+/// Returns a view of a record of a run. Spec and record outlive the view.
 RecordView view_of(const SensorSpec& spec, const Record& record);
 
-/// Returns of a LiDAR (all shots at the tick) against the depth picture of a pinhole camera on the same node:
-/// lidar_against_depth() for each.
+/// Compares the returns of a LiDAR (all shots at the tick) with the depth picture of a pinhole camera on the
+/// same node, by lidar_against_depth().
 ErrorStatistics compare_lidar(const RecordView& lidar, const RecordView& camera);
 
-/// c times the delay of each direct path against the distance of its ends, by the nodes' poses.
+/// Compares c times the delay of each direct path with the distance of its ends, which follows from the poses
+/// of the nodes.
 ErrorStatistics compare_sights(const RecordView& channel, const RecordView& poses);
 
-/// Of each instance that a radar's frame names, the strongest detection: how far its range lies outside those
-/// of the instance's box, over the range. Everything stands where the tick's poses, velocities, accelerations
-/// and angular velocities take it to by the frame's middle. Half the way over the box lies between what its
-/// nearest point and its farthest corner make of it; ranges that differ by the radar's span are one. So a
-/// point target is compared to its extent, and to half a bin where noise and neighbours allow; an instance
-/// seen by a reflection alone is farther than its box.
+/// Compares the ranges of a radar with the boxes of instances. For each instance in the frame it takes the
+/// strongest detection, and computes by how much its range lies outside the ranges of the instance's box,
+/// relative to the range. Everything stands where the poses, velocities, accelerations and angular velocities
+/// of the tick take it by the middle of the frame. The ranges of a box reach from half the path over its
+/// nearest point to half the path over its farthest corner. Ranges that differ by the radar's unambiguous
+/// span are taken as equal. The figure is therefore as accurate as the extent of a target, and as half a bin
+/// where noise and neighbours allow. An instance that is seen only by a reflection is farther away than its
+/// box.
 ErrorStatistics compare_radar(const RecordView& radar, const RecordView& poses,
                               std::span<const InstanceBox> boxes);
 

@@ -9,7 +9,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// Takes text from the front.
+/// Reads a text from its front.
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}

@@ -45,14 +45,14 @@ struct Environment {
   std::optional<double> moon_illuminance_lux;  ///< with a place: replaces the model's value
   std::optional<double> sky_illuminance_lux;   ///< on the ground from the sky alone
   SkyKind sky = SkyKind::automatic;  ///< automatic: overcast where it rains, unless the sun's light is given
-  double sky_glow_cd_m2 = 0.0;       ///< of a city's lamps in the night sky, at the zenith
-  double turbidity = 2.0;            ///< of a clear sky, 1.1 (purest air) to 10
+  double sky_glow_cd_m2 = 0.0;       ///< luminance of city light in the night sky, at the zenith
+  double turbidity = 2.0;            ///< turbidity of a clear sky, 1.1 (purest air) to 10
   double temperature_k = 288.15;
   double pressure_hpa = 1013.25;  ///< dry-air pressure (ITU-R P.676)
   double water_vapour_g_m3 = 7.5;
   double rain_mm_h = 0.0;
   double fog_g_m3 = 0.0;        ///< liquid water
-  double fog_height_m = 100.0;  ///< of fog and rain above the scene, for light from above
+  double fog_height_m = 100.0;  ///< height of fog and rain above the scene, for light from above
 };
 
 /// These types describe a lens (docs/film.md).
@@ -70,15 +70,15 @@ struct Exposure {
 
 /// Describes the noise of a sensor of light: electrons and digital numbers.
 struct SensorNoise {
-  double full_well_e = 10000.0;  ///< electrons that saturate it at the exposure's L_max
+  double full_well_e = 10000.0;  ///< electrons that saturate the sensor at the exposure's L_max
   double read_noise_e = 2.5;     ///< rms
-  uint32_t bits = 12;            ///< of the converter
+  uint32_t bits = 12;            ///< resolution of the converter
 };
 
 /// Holds the intrinsics that cameras and event cameras share, in pixels.
 struct PinholeConfig {
   uint32_t width = 640, height = 480;
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if the user gave that
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< from `fov_deg` (horizontal) if it is given
   double near_m = 0.1;
   uint32_t msaa = 1;         ///< samples per pixel of the colour: 1 or 4
   bool smooth_edges = true;  ///< with one sample: outlines are blended by their share of the pixel
@@ -92,9 +92,9 @@ struct CameraConfig : PinholeConfig {
   std::optional<SensorNoise> noise;
   // The members below select the arrays to deliver.
   bool rgb = true, depth = true, ids = true;
-  bool hdr = false;  ///< also the linear radiance as EXR
+  bool hdr = false;  ///< the linear radiance as EXR
   bool depth_png24 = true, depth_log = false;
-  bool depth_ray = false;  ///< along the ray
+  bool depth_ray = false;  ///< distance along the ray
   bool normals = false, flow = false, boxes = false;
   /// Semantic classes that get boxes. Empty: everything but ground and buildings.
   std::vector<std::string> box_classes;
@@ -106,20 +106,20 @@ struct EventCameraConfig : PinholeConfig {
   /// The name of the camera of the same node that has the same pixels, as in a DAVIS sensor. At its samples
   /// the pictures are that camera's, and PinholeConfig, mount and see_own_body are too. Empty: none.
   std::string camera;
-  uint32_t substeps = 4;  ///< pictures an interval between two samples; adaptive: at most
+  uint32_t substeps = 4;  ///< pictures per interval between two samples; adaptive: at most
   enum class Steps { fixed, by_flow, by_brightness } steps = Steps::fixed;
-  double max_flow_px = 0.5;  ///< of by_flow: motion from one picture to the next, at most
-  double max_change = 0.5;   ///< of by_brightness: change of the logarithm over the threshold, at most
-  double threshold_on = 0.2, threshold_off = 0.2;  ///< of the natural logarithm
+  double max_flow_px = 0.5;  ///< for by_flow: the most motion from one picture to the next
+  double max_change = 0.5;   ///< for by_brightness: the most change of the logarithm over the threshold
+  double threshold_on = 0.2, threshold_off = 0.2;  ///< change of the natural logarithm
   double threshold_sigma = 0.0;                    ///< mismatch from pixel to pixel, standard deviation
   double refractory_s = 0.0;
   double leak_rate_hz = 0.0, shot_rate_hz = 0.0;
   double cutoff_hz = 0.0;             ///< bandwidth of the photoreceptor in bright light; 0: unlimited
   double dark_cd_m2 = 1e-3;           ///< epsilon of log(epsilon + luminance)
-  double bright_cd_m2 = 1000.0;       ///< the light in which bandwidth is full and shot noise least
-  uint32_t max_events_per_pixel = 0;  ///< size of the buffer, on average an interval; 0: chosen
+  double bright_cd_m2 = 1000.0;       ///< the luminance at which bandwidth is full and shot noise least
+  uint32_t max_events_per_pixel = 0;  ///< average size of the buffer per interval; 0: chosen
   bool events = true, differences = false, instance = false;  ///< the outputs to deliver
-  bool hdf5 = false, text = false;                   ///< DSEC's HDF5, v2e's text beside the npy files
+  bool hdf5 = false, text = false;                            ///< also write DSEC's HDF5, v2e's text
   double difference_on = 0.1, difference_off = 0.1;  ///< thresholds of the difference image, over L_max
   double difference_ev100 = 15.0;                    ///< the exposure of that L_max
   bool see_own_body = false;

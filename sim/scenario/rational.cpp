@@ -35,7 +35,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Parses digits[.digits][e[+-]digits] as an exact fraction. It must use up the text.
 std::optional<Rational> parse_decimal(std::string_view text) {
-  // Far from overflow after a multiplication by ten.
+  // The limit leaves room for a multiplication by ten without overflow.
   constexpr int128 limit = static_cast<int128>(max_int64) * 1'000'000'000;
   int128 numerator = 0, denominator = 1;
   size_t at = 0, digits = 0;

@@ -37,7 +37,7 @@ double Rotation::turns(double time_s) const {
   const double ticks = time_s * clock_.tick_rate_hz().value();
   GREATX_CHECK(std::abs(ticks) < most_ticks, "time {} s", time_s);
   const int64_t tick = std::llround(ticks);
-  // The ticks after which the same share of a turn comes back.
+  // After `period` ticks the share of a turn repeats.
   const int64_t period = turns_per_tick_.denominator;
   const int128 rest = static_cast<int128>(tick % period) * (turns_per_tick_.numerator % period) % period;
   const double at_tick = static_cast<double>(static_cast<int64_t>(rest)) / static_cast<double>(period);

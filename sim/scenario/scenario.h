@@ -121,7 +121,7 @@ struct LidarConfig {
   double wavelength_nm = 905.0;  ///< 905 or 1550
   bool see_own_body = false;
   double divergence = 0.0;  ///< rad, full angle at 1/e^2
-  uint32_t rings = 0;       ///< of sub-rays; 0: one ray a shot
+  uint32_t rings = 0;       ///< rings of sub-rays; 0: one ray per shot
   render::ReturnChoice returns;
   render::Receiver receiver;  ///< without the air
   struct Outputs {
@@ -134,7 +134,7 @@ struct SensorConfig {
   std::string name;
   Mount mount;
   std::variant<CameraConfig, EventCameraConfig, LidarConfig, RadarConfig, AntennaConfig> config;
-  Rational rate_hz;  ///< of all but antennas, which fire with their channel
+  Rational rate_hz;  ///< not used by antennas, which fire with their channel
   SourceLocation where;
 };
 
@@ -153,7 +153,7 @@ struct NodeConfig {
   std::optional<ModelSource> model;  ///< a mesh that follows the node
   Mount model_mount;                 ///< body_from_model
   dvec3 model_scale{1.0};
-  std::vector<PartConfig> parts;  ///< of the model
+  std::vector<PartConfig> parts;  ///< parts that turn
   std::optional<std::string> semantic_class;
   std::vector<SensorConfig> sensors;
   SourceLocation where;
@@ -168,19 +168,19 @@ struct ChannelConfig {
   double carrier_hz = 3.5e9;
   double subcarrier_spacing_hz = 30e3;
   uint32_t subcarriers = 256;  ///< f_k = (k - floor(N/2)) * spacing around the carrier
-  uint32_t time_samples = 1;   ///< per record, by Doppler
+  uint32_t time_samples = 1;   ///< samples per record, which differ by Doppler shifts
   double time_spacing_s = 1e-3;
-  static constexpr uint32_t most_walls = 8;  ///< on a path; shared::crossings_max
+  static constexpr uint32_t most_walls = 8;  ///< the most walls on a path; shared::crossings_max
   rf::PathLimits limits{
       .max_transmissions = most_walls, .max_reflections_before_scattering = 1, .max_paths = 100'000};
-  /// Beams lose nothing; rays are shot and bounce.
+  /// A search with beams misses no path. A search with rays launches `rays` rays, and may miss paths.
   enum class Candidates { beams, rays };
   Candidates candidates = Candidates::beams;
   uint32_t rays = 1u << 19;  ///< launched per search, if candidates come from rays
-  /// Once: from an end that stands still.
+  /// `once` searches from an end that stands still.
   enum class Search { automatic, once, every_tick };
   Search search = Search::automatic;
-  /// Which arrays are written besides those of every link.
+  /// Selects the arrays to write besides those of every link.
   struct Outputs {
     bool cfr = true, paths = true;
     bool cfr_parts = false;  ///< the line of sight, and all other paths, separately
@@ -192,9 +192,10 @@ struct ChannelConfig {
     uint32_t count = 64;
   };
   std::optional<Taps> taps;
-  std::optional<double> power_dbm;  ///< into each transmit port; none: no received powers, fields, voltages
-  double resistance_ohm = 50.0;     ///< of each receive port
-  /// Walls that a path may pass.
+  /// Power into each transmit port; none: there are no received powers, fields and voltages.
+  std::optional<double> power_dbm;
+  double resistance_ohm = 50.0;  ///< resistance of each receive port
+  /// Returns the number of walls that a path may pass.
   uint32_t walls() const { return std::min(limits.max_transmissions, limits.max_depth); }
   SourceLocation where;
 };
@@ -219,8 +220,8 @@ struct Scenario {
   Environment environment;
   std::vector<NodeConfig> nodes;
   std::vector<ChannelConfig> channels;
-  std::map<std::string, Switch> effects;  ///< by the names of sim/plan/effect_plan.h
-  double tolerance_db = 0.01;             ///< an effect whose influence cannot exceed this stays off
+  std::map<std::string, Switch> effects;  ///< by the names in sim/plan/effect_list.h
+  double tolerance_db = 0.01;             ///< an effect that cannot change more stays off
 };
 
 /// Holds the indices of a sensor called "node/sensor".

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The kinds of sensors that a node can carry. Every other table of kinds (the parser's, the registry of
-// sim/sensors/registry, the panels of draw/sheet) is checked against this one.
+// Defines the kinds of sensors that a node can carry. Every other table of kinds (those of the parser, of the
+// registry in sim/sensors/registry, and of the panels in draw/sheet) is checked against this one.
 #pragma once
 
 #include <array>
@@ -15,18 +15,19 @@
 
 namespace greatx::sim {
 
-/// One alternative of SensorConfig::config.
+/// Holds the settings of one kind of sensor.
 using SensorSettings = decltype(SensorConfig::config);
 inline constexpr size_t sensor_kind_count = std::variant_size_v<SensorSettings>;
 
-/// A row of the table: the names of a kind.
+/// Describes a row of the table: the names of a kind.
 struct SensorKind {
   std::string_view type;   ///< `type` in a scenario, SensorSpec::kind in a data set
-  std::string_view words;  ///< in a sentence, without an article
-  bool fires;  ///< it delivers records at a rate of its own; an antenna does not: channels and radars use it
+  std::string_view words;  ///< the name in a sentence, without an article
+  /// Whether the kind delivers records at a rate of its own. An antenna does not; channels and radars use it.
+  bool fires;
 };
 
-/// Index: that of SensorConfig::config.
+/// The index is that of SensorConfig::config.
 inline constexpr std::array<SensorKind, sensor_kind_count> sensor_kinds{
     {{"camera", "camera", true},
      {"event_camera", "event camera", true},
@@ -34,7 +35,7 @@ inline constexpr std::array<SensorKind, sensor_kind_count> sensor_kinds{
      {"radar", "radar", true},
      {"antenna", "antenna", false}}};
 
-/// The row of the table that belongs to the settings of type `Config`.
+/// Returns the row of the table for the settings of type `Config`.
 template <typename Config>
 constexpr size_t sensor_kind_index() {
   return []<typename... All>(const std::variant<All...>*) {
@@ -50,7 +51,7 @@ inline const SensorKind& sensor_kind(const SensorConfig& sensor) {
   return sensor_kinds[sensor.config.index()];
 }
 
-/// "a camera", "an event camera".
+/// Returns the name with its article: "a camera", "an event camera".
 std::string with_article(const SensorKind& kind);
 
 }  // namespace greatx::sim

@@ -128,8 +128,8 @@ std::unique_ptr<Course> make_course(const EndLimits& limits, double duration_s, 
                                        std::vector<dquat>{}, Beyond::straight);
 }
 
-/// Returns the legs of each section of the centre line. Each section has one, and the others go one by one to
-/// where legs are longest.
+/// Returns the number of legs of each section of the centre line. Each section has at least one leg. The
+/// other legs go one by one to the section whose legs are longest.
 std::vector<int> share_legs(const CorridorTrajectory& corridor) {
   const std::vector<dvec3>& line = corridor.center_line_m;
   std::vector<int> legs(line.size() - 1, 1);
@@ -172,7 +172,7 @@ double inside_part(const dvec3& offset, const CrossSection& section, const Corri
                   part(glm::dot(offset, section.up), 0.5 * corridor.height_m + rounding));
 }
 
-/// Draws the points of the legs. At a bend the cross-section halves the angle and the offset fits both
+/// Draws the end points of the legs. At a bend the cross-section halves the angle, and the offset fits both
 /// sections, so that no leg leaves the corridor.
 std::vector<dvec3> draw_corridor(const CorridorTrajectory& corridor, RandomStream& random) {
   const std::vector<dvec3>& line = corridor.center_line_m;

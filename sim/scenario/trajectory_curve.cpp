@@ -22,9 +22,9 @@ constexpr double negligible = 1e-9;
 /// Below this part the sign of a derivative is only rounding.
 constexpr double noise = 1e-13;
 
-/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Close to a
-/// zero of B' at u0, B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. The side is the one that B' itself shows.
-/// Without one it is before (e < 0), but after at the start.
+/// Returns the direction of B'(u) from the first derivative that does not vanish (hard case 60). Near a zero
+/// u0 of B', B'(u0 + e) / |e| = sign(e) B'' + |e| B''' / 2. If B' is above rounding, its sign along B'' gives
+/// the side of u0. Otherwise the side is before u0 (e < 0), but after u0 at the start of the curve.
 template <typename Vector>
 std::optional<Direction<Vector>> direction_of(const Vector& first, const Vector& second, const Vector& third,
                                               double u, double size) {
@@ -120,7 +120,7 @@ CurveCourse::Heading CurveCourse::heading(size_t segment, double u) const {
     return result;
   }
   result.pitch = v.z > 0.0 ? -0.5 * pi : 0.5 * pi;
-  // If the motion is vertical for an instant, the yaw is the one that the horizontal motion beside it shows.
+  // If the motion is vertical at an instant, the horizontal motion just before or after gives the yaw.
   if (const auto level = direction_of(dvec2(first), dvec2(second), dvec2(third), u, size))
     result.yaw = std::atan2(level->value.y, level->value.x);
   return result;

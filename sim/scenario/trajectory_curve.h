@@ -43,11 +43,11 @@ enum class Beyond {
 ///
 /// The attitude is a slerp between `attitudes` (one per knot) if they are given. Otherwise x looks along the
 /// velocity: yaw = atan2(v_y, v_x), pitch = -atan2(v_z, |v_xy|), roll = 0. Where the velocity vanishes, the
-/// next derivative that does not vanish gives the direction (seen from before; at the very start from after).
-/// In vertical flight the yaw stays as it was before. If there is no before, it is as it is after, else 0. A
-/// segment that does not move keeps the attitude in the same way. Angular velocity is analytic: it is
-/// constant per segment for slerp, and d(yaw)/dt and d(pitch)/dt for the velocity's direction. It is zero
-/// where the yaw is a held one and where the curve is not defined (beyond the ends).
+/// lowest derivative that does not vanish gives the direction, as seen from before (at the very start from
+/// after). In vertical flight the yaw keeps its earlier value; if there is none, it takes the next value,
+/// else 0. A segment that does not move keeps the attitude in the same way. The angular velocity is analytic.
+/// It is constant per segment for slerp, and otherwise follows from d(yaw)/dt and d(pitch)/dt. It is zero
+/// where the yaw is kept and beyond the ends of the curve.
 class CurveCourse : public Course {
  public:
   /// Needs one segment or more; `attitudes` is empty or has segments + 1 elements.

@@ -6,7 +6,8 @@
 
 namespace greatx::sim {
 
-/// Returns the result of `act`. A UserError of it that names no place gets `where`, unless its line is 0.
+/// Returns the result of `act`. If `act` throws a UserError without a location, `where` is added, unless its
+/// line is 0.
 template <typename Act>
 auto located(const SourceLocation& where, const Act& act) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pieces of metadata that several sensors write.
+// Defines metadata that several sensors write.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace greatx::sim {
 
-/// {"position_m": [x, y, z], "orientation_wxyz": [w, x, y, z]}
+/// Returns {"position_m": [x, y, z], "orientation_wxyz": [w, x, y, z]}.
 inline nlohmann::json json_of(const Pose& pose) {
   const dquat& q = pose.orientation;
   return {{"position_m", {pose.position.x, pose.position.y, pose.position.z}},

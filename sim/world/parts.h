@@ -13,7 +13,7 @@ namespace greatx::sim {
 
 struct FoundPart {
   scene::PartPlacement placement;      ///< with a name that is unique among the node's parts
-  const PartConfig* config = nullptr;  ///< of `node`, which outlives it
+  const PartConfig* config = nullptr;  ///< the configuration in `node`, which outlives this
 };
 
 /// Returns the parts in the model's order. Throws UserError if the model has no node of a given name (the

@@ -6,7 +6,7 @@ namespace greatx::sim {
 
 void Instants::move_to(double time_s) {
   const bool of_tick = time_s == context_.time_s;
-  if (of_tick && !moved_) return;  // a tick begins with its own poses
+  if (of_tick && !moved_) return;  // the scene already has the poses of the tick
   const std::vector<Pose> bodies = context_.body_poses_at(time_s);
   scene_.record_poses(slot_, bodies);
   lighting_.record(slot_, bodies);

@@ -16,11 +16,12 @@
 
 namespace greatx::sim {
 
-/// The instants that one sensor asks for within its record(): only PosedScene makes them, and it undoes them.
+/// Moves the scene to the instants that one sensor asks for within its record(). Only PosedScene creates this
+/// object, and restores the poses afterwards.
 class Instants {
  public:
-  /// Poses every body, and the shadows that go with it, as at `time_s`, for the raster passes recorded next.
-  /// The last call of a sensor must not stand in a gpu::Condition if it is for the tick itself.
+  /// Poses every body, with its shadows, as at `time_s` for the raster passes recorded next. If the last call
+  /// of a sensor is for the tick itself, it must not be within a gpu::Condition.
   void move_to(double time_s);
 
  private:
@@ -33,18 +34,19 @@ class Instants {
   render::SceneLighting& lighting_;
   gpu::TickSlot& slot_;
   const TickContext& context_;
-  bool moved_ = false;  ///< at least once
+  bool moved_ = false;  ///< moved at least once
   bool away_ = false;   ///< the poses recorded last are not those of the tick
 };
 
+/// Poses the scene and its shadows, and restores the poses of the tick.
 class PosedScene {
  public:
-  /// All outlive this.
+  /// All arguments outlive this.
   PosedScene(scene::GpuScene& scene, render::SceneLighting& lighting, const World& world)
       : scene_(scene), lighting_(lighting), world_(world) {}
 
-  /// Lets `record` move everything to as many instants as it likes. Afterwards everything stands as `context`
-  /// has it again, as it did before, whatever `record` did.
+  /// Calls `record`, which may move everything to any number of instants. Afterwards everything stands as in
+  /// `context` again.
   void at_instants(gpu::TickSlot& slot, const TickContext& context,
                    const std::function<void(Instants&)>& record);
   const render::SceneLighting& lighting() const { return lighting_; }

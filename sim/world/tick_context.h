@@ -17,7 +17,7 @@ namespace greatx::sim {
 /// Holds everything that a sensor may know of the tick that is being recorded.
 struct TickContext {
   int64_t tick = 0;
-  uint32_t sequence = 0;  ///< of the run
+  uint32_t sequence = 0;  ///< number of the sequence in the run
   double time_s = 0.0;
   /// The time of the previous tick at which something was due; NaN at the first one of a sequence.
   double previous_time_s = 0.0;
@@ -39,7 +39,7 @@ struct TickContext {
   }
 };
 
-/// A mount as a pose: from the sensor's frame to that of the node that carries it.
+/// Returns a mount as a pose: the transform from the sensor's frame to the frame of its node.
 inline Pose mount_pose(const Mount& mount) {
   return {mount.position_m,
           orientation_from_yaw_pitch_roll(mount.rotation.x, mount.rotation.y, mount.rotation.z)};

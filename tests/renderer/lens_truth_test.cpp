@@ -71,8 +71,8 @@ bool is_nearby(const scene::Scene& scene, const Lens& lens, const Moment& now, c
 }
 
 struct Comparison {
-  int same = 0;                 ///< pixels that show what their ray meets
-  int near = 0;                 ///< pixels that show what a ray within a pixel of theirs meets
+  int same = 0;                 ///< pixels with the surface that their ray meets
+  int near = 0;                 ///< pixels with the surface that a ray within one pixel meets
   int wrong = 0;                ///< all other pixels
   int surfaces = 0, exact = 0;  ///< of `same`: nearer than 50 m; of these, depth within 1e-5
 };

@@ -222,7 +222,7 @@ TEST(AntennaElementHardCase, N49_PatternsKeepTheirDigitsBesideThePoles) {
       EXPECT_NEAR(
           element_field({Pattern::short_dipole, PolarizationModel::model_1}, pi / 4, beside).theta.real() /
               (std::sqrt(1.5) * tilt * (z * 0.8)),
-          1.0, 1e-5);  // psi: sin phi cos theta, beside the axis
+          1.0, 1e-5);  // cos(psi) = sin(phi) cos(theta) beside the axis
     }
 }
 

@@ -36,9 +36,9 @@ struct SearchScene {
 /// reflections and passed walls. The occluders of the reference find the crossings on the host.
 std::vector<std::vector<GeometricPath>> solve(const SearchScene& scene, const CandidateList& list);
 
-/// Expects that the search finds every path of the reference once and no other path. The options are the
-/// default ones with zero clearance, with and without bounds by windows, with one and with two threads.
-/// Returns the number of the reference's paths by number of interactions.
+/// Expects that the search finds every path of the reference once and no other path, with the default
+/// clearance and with zero clearance. Expects equal results with one and two threads, and with and without
+/// windows. Returns the number of the reference's paths by number of interactions.
 std::vector<size_t> expect_perfect(const SearchScene& scene, const std::string& name);
 
 }  // namespace greatx::rf::testing

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Measures how different two pictures look when one flips between them: LDR-FLIP (P. Andersson, J. Nilsson,
-// T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating
-// Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), HPG 2020), from the paper's formulas.
+// Measures how different two pictures look to an observer who alternates between them: LDR-FLIP (P.
+// Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, "FLIP: A Difference
+// Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), HPG 2020), implemented
+// from the formulas of the paper.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A beam that spreads is made of rays around its axis that share its energy.
+// Divides a diverging beam into rays around its axis that share its energy.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace greatx::render {
 struct Receiver {
   double aperture_diameter_m = 0.025;
   double system_efficiency = 1.0;
-  double extinction_per_m = 0.0;  ///< of the air, one way
+  double extinction_per_m = 0.0;  ///< extinction of the air, one way
 
   /// Describes the noise of the electronics at the decision. A return of power P is detected if P /
   /// noise_equivalent_power + n > threshold, with n normal of variance 1. Its probability is therefore Phi(P
@@ -59,7 +59,7 @@ Receiver::Detection rated(const Receiver& receiver, double range_m, double refle
 /// dense fog's). It is also taken for rain and 1550 nm, where it is only an order of magnitude.
 inline constexpr double lidar_ratio_sr = 18.8;
 
-/// The standard normal distribution and its inverse, to the last bits.
+/// Return the standard normal distribution and its inverse, to the last bits.
 double normal_cdf(double x);
 double normal_quantile(double p);
 
@@ -69,7 +69,7 @@ class ShotNoise {
  public:
   enum class Purpose : uint32_t { detection, range, air_detection, air_range };
   ShotNoise() = default;
-  /// `stream` belongs to the sensor.
+  /// `stream` identifies the sensor.
   ShotNoise(uint64_t seed, uint32_t stream, uint32_t sequence, int64_t tick);
   double normal(uint32_t shot, Purpose purpose, uint32_t index) const;
   double uniform(uint32_t shot, Purpose purpose, uint32_t index) const;

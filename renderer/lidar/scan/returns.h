@@ -43,10 +43,10 @@ struct LidarScan {
   std::vector<vec4> points;    ///< x, y, z: metres in the sensor frame AT THE SHOT'S OWN TIME; w: intensity
   std::vector<uint32_t> shot;  ///< index into the pattern
   std::vector<uint16_t> ring;  ///< channel
-  std::vector<float> time_offset_s;     ///< of the shot after the tick
+  std::vector<float> time_offset_s;     ///< time of the shot after the tick
   std::vector<float> range_m;           ///< along the beam's axis
   std::vector<float> power;             ///< received over transmitted power
-  std::vector<float> share;             ///< of the beam's energy, the part that went no further
+  std::vector<float> share;             ///< share of the beam's energy that goes no further
   std::vector<uint16_t> return_number;  ///< 1 for the shot's nearest detected return
   std::vector<uint16_t> return_count;   ///< detected returns of the shot, delivered or not
   std::vector<uint32_t> instance;       ///< index into Scene::instances + 1; 0: fog or rain
@@ -68,7 +68,7 @@ struct WeightedEcho {
   double range_m, weight, intensity, share;
   uint32_t instance, material;
 };
-/// `echoes` may be in any order; they are sorted.
+/// Returns the pulses of a shot. `echoes` may be in any order; they are sorted.
 std::vector<Pulse> pulses_of(std::vector<WeightedEcho>& echoes, const Receiver& receiver,
                              double resolution_m);
 
@@ -77,7 +77,7 @@ struct ReturnModel {
   std::vector<float> weights;  ///< [sub-rays] sum 1
   Receiver receiver;
   ReturnChoice choice;
-  double min_range_m = 0.5, max_range_m = 120.0;  ///< of the beam, for the air's own echoes
+  double min_range_m = 0.5, max_range_m = 120.0;  ///< limits of the beam, for backscatter of the air
 };
 
 /// Makes the sweep. The bytes depend on nothing but the arguments.

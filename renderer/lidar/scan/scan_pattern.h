@@ -30,7 +30,7 @@ struct ScanPattern {
   size_t size() const { return directions.size(); }
 };
 
-inline constexpr uint32_t most_shots = 1u << 22;   ///< of a sweep
+inline constexpr uint32_t most_shots = 1u << 22;   ///< most shots of a sweep
 inline constexpr uint32_t most_columns = 500'000;  ///< fits the groups of a dispatch that every device takes
 inline constexpr uint32_t most_channels = 65'535;
 
@@ -62,7 +62,7 @@ struct RasterScan {
 /// (2021), 4722). Rates of opposite sign give rosettes. t is the time since the sequence began, so that the
 /// pattern does not repeat from sweep to sweep.
 struct RosetteScan {
-  uint32_t shots = 10'000;                               ///< of a sweep, evenly over sweep_s
+  uint32_t shots = 10'000;                               ///< shots of a sweep, evenly over sweep_s
   double deflections[2] = {radians(9.6), radians(9.6)};  ///< rad
   double rotations_hz[2] = {120.0, -77.0};
   double phases[2] = {0.0, 0.0};  ///< rad
@@ -78,7 +78,7 @@ struct TableShot {
 struct ShotTable {
   std::vector<TableShot> shots;
   std::string file;    ///< as named by the user
-  std::string sha256;  ///< of its text
+  std::string sha256;  ///< SHA-256 of its text
 };
 
 using Scan = std::variant<SpinningScan, RasterScan, RosetteScan, ShotTable>;

@@ -20,12 +20,13 @@ namespace {
 constexpr std::array<const char*, 3> gain_columns = {"theta_deg", "phi_deg", "gain_dbi"};
 constexpr std::array<const char*, 6> field_columns = {"theta_deg",  "phi_deg",  "f_theta_re",
                                                       "f_theta_im", "f_phi_re", "f_phi_im"};
-constexpr double angle_tolerance_deg = 1e-6;  ///< two lines with the same angle
-constexpr double step_tolerance = 0.01;       ///< of a step: angles are often written with few digits
-constexpr double seam_tolerance = 1e-3;    ///< of the largest amplitude, at the meridian that is there twice
-constexpr double pole_tolerance = 0.1;     ///< of the largest amplitude
+constexpr double angle_tolerance_deg = 1e-6;  ///< angles that differ by less are equal
+constexpr double step_tolerance = 0.01;  ///< fraction of a step; angles are often written with few digits
+/// Fraction of the largest amplitude, at the meridian that occurs twice.
+constexpr double seam_tolerance = 1e-3;
+constexpr double pole_tolerance = 0.1;     ///< fraction of the largest amplitude
 constexpr double most_amplitude = 1e5;     ///< 100 dBi
-constexpr size_t most_samples = 1u << 22;  ///< steps of an eighth of a degree
+constexpr size_t most_samples = 1u << 22;  ///< enough for steps of an eighth of a degree
 
 struct Sample {
   double theta_deg = 0.0, phi_deg = 0.0;
@@ -162,8 +163,8 @@ std::vector<const Sample*> Parser::gridded(const std::vector<double>& zeniths,
     const auto at = std::lower_bound(values.begin(), values.end(), value - 2.0 * angle_tolerance_deg);
     return static_cast<size_t>(at - values.begin());
   };
-  // The samples are sorted by their places and not put into them: a list of lines that each have their own
-  // angles has as many places as the square of the lines.
+  // The samples are sorted by their place in the grid, not written into a grid. In a list in which every line
+  // has its own angles, the grid would have as many places as the square of the lines.
   std::vector<std::pair<uint64_t, const Sample*>> places;
   places.reserve(samples_.size());
   for (const Sample& sample : samples_)

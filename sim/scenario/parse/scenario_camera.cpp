@@ -45,8 +45,8 @@ Distortion parse_distortion(const Field& field) {
   return distortion;
 }
 
-/// Parses auto, or {auto: true, compensation_ev}, or {ev100}, or {f_number, shutter_s, iso}. shutter_s goes
-/// with all of them.
+/// Parses auto, or {auto: true, compensation_ev}, or {ev100}, or {f_number, shutter_s, iso}. shutter_s may be
+/// given in each map.
 Exposure parse_exposure(const Field& field) {
   Exposure exposure;
   if (field.is_scalar()) {

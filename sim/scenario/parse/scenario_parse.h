@@ -23,16 +23,17 @@ struct NodeReference {
   Field field;
 };
 
-/// The antenna patterns that a scenario names. Each is read once.
+/// Holds the antenna patterns that a scenario names. Each is read once.
 using PatternFiles = std::map<std::filesystem::path, std::shared_ptr<const rf::PatternTable>>;
 
-/// The index of `key`'s text in `choices`, before the map's other keys are known.
+/// Returns the index of the text of `key` in `choices`. It is called before the other keys of the map are
+/// known.
 size_t kind_of(const Field& field, std::string_view key, std::span<const std::string_view> choices);
 inline size_t kind_of(const Field& field, std::string_view key,
                       std::initializer_list<std::string_view> choices) {
   return kind_of(field, key, std::span(choices.begin(), choices.size()));
 }
-/// A positive rational rate not above the tick rate.
+/// Parses a positive rational rate not above the tick rate.
 Rational rate_of(const Field& field, const Rational& tick_rate_hz);
 /// Parses `file` or `generate` of `map`, exactly one of them.
 ModelSource parse_model_source(const FieldMap& map);

@@ -108,7 +108,7 @@ SceneConfig parse_scene(const Field& field) {
   const FieldMap map(field, {"file", "generate", "objects", "radio_materials", "optical_only", "origin_m"});
   SceneConfig scene;
   if (map.has("file") || map.has("generate")) {
-    StaticObject whole;  // its instances keep the file's own names: no prefix
+    StaticObject whole;  // instances keep the names of the file, without a prefix
     whole.model = parse_model_source(map);
     scene.objects.push_back(std::move(whole));
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// nodes[].sensors[]: the part that all kinds share, and the table of their parsers.
+// Parses the part of nodes[].sensors[] that all kinds share, and selects the parser of a kind from a table.
 #include <algorithm>
 #include <array>
 
@@ -20,25 +20,25 @@ Mount parse_mount(const Field& field) {
   return mount;
 }
 
-/// The keys of every sensor that fires at a rate of its own, then those that pictures share.
+/// The keys of every sensor that fires at a rate of its own, and the keys of all cameras.
 const Keys fired{"name", "type", "mount", "rate_hz", "see_own_body"};
 const Keys pinhole{"width", "height", "fov_deg",      "fx",         "fy",     "cx",
                    "cy",    "near_m", "antialiasing", "distortion", "outputs"};
 
-/// All that a parser of one kind may read beside its map.
+/// Holds the inputs of a parser besides its map.
 struct SensorContext {
   Rational rate_hz;
   PatternFiles& patterns;
 };
 
-/// How one kind is read.
+/// Describes the parser of one kind.
 struct SensorParser {
-  Keys keys;  ///< of its map
+  Keys keys;  ///< the keys of its map
   SensorSettings (*parse)(const FieldMap& map, const SensorContext& context) = nullptr;
 };
 using SensorParsers = std::array<SensorParser, sensor_kind_count>;
 
-/// The table of parsers; index: that of sensor_kinds. A new kind gets a row here.
+/// Returns the table of parsers, indexed like sensor_kinds. A new kind needs a row here.
 SensorParsers sensor_parsers() {
   SensorParsers parsers;
   parsers[sensor_kind_index<CameraConfig>()] = {
@@ -93,7 +93,7 @@ SensorParsers sensor_parsers() {
   return parsers;
 }
 
-/// `type` as the row of sensor_kinds.
+/// Returns the row of sensor_kinds for the key `type`.
 size_t sensor_type(const Field& field) {
   std::array<std::string_view, sensor_kind_count> types;
   std::ranges::transform(sensor_kinds, types.begin(), &SensorKind::type);

@@ -60,7 +60,7 @@ render::TableShot parse_shot(const CsvLine& line) {
 
 render::ShotTable parse_shots(std::string_view text, const std::string& name) {
   render::ShotTable table{{}, std::filesystem::path(name).filename().string(), Sha256().update(text).hex()};
-  size_t columns = 0;  // of the first line
+  size_t columns = 0;  // number of columns in the first line
   CsvReader reader(text, name);
   while (const std::optional<CsvLine> line = reader.next()) {
     if (columns == 0 && !csv_number(line->cells[0].text)) {

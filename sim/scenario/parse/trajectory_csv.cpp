@@ -76,7 +76,7 @@ WayPoint parse_point(const CsvLine& line) {
 
 std::vector<WayPoint> parse_way_points(std::string_view text, const std::string& name) {
   std::vector<WayPoint> points;
-  size_t columns = 0;  // of the first line
+  size_t columns = 0;  // number of columns in the first line
   CsvReader reader(text, name);
   while (const std::optional<CsvLine> line = reader.next()) {
     if (columns == 0 && !csv_number(line->cells[0].text)) {

@@ -12,11 +12,11 @@ struct Row {
   int32_t node;
 };
 
-/// One array: `write` fills the values of a row.
+/// Describes one array; `write` fills the values of a row.
 struct Column {
   const char* name;
   DType dtype;
-  int64_t width;  ///< 0: a scalar a row
+  int64_t width;  ///< values per row; 0: a scalar
   const char* unit;
   const char* description;
   void (*write)(const Row& row, std::byte* to);

@@ -32,12 +32,14 @@ bool boxed_by_default(SemanticClass semantic_class) {
   }
 }
 
-/// Sensor x forward, y left, z up; optical x right, y down, z forward.
+/// Returns the rotation between the sensor frame (x forward, y left, z up) and the optical frame (x right, y
+/// down, z forward).
 Pose optical_from_sensor() {
   return {dvec3(0.0), glm::quat_cast(glm::dmat3(dvec3(0, 0, 1), dvec3(-1, 0, 0), dvec3(0, -1, 0)))};
 }
 
-/// sensor_from_body. Positions by their difference from the eye, so that large coordinates cancel.
+/// Returns sensor_from_body. The position is computed from the difference to the sensor, so that large
+/// coordinates cancel.
 Pose from_sensor(const Pose& local_from_sensor, uint32_t body, std::span<const Pose> bodies) {
   const Pose local_from_body = body == 0 ? Pose{} : bodies[body],
              sensor_from_local = local_from_sensor.inverse();
@@ -49,7 +51,7 @@ double area(const dvec4& rectangle) {
   return std::max(0.0, rectangle.z - rectangle.x) * std::max(0.0, rectangle.w - rectangle.y);
 }
 
-/// Counter-clockwise, without collinear points (A. Andrew's monotone chain, 1979).
+/// Returns the convex hull counter-clockwise, without collinear points (A. Andrew's monotone chain, 1979).
 std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
   std::ranges::sort(points,
                     [](const dvec2& a, const dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -66,7 +68,7 @@ std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
       }
       hull.push_back(*point);
     }
-    hull.pop_back();  // the other chain begins with it
+    hull.pop_back();  // the other chain begins with this point
   };
   chain(points.begin(), points.end());
   chain(points.rbegin(), points.rend());
@@ -110,12 +112,12 @@ Pose upright_box(std::span<const dvec3> points, dvec3& size) {
   for (size_t i = 0; i < hull.size(); ++i) {
     const dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
     const Rectangle candidate = around(std::atan2(edge.y, edge.x));
-    if (candidate.area() < best.area() * (1.0 - 1e-9))
-      best = candidate;  // the first one, whatever the last digit
+    // The tolerance makes the choice independent of rounding: the first of equals.
+    if (candidate.area() < best.area() * (1.0 - 1e-9)) best = candidate;
   }
   const dvec2 sides = best.most - best.least;
   const bool square = std::abs(sides.x - sides.y) <= 1e-6 * (sides.x + sides.y);
-  // Along the longer side, within a half turn; a square within a quarter turn.
+  // The x axis is along the longer side, within half a turn; for a square within a quarter turn.
   double yaw = best.yaw + (!square && sides.y > sides.x ? 0.5 * pi : 0.0);
   const double period = square ? 0.5 * pi : pi;
   yaw -= period * std::ceil(yaw / period - 0.5);
@@ -177,7 +179,7 @@ SemanticClass Boxes::class_of(std::span<const std::vector<uint32_t>> parts) cons
 }
 
 void Boxes::add_geometry(Object& object, std::span<const std::vector<uint32_t>> parts) const {
-  std::map<uint32_t, uint32_t> vertex_of;  // by the scene's
+  std::map<uint32_t, uint32_t> vertex_of;  // by the vertex index of the scene
   for (const std::vector<uint32_t>& part : parts)
     for (const uint32_t p : part) {
       const uint32_t body = scene_.instances[scene_.primitives[p].instance].body;
@@ -212,7 +214,7 @@ void Boxes::count_seen(std::span<const uint32_t> instances) {
   std::ranges::fill(seen_, Seen{});
   for (uint32_t row = 0; row < height; ++row) {
     const uint32_t* const ids = instances.data() + size_t{row} * width;
-    // Neighbours mostly show the same.
+    // Adjacent pixels mostly show the same instance, so runs are counted.
     for (uint32_t first = 0, end = 0; first < width; first = end) {
       const uint32_t id = ids[first];
       for (end = first + 1; end < width && ids[end] == id;) ++end;
@@ -226,8 +228,7 @@ void Boxes::count_seen(std::span<const uint32_t> instances) {
 }
 
 bool Boxes::outside(const Object& object, const Pose& optical_from_body) const {
-  // A corner of the 3-D box is beyond a side of the view if it is so in homogeneous coordinates, also behind
-  // the eye.
+  // The test in homogeneous coordinates also holds for corners behind the camera.
   uint32_t beyond_all = 31;
   const dvec2 least = projection_.least(), most = projection_.most();
   const Pose optical_from_box = optical_from_body * object.body_from_box;
@@ -305,7 +306,8 @@ std::vector<ObjectBox> Boxes::find(const Pose& local_from_sensor, std::span<cons
     if (seen.pixels > 0) {
       box.visible = seen.pixels;
       for (size_t side = 0; side < 4; ++side) box.modal[side] = static_cast<int32_t>(seen.bounds[side]);
-      // What the picture shows is covered, also where its rasterisation rounds to the other side of an edge.
+      // Pixels that show the object count as covered, also where rasterisation on the GPU rounds to the other
+      // side of an edge.
       for (uint32_t row = seen.bounds[1]; row < seen.bounds[3]; ++row)
         for (uint32_t column = seen.bounds[0]; column < seen.bounds[2]; ++column)
           if (object_of_id_[instances[size_t{row} * projection_.width() + column]] == i + 1)
@@ -313,7 +315,7 @@ std::vector<ObjectBox> Boxes::find(const Pose& local_from_sensor, std::span<cons
     }
     box.alone = coverage_.count();
     if (box.alone == 0) continue;
-    // Seen, but for a rounding not beyond the near plane.
+    // The object is visible, but by rounding no part lies beyond the near plane.
     if (box.unclipped.x > box.unclipped.z)
       box.unclipped = dvec4(box.modal[0], box.modal[1], box.modal[2], box.modal[3]);
     const double width = projection_.width(), height = projection_.height();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The metadata of what cameras deliver.
+// Writes the metadata of cameras.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,9 +11,10 @@
 
 namespace greatx::sim {
 
-/// Intrinsics, lens, frames and exposure: what a user needs to make sense of the pictures (docs/truth.md).
+/// Returns intrinsics, lens, frames and exposure, which a user needs to interpret the pictures
+/// (docs/truth.md).
 nlohmann::json camera_metadata(const CameraConfig& config, const Pose& body_from_sensor);
-/// Of a camera or an event camera.
+/// Returns the metadata that cameras and event cameras share.
 nlohmann::json pinhole_metadata(const PinholeConfig& config, const Pose& body_from_sensor);
 
 }  // namespace greatx::sim

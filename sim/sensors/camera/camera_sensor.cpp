@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t probes_per_picture = 256;
 
-/// Ids as 16-bit pictures where they fit.
+/// Returns ids as 16-bit values.
 Array narrow_ids(const std::vector<uint32_t>& ids, std::vector<int64_t> shape) {
   Array array(DType::u16, std::move(shape));
   std::transform(ids.begin(), ids.end(), array.as<uint16_t>().begin(),
@@ -120,8 +120,8 @@ TruthMoment CameraSensor::next_sample(const TickContext& context) const {
           context.body_poses_at(time_s)};
 }
 
-/// The instants of an exposure around the tick, evenly; the tick itself, whose depth and ids are the
-/// picture's, last.
+/// Records the instants of an exposure, evenly around the tick. The tick itself comes last, since depth and
+/// ids of the picture are those of the tick.
 void CameraSensor::expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor) {
   const render::FrameNumber frame{context.sequence, context.tick};
   const uint32_t instants = config_.motion_blur_samples;

@@ -16,16 +16,17 @@
 
 namespace greatx::sim {
 
-/// Where a camera and all bodies are at one instant, local coordinates.
+/// Holds the poses of a camera and of all bodies at one instant, local coordinates.
 struct TruthMoment {
   Pose local_from_sensor;
   std::vector<Pose> bodies;
 };
 
-/// A camera on a node. With a probe pass, each picture's depth is held against rays through pixel centres.
+/// A camera on a node. With a probe pass, the depth of each picture is compared with rays through pixel
+/// centres.
 class CameraSensor : public Sensor {
  public:
-  /// `node`, `sensor`: indices into the scenario. `probe` may be null; the others outlive this.
+  /// `node` and `sensor` are indices into the scenario. `probe` may be null. All others outlive this.
   CameraSensor(PosedScene& posed, const render::ProbePass* probe, const Scenario& scenario, uint32_t node,
                uint32_t sensor);
 
@@ -34,17 +35,18 @@ class CameraSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;
   bool draws_pictures() const override { return true; }
-  /// An event camera that shares its pixels looks at the pictures before a resume, too.
+  /// An event camera that shares the pixels needs the pictures before a resumed tick, too.
   bool remembers() const override { return pass_.desc().outputs.luminance; }
 
-  /// With the picture recorded last.
+  /// Returns the camera pass, which holds the picture recorded last.
   const render::CameraPass& pass() const { return pass_; }
 
  private:
   void expose(gpu::TickSlot& slot, const TickContext& context, const Pose& local_from_sensor);
   void describe(const CameraConfig& config, size_t instances);
   void check(const gpu::TickSlot& slot);
-  /// When the camera fires next; after a sequence's last sample the trajectories go on as Course has it.
+  /// Returns the moment at which the camera fires next. After the last sample of a sequence the trajectories
+  /// continue as defined by Course.
   TruthMoment next_sample(const TickContext& context) const;
 
   PosedScene& posed_;
@@ -57,14 +59,14 @@ class CameraSensor : public Sensor {
   SensorSpec spec_;
   render::CameraPass pass_;
   std::unique_ptr<render::TruthPass> truth_;  ///< null if no output asks for it
-  std::unique_ptr<Boxes> boxes_;              ///< likewise
+  std::unique_ptr<Boxes> boxes_;              ///< null without boxes
   std::vector<int32_t> node_of_body_;
-  std::array<TruthMoment, slots_in_flight> moments_;  ///< of the ticks in flight, for boxes
+  std::array<TruthMoment, slots_in_flight> moments_;  ///< poses at the ticks in flight, for boxes
   const render::ProbePass* probe_;
   std::vector<glm::uvec2> probe_pixels_;
   std::array<gpu::Slice, slots_in_flight> probe_hits_;
   render::CameraImages images_;
-  ErrorStatistics depth_errors_;  ///< of the picture collected last
+  ErrorStatistics depth_errors_;  ///< errors of the picture collected last
 };
 
 }  // namespace greatx::sim

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The first of 0 .. end whose centre, + 0.5, is at or beyond x.
+/// Returns the first of 0 .. end whose centre, at + 0.5, is at or beyond x.
 uint32_t first_center(double x, uint32_t end) {
   return static_cast<uint32_t>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(end)));
 }
@@ -59,19 +59,20 @@ struct Projection::Bounds {
   }
 };
 
-/// Of a straight edge that the lens bends; places along it are counted from where it comes closest to the
-/// axis, in normalised coordinates.
+/// Adds a straight edge that the lens bends. Positions along the edge are measured from its closest point to
+/// the axis, in normalised coordinates.
 void Projection::add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) const {
   const dvec2 a = normalised(from), along = normalised(to) - a;
   const double length = glm::length(along), step = edge_step / std::max(fx_, fy_);
   bounds.add(shown(a));
-  if (!(length > step)) return;  // the next edge begins at its other end
+  if (!(length > step)) return;  // the next edge adds the other end
   const dvec2 unit = along / length;
   const double begin = glm::dot(a, unit), end = begin + length;
   const dvec2 closest = a - begin * unit;
   const double distance = glm::length(closest);
   const auto point = [&](double at) { return shown(closest + at * unit); };
-  // Beyond what the picture shows, evenly by angle: there it is far away, and from the fold on an arc.
+  // Outside the visible part, points are evenly spaced by angle: this part is far from the axis, and beyond
+  // the fold it maps to an arc.
   const auto add_outside = [&](double first, double last) {
     const double from_angle = std::atan2(first, distance), to_angle = std::atan2(last, distance);
     const double points = std::ceil(std::abs(to_angle - from_angle) * seen_radius_ / step);
@@ -90,7 +91,7 @@ void Projection::add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) co
   for (double i = 2.0; i <= points; i += 1.0) {
     const dvec2 next = point(first + i * each);
     bounds.add(next);
-    // Where a coordinate turns round: the vertex of the parabola through three points.
+    // A coordinate has an extremum here: add the vertex of the parabola through three points.
     for (int axis = 0; axis < 2; ++axis)
       if (const double rise = here[axis] - before[axis], fall = next[axis] - here[axis]; rise * fall < 0.0)
         bounds.add(point(first + (i - 1.0 + 0.5 * (rise + fall) / (rise - fall)) * each));
@@ -171,8 +172,8 @@ void Coverage::add_straight(std::span<const dvec2> polygon) {
     const double y = row + 0.5;
     double left = infinity, right = -infinity;
     for (size_t i = 0; i < polygon.size(); ++i) {
-      // From the upper end to the lower one, whichever way round the polygon goes: neighbours find the same
-      // crossing.
+      // Edges go from the upper end to the lower one in either direction of the polygon, so that adjacent
+      // polygons find the same crossing.
       const dvec2 *a = &polygon[i], *b = &polygon[(i + 1) % polygon.size()];
       if (a->y > b->y) std::swap(a, b);
       if (!(a->y <= y && y < b->y)) continue;
@@ -186,7 +187,7 @@ void Coverage::add_straight(std::span<const dvec2> polygon) {
 }
 
 void Coverage::add_distorted(std::span<const dvec2> polygon, const dvec4& bounds) {
-  constexpr double margin = 1.0;  // bounds are good to a small part of a pixel
+  constexpr double margin = 1.0;  // the error of bounds is a small part of a pixel
   double doubled_area = 0.0;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t chosen_events_per_pixel = 8;
 constexpr uint64_t most_events = 1u << 28;
-constexpr double longest_hdf5_s = 4294.967295;  ///< DSEC's times are 32-bit microseconds
+constexpr double longest_hdf5_s = 4294.967295;  ///< times in DSEC are 32-bit microseconds
 
 render::CameraDesc camera_desc(const std::string& name, const EventCameraConfig& config, bool seen,
                                uint32_t body) {
@@ -185,8 +185,9 @@ void EventSensor::take_picture(gpu::TickSlot& slot, const TickContext& context, 
                by_flow ? motions(context, time_s) : std::vector<shared::EventMotion>());
 }
 
-/// Of every body as the camera sees it: p_camera = R^T (P - c), P = O + R_b p_b, so its derivative is
-/// R^T (V + W x (c - O) - v) + R^T (W - w) x p_camera; then in optical axes.
+/// Returns the motion of every body relative to the camera. With p_camera = R^T (P - c) and P = O + R_b p_b,
+/// the derivative of p_camera is R^T (V + W x (c - O) - v) + R^T (W - w) x p_camera. The result is in optical
+/// axes.
 std::vector<shared::EventMotion> EventSensor::motions(const TickContext& context, double time_s) const {
   const Motion carrier = context.motion_at(node_, time_s);
   const Pose camera = carrier.pose * mount_;

@@ -15,14 +15,14 @@ namespace greatx::sim {
 
 class CameraSensor;
 
-/// An event camera on a node: at each of its samples, the events since the sample before (docs/events.md).
-/// Pictures at the instants in between are rendered in the same tick's command buffer, with everything that
-/// moves where it then was. With EventCameraConfig::camera the pictures at the samples are that camera's,
-/// which recorded them just before.
+/// An event camera on a node. At each of its samples it delivers the events since the sample before
+/// (docs/events.md). The pictures at the instants in between are rendered in the command buffer of the same
+/// tick, with everything in its pose at the instant. With EventCameraConfig::camera, the pictures at the
+/// samples are those of that camera, which are recorded just before.
 class EventSensor : public Sensor {
  public:
-  /// `node`, `sensor`: indices into the scenario. `shared`: whose pixels it has, or null. `posed` and the
-  /// camera outlive this.
+  /// `node` and `sensor` are indices into the scenario. `shared` is the camera whose pixels it shares, or
+  /// null. `posed` and the camera outlive this.
   EventSensor(PosedScene& posed, const CameraSensor* shared, const Scenario& scenario, uint32_t node,
               uint32_t sensor);
 
@@ -36,12 +36,12 @@ class EventSensor : public Sensor {
   void count(std::map<std::string, uint64_t>& counters) const override;
   void warn(std::vector<std::string>& warnings) const override;
 
-  /// The interval collected last.
+  /// Returns the events of the interval collected last.
   const render::EventFrame& frame() const { return frame_; }
 
  private:
   void describe();
-  /// The pass that has the picture of an instant.
+  /// Returns the pass that has the picture of an instant; `sample`: the instant is a sample.
   const render::CameraPass& picture_at(bool sample) const;
   void take_picture(gpu::TickSlot& slot, const TickContext& context, Instants& at, uint32_t index,
                     double time_s);
@@ -54,11 +54,11 @@ class EventSensor : public Sensor {
   Pose mount_;
   Clock clock_;
   const CameraSensor* shared_;
-  std::optional<render::CameraPass> camera_;  ///< of the pictures that `shared_` does not take
+  std::optional<render::CameraPass> camera_;  ///< for the pictures that `shared_` does not take
   render::EventPass events_;
   SensorSpec spec_;
-  std::optional<int64_t> last_ns_;  ///< of the sample recorded last
-  int64_t sample_ = 0;              ///< of the one to be recorded next
+  std::optional<int64_t> last_ns_;  ///< time of the sample recorded last
+  int64_t sample_ = 0;              ///< number of the next sample
   std::array<int64_t, slots_in_flight> begin_ns_{};
   render::EventFrame frame_;
   uint64_t event_count_ = 0, dropped_ = 0, pictures_ = 0, coarse_ = 0;

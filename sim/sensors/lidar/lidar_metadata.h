@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a LiDAR says of its data.
+// Describes the data of a LiDAR.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,12 @@
 
 namespace greatx::sim {
 
-/// The arrays that some output holds, in the order of arrays_of: `points` alone for bare points (npy, KITTI),
-/// all of them for clouds with their properties (PLY, PCD).
+/// Returns the declarations of the arrays that the outputs hold, in the order of arrays_of: `points` alone
+/// for bare points (npy, KITTI), all arrays for clouds with properties (PLY, PCD).
 std::vector<ArraySpec> lidar_arrays(const LidarConfig::Outputs& outputs);
+/// Returns the arrays of a scan.
 std::vector<Array> arrays_of(const render::LidarScan& scan, const LidarConfig::Outputs& outputs);
-/// Scan pattern, beam, returns and receiver as they are used, effects that are off left out.
+/// Returns scan pattern, beam, returns and receiver as used by the run; effects that are off are left out.
 nlohmann::json lidar_metadata(const LidarConfig& config, const render::LidarDesc& desc);
 
 }  // namespace greatx::sim

@@ -11,7 +11,8 @@
 
 namespace greatx::sim {
 
-/// A LiDAR on a node: each shot from the pose at its own time, at bodies where they are then.
+/// A LiDAR on a node. Each shot starts from the pose at its own time, and meets the bodies in their poses at
+/// that time.
 class LidarSensor : public Sensor {
  public:
   LidarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor);
@@ -21,7 +22,7 @@ class LidarSensor : public Sensor {
   std::vector<Array> collect(const gpu::TickSlot& slot) override;
   Evidence evidence() const override;
 
-  /// The sweep collected last.
+  /// Returns the sweep collected last.
   const render::LidarScan& scan() const { return scan_; }
 
  private:
@@ -30,8 +31,8 @@ class LidarSensor : public Sensor {
     render::ShotNoise noise;
   };
   void describe(const SensorConfig& sensor);
-  /// Whether returns may be compared with pictures of the tick: all shots at the tick, along the axis,
-  /// without noise.
+  /// Returns whether returns may be compared with pictures of the tick: all shots are at the tick, along the
+  /// axis of the beam, and without noise.
   bool exact() const;
   std::vector<Pose> poses(const TickContext& context, const render::ScanPattern& pattern) const;
   render::ShotNoise noise_of(const TickContext& context) const;
@@ -42,7 +43,7 @@ class LidarSensor : public Sensor {
   uint64_t seed_;
   Pose mount_;
   bool per_shot_;
-  uint32_t unseen_body_;  ///< that the beams pass through, with its parts; 0: none
+  uint32_t unseen_body_;  ///< a body that the beams pass through, with its parts; 0: none
   render::LidarPass pass_;
   SensorSpec spec_;
   std::array<Sweep, slots_in_flight> sweeps_;

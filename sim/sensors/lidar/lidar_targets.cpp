@@ -9,11 +9,12 @@ namespace greatx::sim {
 namespace {
 
 constexpr size_t stride = 16;
-constexpr double margin_m = 10.0;  ///< 6 km/s over a sixteenth of a thousand steps of 0.1 s
+/// A body at 6 km/s moves 10 m in 16 of 1000 steps of a sweep of 0.1 s.
+constexpr double margin_m = 10.0;
 
 bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
 
-/// One body's way through a sweep.
+/// Holds the motion of one body during a sweep.
 class Target {
  public:
   Target(const World& world, const TickContext& context, const SweepView& view, uint32_t body)
@@ -24,7 +25,7 @@ class Target {
     still_ = !world.scene.bodies[body].joint;
   }
 
-  /// Looks at some of the times.
+  /// Examines the body at some of the times.
   void look() {
     for (size_t i = 0; i < view_.times_s.size(); i = next(i)) {
       const Pose pose = pose_at(i);
@@ -55,13 +56,13 @@ class Target {
     target.center = middles.center();
     double spread = 0.0;
     for (const dvec3& place : places) spread = std::max(spread, glm::distance(place, target.center));
-    // Room for the roundings of the GPU's coordinates.
+    // The margin covers rounding of coordinates on the GPU.
     target.radius_m = (radius_m_ + spread) * (1.0 + 1e-6) + 1e-3 + 1e-6 * glm::length(target.center);
     return target;
   }
 
  private:
-  /// Every `stride`th, and the last one.
+  /// Steps by `stride`, and to the last time.
   size_t next(size_t i) const {
     const size_t last = view_.times_s.size() - 1;
     return i == last ? last + 1 : std::min(i + stride, last);

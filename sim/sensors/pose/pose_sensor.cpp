@@ -13,7 +13,7 @@ PoseSensor::PoseSensor(const Scenario& scenario, const dvec3& origin) {
   const auto nodes = static_cast<int64_t>(scenario.nodes.size());
   spec_.name = "poses";
   spec_.kind = "pose";
-  spec_.rate = "";  // whenever something else fires
+  spec_.rate = "";  // it fires whenever another sensor does
   const auto add = [&](const char* name, int64_t width, const char* unit, const char* description) {
     spec_.arrays.push_back({name, DType::f64, {nodes, width}, unit, description});
     spec_.outputs.push_back({name, FileFormat::npy_stack, {name}});

@@ -8,7 +8,7 @@
 
 namespace greatx::sim {
 
-/// Ground truth of everything that moves, whenever something fires.
+/// Delivers the ground truth of the motion of all nodes whenever another sensor fires.
 class PoseSensor : public Sensor {
  public:
   PoseSensor(const Scenario& scenario, const dvec3& origin);

@@ -16,7 +16,7 @@ namespace {
 
 double db(double power) { return 10.0 * std::log10(power); }
 
-/// A quantity of every detection.
+/// Describes a quantity of every detection.
 struct Column {
   const char* name;
   const char* unit;

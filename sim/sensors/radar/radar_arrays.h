@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a radar writes: its arrays, what they mean, and how they are filled.
+// Declares, documents and fills the arrays of a radar.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,12 @@
 
 namespace greatx::sim {
 
-/// Adds arrays and files.
+/// Adds the arrays and files of a radar to the spec.
 void describe_radar(const RadarConfig& config, const rf::RadarProcessor& processor, SensorSpec& spec);
-/// The arrays of one frame, in the order described.
+/// Returns the arrays of one frame in the order described.
 std::vector<Array> radar_arrays(const RadarConfig& config, const rf::RadarProcessor& processor,
                                 const rf::RadarFrame& frame);
+/// Returns the waveform, the arrays and the axes of a radar.
 nlohmann::json radar_metadata(const RadarConfig& config, const rf::RadarProcessor& processor);
 
 }  // namespace greatx::sim

@@ -17,7 +17,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// The scenario's, without those imperfections that the plan leaves out.
+/// Returns the configuration without the imperfections that the plan leaves out.
 RadarConfig planned(RadarConfig config, const EffectPlan& plan) {
   rf::RadarReceiver& receiver = config.signal.receiver;
   if (!plan.radar_noise.on) receiver.noise_figure_db.reset();
@@ -38,7 +38,7 @@ rf::RadarGain gain_of(const rf::EchoEnd& end) {
   };
 }
 
-/// The largest of an element's gains, but for some thousandths.
+/// Returns the largest gain of an element to within some thousandths.
 double largest_gain(const rf::RadarGain& gain) {
   constexpr int steps = 180;
   double largest = 0.0;
@@ -51,7 +51,7 @@ double largest_gain(const rf::RadarGain& gain) {
   return largest;
 }
 
-/// The width of the virtual array's beam, rad; of one antenna a wide one.
+/// Returns the beam width of the virtual array, rad; at most 0.5, as for one antenna.
 double beam_of(const rf::RadarSignalConfig& signal) {
   double reach = 0.0;
   for (const auto* elements : {&signal.arrays.transmit_m, &signal.arrays.receive_m}) {
@@ -135,14 +135,15 @@ void RadarSensor::describe(const SensorConfig& sensor) {
   spec_.metadata_json = metadata.dump();
 }
 
-/// Of the slots from one tracing to the next. Chirps of one loop over the transmitters stay together.
+/// Returns the motion over the slots from one tracing to the next. The chirps of one loop over the
+/// transmitters stay together.
 rf::EchoMotion RadarSensor::motion(const TickContext& context, uint32_t update) const {
   const rf::RadarWaveform& waveform = config_.signal.waveform;
   const auto first_slot = [&](uint32_t u) {
     return waveform.transmitters * static_cast<uint32_t>(uint64_t{waveform.chirps()} * u / config_.updates);
   };
   rf::EchoMotion motion;
-  // Functions that outlive the context.
+  // These functions outlive the context.
   const auto end = [&](const Carrier& carrier) {
     return [&world = world_, at = context.motion_at, start_s = context.time_s, carrier](double time_s) {
       return world.scene.to_local(at(carrier.node, start_s + time_s).pose) * carrier.mount;

@@ -12,12 +12,12 @@
 
 namespace greatx::sim {
 
-/// A radar on a node, with a transmitter of its own or another node's antenna. A frame begins at the tick.
-/// Its rays are traced in the tick's command buffer, as often as RadarConfig::updates says, each time with
-/// everything where it then is.
+/// A radar on a node, with a transmitter of its own or the antenna of another node. A frame begins at the
+/// tick. Its rays are traced in the command buffer of the tick, RadarConfig::updates times, each time with
+/// everything in its pose at that time.
 class RadarSensor : public Sensor {
  public:
-  /// Throws UserError for a target that is no instance of the scene, and for materials unknown at the
+  /// Throws UserError if a target is not an instance of the scene, or if a material is unknown at the
   /// carrier.
   RadarSensor(scene::GpuScene& gpu_scene, const Experiment& experiment, uint32_t node, uint32_t sensor);
 
@@ -27,27 +27,27 @@ class RadarSensor : public Sensor {
   Evidence evidence() const override;
   void count(std::map<std::string, uint64_t>& counters) const override;
 
-  /// What the scene sends back in a frame, and when; what collect() makes a record of.
+  /// Holds the echoes of a frame over time; collect() makes a record of them.
   struct Echoes {
     std::vector<rf::EchoList> lists;
     std::vector<rf::RadarAttitude> attitudes;
     rf::RadarSeeds seeds;
     dvec3 baseline_m{0.0};
   };
-  /// The two halves of collect(), for who wants to know what each costs.
+  /// The two halves of collect(), for callers that measure the cost of each.
   Echoes find_echoes(const gpu::TickSlot& slot);
   std::vector<Array> process(const Echoes& echoes);
 
-  /// The frame collected last.
+  /// Returns the frame collected last.
   const rf::RadarFrame& frame() const { return frame_; }
 
  private:
-  /// Where an end is carried.
+  /// Describes the mount of an end.
   struct Carrier {
     uint32_t node = 0, body = 0;
     Pose mount;
   };
-  /// One tracing of the scene, and what moves until the next.
+  /// Holds one tracing of the scene, and the motion until the next one.
   struct Update {
     rf::EchoFinder::Pending rays;
     rf::EchoMotion motion;
@@ -59,7 +59,7 @@ class RadarSensor : public Sensor {
     dvec3 baseline_m{0.0};
   };
   Carrier transmitter_of(const Scenario& scenario) const;
-  /// With the slant of its one polarization.
+  /// Returns an end with the slant of its single polarization.
   rf::EchoEnd end_of(const AntennaConfig& antenna, uint32_t own_body) const;
   rf::EchoEnd transmit_end() const { return end_of(config_.transmit, transmitter_.body); }
   rf::EchoEnd receive_end() const { return end_of(config_.receive, receiver_.body); }

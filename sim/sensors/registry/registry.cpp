@@ -20,7 +20,7 @@ namespace greatx::sim {
 
 namespace {
 
-/// The parts, and the sensors made so far that later ones share something with.
+/// Holds the parts, and the cameras made so far, since later sensors may share their pixels.
 struct Workshop {
   const SensorParts& parts;
   std::map<std::string, const CameraSensor*> cameras;  ///< by "node/sensor"
@@ -34,8 +34,8 @@ std::unique_ptr<Sensor> make_camera(Workshop& shop, SensorPlace at) {
   return camera;
 }
 
-/// An event camera may have the pixels of a camera of its node, which the parser has found to be listed
-/// before it.
+/// Makes an event camera. It may share the pixels of a camera of its node; the parser has checked that this
+/// camera is listed before it.
 std::unique_ptr<Sensor> make_event_camera(Workshop& shop, SensorPlace at) {
   const SensorParts& p = shop.parts;
   const NodeConfig& node = p.experiment.scenario.nodes[at.node];
@@ -63,13 +63,13 @@ std::unique_ptr<Sensor> make_channel(const SensorParts& p, uint32_t channel) {
   return std::make_unique<ChannelSensor>(p.gpu_scene, *p.passes.crossings, p.experiment, channel);
 }
 
-/// A row of the table.
+/// A row of the table of kinds.
 struct Maker {
   size_t kind = 0;  ///< index into sensor_kinds
   std::unique_ptr<Sensor> (*make)(Workshop&, SensorPlace) = nullptr;
 };
 
-/// The kinds of sensors of nodes. A new kind gets a row here.
+/// The kinds of sensors of nodes. A new kind needs a row here.
 constexpr Maker makers[] = {
     {sensor_kind_index<CameraConfig>(), make_camera},
     {sensor_kind_index<EventCameraConfig>(), make_event_camera},
@@ -77,7 +77,7 @@ constexpr Maker makers[] = {
     {sensor_kind_index<RadarConfig>(), make_radar},
 };
 
-/// Null: the kind does not fire.
+/// Returns the maker of a kind; null: the kind does not fire.
 constexpr const Maker* maker_of(size_t kind) {
   for (const Maker& maker : makers)
     if (maker.kind == kind) return &maker;

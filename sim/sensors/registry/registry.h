@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of the kinds of sensors that a run can have: which class makes each. The simulator sees its
-// sensors through the interface of sim/sensors/sensor.h alone.
+// Defines the table of the kinds of sensors in a run, which names the class of each kind. The simulator uses
+// sensors only through the interface of sim/sensors/sensor.h.
 #pragma once
 
 #include <memory>
@@ -17,22 +17,22 @@
 
 namespace greatx::sim {
 
-/// A sensor of a run, and when it fires.
+/// Holds a sensor of a run with its rate.
 struct RunSensor {
   std::unique_ptr<Sensor> sensor;
-  std::optional<Rational> rate_hz;  ///< none: it fires whenever another one does
-  SourceLocation where;             ///< in the scenario; line 0: the scenario does not name it
+  std::optional<Rational> rate_hz;  ///< none: the sensor fires whenever another one does
+  SourceLocation where;             ///< the place in the scenario; line 0: the scenario does not name it
 };
 
-/// Everything that sensors are made from. All of it outlives them.
+/// Holds everything from which sensors are made. All of it outlives them.
 struct SensorParts {
   scene::GpuScene& gpu_scene;
   SharedPasses& passes;
   const Experiment& experiment;
 };
 
-/// All sensors of a scenario in the order of their records: the poses, the sensors of the nodes as the
-/// scenario lists them, the channels. Throws UserError, with the place in the scenario.
+/// Makes all sensors of a scenario in the order of their records: the poses, the sensors of the nodes in the
+/// order of the scenario, and the channels. Throws UserError with the place in the scenario.
 std::vector<RunSensor> make_sensors(const SensorParts& parts);
 
 }  // namespace greatx::sim

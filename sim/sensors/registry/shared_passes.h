@@ -13,7 +13,7 @@
 
 namespace greatx::sim {
 
-/// Passes that several sensors use. Only those of the plan exist; the others are null.
+/// Holds the passes that several sensors use. Only those that the plan needs exist; the others are null.
 struct SharedPasses {
   /// The scene and the experiment outlive the passes.
   SharedPasses(scene::GpuScene& gpu_scene, const Experiment& experiment);
