@@ -20,13 +20,16 @@ class Array:
 
     pattern             pattern of one element: "isotropic" (default), "short_dipole", "half_wave_dipole",
                         "tr38901"
-    pattern_file        CSV file with a pattern, in place of `pattern` polarization        "v" (default) or
-    "h": one port per element; "vh" or "slant" (+45 and -45 degrees): two slant_deg           one port per
-    element with this slant, in place of `polarization` polarization_model  1 or 2 (default) of 3GPP TR
-    38.901, 7.3.2 plane               "yz" (default): rows along +z, columns along +y; "xz"; "xy" rows,
-    columns       default 1 row_spacing_wl, column_spacing_wl   wavelengths, default 0.5 elements_wl
-    [[x, y, z], ...] positions of the elements in wavelengths, in place of the plane, the rows,
-                        the columns and their spacings
+    pattern_file        CSV file with a pattern, in place of `pattern`
+    polarization        "v" (default) or "h": one port per element; "vh" or "slant" (+45 and -45 degrees):
+                        two ports
+    slant_deg           one port per element with this slant, in place of `polarization`
+    polarization_model  1 or 2 (default) of 3GPP TR 38.901, 7.3.2
+    plane               "yz" (default): rows along +z, columns along +y; "xz"; "xy"
+    rows, columns       default 1
+    row_spacing_wl, column_spacing_wl   wavelengths, default 0.5
+    elements_wl         [[x, y, z], ...] positions of the elements in wavelengths, in place of `plane`, the
+                        rows, the columns and their spacings
     """
 
     rows: Optional[int] = None

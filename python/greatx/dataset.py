@@ -189,7 +189,8 @@ class Sequence:
         self.dataset = dataset
         self.number = number
         self.path = dataset.path / f"sequence_{number:04d}"
-        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), sorted by tick, then by sensor
+        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), sorted by tick, then by
+        #: sensor
         self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
         #: int64 [ticks]: the ticks that have records, ascending
         self.ticks: np.ndarray = np.unique(self.index[:, 0])

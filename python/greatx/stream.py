@@ -20,8 +20,8 @@ class Run:
         self._native = native
         self._call = call
         self.tick_rate_hz = tick_rate_hz
-        #: descriptions of the sensors by name: name, kind, rate_hz, metadata (as in dataset.json), arrays (name,
-        #: unit, description)
+        #: descriptions of the sensors by name: name, kind, rate_hz, metadata (as in dataset.json), arrays
+        #: (name, unit, description)
         self.sensors: Dict[str, Dict[str, Any]] = {s["name"]: s for s in json.loads(native.sensors())}
         self._names = list(self.sensors)
 
