@@ -54,8 +54,8 @@ def __getattr__(name: str) -> Any:
     except ImportError as error:
         raise ImportError(
             f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
-            "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the project's "
-            "folder (docs/python.md)"
+            "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the "
+            "project's folder (docs/python.md)"
         ) from error
     return getattr(simulation, name)
 

@@ -210,7 +210,8 @@ class Sequence:
             bad = np.flatnonzero((index[:, column] < 0) | (index[:, column] > limit))
             if len(bad):
                 raise DatasetError(
-                    f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, found {index[bad[0], column]}"
+                    f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, "
+                    f"found {index[bad[0], column]}"
                 )
         ticks, sensors = index[:, 0], index[:, 2]
         back = np.flatnonzero((np.diff(ticks) < 0) | ((np.diff(ticks) == 0) & (np.diff(sensors) <= 0)))

@@ -116,7 +116,7 @@ class Paths:
         H(f) e^{j 2 pi (f - carrier) first_delay}.
 
         Without arguments, the grid is the channel's, and the bytes are those of the data set's `cfr` at this
-        tick. `bandwidth_hz` is the total bandwidth, whose spacing is bandwidth_hz / subcarriers;
+        tick. `bandwidth_hz` is the total bandwidth: the spacing is bandwidth_hz / subcarriers.
         subcarrier_spacing_hz can be given instead. time_samples and time_spacing_s describe samples from the
         tick on, in which the Doppler shift of each path turns its phase. `select` is "all", "line_of_sight"
         (only this path) or "others".
@@ -127,7 +127,8 @@ class Paths:
         if bandwidth_hz is not None:
             if subcarrier_spacing_hz is not None:
                 raise Error(
-                    "subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, found both"
+                    "subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, "
+                    "found both"
                 )
             subcarrier_spacing_hz = bandwidth_hz / (
                 self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1)
@@ -209,6 +210,6 @@ class Paths:
 
     def __repr__(self) -> str:
         return (
-            f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, {self.shape[0]} receivers, "
-            f"{self.shape[1]} transmitters>"
+            f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, "
+            f"{self.shape[0]} receivers, {self.shape[1]} transmitters>"
         )

@@ -26,8 +26,9 @@ class Owned:
             raise AttributeError(name)
         if os.getpid() != fields["_process"]:
             raise Error(
-                f"this simulation was made by process {fields['_process']}, of which process {os.getpid()} is a "
-                "fork: its device cannot be used here. Make a greatx.Simulation in each process, or start "
-                "processes by 'spawn' (multiprocessing.set_start_method)"
+                f"this simulation was made by process {fields['_process']}, "
+                f"of which process {os.getpid()} is a fork: its device cannot be used here. "
+                "Make a greatx.Simulation in each process, or start processes by 'spawn' "
+                "(multiprocessing.set_start_method)"
             )
         return getattr(fields["_native"], name)

@@ -139,7 +139,8 @@ class Simulation:
             session = _call(_native.Session.load, os.fspath(scenario), *options)
         else:
             raise Error(
-                f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}"
+                f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of "
+                f"{', '.join(embedded)}"
             )
         self._native = Owned(session)
         self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
@@ -241,9 +242,9 @@ class Simulation:
         if angles and not {"place", "time"} & set(environment):
             if len(angles) == 1:
                 raise Error(
-                    f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place of "
-                    "the scenario's place and time, which say where the sun is (environment.time moves it), "
-                    "found one"
+                    f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place "
+                    "of the scenario's place and time, which say where the sun is "
+                    "(environment.time moves it), found one"
                 )
             return environment
         time = place.pop("time")

@@ -46,7 +46,8 @@ class SionnaPaths:
     tau: np.ndarray  #: float64 [rx, tx, path] s, absolute
     theta_t: np.ndarray  #: float32 [rx, tx, path] rad: zenith of departure
     phi_t: np.ndarray  #: float32 [rx, tx, path] rad: azimuth of departure
-    theta_r: np.ndarray  #: float32 [rx, tx, path] rad: zenith of arrival, from the receiver back along the path
+    #: float32 [rx, tx, path] rad: zenith of arrival, the direction from the receiver back along the path
+    theta_r: np.ndarray
     phi_r: np.ndarray  #: float32 [rx, tx, path] rad: azimuth of arrival
     doppler: np.ndarray  #: float32 [rx, tx, path] Hz
     valid: np.ndarray  #: bool [rx, tx, path]
