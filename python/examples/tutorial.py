@@ -32,19 +32,19 @@ print(
     f"{len(items)} ticks of {len(ds.sequences)} drives, depth {list(depth.shape[1:])}, H {list(h.shape[1:])}"
 )
 
-# %% The task: which of the array's DFT beams gives the most power, on average over the subcarriers
+# %% The task: find the array's DFT beam with the most power, averaged over the subcarriers
 h = h[:, 0, 0, 0, :, 0]  # [tick, tx_ant, subcarrier]
 power = torch.fft.fftshift(torch.fft.fft(h, dim=1).abs().square().mean(-1), dim=1)  # [tick, beam]
 best = power.argmax(1)
 
-# %% The input: how much nearer each pixel is than the empty street, the median picture of the training drives
+# %% The input: the decrease of depth against the empty street, the median picture of the training drives
 held_out = sequence % 4 == 3
 empty = depth[~held_out].median(0).values
 nearer = (empty - depth).nan_to_num(0).clamp(0, 10)  # metres; the sky is at infinity, inf - inf is nan
 pictures = nn.functional.max_pool2d(nearer[:, None], 4)  # [tick, 1, row / 4, column / 4]
 
 
-# %% Scores on the drives held out
+# %% Print the scores on the held-out drives
 def report(name, beam):
     chosen = power[held_out].gather(1, beam[:, None])[:, 0]
     loss_db = 10 * torch.log10(power[held_out].max(1).values / chosen)
