@@ -87,14 +87,14 @@ function(greatx_room ROOM)
   endif()
 endfunction()
 
-# greatx_compile_fast(TARGET): compiles a test with little optimization. Tests are compiled more often than they
-# run, and a run spends its time in the rooms that it tests.
+# greatx_compile_fast(TARGET): compiles a test with little optimization. Tests are compiled more often than
+# they run, and a run spends its time in the rooms that it tests.
 function(greatx_compile_fast TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# greatx_test(NAME SOURCES ... ALONE ... LINK ...): declares a GoogleTest program and adds each of its tests to
-# ctest with the label NAME. Tests whose name contains "HardCase" also have the label "hard". A unity build
+# greatx_test(NAME SOURCES ... ALONE ... LINK ...): declares a GoogleTest program and adds each of its tests
+# to ctest with the label NAME. Tests whose name contains "HardCase" also have the label "hard". A unity build
 # compiles the files of ALONE one by one, because their anonymous namespaces share names with other files.
 function(greatx_test NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;LINK" ${ARGN})

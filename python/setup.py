@@ -42,8 +42,10 @@ def wanted() -> bool:
 
 @contextlib.contextmanager
 def progress_output():
-    """Yields where the progress of a build goes: the terminal, since pip keeps standard output to itself, or standard
-    output (None) if there is no terminal."""
+    """Yields where the progress of a build goes.
+
+    It is the terminal, since pip keeps standard output to itself, or None (standard output) without one.
+    """
     try:
         terminal = open("/dev/tty", "w")
     except OSError:

@@ -42,7 +42,6 @@ empty = depth[~held_out].median(0).values
 nearer = (empty - depth).nan_to_num(0).clamp(0, 10)      # metres; the sky is at infinity, inf - inf is nan
 pictures = nn.functional.max_pool2d(nearer[:, None], 4)              # [tick, 1, row / 4, column / 4]
 
-
 # %% Print the scores on the held-out drives
 def report(name, beam):
     chosen = power[held_out].gather(1, beam[:, None])[:, 0]
