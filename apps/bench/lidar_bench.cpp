@@ -114,7 +114,7 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
   return scenario;
 }
 
-/// One row: a LiDAR with its own experiment.
+/// Measures one row: a LiDAR with its own experiment.
 class LidarRow {
  public:
   LidarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
