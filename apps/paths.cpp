@@ -47,7 +47,7 @@ struct PathsOptions {
 /// Pixel rows of a picture above and below the view of the scene.
 constexpr uint32_t picture_bars = picture_head + picture_foot;
 
-/// Describes what is requested of which channel.
+/// Holds the request: the channel, the moment, the receivers and the view.
 struct PathsRequest {
   uint32_t channel = 0;
   sim::ChannelSnapshot::Instant instant;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Gives access to the scenarios that are embedded in the program at build time.
 #pragma once
 
 #include <span>
@@ -7,12 +9,13 @@
 
 namespace greatx {
 
-/// A scenario that is part of the program: assets/scenarios/NAME.yaml, embedded at build time.
+/// Holds the name and the YAML text of assets/scenarios/NAME.yaml.
 struct EmbeddedScenario {
   std::string_view name;
   std::string_view text;
 };
 
+/// Returns all embedded scenarios.
 std::span<const EmbeddedScenario> embedded_scenarios();
 
 }  // namespace greatx

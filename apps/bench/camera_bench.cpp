@@ -30,7 +30,7 @@ constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
 constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 2500.0, fog_sky_lux = 14000.0,
                  fog_ev100 = 13.4;
 
-/// One row: a camera pass with its own scene, lighting and ring of ticks.
+/// Measures one row: a camera pass with its own scene, lighting and ring of ticks.
 class CameraRow {
  public:
   CameraRow(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,

@@ -30,7 +30,7 @@ constexpr const char* effect_names[] = {
     "lidar_alpha_mask", "lidar_textures", "lidar_sweep_motion", "lidar_target_motion", "lidar_divergence",
     "lidar_glass",      "lidar_haze",     "lidar_backscatter",  "lidar_detection",     "lidar_range_noise"};
 
-/// Describes what a row adds to the plain sweep.
+/// Describes the change of a row to the plain sweep.
 struct LidarChange {
   std::string name;
   std::vector<std::string> effects;  ///< effects that the plan may switch on; the row measures the first one
@@ -114,7 +114,7 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
   return scenario;
 }
 
-/// One row: a LiDAR with its own experiment.
+/// Measures one row: a LiDAR with its own experiment.
 class LidarRow {
  public:
   LidarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)

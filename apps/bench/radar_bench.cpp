@@ -30,7 +30,7 @@ sim::RadarConfig& radar_of(sim::Scenario& scenario, const sim::SensorPlace& plac
   return std::get<sim::RadarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
 }
 
-/// One row: a radar with its own experiment.
+/// Measures one row: a radar with its own experiment.
 class RadarRow {
  public:
   RadarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --recall`: checks that greatx finds every specular path exactly once. It compares with the
-// exhaustive reference (rf/reference/exhaustive_paths.h) the guaranteed search, and plain shooting and
-// bouncing of rays for increasing numbers of rays.
+// `greatx bench --recall`: checks that greatx finds every specular path exactly once. Both the guaranteed
+// search and plain shooting and bouncing of rays, for increasing numbers of rays, are compared with the
+// exhaustive reference (rf/reference/exhaustive_paths.h).
 #pragma once
 
 #include <cstdint>

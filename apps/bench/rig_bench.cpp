@@ -18,7 +18,7 @@ namespace greatx::apps {
 
 namespace {
 
-/// One row: a scenario that is run block by block.
+/// Measures one row: a scenario that runs block by block.
 class Row {
  public:
   /// `folder`: folder of the data set; empty: nothing is written.

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Defines the exit codes of greatx.
 #pragma once
 
 namespace greatx::apps {

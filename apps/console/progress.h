@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Shows the progress of runs on stderr, and notices interruptions by Ctrl-C or SIGTERM.
 #pragma once
 
 #include <chrono>

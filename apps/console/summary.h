@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Summarizes the statistics of a run as JSON and as text.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Shows the progress of long work and lets Ctrl-C interrupt it.
 #pragma once
 
 #include "core/watch.h"

@@ -15,7 +15,7 @@ uint8_t to_byte(double value) {
   return static_cast<uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// c[0] + c[1] t + ..., one polynomial a channel.
+/// Evaluates c[0] + c[1] t + ..., one polynomial for each channel.
 template <size_t N>
 Color polynomial(const double (&c)[N][3], double t) {
   t = std::clamp(t, 0.0, 1.0);
@@ -54,8 +54,8 @@ Color viridis(double t) {
 
 Color color_of_id(uint32_t id) {
   if (id == 0) return {40, 43, 50};
-  // Steps of the golden ratio around the circle of hues keep neighbours apart; saturation and value vary
-  // slowly.
+  // Steps of the golden ratio around the circle of hues separate the hues of successive ids. Saturation and
+  // value vary slowly.
   const double hue = std::fmod(id * 0.6180339887498949, 1.0);
   return from_hsv(hue, 0.45 + 0.15 * ((id / 3) % 3), 0.95 - 0.18 * ((id / 7) % 3));
 }
@@ -109,7 +109,7 @@ void Canvas::frame(const Rect& rect, Color color) {
   fill({rect.right(), rect.y, 1, rect.height}, color);
 }
 
-/// Fills where the signed distance to a shape is below zero, with one pixel of transition.
+/// Fills the area where the signed distance to a shape is below zero, with a transition of one pixel.
 void Canvas::shape(double x0, double y0, double x1, double y1, Color color,
                    const std::function<double(double, double)>& distance) {
   const int left = std::max(clip_.x, static_cast<int>(std::floor(std::max(x0 - 1.0, -1e6))));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture to draw plots on: rectangles, anti-aliased lines and circles, text in a built-in 5x7 font, colour
-// maps.
+// Draws plots into a picture: rectangles, anti-aliased lines and circles, text in a built-in 5x7 font. It
+// also defines colour maps.
 #pragma once
 
 #include <cstdint>
@@ -24,28 +24,30 @@ struct Rect {
   int bottom() const { return y + height; }
 };
 
-/// Anton Mikhailov's Turbo (polynomial of degree 5 by Ruofei Du, Apache-2.0), t in 0..1.
+/// Returns a colour of Turbo by Anton Mikhailov (polynomial of degree 5 by Ruofei Du, Apache-2.0); t in 0..1.
 Color turbo(double t);
-/// Viridis (polynomial of degree 6 by Matt Zucker, public domain), t in 0..1.
+/// Returns a colour of Viridis (polynomial of degree 6 by Matt Zucker, public domain); t in 0..1.
 Color viridis(double t);
-/// Neighbouring numbers get distinct colours; 0 is dark grey.
+/// Returns the colour of an id. Successive ids have clearly different colours; 0 is dark grey.
 Color color_of_id(uint32_t id);
-/// The n-th line colour of a plot.
+/// Returns the colour of the n-th line of a plot. The colours repeat after eight lines.
 Color color_of_series(size_t n);
 
 enum class Align { left, center, right };
 
+/// Holds an RGB picture and draws on it. Coordinates are in pixels from the top left corner, x to the right
+/// and y down.
 class Canvas {
  public:
-  static constexpr int glyph_width = 6, glyph_height = 8;  ///< with the space between glyphs, at scale 1
+  static constexpr int glyph_width = 6, glyph_height = 8;  ///< with spacing, at scale 1
 
   Canvas(int width, int height, Color background);
   int width() const { return width_; }
   int height() const { return height_; }
-  /// u8 [height, width, 3].
+  /// Returns the picture, u8 [height, width, 3].
   Array image() const;
 
-  /// Drawing outside the clip rectangle has no effect; at first it is the whole picture.
+  /// Sets the clip rectangle. Drawing outside the rectangle has no effect. It is initially the whole picture.
   void clip(const Rect& rect);
   void unclip() { clip({0, 0, width_, height_}); }
 
@@ -55,17 +57,20 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, double thickness, Color color);
   void circle(double x, double y, double radius, double thickness, Color color);
   void disc(double x, double y, double radius, Color color);
-  /// ASCII; the top left corner of the first glyph is at (x, y), or the text is centred on x or ends there.
+  /// Draws ASCII text with its top at y. The text begins at x, is centred on x or ends at x. Other characters
+  /// appear as '?'.
   void text(int x, int y, std::string_view text, int scale, Color color, Align align = Align::left);
-  /// Reading upwards, centred on y.
+  /// Draws text that reads upwards, centred on y.
   void vertical_text(int x, int y, std::string_view text, int scale, Color color);
   static int text_width(std::string_view text, int scale) {
     return static_cast<int>(text.size()) * glyph_width * scale;
   }
 
-  /// u8 [h, w, 3], averaged down or repeated up into `rect`.
+  /// Draws a picture, u8 [h, w, 3], into `rect`. Pixels are averaged if the picture is larger than `rect`,
+  /// and repeated if it is smaller.
   void picture(const Rect& rect, const Array& rgb);
-  /// Any raster: the colour of column x, row y of `columns` x `rows`, nearest sample.
+  /// Draws a raster of `columns` x `rows` into `rect` with the nearest sample. `color` returns the colour of
+  /// column x, row y.
   void raster(const Rect& rect, int columns, int rows, const std::function<Color(int x, int y)>& color);
 
  private:

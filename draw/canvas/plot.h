@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Axes and colour bars on a Canvas, and the contact sheet's colours.
+// Draws axes and colour bars on a Canvas, and defines the colours of the contact sheet.
 #pragma once
 
 #include <string>
@@ -19,32 +19,36 @@ inline constexpr Color grid{44, 48, 58};
 inline constexpr Color text{226, 230, 238};
 inline constexpr Color dim{150, 157, 170};
 inline constexpr int text_scale = 2;
-inline constexpr int line_height = 22;  ///< of text at that scale
+inline constexpr int line_height = 22;  ///< of text at text_scale, pixels
 }  // namespace theme
 
-/// A scale from values to 0..1, linear or logarithmic.
+/// Maps values low..high to 0..1, linearly or logarithmically.
 struct Scale {
   double low = 0.0, high = 1.0;
   bool logarithmic = false;
   double at(double value) const;
-  /// About `count` round values within the scale; 1, 2, 5 times powers of ten.
+  /// Returns round values within the scale. On a linear scale these are about `count` multiples of 1, 2 or 5
+  /// times a power of ten. On a logarithmic scale these are 1, 2 and 5 times the powers of ten, or the powers
+  /// alone if there are more than three decades.
   std::vector<double> ticks(int count) const;
 };
-/// Covers the values; logarithmic if they are positive and span more than a factor of `log_above`.
+/// Returns a scale from low to high. It is logarithmic if both are positive and high / low is above
+/// `log_above`. If high is not above low, the scale is a narrow linear one around low.
 Scale scale_for(double low, double high, double log_above = 1e300);
-/// The round number (1, 2, 5 times a power of ten) next to value, not above it.
+/// Returns the largest of 1, 2 and 5 times a power of ten that is not above `value` (positive).
 double round_down(double value);
-/// Short: "0.05", "250", "1e-07".
+/// Returns a short text such as "0.05", "250" or "1e-07".
 std::string tick_text(double value);
 
-/// Ticks and label below a plot; takes 2 * theme::line_height below it.
+/// Draws ticks and a label below a plot, about 2 * theme::line_height high.
 void draw_x_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label);
-/// Ticks and label left of a plot.
+/// Draws ticks and a label at the left of a plot.
 void draw_y_axis(Canvas& canvas, const Rect& plot, const Scale& scale, const std::string& label);
-/// A bar with its ends and unit written at its sides, filling `rect` (one line of text high).
+/// Draws a horizontal bar of colours into `rect` (one line of text high). The values of its ends and the unit
+/// are at its sides.
 void draw_color_bar(Canvas& canvas, const Rect& rect, const Scale& scale, Color (*map)(double),
                     const std::string& unit);
-/// A vertical bar with ticks at its right.
+/// Draws a vertical bar of colours with ticks at its right and `label` above.
 void draw_color_scale(Canvas& canvas, const Rect& bar, const Scale& scale, Color (*map)(double),
                       const std::string& label);
 

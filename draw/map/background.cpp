@@ -13,7 +13,8 @@ MapBackground map_background(const sim::MapCells& cells, const sim::EffectPlan& 
                              sim::ChannelSnapshot& snapshot, uint32_t side) {
   const scene::Scene& scene = snapshot.experiment().scene();
   sim::Environment clear = snapshot.experiment().scenario.environment;
-  clear.fog_g_m3 = clear.rain_mm_h = 0.0;  // seen from tens of kilometres
+  // Fog and rain would hide the scene, because the camera may be tens of kilometres high.
+  clear.fog_g_m3 = clear.rain_mm_h = 0.0;
   double low = INFINITY, high = -INFINITY;
   for (const double z : cells.z_m)
     if (!std::isnan(z)) low = std::min(low, z), high = std::max(high, z);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Renders the background of a radio map on a device.
 #pragma once
 
 #include "draw/map/draw.h"
@@ -7,9 +9,9 @@
 
 namespace greatx::apps {
 
-/// Renders what lies beneath a map: the scene at the snapshot's moment from straight above, in clear air.
-/// What stands in the scene is shown within a quarter of a cell of where it is (top_view). `plan`: a
-/// picture_plan(), whose options the snapshot's GpuScene has. `side`: as map_pixels().
+/// Renders the scene under a map from straight above, at the snapshot's moment, without fog and rain. Objects
+/// appear within a quarter of a cell of their true positions (top_view()). `plan` is a picture_plan(), and
+/// the snapshot's GpuScene was made with its options. `side` is that of map_pixels().
 MapBackground map_background(const sim::MapCells& cells, const sim::EffectPlan& plan,
                              sim::ChannelSnapshot& snapshot, uint32_t side);
 

@@ -24,7 +24,8 @@ constexpr double outline_jump_m = 2.0, outline_opacity = 0.6;
 
 constexpr int glyph = Canvas::glyph_width * theme::text_scale;
 
-/// Greyer, from dark to light whatever the light: the scene is there to be recognised, not to be looked at.
+/// Returns the background in muted colours. Its grey levels are stretched to a fixed range, so that the
+/// result does not depend on the lighting. Pixels that see nothing have the colour of a panel.
 std::vector<uint8_t> subdued(const MapBackground& background) {
   constexpr double saturation = 0.4, dark = 0.28, light = 0.92;
   std::vector<double> greys;
@@ -65,7 +66,7 @@ Color color_of(const MapLayer& layer, const MapScale& scale, double value) {
   return io::viridis(std::clamp(scale.scale.at(value), 0.0, 1.0));
 }
 
-/// The map without anything around it, in the background's pixels.
+/// Returns the map in the pixels of the background, without axes, markers and texts.
 Array composed(const MapStage& stage, const MapLayer& layer, const MapScale& scale) {
   const MapBackground& background = stage.background;
   const sim::MapGrid& grid = stage.cells->grid;
@@ -77,7 +78,8 @@ Array composed(const MapStage& stage, const MapLayer& layer, const MapScale& sca
   };
   for (uint32_t y = 0; y < height; ++y)
     for (uint32_t x = 0; x < width; ++x) {
-      // Of the pixel's middle; rows of pixels run from the north.
+      // This is the cell at the centre of the pixel. Rows of pixels begin in the north, rows of cells in the
+      // south.
       const auto column = static_cast<uint32_t>((x + 0.5) * grid.columns / width),
                  row = grid.rows - 1 - static_cast<uint32_t>((y + 0.5) * grid.rows / height);
       const size_t cell = size_t{row} * grid.columns + column;
@@ -120,7 +122,7 @@ void draw_markers(Canvas& canvas, const Rect& area, const MapStage& stage) {
   canvas.unclip();
 }
 
-/// A length that people count with, and which way is north.
+/// Draws a scale bar of a round length.
 void draw_compass(Canvas& canvas, int x, int y, double pixels_per_m, double extent_m) {
   const double length = io::round_down(0.3 * extent_m);
   const int width = static_cast<int>(std::lround(length * pixels_per_m));
@@ -146,7 +148,7 @@ int draw_swatch(Canvas& canvas, int x, int y, Color color, const std::string& te
   return x + 24 + Canvas::text_width(text, theme::text_scale) + 20;
 }
 
-/// Names of classes below each other, or the bar of colours; at the right of a map.
+/// Draws the legend at the right of a map: the names of the classes below each other, or a bar of colours.
 void draw_colors(Canvas& canvas, const Rect& map, int x, const MapLayer& layer, const MapScale& scale) {
   if (!layer.classes.empty()) {
     for (size_t i = 0; i < layer.classes.size(); ++i)
@@ -158,7 +160,7 @@ void draw_colors(Canvas& canvas, const Rect& map, int x, const MapLayer& layer, 
   io::draw_color_scale(canvas, bar, scale.scale, io::viridis, layer.unit);
 }
 
-/// How much room the colours take at the right.
+/// Returns the width of the legend of colours, pixels.
 int color_room(const MapLayer& layer) {
   size_t longest = 8;
   for (const std::string& name : layer.classes) longest = std::max(longest, name.size() + 2);
@@ -174,7 +176,7 @@ std::string clipping(const MapScale& scale) {
              : "";
 }
 
-/// In decibels, degrees and nanoseconds, which people read.
+/// Returns the unit in which a quantity is shown (dB, degrees, nanoseconds), and the conversion to this unit.
 std::pair<std::string, double (*)(double)> shown(const sim::MapQuantity& quantity) {
   if (quantity.name == "path_gain" || quantity.name == "k_factor")
     return {"dB", [](double v) { return decibels(v); }};

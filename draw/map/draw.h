@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radio maps as pictures: coloured cells over the scene seen from above.
+// Draws radio maps: coloured cells over the scene seen from above.
 #pragma once
 
 #include <optional>
@@ -14,52 +14,56 @@
 
 namespace greatx::apps {
 
-/// The scene, straight from above.
+/// Holds a picture of the scene from straight above.
 struct MapBackground {
   MapPixels pixels;
   std::vector<uint8_t> rgb;  ///< [height, width, 3]
-  std::vector<float> z_m;    ///< [height, width] world height of what is seen; -inf: nothing
+  std::vector<float> z_m;    ///< [height, width] world height of the visible surface; -inf: none
 };
 
+/// Describes the marker of a transmitter.
 struct MapMarker {
   std::string name;
-  dvec2 position_m{0.0};  ///< world
+  dvec2 position_m{0.0};  ///< world x, y
 };
 
-/// What all pictures of a map share.
+/// Holds the data that all pictures of a map share.
 struct MapStage {
   const sim::MapCells* cells = nullptr;
   MapBackground background;
   std::vector<MapMarker> transmitters;
-  std::string title;     ///< "etoile, csi"
-  std::string subtitle;  ///< "1.5 m above ground, 3.5 GHz, ..."
+  std::string title;     ///< e.g. "etoile, csi"
+  std::string subtitle;  ///< e.g. "1.5 m above ground, 3.5 GHz, ..."
 };
 
-/// From values to colours. Where a hundredth of the cells at either end spreads the range by a third or more,
-/// the range is that of the rest, and what lies beyond has the colours of the ends; the picture says so.
+/// Maps values to colours. If the lowest or the highest 1 % of the cells would widen the range of the others
+/// by more than a third, the range excludes them. Values beyond the range have the colours of its ends, and
+/// the picture says so.
 struct MapScale {
   io::Scale scale;
   bool clipped_low = false, clipped_high = false;
 };
 MapScale map_scale(std::span<const double> values);
 
-/// One quantity, ready to be drawn: a value a cell, or a class a cell.
+/// Holds one quantity to draw. Each cell has a value on a scale, or the index of a class.
 struct MapLayer {
-  std::string title;                 ///< "path gain of the best server"
-  std::string unit;                  ///< "dB"
-  std::vector<double> values;        ///< [cells]; NaN or -inf: `nothing`
-  std::vector<std::string> classes;  ///< names of the values 0, 1, ...; empty: a scale
-  std::string nothing = "no path";   ///< what cells are that have a place but no value
+  std::string title;                 ///< e.g. "path gain of the best server"
+  std::string unit;                  ///< e.g. "dB"
+  std::vector<double> values;        ///< [cells]; NaN or -inf: no value
+  std::vector<std::string> classes;  ///< names of the values 0, 1, ...; empty: a scale is used
+  std::string nothing = "no path";   ///< legend for solved cells without a value
 };
-/// `transmitter`: none for the best server of each cell.
+/// Returns the layer of a quantity, for one transmitter or, if `transmitter` is empty, for the best server of
+/// each cell.
 MapLayer map_layer(const sim::RadioMap& map, const sim::MapQuantity& quantity,
                    std::optional<size_t> transmitter, const std::vector<MapMarker>& transmitters);
 
-/// u8 [height, width, 3]: title, cells in Viridis over the subdued scene (where a cell has no place, as in
-/// buildings, the scene itself), outlines where the scene's height jumps, transmitters, axes in world metres,
-/// colours, lengths, north.
+/// Returns a picture of a layer, u8 [height, width, 3]. Solved cells have the colours of Viridis or of their
+/// classes. Other cells, such as those in buildings, show the subdued scene. The picture also has outlines
+/// where the height of the scene jumps, markers of the transmitters, a title, axes in world metres, a legend
+/// of the colours, a scale bar and a north arrow.
 Array draw_map(const MapStage& stage, const MapLayer& layer);
-/// Several of them side by side, without axes.
+/// Returns a picture of several layers side by side, without axes, u8 [height, width, 3].
 Array draw_maps(const MapStage& stage, std::span<const MapLayer> layers);
 
 }  // namespace greatx::apps

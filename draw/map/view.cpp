@@ -29,8 +29,8 @@ PictureView top_view(const MapPixels& pixels, const dvec3& origin, double level_
   const dvec2 size = pixels.max_m - pixels.min_m, middle = 0.5 * (pixels.min_m + pixels.max_m);
   const double reach = 0.5 * glm::length(size);
   const double above = std::max(high_m - level_m, 0.0), below = std::max(level_m - low_m, 0.0);
-  // A point dz above the level, r from the middle, is shown where the ray through it meets the level: r dz/(h
-  // - dz) off.
+  // A point dz above the level and r from the middle is shown where the ray through it meets the level. It is
+  // shifted by r dz / (h - dz).
   const double height = std::min(highest, std::max({reach * above / most_shift_m + above,
                                                     reach * below / most_shift_m, above + clearance, reach}));
   PictureView view;
@@ -41,7 +41,7 @@ PictureView top_view(const MapPixels& pixels, const dvec3& origin, double level_
   view.cx = 0.5 * pixels.width;
   view.cy = 0.5 * pixels.height;
   view.near_m = 0.5 * (height - above);
-  // Nose down, the picture's top to the north.
+  // The camera looks straight down, and the top of the picture is in the north.
   view.local_from_sensor = {dvec3(middle, level_m + height) - origin,
                             orientation_from_yaw_pitch_roll(0.5 * pi, 0.5 * pi, 0.0)};
   return view;

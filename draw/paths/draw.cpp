@@ -21,7 +21,7 @@ constexpr double shown_range_db = 60.0;
 constexpr Color halo{10, 12, 18}, paper{255, 255, 255};
 constexpr Color transmitter_color{255, 92, 92}, receiver_color{96, 200, 255};
 
-/// A path in the picture.
+/// Describes a path in the picture.
 struct DrawnPath {
   const rf::Path* path = nullptr;
   double gain_db = 0.0;
@@ -30,7 +30,7 @@ struct DrawnPath {
   std::vector<Stretch> stretches;
 };
 
-/// Darker and greyer, so that the paths stand out.
+/// Returns the picture darker and less saturated, so that the paths stand out.
 std::vector<uint8_t> subdued(std::span<const uint8_t> rgb) {
   constexpr double saturation = 0.65, brightness = 0.8;
   std::vector<uint8_t> out(rgb.size());
@@ -43,9 +43,11 @@ std::vector<uint8_t> subdued(std::span<const uint8_t> rgb) {
   return out;
 }
 
+/// Draws paths, their interactions and their ends over a view.
 class Painter {
  public:
-  /// `finer` scales lines and markers, 0 to 1: where there are many, each is small.
+  /// `finer` (0 to 1) scales the widths of lines and the sizes of markers. It is smaller if there are many
+  /// paths.
   Painter(Canvas& canvas, const PictureView& view, std::span<const float> depth, const dvec3& origin,
           double finer)
       : canvas_(canvas),
@@ -56,9 +58,10 @@ class Painter {
         coverage_(static_cast<int>(view.width), static_cast<int>(view.height)) {}
 
   void paths(std::vector<DrawnPath>& paths);
-  /// `away`: a direction in the picture in which no path leaves.
+  /// Draws the marker of an end and its name. `away` is a direction in the picture away from the paths; the
+  /// name is on this side.
   void end(const dvec3& world, Color color, const std::string& name, bool transmitter, const dvec2& away);
-  /// Opposite to where the paths leave an end, in the picture.
+  /// Returns the direction in the picture opposite to the paths at an end, not normalised.
   dvec2 away_from_paths(std::span<const PathLink> links, bool transmitter) const;
 
  private:
@@ -144,7 +147,7 @@ void Painter::end(const dvec3& world, Color color, const std::string& name, bool
   if (pixel.z < view_.near_m || pixel.x < 0.0 || pixel.x > view_.width || pixel.y < 0.0 ||
       pixel.y > view_.height)
     return;
-  // Seen through everything: a picture without its ends says nothing.
+  // The marker is drawn even if the end is hidden, because the picture is useless without its ends.
   marker(pixel, transmitter ? rf::InteractionType::diffraction : rf::InteractionType::reflection,
          transmitter ? 8.0 : 6.5 * finer_, color, false);
   if (name.empty()) return;
@@ -169,14 +172,14 @@ std::vector<DrawnPath> drawn_paths(std::span<const PathLink> links, double carri
           colors == PathColors::gain ? color_of_gain(scale, drawn.gain_db) : color_of_kind(kind_of(path));
       paths.push_back(std::move(drawn));
     }
-  // The strongest are drawn last, on top.
+  // The strongest paths are drawn last, above the others.
   std::stable_sort(paths.begin(), paths.end(),
                    [](const DrawnPath& a, const DrawnPath& b) { return a.gain_db < b.gain_db; });
   for (DrawnPath& path : paths) {
     const double weakness =
         std::min(1.0, (paths.back().gain_db - path.gain_db) / (scale.high_db - scale.low_db));
     path.width = 4.0 - 2.0 * weakness;
-    // Where colours do not tell, weak paths step back.
+    // Colours of kinds do not show the gain, so weak paths are more transparent.
     if (colors == PathColors::kind) path.opacity = 1.0 - 0.65 * weakness;
   }
   return paths;
@@ -198,7 +201,7 @@ void draw_head(Canvas& canvas, const PictureText& text, std::span<const PathLink
   canvas.text(16, 34, line, theme::text_scale, theme::dim);
 }
 
-/// A bar of colours with its ticks below; where it ends.
+/// Draws a bar of colours with ticks below. Returns the x at which the bar and its unit end.
 int draw_gain_bar(Canvas& canvas, int x, int y, const GainScale& scale) {
   constexpr int width = 360, height = 14;
   canvas.text(x, y + 3, "path gain", theme::text_scale, theme::dim);
@@ -209,7 +212,7 @@ int draw_gain_bar(Canvas& canvas, int x, int y, const GainScale& scale) {
   });
   canvas.frame(bar, theme::border);
   const int steps = static_cast<int>(std::lround((scale.high_db - scale.low_db) / 10.0));
-  const int stride = steps > 4 ? 2 : 1;  // from the strong end
+  const int stride = steps > 4 ? 2 : 1;  // counted from the strong end
   for (int i = steps; i >= 0; i -= stride) {
     const int tick = left + (width - 1) * i / steps;
     canvas.fill({tick, bar.bottom() + 1, 1, 4}, theme::dim);
@@ -222,6 +225,7 @@ int draw_gain_bar(Canvas& canvas, int x, int y, const GainScale& scale) {
   return bar.right() + 14 + Canvas::text_width("dB   ", theme::text_scale);
 }
 
+/// Draws a legend of the kinds of paths with their numbers. Returns the x at which the legend ends.
 int draw_kind_lines(Canvas& canvas, int x, int y, const std::array<size_t, path_kinds.size()>& counts) {
   for (size_t i = 0; i < path_kinds.size(); ++i) {
     if (counts[i] == 0) continue;
@@ -233,7 +237,7 @@ int draw_kind_lines(Canvas& canvas, int x, int y, const std::array<size_t, path_
   return x;
 }
 
-/// Which markers stand for what; only those that are there. `right`: where the line ends.
+/// Draws a legend of the markers that occur in the picture. `right` is the x at which the line ends.
 void draw_marker_legend(Canvas& canvas, int right, int y, std::span<const PathLink> links) {
   std::array<bool, path_kinds.size()> there{};
   for (const PathLink& link : links)
@@ -283,7 +287,7 @@ GainScale gain_scale(std::span<const PathLink> links, double carrier_hz) {
 }
 
 io::Color color_of_gain(const GainScale& scale, double gain_db) {
-  return io::turbo(0.12 + 0.8 * scale.at(gain_db));  // without the ends, which are nearly black
+  return io::turbo(0.12 + 0.8 * scale.at(gain_db));  // without the ends of Turbo, which are very dark
 }
 
 io::Color color_of_kind(rf::InteractionType kind) {
@@ -308,7 +312,7 @@ Array draw_paths(const PictureView& view, std::span<const uint8_t> rgb, std::spa
       std::clamp(std::sqrt(many / std::max<double>(1.0, static_cast<double>(paths.size()))), 0.45, 1.0);
   Painter painter(canvas, view, depth, scene.scene->origin, finer);
   painter.paths(paths);
-  // With many receivers names would hide the picture.
+  // The names of many receivers would cover the picture.
   constexpr size_t most_names = 12;
   for (const PathLink& link : links)
     painter.end(link.receiver_m, receiver_color, links.size() <= most_names ? link.name : "", false,

@@ -17,6 +17,7 @@ namespace greatx::apps {
 
 namespace {
 
+/// Returns lambda / 4 pi.
 double reference(double carrier_hz) { return speed_of_light / carrier_hz / (4.0 * pi); }
 
 }  // namespace
@@ -77,7 +78,7 @@ std::string chain_of(const rf::Path& path) {
 }
 
 rf::InteractionType kind_of(const rf::Path& path) {
-  // Their values ascend in this very order.
+  // The values of InteractionType ascend from none to scattering.
   auto kind = rf::InteractionType::none;
   for (const rf::Interaction& interaction : path.interactions) kind = std::max(kind, interaction.type);
   return kind;
@@ -113,7 +114,7 @@ std::string describe_interactions(const rf::Path& path, const PathScene& scene) 
   std::vector<std::string> parts;
   for (const rf::Interaction& interaction : path.interactions) {
     Touched names = touched(interaction, scene);
-    // Both faces of most edges belong to one object.
+    // Both faces of most edges belong to the same object, which is named once.
     for (std::vector<std::string>* list : {&names.objects, &names.materials})
       list->erase(std::unique(list->begin(), list->end()), list->end());
     parts.push_back(fmt::format("{} {} ({})", letter_of(interaction.type), fmt::join(names.objects, " | "),

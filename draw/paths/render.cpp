@@ -80,7 +80,7 @@ render::CameraImages PictureRenderer::picture(const PictureView& view,
                                               std::optional<uint32_t> excluded_body) {
   render::CameraDesc desc = camera_desc(view, "paths picture");
   desc.outputs.rgb = true;
-  desc.automatic_exposure = true;  // by day and by night
+  desc.automatic_exposure = true;  // for day and night
   desc.excluded_body = excluded_body;
   render::CameraPass pass(lighting_, desc);
   return render(pass, view);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Renders the pictures over which paths and radio maps are drawn.
 #pragma once
 
 #include <memory>
@@ -15,19 +17,22 @@
 
 namespace greatx::apps {
 
-/// The plan of an experiment whose scenario has a camera of RGB and depth as well: it has all that a picture
-/// of the scene needs.
+/// Returns the plan of the experiment with one more camera (RGB and depth) in its scenario. This plan
+/// contains everything that a picture of the scene needs.
 sim::EffectPlan picture_plan(const sim::Experiment& experiment);
 
-/// Pictures of the scene at one moment, from anywhere.
+/// Renders pictures of the scene at one moment, from any viewpoint.
 class PictureRenderer {
  public:
-  /// `gpu_scene` has the options of `plan`, a picture_plan(). All arguments outlive the renderer.
+  /// `plan` is a picture_plan(), and `gpu_scene` was made with its options. `gpu_scene`, `ring` and `moment`
+  /// outlive the renderer.
   PictureRenderer(scene::GpuScene& gpu_scene, gpu::TickRing& ring, const sim::EffectPlan& plan,
                   const sim::Environment& environment, const sim::Moment& moment);
 
-  /// Planar depth alone, one sample a pixel: for looking around. Views of one size share their pipelines.
+  /// Renders only the planar depth, [height, width] metres, with one sample per pixel, to try out views. The
+  /// view has no lens distortion. Successive views of the same size and intrinsics share their pipelines.
   std::vector<float> depth(const PictureView& view);
+  /// Renders RGB with automatic exposure, and depth, without `excluded_body`.
   render::CameraImages picture(const PictureView& view, std::optional<uint32_t> excluded_body);
 
  private:
@@ -40,18 +45,21 @@ class PictureRenderer {
   std::unique_ptr<render::CameraPass> depth_pass_;
 };
 
-/// A scenario's own camera or event camera, "node/sensor". Throws UserError naming the scenario's cameras if
-/// there is none of that name.
+/// Identifies a camera or event camera of a scenario by its indices.
 struct CameraName {
   uint32_t node = 0, sensor = 0;
 };
+/// Returns the camera "node/sensor". Throws UserError, which names the cameras of the scenario, if there is
+/// no such camera.
 CameraName find_camera(const std::string& name, const sim::Scenario& scenario);
 
-/// What it sees, `width` pixels wide; and the body that it does not see.
+/// Holds the view of a camera of the scenario.
 struct ScenarioView {
   PictureView view;
-  std::optional<uint32_t> excluded_body;
+  std::optional<uint32_t> excluded_body;  ///< the camera's own body, if the camera does not see it
 };
+/// Returns the view of the camera, scaled to a picture of `width` pixels. Throws UserError if the distorted
+/// picture folds.
 ScenarioView scenario_view(const CameraName& camera, const sim::Experiment& experiment,
                            const sim::Moment& moment, uint32_t width);
 

@@ -11,7 +11,7 @@ namespace greatx::apps {
 
 namespace {
 
-/// The part [t0, t1] of a line within low..high in one coordinate; false: nothing.
+/// Clips the part [t0, t1] of a line to low..high in one coordinate. Returns false if nothing remains.
 bool clip(double from, double to, double low, double high, double& t0, double& t1) {
   const double delta = to - from;
   if (delta == 0.0) return from >= low && from <= high;
@@ -22,13 +22,14 @@ bool clip(double from, double to, double low, double high, double& t0, double& t
   return t0 < t1;
 }
 
+/// Returns the signed distance to an axis-aligned square with sides of 2 * `half` around the origin.
 double box_distance(const dvec2& p, double half) {
   const dvec2 d = glm::abs(p) - half;
   return glm::length(glm::max(d, dvec2(0.0))) + std::min(std::max(d.x, d.y), 0.0);
 }
 
-/// Convex polygon with `corners` corners on a circle, one of them on top: distance to its nearest edge's
-/// line.
+/// Returns the largest signed distance to the lines through the edges of a regular polygon, negative inside.
+/// The polygon has `corners` corners on a circle around the origin, one of them at the top.
 double polygon_distance(const dvec2& p, double radius, int corners) {
   double distance = -1e300;
   for (int i = 0; i < corners; ++i) {
@@ -38,7 +39,7 @@ double polygon_distance(const dvec2& p, double radius, int corners) {
   return distance - radius * std::cos(pi / corners);
 }
 
-/// Steps [first, last) that are all hidden or all in sight.
+/// Holds a range of steps [first, last) that are all hidden or all visible.
 struct Run {
   int first = 0, last = 0;
   bool hidden = false;
@@ -50,7 +51,7 @@ std::vector<Run> runs_of(const std::vector<bool>& hidden) {
   for (int first = 0; first < steps;) {
     int last = first + 1;
     while (last < steps && hidden[static_cast<size_t>(last)] == hidden[static_cast<size_t>(first)]) ++last;
-    // What flickers for a pixel or two goes with what is before it.
+    // A run of one or two pixels is joined to the run before it, to avoid flicker.
     if (!runs.empty() && (last - first <= 2 || runs.back().hidden == hidden[static_cast<size_t>(first)]))
       runs.back().last = last;
     else
@@ -83,7 +84,8 @@ void ShapeCoverage::shape(const dvec2& low, const dvec2& high,
 }
 
 void ShapeCoverage::line(const dvec2& a, const dvec2& b, double width) {
-  // Short pieces, so that a slanting line does not look at every pixel of its box.
+  // The line is divided into short pieces, so that a slanted line does not visit every pixel of its bounding
+  // box.
   const int pieces = std::max(1, static_cast<int>(glm::distance(a, b) / 24.0));
   const double half = 0.5 * width;
   for (int i = 0; i < pieces; ++i) {
@@ -113,7 +115,7 @@ double marker_distance(rf::InteractionType type, const dvec2& p, double radius) 
       return box_distance(dvec2(p.x + p.y, p.y - p.x) * std::sqrt(0.5), 0.8 * radius);
     case rf::InteractionType::diffraction:
       return polygon_distance(p - dvec2(0.0, 0.25 * radius), 1.4 * radius, 3);
-    case rf::InteractionType::scattering: {  // a plus and a cross
+    case rf::InteractionType::scattering: {  // four bars in steps of 45 degrees
       const double arm = 0.32 * radius;
       double distance = 1e300;
       for (int i = 0; i < 4; ++i) {
@@ -130,13 +132,14 @@ double marker_distance(rf::InteractionType type, const dvec2& p, double radius) 
 
 std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
                                   const dvec3& b) {
-  // In front of the camera.
+  // Keep the part in front of the near plane.
   const dvec3 forward = view.local_from_sensor.rotate({1, 0, 0}), eye = view.local_from_sensor.position;
   double t0 = 0.0, t1 = 1.0;
   if (!clip(glm::dot(forward, a - eye), glm::dot(forward, b - eye), view.near_m, 1e300, t0, t1)) return {};
   const dvec3 from = view.project_straight(glm::mix(a, b, t0)),
               to = view.project_straight(glm::mix(a, b, t1));
-  // In the picture, with room for the line's width; behind a lens that distorts: in what it sees.
+  // Keep the part in the picture, with room for the width of the line. With lens distortion, keep the part
+  // that the lens sees.
   constexpr double room = 8.0;
   dvec2 least(-room), most = dvec2(view.width, view.height) + room;
   const bool distorts = view.distortion.any();
@@ -147,7 +150,7 @@ std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float
   }
   double s0 = 0.0, s1 = 1.0;
   if (!clip(from.x, to.x, least.x, most.x, s0, s1) || !clip(from.y, to.y, least.y, most.y, s0, s1)) return {};
-  const auto at = [&](double s) {  // 1 / depth is linear in the picture
+  const auto at = [&](double s) {  // 1 / depth is linear in the pinhole picture
     return dvec3(glm::mix(dvec2(from), dvec2(to), s), 1.0 / glm::mix(1.0 / from.z, 1.0 / to.z, s));
   };
 
@@ -165,7 +168,7 @@ std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float
   std::vector<Stretch> stretches;
   for (const Run& run : runs_of(hidden)) {
     const auto point = [&](int step) { return view.bent(dvec2(at(s0 + (s1 - s0) * step / steps))); };
-    // A lens that distorts bends the line: short chords.
+    // Lens distortion bends the line, so it is drawn as short chords.
     constexpr int chord = 8;
     const int pieces = distorts ? (run.last - run.first + chord - 1) / chord : 1;
     for (int i = 0; i < pieces; ++i)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anti-aliased lines and markers on a canvas.
+// Draws anti-aliased lines and markers on a canvas.
 #pragma once
 
 #include <functional>
@@ -13,38 +13,41 @@
 
 namespace greatx::apps {
 
-/// How much of each pixel something covers. What is drawn before paint() is one shape: where its parts
-/// overlap it is not denser, so a bent line has no knots.
+/// Holds the fraction of each pixel that a shape covers. All parts that are added before paint() form one
+/// shape. The shape is not denser where its parts overlap, so that a polyline has no visible joints.
 class ShapeCoverage {
  public:
   ShapeCoverage(int width, int height);
 
-  /// A line with round ends.
+  /// Adds a line with round ends; `width` in pixels.
   void line(const dvec2& a, const dvec2& b, double width);
-  /// The inside of any shape: `distance` in pixels, negative inside, within the box.
+  /// Adds the inside of a shape within the box low..high. `distance` returns the signed distance to the shape
+  /// in pixels, negative inside.
   void shape(const dvec2& low, const dvec2& high, const std::function<double(const dvec2&)>& distance);
-  /// Blends the colour in and forgets the shape. `offset`: where the picture's (0, 0) is on the canvas.
+  /// Blends the colour into the canvas and clears the shape. `offset` is the position of pixel (0, 0) on the
+  /// canvas.
   void paint(io::Canvas& canvas, const ivec2& offset, io::Color color, double opacity);
 
  private:
   int width_, height_;
-  std::vector<float> share_;       ///< [height, width]
-  std::vector<uint32_t> touched_;  ///< pixels that are not zero
+  std::vector<float> share_;       ///< [height, width] covered fraction of each pixel
+  std::vector<uint32_t> touched_;  ///< indices of the pixels whose share is not 0
 };
 
-/// A marker's outline: signed distance in pixels from a point to the shape of an interaction (disc:
-/// reflection, square on its corner: transmission, triangle: diffraction, star: scattering), `radius` its
-/// size.
+/// Returns the signed distance in pixels from a point to the outline of the marker of an interaction: a disc
+/// for reflection, a square on its corner for transmission, a triangle for diffraction, a star for
+/// scattering. `offset` is the point relative to the marker's centre, and `radius` the marker's size in
+/// pixels.
 double marker_distance(rf::InteractionType type, const dvec2& offset, double radius);
 
-/// A part of a stretch that is in sight, or behind something, all along; pixels.
+/// A straight part of a path in the picture that is either completely visible or completely hidden; pixels.
 struct Stretch {
   dvec2 a{0.0}, b{0.0};
   bool hidden = false;
 };
-/// A stretch from a to b (local coordinates) as the picture shows it: what is behind the camera or outside is
-/// cut off, the rest is split where it goes behind a surface, and behind a lens that distorts into chords.
-/// `depth` [height, width] of the view.
+/// Returns the segment from a to b (local coordinates) as the picture shows it. Parts behind the camera or
+/// outside the picture are cut off. The rest is split where it passes behind a surface. With lens distortion
+/// it is also split into short chords. `depth` [height, width] is the planar depth of the view.
 std::vector<Stretch> stretches_of(const PictureView& view, std::span<const float> depth, const dvec3& a,
                                   const dvec3& b);
 

@@ -12,7 +12,8 @@ namespace greatx::apps {
 
 namespace {
 
-constexpr double field_of_view = radians(40.0);  ///< horizontal: long enough that towers do not lean
+/// Horizontal. It is so narrow that vertical edges of towers hardly converge.
+constexpr double field_of_view = radians(40.0);
 
 std::vector<dvec3> vertices_of(std::span<const PathLink> links, const PathScene& scene) {
   std::vector<dvec3> points;
@@ -25,7 +26,7 @@ std::vector<dvec3> vertices_of(std::span<const PathLink> links, const PathScene&
   return points;
 }
 
-/// Shares of the length of one stretch in the picture.
+/// Holds the visible and the total length of one segment in the picture, pixels.
 struct Sight {
   double visible = 0.0, total = 0.0;
 };
@@ -103,15 +104,16 @@ PictureView fit_view(std::span<const dvec3> points, double azimuth, double eleva
   const Pose& pose = view.local_from_sensor;
   const dvec3 forward = pose.rotate({1, 0, 0}), left = pose.rotate({0, 1, 0}), up = pose.rotate({0, 0, 1});
 
-  // Tangents of the planes through the margins, all positive.
+  // Tangents of the angles between the forward direction and the planes through the margins.
   const double to_left = (view.cx - margins.left) / view.fx,
                to_right = (width - margins.right - view.cx) / view.fx,
                to_top = (view.cy - margins.top) / view.fy,
                to_bottom = (height - margins.bottom - view.cy) / view.fy;
   GREATX_CHECK(to_left + to_right > 0.0 && to_top + to_bottom > 0.0, "margins leave nothing of {} x {}",
                width, height);
-  // A point p is left enough of the right margin if (p - e).left >= -to_right (p - e).forward, and so on:
-  // each plane bounds one combination of the eye's coordinates by the extreme point.
+  // A point p is to the left of the right margin if (p - e).left >= -to_right (p - e).forward, where e is the
+  // eye; the other margins are similar. Each plane thus bounds one linear combination of the eye's
+  // coordinates, and the most extreme point gives the bound.
   const double half = 0.5 * least_extent_m;
   double left_bound = -1e300, right_bound = -1e300, top_bound = -1e300, bottom_bound = -1e300,
          nearest = 1e300;
@@ -128,7 +130,7 @@ PictureView fit_view(std::span<const dvec3> points, double azimuth, double eleva
   const double eye_forward =
       std::min({-(left_bound + right_bound) / (to_left + to_right),
                 -(top_bound + bottom_bound) / (to_top + to_bottom), nearest - 2.0 * view.near_m});
-  // What one direction needs more room than the other is shared between its two sides.
+  // In the direction that does not limit the distance, the spare room is divided equally between both sides.
   const double eye_left = 0.5 * (left_bound + to_left * eye_forward - right_bound - to_right * eye_forward);
   const double eye_up = 0.5 * (top_bound + to_top * eye_forward - bottom_bound - to_bottom * eye_forward);
   view.local_from_sensor.position = eye_forward * forward + eye_left * left + eye_up * up;
@@ -140,7 +142,7 @@ double visible_share(const PictureView& view, std::span<const float> depth, std:
   double visible = 0.0, total = 0.0;
   for (const PathLink& link : links)
     for (const rf::Path& path : link.paths) {
-      // 20 dB weaker counts a tenth.
+      // A path that is 20 dB weaker has a tenth of the weight.
       const double weight = std::sqrt(std::max(path_gain(path, scene.carrier_hz), 1e-30));
       for (size_t i = 0; i + 1 < path.vertices.size(); ++i) {
         const Sight sight = sight_of(view, depth, path.vertices[i], path.vertices[i + 1]);
@@ -165,7 +167,7 @@ PictureView choose_view(std::span<const PathLink> links, const PathScene& scene,
           fit_view(points, 2.0 * pi * i / azimuths - 0.5 * pi, elevation, width, height, {});
       const PictureView trial = view.scaled(std::min(width, trial_width));
       const double share = visible_share(trial, depth_of(trial), links, scene);
-      // The same paths from nearer are larger.
+      // Paths appear larger from a shorter distance.
       const double distance = glm::length(view.local_from_sensor.position - points[0]);
       const double score = share - 0.05 * std::log2(std::max(distance, 1.0));
       if (score > best_score) best = view, best_score = score;

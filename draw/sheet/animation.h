@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A data set as a short animated picture: moment by moment what all its sensors saw, in tiles like the
-// contact sheet's.
+// Draws a data set as a short animated picture. Each frame shows the records of all sensors at one moment, in
+// tiles like those of the contact sheet.
 #pragma once
 
 #include <filesystem>
@@ -13,29 +13,30 @@
 
 namespace greatx::io {
 
-/// When the frames are shown. At the data set's own speed if that makes 7 to 40 of them a second, otherwise
-/// 10 a second.
+/// Holds the times of the frames. The animation runs in real time if its frames are then 25 to 150 ms apart
+/// on average. Otherwise the frames are 100 ms apart.
 struct Playback {
-  std::vector<int> start_ms;  ///< of each frame; the first is 0
-  int end_ms = 0;             ///< of the last
-  double speed = 1.0;         ///< of the data set's time: 1 is its own, 2 twice as fast
+  std::vector<int> start_ms;  ///< start of each frame; the first is 0
+  int end_ms = 0;             ///< end of the last frame
+  double speed = 1.0;         ///< simulated time divided by shown time; 1: real time, 2: twice as fast
 };
-/// One moment or more, in order.
+/// Returns the times of one moment or more. Throws UserError unless the times of the moments ascend.
 Playback playback_of(const std::vector<SheetMoment>& moments);
 
-/// Three tiles a row, four panels as two by two; the tiles that stay free in the last row show plots of the
-/// whole sequence, one a sensor.
+/// Draws the frames of an animation. A row has three tiles; four panels are arranged two by two. Free tiles
+/// in the last row show plots of the whole sequence, one for each sensor.
 class Animation {
  public:
-  /// At most `frames` moments, evenly from the first to the last (choose_moments). Throws UserError if
-  /// `frames` is 0, the sequence has no records, or none of the sensors is drawn moment by moment.
+  /// Uses at most `frames` moments, equally spaced from the first to the last (choose_moments()). Throws
+  /// UserError if `frames` is 0, the sequence has no records, its times do not ascend, or no sensor has a
+  /// frame panel.
   Animation(const DatasetReader& reader, size_t frames, uint32_t sequence = 0);
 
   size_t frames() const { return moments_.size(); }
   const Playback& playback() const { return playback_; }
   int width() const { return background_.width(); }
   int height() const { return background_.height(); }
-  /// u8 [height, width, 3].
+  /// Returns frame i, u8 [height, width, 3].
   Array frame(size_t i) const;
 
  private:
@@ -45,20 +46,20 @@ class Animation {
 
   std::vector<SheetMoment> moments_;
   Playback playback_;
-  Panels panels_;  ///< frames, and the series that find a free tile
+  Panels panels_;  ///< all frame panels, and the series panels for which there is a free tile
   std::vector<Band> bands_;
-  std::vector<int> tops_;                 ///< of bands
-  Canvas background_{1, 1, theme::page};  ///< what all frames share
+  std::vector<int> tops_;                 ///< top of the tiles of each band, pixels
+  Canvas background_{1, 1, theme::page};  ///< the parts that are the same in all frames
 };
 
-/// What became of it.
+/// Describes a written animation.
 struct AnimationFile {
   size_t frames = 0;
   int width = 0, height = 0, duration_ms = 0;
   uint64_t bytes = 0;
 };
-/// As an animated WebP that starts again at its end. Throws UserError like Animation, and if the file's name
-/// does not end in .webp or the picture is too tall for WebP.
+/// Writes an animated WebP that repeats endlessly. Throws UserError like Animation, and if the name of the
+/// file does not end in .webp or the picture is too high for WebP.
 AnimationFile write_animation(const DatasetReader& reader, const std::filesystem::path& file, size_t frames,
                               uint32_t sequence = 0);
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panels of cameras: RGB, depth and ids.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +12,7 @@ namespace greatx::io {
 
 namespace {
 
+/// Shows the picture as it is.
 class RgbPanel : public PicturePanel {
  public:
   explicit RgbPanel(const PanelSource& source) : PicturePanel(source, "rgb", "rgb", {DType::u8}, 3) {}
@@ -20,7 +23,7 @@ class RgbPanel : public PicturePanel {
   }
 };
 
-/// Planar depth; one scale for all rows, so that they can be compared.
+/// Shows planar depth. All rows have the same scale, so that they can be compared.
 class DepthPanel : public PicturePanel {
  public:
   explicit DepthPanel(const PanelSource& source) : PicturePanel(source, "depth", "depth", {DType::f32}) {
@@ -55,6 +58,7 @@ class DepthPanel : public PicturePanel {
   Scale scale_{0.0, 100.0, false};
 };
 
+/// Shows ids, each in its colour (color_of_id()).
 class IdPanel : public PicturePanel {
  public:
   IdPanel(const PanelSource& source, const std::string& array)
@@ -86,7 +90,7 @@ void add_camera_panels(const PanelSource& source, Panels& panels) {
   for (const char* ids : {"instance", "semantic", "material"}) {
     if (!source.has(ids)) continue;
     panels.frames.push_back(std::make_unique<IdPanel>(source, ids));
-    break;  // one of them is enough to see that they are there
+    break;  // one of them is enough to show that the sensor has ids
   }
   add_truth_panels(source, panels);
 }

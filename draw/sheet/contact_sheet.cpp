@@ -18,7 +18,7 @@ using namespace sheet;
 constexpr int gutter = 132, header_height = 74, plot_height = 400;
 constexpr size_t most_columns = 4, rows_of_sheet = 4;
 
-/// The panels of all sensors in one list.
+/// Returns the panels of all sensors in one list.
 Panels make_panels(const DatasetReader& reader, uint32_t sequence, const std::vector<SheetMoment>& moments) {
   Panels all;
   for (Panels& panels : panels_by_sensor(reader, sequence, moments)) {
@@ -40,6 +40,7 @@ void draw_header(Canvas& canvas, const DatasetReader& reader, uint32_t sequence)
   canvas.text(margin, margin + 34, line, theme::text_scale, theme::dim);
 }
 
+/// Draws a band of panels with a row for each moment. Returns the y below it.
 int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
               const std::vector<SheetMoment>& moments) {
   const auto column_x = [](size_t column) {
@@ -61,7 +62,7 @@ int draw_band(Canvas& canvas, int y, const Band& band, const Panels& panels,
   return y;
 }
 
-/// A data set may declare any number of sensors.
+/// Throws UserError if the sheet would be too large, because a data set may declare any number of sensors.
 void check_size(const DatasetReader& reader, int64_t width, int64_t height) {
   constexpr int64_t most_pixels = int64_t{1} << 28;
   if (width * height > most_pixels)
@@ -69,7 +70,7 @@ void check_size(const DatasetReader& reader, int64_t width, int64_t height) {
                      reader.folder().string(), most_pixels, width, height, reader.sensors().size());
 }
 
-/// A column of a comparison: what one data set shows at one moment.
+/// Holds a column of a comparison: the panels of one data set at one moment.
 struct Column {
   std::string title;
   Panels panels;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the contact sheet of a data set, and the comparison sheet of several.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +12,16 @@
 
 namespace greatx::io {
 
-/// One picture to look at: for the first tick, the ones at a third and two thirds, and the last, what cameras
-/// and LiDARs saw; below, the first channel over delay and frequency, and the trajectories. u8 [h, w, 3].
+/// Returns the contact sheet of a data set, u8 [h, w, 3]. It shows the records of the cameras, event cameras,
+/// LiDARs and radars at up to four moments: the first, those at a third and at two thirds, and the last
+/// (choose_moments()). Below are plots of the first channel over delay and frequency, and the trajectories.
+/// Throws UserError if the sequence has no records or the sheet would have more than 2^28 pixels.
 Array contact_sheet(const DatasetReader& reader, uint32_t sequence = 0);
-/// Several data sets side by side, a column each with its title: the middle moment of every camera and LiDAR,
-/// one below the other. u8 [h, w, 3].
+/// Returns a picture of several data sets side by side, u8 [h, w, 3]. Each has a column with its title and,
+/// one below the other, the frame panels of its sensors at one moment: the third of the four of
+/// contact_sheet(). Throws UserError if a data set has no records in the sequence, or none has a frame panel.
 Array comparison_sheet(std::span<const DatasetReader> readers, uint32_t sequence = 0);
-/// A contact sheet of one, a comparison sheet of several, as a PNG file.
+/// Writes a PNG file: the contact sheet of one data set, or the comparison sheet of several.
 void write_contact_sheet(std::span<const DatasetReader> readers, const std::filesystem::path& file,
                          uint32_t sequence = 0);
 void write_contact_sheet(const DatasetReader& reader, const std::filesystem::path& file,

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panels of a channel: its impulse response and its frequency response over time.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -15,7 +17,7 @@ using Complex = std::complex<double>;
 constexpr size_t most_time_columns = 600, most_cells = 1 << 22;
 constexpr double dynamic_range_db = 50.0;
 
-/// In place, radix 2, e^{+j}: x[n] = sum_k X[k] e^{+j 2 pi k n / N}.
+/// Computes x[n] = sum_k X[k] e^{+j 2 pi k n / N} in place, without the factor 1 / N; N is a power of two.
 void inverse_fft(std::vector<Complex>& x) {
   const size_t n = x.size();
   for (size_t i = 1, j = 0; i < n; ++i) {
@@ -36,8 +38,8 @@ void inverse_fft(std::vector<Complex>& x) {
   }
 }
 
-/// One link over the sequence: H(f) of receiver 0, transmitter 0, the first port of each, the first time
-/// sample.
+/// Holds one link over the sequence: H(f) of receiver 0 and transmitter 0, of the first port of each, at the
+/// first time sample of each record.
 struct Link {
   std::string sensor;
   double spacing_hz = 1.0;
@@ -63,7 +65,7 @@ struct Link {
   }
 };
 
-/// Decibels over time (columns) and a second axis (rows, from the bottom up).
+/// Shows decibels over time (columns) and over a second axis (rows, from the bottom upwards).
 class DecibelPanel : public SeriesPanel {
  public:
   void draw(Canvas& canvas, const Rect& area) override {
@@ -99,8 +101,8 @@ class DecibelPanel : public SeriesPanel {
   std::string vertical_label_;
 };
 
-/// |h(tau)|: the inverse DFT of H(f) under a Hann window, four times zero-padded, scaled so that one path of
-/// amplitude a peaks at |a|. Delays repeat after 1 / spacing.
+/// Shows |h(tau)|: the inverse DFT of H(f) with a Hann window, zero-padded to at least four times the length.
+/// It is scaled so that one path of amplitude a has a peak of |a|. Delays repeat after 1 / spacing.
 class ImpulsePanel : public DecibelPanel {
  public:
   explicit ImpulsePanel(const Link& link) : title_(link.sensor + " |h| over delay") {
@@ -112,7 +114,7 @@ class ImpulsePanel : public DecibelPanel {
       values_.push_back(response(column, size));
       for (size_t i = 0; i < size; ++i) peak[i] = std::max(peak[i], values_.back()[i]);
     }
-    // Cut off the delays behind the last echo worth seeing.
+    // Cut off the delays behind the last echo above the threshold.
     const double threshold = *std::max_element(peak.begin(), peak.end()) - 0.9 * dynamic_range_db;
     size_t last = 0;
     for (size_t i = 0; i < 9 * size / 10; ++i)
@@ -147,6 +149,7 @@ class ImpulsePanel : public DecibelPanel {
   std::string title_;
 };
 
+/// Shows |H(f)|.
 class FrequencyPanel : public DecibelPanel {
  public:
   explicit FrequencyPanel(const Link& link) : title_(link.sensor + " |H| over frequency") {
@@ -155,7 +158,8 @@ class FrequencyPanel : public DecibelPanel {
       for (const std::complex<float>& value : column)
         values_.back().push_back(decibel(std::abs(Complex(value))));
     }
-    // Subcarrier k lies at (k - floor(N/2)) * spacing from the carrier; each takes one spacing of the axis.
+    // Subcarrier k is (k - floor(N/2)) * spacing from the carrier. Each subcarrier takes one spacing of the
+    // axis.
     const double low = -(static_cast<double>(link.subcarriers / 2) + 0.5) * link.spacing_hz;
     vertical_ = {low * 1e-6, (low + static_cast<double>(link.subcarriers) * link.spacing_hz) * 1e-6, false};
     vertical_label_ = "f - fc MHz";

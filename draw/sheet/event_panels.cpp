@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panels of event cameras.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,7 @@ namespace greatx::io {
 
 namespace {
 
-/// The events since the record before, summed by pixel.
+/// Shows the events since the previous record, summed by pixel.
 class EventPanel : public FramePanel {
  public:
   EventPanel(const PanelSource& source, int64_t width, int64_t height)
@@ -37,6 +39,7 @@ class EventPanel : public FramePanel {
   }
 
  private:
+  /// Returns the time since the previous record; 0 for the first record.
   double interval_ms(const IndexRow& record) const {
     const std::vector<IndexRow> rows = source_.reader.records_of(source_.sequence, source_.sensor);
     for (size_t i = 1; i < rows.size(); ++i)
@@ -48,7 +51,7 @@ class EventPanel : public FramePanel {
   int64_t width_, height_;
 };
 
-/// Grey pictures as they are.
+/// Shows the grey difference pictures as they are.
 class DifferencePanel : public PicturePanel {
  public:
   explicit DifferencePanel(const PanelSource& source)
@@ -75,7 +78,7 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
       throw_user_error("event {}: at ({}, {}), outside of {} x {} pixels", i, x[i], y[i], width, height);
     ++(p[i] ? on : off)[static_cast<size_t>(y[i] * width + x[i])];
   }
-  // One event shows clearly, three or more are full colour.
+  // One event has 60 % of the full colour, three or more events have all of it.
   const double grey[3] = {128, 128, 128}, red[3] = {235, 45, 35}, blue[3] = {35, 75, 240};
   Array rgb(DType::u8, {height, width, 3});
   for (size_t i = 0; i < on.size(); ++i) {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panel of LiDARs.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,8 @@ namespace greatx::io {
 
 namespace {
 
-/// A cloud from above, coloured by height; north is up if the data set has the node's pose, else forward is
-/// up.
+/// Shows a point cloud from above, coloured by height. North is up if the data set has the pose of the node;
+/// otherwise forward is up.
 class LidarPanel : public FramePanel {
  public:
   explicit LidarPanel(const PanelSource& source) : source_(source) {
@@ -58,12 +60,15 @@ class LidarPanel : public FramePanel {
   }
 
  private:
+  /// Returns the points of a record in the orientation of the picture, x to the right and y up, relative to
+  /// the sensor.
   std::vector<dvec3> turned(const IndexRow& row) {
     const Array array = source_.load(row, "points", {DType::f32}, {-1, 4});
     const std::span<const float> values = array.as<float>();
     const std::optional<Pose> pose = world_from_sensor(source_, row);
     north_up_ = north_up_ && pose.has_value();
-    // Without a pose: forward (x) up, left (y) left. Heights are the world's, or above the sensor.
+    // Without a pose, forward (x) is up and left (y) is left, and heights are relative to the sensor. With a
+    // pose, heights are those of the world.
     const dquat rotation = pose ? pose->orientation : glm::angleAxis(glm::radians(90.0), dvec3(0, 0, 1));
     const dvec3 up(0.0, 0.0, pose ? pose->position.z : 0.0);
     std::vector<dvec3> points;
@@ -88,7 +93,7 @@ class LidarPanel : public FramePanel {
   }
 
   PanelSource source_;
-  std::vector<std::vector<dvec3>> clouds_;  ///< one a row, about the sensor
+  std::vector<std::vector<dvec3>> clouds_;  ///< one for each row, from turned()
   bool north_up_ = true;
   double radius_ = 10.0;
   Scale height_{0.0, 1.0, false};

@@ -10,11 +10,11 @@ namespace greatx::io {
 
 namespace {
 
-/// How a kind of sensor gets onto the sheet.
+/// Describes how a kind of sensor is added to the sheet.
 struct Maker {
   std::string_view kind;  ///< SensorSpec::kind
   void (*add)(const PanelSource&, Panels&);
-  /// A picture per moment, drawn for every sensor of the kind; else over time, for the first one only.
+  /// True if every sensor of the kind has frame panels; false if only the first one has series panels.
   bool frames;
   bool intervals = false;  ///< see is_about_intervals()
 };
@@ -24,7 +24,7 @@ constexpr Maker makers[] = {
     {"csi", add_csi_panels, false},      {"pose", add_pose_panels, false},
 };
 
-/// Null: nothing is known about the kind.
+/// Returns the entry of a kind, or null if the kind is unknown.
 const Maker* maker_of(std::string_view kind) {
   const auto* const found = std::ranges::find(makers, kind, &Maker::kind);
   return found == std::end(makers) ? nullptr : found;
@@ -33,7 +33,8 @@ const Maker* maker_of(std::string_view kind) {
 constexpr double farthest_m = 1e12;
 constexpr size_t most_nodes = 1'000'000;
 
-/// "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]}; the identity if it is not there.
+/// Returns "body_from_sensor": {"position_m": [3], "orientation_wxyz": [4]} of the metadata, or the identity
+/// if it is absent.
 Pose mount_of(const PanelSource& source) {
   const JsonDocument metadata = metadata_of(source);
   Pose mount;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a contact sheet is made of. A FramePanel is one picture per chosen moment (a column of the sheet), a
-// SeriesPanel one plot over the whole sequence. A kind of sensor gets onto the sheet by one row in
-// panels.cpp.
+// Defines the panels of a contact sheet. A FramePanel draws one picture for each chosen moment (a column of
+// the sheet); a SeriesPanel draws one plot of the whole sequence. One entry of the table in panels.cpp adds a
+// kind of sensor to the sheet.
 #pragma once
 
 #include <initializer_list>
@@ -21,38 +21,42 @@
 
 namespace greatx::io {
 
-/// What panels are made from: a sensor in a sequence, and the records chosen for the rows (one a row, nearest
-/// in time).
+/// Describes the data of a panel: a sensor, a sequence, and one record for each row of the sheet, the one
+/// nearest in time.
 struct PanelSource {
   const DatasetReader& reader;
   uint32_t sequence;
   size_t sensor;
   std::vector<IndexRow> chosen;
   const SensorSpec& spec() const { return reader.sensors()[sensor]; }
+  /// Returns true if the sensor has an array of this name.
   bool has(std::string_view array) const;
-  /// "DIR/sequence_0000/SENSOR", as messages begin.
+  /// Returns "DIR/sequence_0000/SENSOR", the beginning of messages.
   std::string place() const;
-  /// An array as panels need it, whatever the data set makes of its name: of one of these types and this
-  /// shape (-1: any extent, 0: any from 1 on), without numbers that must not be there. Throws UserError.
+  /// Loads an array. Throws UserError unless the array has one of these types and this shape (-1: any extent,
+  /// 0: any extent of 1 or more), and only valid numbers (find_bad_value()). The checks are needed because a
+  /// data set may give any array this name.
   Array load(const IndexRow& row, const std::string& array, const std::vector<DType>& types,
              const std::vector<int64_t>& shape) const;
 };
 
+/// Draws one picture for each chosen moment.
 class FramePanel {
  public:
   virtual ~FramePanel() = default;
   virtual std::string title() const = 0;
-  /// Height over width of the picture, e.g. 0.75.
+  /// Returns the height of the picture divided by its width.
   virtual double aspect() const { return 0.75; }
-  /// Draws record `row` of PanelSource::chosen: into `picture`, and its legend into `legend` below it.
+  /// Draws record `row` of PanelSource::chosen into `picture`, and the legend into `legend` below.
   virtual void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) = 0;
 };
 
+/// Draws one plot of the whole sequence.
 class SeriesPanel {
  public:
   virtual ~SeriesPanel() = default;
   virtual std::string title() const = 0;
-  /// Draws plot, axes and legend inside `area`.
+  /// Draws the plot, its axes and its legend inside `area`.
   virtual void draw(Canvas& canvas, const Rect& area) = 0;
 };
 
@@ -61,18 +65,18 @@ struct Panels {
   std::vector<std::unique_ptr<SeriesPanel>> series;
 };
 
-/// Adds the panels of one sensor; kinds that nothing is known about add none.
+/// Adds the panels of one sensor. Unknown kinds of sensors have none.
 void add_panels(const PanelSource& source, Panels& panels);
-/// Whether sensors of the kind have panels at all.
+/// Returns true if sensors of the kind have panels.
 bool has_panels(std::string_view kind);
-/// Whether sensors of the kind are drawn moment by moment.
+/// Returns true if sensors of the kind have frame panels.
 bool has_frame_panels(std::string_view kind);
-/// Whether a record of the kind is about the time since the record before, so that the first one of a
-/// sequence is empty.
+/// Returns true if a record of the kind covers the time since the previous record, so that the first record
+/// of a sequence is empty.
 bool is_about_intervals(std::string_view kind);
 
-// The makers, one for each kind (camera_panels.cpp, event_panels.cpp, lidar_panel.cpp, radar_panels.cpp,
-// csi_panels.cpp, pose_panel.cpp).
+// These functions add the panels of one kind of sensor each (camera_panels.cpp, event_panels.cpp,
+// lidar_panel.cpp, radar_panels.cpp, csi_panels.cpp, pose_panel.cpp).
 void add_camera_panels(const PanelSource& source, Panels& panels);
 void add_event_panels(const PanelSource& source, Panels& panels);
 void add_lidar_panels(const PanelSource& source, Panels& panels);
@@ -80,27 +84,31 @@ void add_radar_panels(const PanelSource& source, Panels& panels);
 void add_csi_panels(const PanelSource& source, Panels& panels);
 void add_pose_panels(const PanelSource& source, Panels& panels);
 
-/// Of a camera: normals, optical flow, boxes (truth_panels.cpp); add_camera_panels calls it.
+/// Adds the panels of a camera's normals, optical flow and boxes (truth_panels.cpp). add_camera_panels()
+/// calls this function.
 void add_truth_panels(const PanelSource& source, Panels& panels);
 
-/// A motion as a colour: direction as hue (right: red, down: yellow-green), length as saturation: white 0,
-/// full 1, darker beyond. NaN: black.
+/// Returns the colour of a motion. The hue is the direction (right: red, down: yellow-green). The saturation
+/// is the length: 0 is white, 1 is fully saturated. Longer motions are darker. A motion that is not finite is
+/// black.
 Color flow_color(double u, double v);
-/// Events summed by pixel on neutral grey, ON red, OFF blue, both violet: u8 [height, width, 3]. Throws
-/// UserError if one lies outside.
+/// Returns a picture of the events, summed by pixel on neutral grey: ON is red, OFF is blue, both are violet;
+/// u8 [height, width, 3]. Throws UserError if an event is outside the picture.
 Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, std::span<const uint8_t> p,
                     int64_t width, int64_t height);
 
-/// A sensor's pose in the world at a record: that of its node from the "pose" sensor, times its mount
-/// ("body_from_sensor" of its metadata). Empty if the data set does not say.
+/// Returns the pose of a sensor in the world at a record: the pose of its node from the "pose" sensor, times
+/// the mount of the sensor ("body_from_sensor" of its metadata). Returns nothing if the data set does not
+/// contain the node's pose at this tick.
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
-/// A sensor's metadata, in messages "DIR/dataset.json: SENSOR: metadata".
+/// Returns the metadata of a sensor. Messages name them "DIR/dataset.json: SENSOR: metadata".
 JsonDocument metadata_of(const PanelSource& source);
-/// A number of them if it is there. Throws UserError.
+/// Returns the number `key` of the metadata, or `otherwise` if there is none. Throws UserError if the number
+/// is not within [least, most].
 double number_of(const JsonDocument& metadata, const char* key, double otherwise, double least, double most);
-/// Throws UserError unless all have as many rows.
+/// Throws UserError unless all arrays have the same number of rows.
 void expect_same_rows(const PanelSource& source, std::initializer_list<const Array*> arrays);
-/// The names of the nodes of a "pose" sensor.
+/// Returns the names of the nodes of a "pose" sensor.
 std::vector<std::string> node_names(const PanelSource& pose);
 
 }  // namespace greatx::io

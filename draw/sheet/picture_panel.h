@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the panels of pictures have in common: one array of a camera or an event camera, a picture per moment.
+// Defines the base class of panels that show one array of a camera or an event camera as a picture for each
+// moment.
 #pragma once
 
 #include <string>
@@ -11,13 +12,14 @@
 
 namespace greatx::io {
 
-/// Of pixels that see nothing.
+/// The colour of pixels that see nothing.
 inline constexpr Color color_of_sky{48, 52, 62};
 
+/// Loads the array and draws the caption for its derived classes.
 class PicturePanel : public FramePanel {
  public:
-  /// `array`: of one of the types, of shape [h, w] or [h, w, channels]; it sets the picture's aspect. `what`:
-  /// the title, behind the sensor's name.
+  /// `array` has one of the types, and the shape [h, w] or, if `channels` is not 0, [h, w, channels]. It sets
+  /// the aspect of the picture. `what` follows the sensor's name in the title.
   PicturePanel(const PanelSource& source, std::string array, const char* what,
                std::initializer_list<DType> types, int64_t channels = 0)
       : source_(source),

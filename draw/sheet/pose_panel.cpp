@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panel of poses.
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +11,9 @@ namespace greatx::io {
 
 namespace {
 
-constexpr size_t most_points = 2000;  ///< of one node's line
+constexpr size_t most_points = 2000;  ///< approximate limit for the line of one node
 
-/// Where the nodes go, seen from above, north up, the same scale on both axes.
+/// Shows the trajectories of the nodes from above, with north up and the same scale on both axes.
 class TrajectoryPanel : public SeriesPanel {
  public:
   explicit TrajectoryPanel(const PanelSource& source) : source_(source), names_(node_names(source)) {
@@ -37,7 +39,7 @@ class TrajectoryPanel : public SeriesPanel {
         high = glm::max(high, point);
       }
     }
-    // Large coordinates (UTM) are shown from a round offset, for labels that can be read.
+    // Large coordinates (UTM) are shown relative to a round offset, to keep the labels short.
     dvec2 offset(0.0);
     for (int c = 0; c < 2; ++c)
       if (std::max(std::abs(low[c]), std::abs(high[c])) > 2e4)
@@ -98,7 +100,7 @@ class TrajectoryPanel : public SeriesPanel {
 
   PanelSource source_;
   std::vector<std::string> names_;
-  std::vector<std::vector<dvec2>> lines_;  ///< per node
+  std::vector<std::vector<dvec2>> lines_;  ///< [nodes][points] world x, y
 };
 
 }  // namespace

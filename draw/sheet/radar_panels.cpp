@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a radar saw: power over range and velocity, and over the ground as its beams see it, with detections
-// on both.
+// Draws the panels of radars: power over range and velocity, and power over the ground as the beams see it.
+// Both show the detections.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace greatx::io {
 
 namespace {
 
-/// What the axes of maps read, from the sensor's metadata.
+/// Holds the axes of the maps, from the metadata of the sensor: m, m/s and radians.
 struct Axes {
   double range_bin_m = 1.0, velocity_min = -1.0, velocity_bin = 1.0, azimuth_min = -1.0, azimuth_max = 1.0;
 };
@@ -34,7 +34,8 @@ Axes axes_of(const PanelSource& source) {
 
 double dbm(float watt) { return watt > 0.0f ? 10.0 * std::log10(static_cast<double>(watt)) + 30.0 : -400.0; }
 
-/// Maps of all rows on one scale: from the noise's middle up to the strongest cell.
+/// Holds the maps of all rows. They have one scale, from 1 dB below the lowest median of a map (the noise) to
+/// the strongest cell; the scale is 12 to 60 dB wide.
 class RadarPanel : public FramePanel {
  public:
   RadarPanel(const PanelSource& source, const char* array) : source_(source), axes_(axes_of(source)) {
@@ -66,7 +67,8 @@ class RadarPanel : public FramePanel {
     const double level = maps_[row][static_cast<size_t>(range * columns_ + column)];
     return viridis(std::clamp(scale_.at(level), 0.0, 1.0));
   }
-  /// Ranges that are worth their room: as far as something was detected, and a fifth more.
+  /// Returns the largest range to show: 1.2 times the range of the farthest detection, but at least a quarter
+  /// of the map; the whole map if there is no detection.
   double farthest_m() const {
     double farthest = 0.0;
     for (const auto& row : detections_)
@@ -74,6 +76,7 @@ class RadarPanel : public FramePanel {
     const double all = static_cast<double>(rows_) * axes_.range_bin_m;
     return farthest > 0.0 ? std::min(std::max(farthest, 0.25 * all), all) : all;
   }
+  /// Marks a detection, red if it is of an object and dim if it is a false alarm.
   static void mark(Canvas& canvas, double x, double y, const Detection& d) {
     canvas.circle(x, y, 6.0, 1.6, d.real ? Color{255, 92, 92} : theme::dim);
   }
@@ -85,8 +88,8 @@ class RadarPanel : public FramePanel {
   PanelSource source_;
   Axes axes_;
   int64_t rows_ = 1, columns_ = 1;
-  std::vector<std::vector<double>> maps_;           ///< dBm, one a row
-  std::vector<std::vector<Detection>> detections_;  ///< one list a row
+  std::vector<std::vector<double>> maps_;           ///< dBm, one map for each row
+  std::vector<std::vector<Detection>> detections_;  ///< one list for each row
   Scale scale_{-140.0, -80.0, false};
 
  private:
@@ -121,7 +124,7 @@ class RangeDopplerPanel : public RadarPanel {
                            static_cast<double>(columns_),
            picture.bottom() - d.range * pixels, d);
     const double step = round_down(far_m / 2.5);
-    for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // a label is whole
+    for (int i = 1; i * step * pixels < picture.height - 16; ++i)  // only labels that fit
       canvas.text(picture.x + 6, picture.bottom() - static_cast<int>(std::lround(i * step * pixels)) - 8,
                   tick_text(i * step) + " m", theme::text_scale, theme::text);
     const std::string velocity = tick_text(std::round(-10.0 * axes_.velocity_min) / 10.0);
@@ -135,7 +138,7 @@ class RangeDopplerPanel : public RadarPanel {
   }
 };
 
-/// The range-azimuth map laid out over the ground, forward up.
+/// Shows the range-azimuth map over the ground from above, forward up.
 class RangeAzimuthPanel : public RadarPanel {
  public:
   explicit RangeAzimuthPanel(const PanelSource& source) : RadarPanel(source, "range_azimuth") {}

@@ -10,6 +10,7 @@ namespace greatx::io {
 
 namespace {
 
+/// Returns the record nearest to each moment.
 std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vector<SheetMoment>& moments) {
   std::vector<IndexRow> chosen;
   for (const SheetMoment& moment : moments) {
@@ -20,7 +21,7 @@ std::vector<IndexRow> nearest(const std::vector<IndexRow>& rows, const std::vect
   return chosen;
 }
 
-/// The largest rectangle of the aspect in the middle of the tile.
+/// Returns the largest rectangle with this aspect in the middle of the tile.
 Rect fit(const Rect& tile, double aspect) {
   const int width = std::min(tile.width, static_cast<int>(std::lround(tile.height / aspect)));
   const int height = std::min(tile.height, static_cast<int>(std::lround(width * aspect)));

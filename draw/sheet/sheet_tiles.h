@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the contact sheet and the animation have in common: which moments they show, the panels of all sensors
-// at them, and the tiles that the panels are drawn into.
+// Functions that the contact sheet and the animation share: they choose the moments, make the panels of all
+// sensors at these moments, and draw the panels into tiles.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace greatx::io {
 
-/// Lengths in pixels.
+/// Lengths of the layout, pixels.
 namespace sheet {
 inline constexpr int margin = 28, gap = 14;
 inline constexpr int tile_width = 400, legend_height = 24, title_height = 30, row_gap = 10;
@@ -22,32 +22,34 @@ struct SheetMoment {
   int64_t tick, time_ns;
 };
 
-/// At most `count` (1 or more) moments evenly from the first record to the last of the sensor that rows
-/// follow: the first one drawn moment by moment, else the first one with records. With a sensor that
-/// is_about_intervals() the second record stands for the first, which is empty.
+/// Returns at most `count` (1 or more) moments, equally spaced from the first to the last record of one
+/// sensor: the first sensor with records and frame panels or, if there is none, the first sensor with
+/// records. If any sensor of the data set is_about_intervals(), the moments begin at the second record,
+/// because the first one of that sensor is empty.
 std::vector<SheetMoment> choose_moments(const DatasetReader& reader, uint32_t sequence, size_t count);
 
-/// The panels of each sensor, row i of them its record nearest to moments[i]; of the kinds that are drawn
-/// over time only the first sensor gets some.
+/// Returns the panels of each sensor. Their row i is the record nearest to moments[i]. For kinds of sensors
+/// with series panels, only the first sensor of the kind gets panels.
 std::vector<Panels> panels_by_sensor(const DatasetReader& reader, uint32_t sequence,
                                      const std::vector<SheetMoment>& moments);
 
-/// Throws UserError if the sequence is not there or has no records.
+/// Throws UserError if the sequence does not exist or has no records.
 void check_has_records(const DatasetReader& reader, uint32_t sequence);
 
-/// Frame panels that stand side by side, and the height of their pictures.
+/// Describes frame panels that are side by side, and the height of their pictures in pixels.
 struct Band {
   size_t first, count;
   int picture_height;
 };
+/// Divides the panels into bands of at most `per_band` panels.
 std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& panels, size_t per_band);
 
-/// Of a tile for pictures up to this aspect, kept within reason.
+/// Returns the height of a tile for pictures up to this aspect, half of its width to all of its width.
 int tile_height(double tallest_aspect);
-/// The panel's record `row` in the middle of the tile, framed, and its legend below: sheet::legend_height
-/// more.
+/// Draws record `row` of the panel in the middle of the tile, a frame around the tile, and the legend below
+/// the tile. The legend takes sheet::legend_height more.
 void draw_tile(Canvas& canvas, FramePanel& panel, const Rect& tile, size_t row);
-/// A panel's title above its tile; takes sheet::title_height.
+/// Draws the title of a panel above its tile. The title takes sheet::title_height.
 void draw_title(Canvas& canvas, int x, int y, const std::string& title);
 
 }  // namespace greatx::io

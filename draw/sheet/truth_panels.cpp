@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Draws the panels of a camera's normals, optical flow and boxes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +12,7 @@ namespace greatx::io {
 
 namespace {
 
-/// Axes as colours: each component from -1..1 to 0..255.
+/// Shows normals. Each component from -1..1 becomes 0..255 of a colour channel.
 class NormalsPanel : public PicturePanel {
  public:
   explicit NormalsPanel(const PanelSource& source)
@@ -31,8 +33,9 @@ class NormalsPanel : public PicturePanel {
   }
 };
 
-/// Direction as hue, length as saturation, white: none (the idea of the Middlebury coding: S. Baker et al.,
-/// "A Database and Evaluation Methodology for Optical Flow", IJCV 92, 2011); one full scale for all rows.
+/// Shows optical flow with flow_color(). The hue is the direction, the saturation is the length, and white is
+/// no motion. The idea is that of the Middlebury colour coding (S. Baker et al., "A Database and Evaluation
+/// Methodology for Optical Flow", IJCV 92, 2011). The scale is the same for all rows.
 class FlowPanel : public PicturePanel {
  public:
   explicit FlowPanel(const PanelSource& source) : PicturePanel(source, "flow", "flow", {DType::f32}, 2) {
@@ -74,8 +77,8 @@ class FlowPanel : public PicturePanel {
   double full_px_ = 1.0;
 };
 
-/// Rectangles of the objects over the darkened picture: what is seen of each, in its colour; hidden ones
-/// thin.
+/// Shows the amodal boxes of the objects over the darkened picture. Visible objects have boxes in their
+/// colours, hidden ones have thin grey boxes.
 class BoxesPanel : public PicturePanel {
  public:
   explicit BoxesPanel(const PanelSource& source) : PicturePanel(source, "rgb", "boxes", {DType::u8}, 3) {}
@@ -116,7 +119,8 @@ class BoxesPanel : public PicturePanel {
 Color flow_color(double u, double v) {
   const double length = std::hypot(u, v);
   if (!std::isfinite(length)) return {0, 0, 0};
-  // Hue 0 (red): to the right; 90 degrees on: down the picture. Piecewise linear, as of HSV.
+  // Hue 0 (red) is to the right, and 90 degrees more is down the picture. The channels are piecewise linear
+  // in the hue, as in HSV.
   const double sixth = 3.0 * (std::atan2(v, u) / std::numbers::pi + (v < 0.0 ? 2.0 : 0.0));
   const double saturation = std::min(length, 1.0), value = length <= 1.0 ? 1.0 : 0.8;
   const auto channel = [&](double at) {
