@@ -44,7 +44,8 @@ Field::Field(const Field& parent, std::shared_ptr<const FieldValue> value, std::
       line_(line > 0 ? line : parent.line_) {}
 
 Field Field::parse_yaml(const std::string& text, FieldSource source) {
-  Field root(read_yaml(text, source.name), std::move(source));
+  std::shared_ptr<const FieldValue> value = read_yaml(text, source.name);
+  Field root(std::move(value), std::move(source));
   if (root.line_ == 0) root.line_ = 1;
   return root;
 }

@@ -234,7 +234,7 @@ TEST(RadioMaterial, ExtensionErrorsNameFileMaterialAndField) {
   refuse({{"a", 4}, {"b", 0}, {"c", 0.1}, {"d", 0}}, {"missing", "max_hz"});
   refuse({{"a", 4}, {"b", 0}, {"c", 0.1}, {"d", 0}, {"min_hz", 2e9}, {"max_hz", 1e9}},
          {"min_hz below max_hz"});
-  refuse({{"rows", json::array()}}, {"rows", "a list of rows"});
+  refuse({{"rows", json::array()}}, {"rows", "a list of 1 or more rows"});
   refuse({{"layers", json::array()}}, {"layers"});
   const json no_thickness = {{"itu", "glass"}}, no_medium = {{"thickness_m", 0.1}};
   const json good = {{"itu", "glass"}, {"thickness_m", 0.1}};
@@ -333,7 +333,7 @@ TEST(RadioSidecar, FoliageReplacesAWallAndAWallFoliage) {
         [&] { load_with_sidecar(fmt::format("materials:\n  paint: {{ {} }}\n", field), crown); },
         {"radio.yaml:2", "need a medium"});
   expect_user_error([&] { load_with_sidecar("materials:\n  paint:\n    foliage: 3\n", wall); },
-                    {"radio.yaml:3", "materials.paint.foliage", "found 3"});
+                    {"radio.yaml:3", "materials.paint.foliage", "found '3'"});
 }
 
 TEST(RadioSidecar, ErrorsHaveFileAndLine) {
