@@ -8,8 +8,8 @@
 
 namespace greatx::io {
 
-/// The printable ASCII characters (32 to 126) in the 5x7 dot matrix of character displays. Each has five
-/// columns. Bit 0 of a column is the top row; bit 7 is the row below the base line.
+/// Holds the printable ASCII characters (32 to 126) in the 5x7 dot matrix of character displays. Each has
+/// five columns. Bit 0 of a column is the top row; bit 7 is the row below the base line.
 inline constexpr uint8_t font_5x7[95][5] = {
     {0x00, 0x00, 0x00, 0x00, 0x00}, {0x00, 0x00, 0x5f, 0x00, 0x00}, {0x00, 0x07, 0x00, 0x07, 0x00},  //   ! "
     {0x14, 0x7f, 0x14, 0x7f, 0x14}, {0x24, 0x2a, 0x7f, 0x2a, 0x12}, {0x23, 0x13, 0x08, 0x64, 0x62},  // # $ %

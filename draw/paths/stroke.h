@@ -40,7 +40,8 @@ class ShapeCoverage {
 /// pixels.
 double marker_distance(rf::InteractionType type, const dvec2& offset, double radius);
 
-/// A straight part of a path in the picture that is either completely visible or completely hidden; pixels.
+/// Describes a straight part of a path in the picture, in pixels. It is either completely visible or
+/// completely hidden.
 struct Stretch {
   dvec2 a{0.0}, b{0.0};
   bool hidden = false;

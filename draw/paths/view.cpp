@@ -12,7 +12,7 @@ namespace greatx::apps {
 
 namespace {
 
-/// Horizontal. It is so narrow that vertical edges of towers hardly converge.
+/// The horizontal field of view. It is so narrow that vertical edges of towers hardly converge.
 constexpr double field_of_view = radians(40.0);
 
 std::vector<dvec3> vertices_of(std::span<const PathLink> links, const PathScene& scene) {
@@ -104,7 +104,7 @@ PictureView fit_view(std::span<const dvec3> points, double azimuth, double eleva
   const Pose& pose = view.local_from_sensor;
   const dvec3 forward = pose.rotate({1, 0, 0}), left = pose.rotate({0, 1, 0}), up = pose.rotate({0, 0, 1});
 
-  // Tangents of the angles between the forward direction and the planes through the margins.
+  // These are the tangents of the angles between the forward direction and the planes through the margins.
   const double to_left = (view.cx - margins.left) / view.fx,
                to_right = (width - margins.right - view.cx) / view.fx,
                to_top = (view.cy - margins.top) / view.fy,

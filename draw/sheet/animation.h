@@ -20,11 +20,12 @@ struct Playback {
   int end_ms = 0;             ///< end of the last frame
   double speed = 1.0;         ///< simulated time divided by shown time; 1: real time, 2: twice as fast
 };
-/// Returns the times of one moment or more. Throws UserError unless the times of the moments ascend.
+/// Returns the times of the frames of one or more moments. Throws UserError unless the times of the moments
+/// ascend.
 Playback playback_of(const std::vector<SheetMoment>& moments);
 
-/// Draws the frames of an animation. A row has three tiles; four panels are arranged two by two. Free tiles
-/// in the last row show plots of the whole sequence, one for each sensor.
+/// Draws the frames of an animation. A row has at most three tiles; four panels are arranged two by two. Free
+/// tiles in the last row show plots of the whole sequence, one for each sensor.
 class Animation {
  public:
   /// Uses at most `frames` moments, equally spaced from the first to the last (choose_moments()). Throws

@@ -17,7 +17,8 @@ using Complex = std::complex<double>;
 constexpr size_t most_time_columns = 600, most_cells = 1 << 22;
 constexpr double dynamic_range_db = 50.0;
 
-/// Computes x[n] = sum_k X[k] e^{+j 2 pi k n / N} in place, without the factor 1 / N; N is a power of two.
+/// Computes x[n] = sum_k X[k] e^{+j 2 pi k n / N} in place (radix 2), without the factor 1 / N; N is a power
+/// of two.
 void inverse_fft(std::vector<Complex>& x) {
   const size_t n = x.size();
   for (size_t i = 1, j = 0; i < n; ++i) {

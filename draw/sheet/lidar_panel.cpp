@@ -60,8 +60,8 @@ class LidarPanel : public FramePanel {
   }
 
  private:
-  /// Returns the points of a record in the orientation of the picture, x to the right and y up, relative to
-  /// the sensor.
+  /// Returns the points of a record in the orientation of the picture: x to the right and y up, relative to
+  /// the sensor, and the height.
   std::vector<dvec3> turned(const IndexRow& row) {
     const Array array = source_.load(row, "points", {DType::f32}, {-1, 4});
     const std::span<const float> values = array.as<float>();

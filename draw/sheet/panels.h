@@ -99,7 +99,7 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
 
 /// Returns the pose of a sensor in the world at a record: the pose of its node from the "pose" sensor, times
 /// the mount of the sensor ("body_from_sensor" of its metadata). Returns nothing if the data set does not
-/// contain the node's pose at this tick.
+/// contain the node's pose at this tick. Throws UserError if the poses or the metadata are invalid.
 std::optional<Pose> world_from_sensor(const PanelSource& source, const IndexRow& row);
 /// Returns the metadata of a sensor. Messages name them "DIR/dataset.json: SENSOR: metadata".
 JsonDocument metadata_of(const PanelSource& source);

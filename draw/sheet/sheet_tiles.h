@@ -44,7 +44,8 @@ struct Band {
 /// Divides the panels into bands of at most `per_band` panels.
 std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& panels, size_t per_band);
 
-/// Returns the height of a tile for pictures up to this aspect, half of its width to all of its width.
+/// Returns the height in pixels of a tile for pictures up to this aspect: between half the tile's width and
+/// the whole width.
 int tile_height(double tallest_aspect);
 /// Draws record `row` of the panel in the middle of the tile, a frame around the tile, and the legend below
 /// the tile. The legend takes sheet::legend_height more.
