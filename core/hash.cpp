@@ -3,8 +3,6 @@
 #include "core/hash.h"
 
 #include <array>
-#include <fstream>
-#include <vector>
 
 #include <openssl/evp.h>
 
@@ -44,16 +42,5 @@ std::string Sha256::hex() const {
 }
 
 std::string sha256_hex(std::span<const std::byte> bytes) { return Sha256().update(bytes).hex(); }
-
-std::string sha256_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw_user_error("{}: cannot be read", file.string());
-  Sha256 hash;
-  std::vector<char> block(1 << 20);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
-    hash.update(std::as_bytes(std::span(block.data(), static_cast<size_t>(in.gcount()))));
-  if (in.bad()) throw_user_error("{}: read error", file.string());
-  return hash.hex();
-}
 
 }  // namespace greatx

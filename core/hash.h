@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,7 +43,5 @@ constexpr uint32_t fnv1a32(std::string_view text) {
 }
 
 std::string sha256_hex(std::span<const std::byte> bytes);
-/// Throws UserError if the file cannot be read.
-std::string sha256_file(const std::filesystem::path& file);
 
 }  // namespace greatx

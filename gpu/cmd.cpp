@@ -229,11 +229,6 @@ void Cmd::bind_indices(const Buffer& buffer) {
   vkCmdBindIndexBuffer(handle_, buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
-void Cmd::draw(uint32_t vertices, uint32_t instances) {
-  vkCmdDraw(handle_, vertices, instances, 0, 0);
-  ++device_->counters().draws;
-}
-
 void Cmd::draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance) {
   vkCmdDraw(handle_, vertices, 1, first_vertex, first_instance);
   ++device_->counters().draws;
@@ -282,11 +277,6 @@ void Cmd::copy(const Slice& from, const Slice& to) {
   GREATX_CHECK(from.size <= to.size, "copy of {} bytes into {}", from.size, to.size);
   const VkBufferCopy region{from.offset, to.offset, from.size};
   vkCmdCopyBuffer(handle_, from.buffer, to.buffer, 1, &region);
-}
-
-void Cmd::copy(const Image& from, const Slice& to) {
-  const VkBufferImageCopy region = whole_mip(from, to.offset, 0);
-  vkCmdCopyImageToBuffer(handle_, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.buffer, 1, &region);
 }
 
 void Cmd::copy(const Slice& from, const Image& to, uint32_t mip) {

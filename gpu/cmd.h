@@ -152,7 +152,6 @@ class Cmd {
   /// nothing.
   void dispatch_linear(uint64_t invocations, uint32_t group_size);
   void bind_indices(const Buffer& buffer);  ///< uint32
-  void draw(uint32_t vertices, uint32_t instances = 1);
   /// Draws without an index buffer: gl_VertexIndex counts from `first_vertex`, gl_InstanceIndex is
   /// `first_instance`.
   void draw_range(uint32_t first_vertex, uint32_t vertices, uint32_t first_instance);
@@ -163,7 +162,6 @@ class Cmd {
 
   void copy(const Slice& from, const Slice& to);
   /// The copies between images and slices take all layers of one mip, tightly packed.
-  void copy(const Image& from, const Slice& to);                    ///< mip 0; image in transfer_source
   void copy(const Slice& from, const Image& to, uint32_t mip = 0);  ///< image in transfer_target
   void fill(const Slice& slice, uint32_t word);
   /// Fills the mips from 1 on from mip 0. The image is in transfer_target before and in sampled after.

@@ -140,11 +140,6 @@ std::vector<std::string> ValidationLog::take() {
   return std::exchange(messages_, {});
 }
 
-size_t ValidationLog::count() const {
-  const std::lock_guard lock(mutex_);
-  return messages_.size();
-}
-
 std::vector<DeviceInfo> list_devices() {
   ValidationLog log;
   const VkInstance instance = make_instance(false, false, &log);

@@ -54,10 +54,9 @@ class ValidationLog {
  public:
   void add(std::string message);
   std::vector<std::string> take();
-  size_t count() const;
 
  private:
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::vector<std::string> messages_;
 };
 

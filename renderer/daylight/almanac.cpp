@@ -80,11 +80,6 @@ Sighting sight(const GeocentricPlace& place, double sidereal, const Observer& ob
 
 }  // namespace
 
-dvec3 Sighting::direction() const {
-  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-          std::sin(elevation)};
-}
-
 double delta_t(double year) {
   const auto polynomial = [](double t, std::initializer_list<double> coefficients) {
     double sum = 0.0, power = 1.0;

@@ -37,7 +37,6 @@ struct Sighting {
   double true_elevation = 0.0;  ///< without refraction
   double distance_m = 0.0;      ///< from the observer
   double angular_radius = 0.0;  ///< rad
-  dvec3 direction() const;      ///< unit, x east, y north, z up; to the refracted place
 };
 
 struct SunAndMoon {

@@ -232,11 +232,6 @@ std::vector<dvec2> Lens::centers(const dvec2& focal, const dvec2& principal) con
   return places;
 }
 
-std::vector<vec2> Lens::table() const {
-  const std::vector<dvec2> exact = centers();
-  return {exact.begin(), exact.end()};
-}
-
 std::vector<float> flat_field(const Vignetting& vignetting, const LensGeometry& geometry) {
   const Lens lens(geometry);
   std::vector<dvec2> directions;

@@ -82,8 +82,6 @@ class Lens {
   std::vector<dvec2> centers() const;
   /// Returns the same in pixels of a pinhole picture with the given focal lengths and principal point.
   std::vector<dvec2> centers(const dvec2& focal, const dvec2& principal) const;
-  /// Returns centers() in floats. The relative error of their rounding is 2^-24.
-  std::vector<vec2> table() const;
 
  private:
   dvec2 inverse(const dvec2& distorted) const;

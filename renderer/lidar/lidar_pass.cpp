@@ -189,23 +189,11 @@ gpu::Slice LidarPass::beams_of(gpu::TickSlot& slot, const ScanPattern& pattern) 
   return slot.upload.put(std::span<const shared::LidarBeam>(beams));
 }
 
-EchoView LidarPass::view(const Pending& pending) const {
-  return {pending.echoes.as<shared::LidarEcho>(), static_cast<uint32_t>(pending.pattern->size()),
-          static_cast<uint32_t>(model_.weights.size()), slots_};
-}
-
 LidarScan LidarPass::collect(const Pending& pending, const ShotNoise& noise) const {
-  return make_scan(*pending.pattern, view(pending), model_, noise);
-}
-
-std::vector<float> LidarPass::collect_ranges(const Pending& pending) const {
-  const EchoView echoes = view(pending);
-  const ScanPattern& pattern = *pending.pattern;
-  std::vector<float> image(pattern.size());
-  for (uint32_t row = 0; row < pattern.rows; ++row)
-    for (uint32_t column = 0; column < pattern.columns; ++column)
-      image[size_t{row} * pattern.columns + column] = echoes.at(column * pattern.rows + row, 0, 0).range;
-  return image;
+  const EchoView echoes{pending.echoes.as<shared::LidarEcho>(),
+                        static_cast<uint32_t>(pending.pattern->size()),
+                        static_cast<uint32_t>(model_.weights.size()), slots_};
+  return make_scan(*pending.pattern, echoes, model_, noise);
 }
 
 }  // namespace greatx::render

@@ -87,9 +87,6 @@ class LidarPass {
                                std::shared_ptr<const ScanPattern> pattern = nullptr);
   /// Returns the sweep, after the slot's submission is done.
   LidarScan collect(const Pending& pending, const ShotNoise& noise = {}) const;
-  /// Returns the ranges of the beams' axes as an image, f32 [rows, columns] in metres; +inf where nothing was
-  /// met.
-  std::vector<float> collect_ranges(const Pending& pending) const;
 
   const LidarDesc& desc() const { return desc_; }
   const std::string& name() const { return name_; }
@@ -97,7 +94,6 @@ class LidarPass {
 
  private:
   gpu::Slice beams_of(gpu::TickSlot& slot, const ScanPattern& pattern) const;
-  EchoView view(const Pending& pending) const;
   gpu::ComputePipeline build_pipeline() const;
 
   scene::GpuScene* scene_;

@@ -68,11 +68,6 @@ Jones turned(const Jones& field, const dvec2& turn) {
 
 }  // namespace
 
-Jones element_field(const ElementPattern& pattern, double slant, const dvec3& direction) {
-  const Angles at = angles_of(direction);
-  return turned(unslanted(pattern, at), turn_of(pattern.model, {std::cos(slant), std::sin(slant)}, at));
-}
-
 Jones element_field(const ElementPattern& pattern, double slant, const dquat& orientation,
                     const dvec3& world_direction) {
   Jones field;

@@ -49,12 +49,9 @@ struct ElementPattern {
   std::shared_ptr<const PatternTable> table;  ///< samples of imported patterns; null for other patterns
 };
 
-/// Returns the field pattern of one element with polarization slant `slant` (rad) towards `direction` in the
-/// antenna's frame, resolved on (theta, phi) of that frame.
-Jones element_field(const ElementPattern& pattern, double slant, const dvec3& direction);
-
-/// Returns the field pattern in the world. `orientation` (world_from_antenna) turns the antenna, and the
-/// field is resolved on the world's (theta, phi) at the world direction (TR 38.901, eq. 7.1-11).
+/// Returns the field pattern of one element with polarization slant `slant` (rad) in the world. `orientation`
+/// (world_from_antenna) turns the antenna, and the field is resolved on the world's (theta, phi) at the world
+/// direction (TR 38.901, eq. 7.1-11).
 Jones element_field(const ElementPattern& pattern, double slant, const dquat& orientation,
                     const dvec3& world_direction);
 

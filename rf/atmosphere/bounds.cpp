@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "rf/atmosphere/foliage.h"
 #include "rf/atmosphere/path_attenuation.h"
 
 namespace greatx::rf {
@@ -23,13 +22,6 @@ double most_rain_db(const Weather& weather, double frequency_hz, double distance
 double most_fog_db(const Weather& weather, double frequency_hz, double distance_m) {
   return path_attenuation(weather, frequency_hz, {.gas = false, .rain = false, .fog = true}).fog *
          distance_m * 1e-3;
-}
-
-double most_foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m) {
-  const double all = foliage_db(foliage, frequency_hz, depth_m);
-  return depth_m > weissberger_branch_m
-             ? std::max(all, foliage_db(foliage, frequency_hz, weissberger_branch_m))
-             : all;
 }
 
 }  // namespace greatx::rf

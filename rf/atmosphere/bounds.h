@@ -3,12 +3,11 @@
 //
 // Computes upper bounds of the attenuation by each part of the air over a distance, for any direction and
 // polarization of a path. An effect whose bound lies within the tolerance may stay off. Each function throws
-// UserError if its model does not cover the frequency; gas_model_covers, rain_model_covers, fog_model_covers
-// and foliage_model_covers tell this in advance.
+// UserError if its model does not cover the frequency; gas_model_covers, rain_model_covers and
+// fog_model_covers tell this in advance.
 #pragma once
 
 #include "rf/atmosphere/weather.h"
-#include "scene/material/material.h"
 
 namespace greatx::rf {
 
@@ -20,8 +19,5 @@ double most_gas_db(const Weather& weather, double frequency_hz, double distance_
 double most_rain_db(const Weather& weather, double frequency_hz, double distance_m);
 /// Returns the attenuation by fog over `distance_m`, dB. The value is exact.
 double most_fog_db(const Weather& weather, double frequency_hz, double distance_m);
-/// Returns the largest attenuation by foliage of any depth from 0 to `depth_m`, dB. The model steps down at a
-/// depth of 14 m, so that the largest value need not be that at `depth_m`.
-double most_foliage_db(const scene::Foliage& foliage, double frequency_hz, double depth_m);
 
 }  // namespace greatx::rf

@@ -71,12 +71,6 @@ RainCoefficients rain_coefficients(double frequency_hz) {
   return {std::pow(10.0, log_k_h.at(x)), alpha_h.at(x), std::pow(10.0, log_k_v.at(x)), alpha_v.at(x)};
 }
 
-double rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double elevation, double tilt) {
-  GREATX_CHECK(rain_mm_h >= 0.0, "{} mm/h", rain_mm_h);
-  const double level = std::cos(elevation);
-  return gamma_of(coefficients, rain_mm_h, level * level * std::cos(2.0 * tilt));
-}
-
 RainAttenuation rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h,
                                double cos2_elevation) {
   GREATX_CHECK(rain_mm_h >= 0.0 && cos2_elevation >= 0.0 && cos2_elevation <= 1.0,

@@ -22,19 +22,15 @@ struct RainCoefficients {
 /// GHz.
 RainCoefficients rain_coefficients(double frequency_hz);
 
-/// Returns the specific attenuation by P.838-3, eq. 1, 4 and 5, dB/km. `elevation` is the angle of the path
-/// above the horizon, rad. `tilt` is the angle of the polarization from the horizontal, rad: 0 is horizontal,
-/// pi/2 is vertical, and pi/4 also represents circular polarization.
-double rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double elevation, double tilt);
-
 /// Holds the attenuation of the two linear polarizations of one direction, dB/km.
 struct RainAttenuation {
   double h = 0.0;  ///< along phi_hat: horizontal
   double v = 0.0;  ///< along theta_hat: in the plane of the direction and the zenith
 };
-/// Returns the specific attenuation for the tilts 0 and pi/2 of a direction with cos^2(elevation) =
-/// `cos2_elevation`. Both values are equal straight up and down. At any elevation and tilt the attenuation is
-/// at most the larger of the two values at cos2_elevation = 1.
+/// Returns the specific attenuation by P.838-3, eq. 1, 4 and 5, for the tilts 0 and pi/2 of a direction with
+/// cos^2(elevation) = `cos2_elevation`. The tilt is the angle of the polarization from the horizontal. Both
+/// values are equal straight up and down. At any elevation and tilt the attenuation is at most the larger of
+/// the two values at cos2_elevation = 1.
 RainAttenuation rain_db_per_km(const RainCoefficients& coefficients, double rain_mm_h, double cos2_elevation);
 
 }  // namespace greatx::rf

@@ -85,11 +85,4 @@ double coherence_time_s(std::span<const Path> paths, std::span<const double> pow
   return decorrelation(weighted(paths, powers, [](const Path& path) { return path.doppler_hz; }), level);
 }
 
-double coherence_bandwidth_rule_hz(const LinkStatistics& link) { return 1.0 / (5.0 * link.delay_spread_s); }
-
-double coherence_time_rule_s(std::span<const Path> paths, std::span<const double> powers) {
-  const auto shifts = weighted(paths, powers, [](const Path& path) { return std::abs(path.doppler_hz); });
-  return shifts.empty() ? not_a_number : 9.0 / (16.0 * pi * shifts.back().value);
-}
-
 }  // namespace greatx::rf

@@ -4,10 +4,8 @@
 // Computes the bandwidth and the time over which a channel stays correlated.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
-#include "rf/channel/statistics.h"
 #include "rf/geometry/path.h"
 
 namespace greatx::rf {
@@ -25,13 +23,5 @@ double coherence_bandwidth_hz(std::span<const Path> paths, std::span<const doubl
 /// 2 pi nu_i dt}| / sum p_i. Returns +inf if the correlation does not fall to `level` within 10/(rms Doppler
 /// spread), for example if nothing moves.
 double coherence_time_s(std::span<const Path> paths, std::span<const double> powers, double level);
-
-/// Returns 1/(5 x rms delay spread), the rule of thumb for a correlation of 0.5 (T. S. Rappaport, Wireless
-/// Communications, 2nd ed., 5.4.2). Returns +inf if the delays have no spread.
-double coherence_bandwidth_rule_hz(const LinkStatistics& link);
-/// Returns 9/(16 pi f_m), the rule of thumb for a correlation of 0.5 (Rappaport, 5.4.3), where f_m is the
-/// greatest |Doppler shift| of a path that has power. Returns +inf if nothing moves, and NaN if no path has
-/// power.
-double coherence_time_rule_s(std::span<const Path> paths, std::span<const double> powers);
 
 }  // namespace greatx::rf

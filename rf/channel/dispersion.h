@@ -32,8 +32,8 @@ class Dispersion {
   Dispersion(const scene::Scene& scene, const FieldModel& carrier, const Weather& weather,
              const ChannelGrid& grid);
 
-  /// Return the transfers for frequency_response(paths, spectra, ...). The cost is that of path_field() for
-  /// each subcarrier. `world` holds the facets as they stood when the paths were solved. Thread-safe.
+  /// Return the transfers for frequency_response_into(paths, spectra, ...). The cost is that of path_field()
+  /// for each subcarrier. `world` holds the facets as they stood when the paths were solved. Thread-safe.
   TransferSpectrum spectrum(const Path& path, const FacetWorld& world) const;
   std::vector<TransferSpectrum> spectra(std::span<const Path> paths, const FacetWorld& world) const;
 

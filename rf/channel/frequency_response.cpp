@@ -88,14 +88,6 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const 
   return response<double>(paths, {}, transmitter, receiver, grid);
 }
 
-std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
-                                                    std::span<const TransferSpectrum> spectra,
-                                                    const ArrayPose& transmitter, const ArrayPose& receiver,
-                                                    const ChannelGrid& grid) {
-  check_count(paths, spectra);
-  return response<float>(paths, spectra, transmitter, receiver, grid);
-}
-
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
                                              std::span<const TransferSpectrum> spectra,
                                              const ArrayPose& transmitter, const ArrayPose& receiver,

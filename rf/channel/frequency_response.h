@@ -68,12 +68,9 @@ std::vector<Complex> frequency_response_fp64(std::span<const Path> paths, const 
 /// Holds the transfer of a path at each subcarrier, [subcarriers][as Path::transfer].
 using TransferSpectrum = std::vector<std::array<Complex, 4>>;
 
-/// Return the response for walls and air that change over the band (rf/channel/dispersion.h): `spectra[i]`
-/// replaces the transfer of `paths[i]`. lambda and the arrays' phases stay the carrier's.
-std::vector<std::complex<float>> frequency_response(std::span<const Path> paths,
-                                                    std::span<const TransferSpectrum> spectra,
-                                                    const ArrayPose& transmitter, const ArrayPose& receiver,
-                                                    const ChannelGrid& grid);
+/// Returns the response for walls and air that change over the band (rf/channel/dispersion.h), before it is
+/// rounded: `spectra[i]` replaces the transfer of `paths[i]`. lambda and the arrays' phases stay the
+/// carrier's.
 std::vector<Complex> frequency_response_fp64(std::span<const Path> paths,
                                              std::span<const TransferSpectrum> spectra,
                                              const ArrayPose& transmitter, const ArrayPose& receiver,

@@ -101,7 +101,6 @@ void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, 
   }
 }
 
-double path_loss_db(double power_gain) { return -decibels(power_gain); }
 double dbm(double power_w) { return decibels(power_w / 1e-3); }
 double watts(double dbm) { return 1e-3 * from_decibels(dbm); }
 

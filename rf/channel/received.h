@@ -70,10 +70,6 @@ Received received(std::span<const Path> paths, const ArrayPose& transmitter, con
 void arriving_fields(std::span<const Path> paths, const ArrayPose& transmitter, double carrier_hz,
                      double power_w, std::span<std::complex<float>> out);
 
-/// Returns -10 log10 of a power gain; +inf for 0. With isotropic antennas this is the basic transmission
-/// loss. With patterns it is the transmission loss, antennas included (Rec. ITU-R P.341), as path_powers()
-/// and LinkStatistics::path_gain give it.
-double path_loss_db(double power_gain);
 /// Returns 10 log10(P / 1 mW); -inf for 0.
 double dbm(double power_w);
 double watts(double dbm);

@@ -66,32 +66,21 @@ LinkSum tap_sum(std::span<const Path> paths, const ArrayPose& transmitter, const
           set_factors};
 }
 
-template <typename Part>
-std::vector<std::complex<Part>> taps(std::span<const Path> paths, const ArrayPose& transmitter,
-                                     const ArrayPose& receiver, const TapGrid& grid) {
-  LinkSum sum = tap_sum(paths, transmitter, receiver, grid);
-  std::vector<std::complex<Part>> values(sum.size());
-  sum.write(values.data());
-  return values;
-}
-
 }  // namespace
-
-std::vector<std::complex<float>> channel_taps(std::span<const Path> paths, const ArrayPose& transmitter,
-                                              const ArrayPose& receiver, const TapGrid& grid) {
-  return taps<float>(paths, transmitter, receiver, grid);
-}
-
-std::vector<Complex> channel_taps_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
-                                       const ArrayPose& receiver, const TapGrid& grid) {
-  return taps<double>(paths, transmitter, receiver, grid);
-}
 
 void channel_taps_into(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
                        const TapGrid& grid, std::span<std::complex<float>> out) {
   LinkSum sum = tap_sum(paths, transmitter, receiver, grid);
   GREATX_CHECK(out.size() == sum.size(), "room for {} values, {} needed", out.size(), sum.size());
   sum.write(out.data());
+}
+
+std::vector<Complex> channel_taps_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
+                                       const ArrayPose& receiver, const TapGrid& grid) {
+  LinkSum sum = tap_sum(paths, transmitter, receiver, grid);
+  std::vector<Complex> values(sum.size());
+  sum.write(values.data());
+  return values;
 }
 
 TapCoverage tap_coverage(std::span<const Path> paths, std::span<const double> powers, const TapGrid& grid) {

@@ -37,10 +37,11 @@ struct TapCoverage {
   uint32_t paths_outside = 0;
 };
 
-/// Returns the taps h[l](t) = sum_i a_i e^{j 2 pi nu_i t} sinc(l - B tau_i) with a_i as in ImpulseResponse
+/// Writes the taps h[l](t) = sum_i a_i e^{j 2 pi nu_i t} sinc(l - B tau_i) with a_i as in ImpulseResponse
 /// and sinc(x) = sin(pi x)/(pi x), as complex64 [rx_ant, tx_ant, time, tap] in C order, t = m * time_spacing
-/// (D. Tse, P. Viswanath, Fundamentals of Wireless Communication, 2005, eq. 2.35). Nothing is normalised:
-/// delays are absolute, and the sum of |h[l]|^2 of one path over all l is its power.
+/// (D. Tse, P. Viswanath, Fundamentals of Wireless Communication, 2005, eq. 2.35), into the caller's memory,
+/// [rx_ant * tx_ant * time * tap]. Nothing is normalised: delays are absolute, and the sum of |h[l]|^2 of one
+/// path over all l is its power. Thread-safe, like everything in this file.
 ///
 /// Fractional delays are exact. B tau is formed as the sum of two doubles, and only its fraction enters the
 /// sine. Hence a delay of a whole number of samples gives exactly one tap that is not 0. The order of the
@@ -50,15 +51,11 @@ struct TapCoverage {
 /// an odd number N of subcarriers at spacing B/N, the inverse DFT of frequency_response() is therefore sum_q
 /// h[l + q N], the taps folded to N. With an even N one subcarrier lies at -B/2, where the spectrum of the
 /// sinc ends. The response has its full value there, and the taps give one half at either edge.
-std::vector<std::complex<float>> channel_taps(std::span<const Path> paths, const ArrayPose& transmitter,
-                                              const ArrayPose& receiver, const TapGrid& grid);
+void channel_taps_into(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
+                       const TapGrid& grid, std::span<std::complex<float>> out);
 /// Returns the same taps before they are rounded.
 std::vector<Complex> channel_taps_fp64(std::span<const Path> paths, const ArrayPose& transmitter,
                                        const ArrayPose& receiver, const TapGrid& grid);
-/// Writes the same bits into the caller's memory, [rx_ant * tx_ant * time * tap]. Thread-safe, like
-/// everything in this file.
-void channel_taps_into(std::span<const Path> paths, const ArrayPose& transmitter, const ArrayPose& receiver,
-                       const TapGrid& grid, std::span<std::complex<float>> out);
 
 /// Returns the coverage of the window. `powers` is [paths], from path_powers(). Any order of the paths gives
 /// the same bits.

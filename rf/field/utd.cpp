@@ -97,12 +97,6 @@ Complex erfcx_on_diagonal(double w) {
   return value;
 }
 
-Complex transition_function(double x) {
-  GREATX_CHECK(x >= 0.0, "argument {}", x);
-  const double w = std::sqrt(x);
-  return std::polar(std::sqrt(pi) * w, 0.25 * pi) * erfcx_on_diagonal(w);
-}
-
 UtdAngles utd_angles(double n, double incident, double observed) {
   UtdAngles angles{n, incident, observed, {}};
   check(angles);
@@ -155,17 +149,6 @@ UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_
   for (uint32_t term = 0; term < 4; ++term)
     terms.d[term] = term_value(term, angles.delta[term], angles.n, wave_number * distance_m);
   return terms;
-}
-
-SoftHard utd_coefficients(const UtdAngles& angles, double wave_number, double distance_m, double sin_beta0,
-                          const SoftHard& reflection_0, const SoftHard& reflection_n) {
-  GREATX_CHECK(sin_beta0 > 0.0 && sin_beta0 <= 1.0, "sin(beta_0) = {}: expected (0, 1]", sin_beta0);
-  const UtdTerms terms = utd_terms(angles, wave_number, distance_m);
-  const double scale = std::sqrt(distance_m) / sin_beta0;
-  const Complex incident = terms[UtdTerm::shadow_n] + terms[UtdTerm::shadow_0];
-  const Complex face_0 = terms[UtdTerm::reflection_0], face_n = terms[UtdTerm::reflection_n];
-  return {scale * (incident + reflection_n.soft * face_n + reflection_0.soft * face_0),
-          scale * (incident + reflection_n.hard * face_n + reflection_0.hard * face_0)};
 }
 
 FaceAngles luebbers_angles(const UtdAngles& angles) {

@@ -25,10 +25,6 @@ using Complex = std::complex<double>;
 /// and the residue of its pole).
 Complex erfcx_on_diagonal(double w);
 
-/// Returns Kouyoumjian and Pathak's transition function for x >= 0, F(x) = 2j sqrt(x) e^{jx}
-/// int_{sqrt(x)}^inf e^{-j t^2} dt = sqrt(pi x) e^{j pi/4} erfcx(e^{j pi/4} sqrt(x)).
-Complex transition_function(double x);
-
 /// Names the four terms of the coefficient. Each belongs to a boundary, where it compensates the jump of
 /// geometrical optics.
 enum class UtdTerm : uint32_t {
@@ -62,30 +58,22 @@ UtdAngles utd_angles(double n, const dvec2& source, const dvec2& observer);
 /// coefficient:
 ///   d = -+ (1/2) sgn(delta) |sinc(delta/2)| (y cot y)|_{y = delta/2n} erfcx(e^{j pi/4} w),
 ///   w = sqrt(2 k L) |sin(delta/2)|.
-/// This is the product cot(.) F(.) without its pole. On a boundary d is -+ 1/2: the observer counts as on the
-/// lit side, because facets are closed and the geometrical field is counted there. kL = 0 is allowed. The
-/// error is 2e-15.
+/// This is the product cot(.) F(.) without its pole, where F(x) = sqrt(pi x) e^{j pi/4} erfcx(e^{j pi/4}
+/// sqrt(x)) is Kouyoumjian and Pathak's transition function. On a boundary d is -+ 1/2: the observer counts
+/// as on the lit side, because facets are closed and the geometrical field is counted there. kL = 0 is
+/// allowed. The error is 2e-15.
 struct UtdTerms {
   Complex d[4];
   Complex operator[](UtdTerm term) const { return d[static_cast<uint32_t>(term)]; }
 };
 /// Computes the terms. `distance_m`: L = s s' sin^2(beta_0) / (s + s') for a spherical wave, s sin^2(beta_0)
 /// for a plane wave.
+///
+/// The coefficient is D_{s,h} = D1 + D2 + R_n D3 + R_0 D4 in sqrt(m) (Luebbers; R = -+1 gives Kouyoumjian and
+/// Pathak's eq. 25). The diffracted field is D A(s', s) e^{-jks} times the incident field at the edge, with A
+/// = sqrt(s'/(s (s + s'))) for a spherical wave and 1/sqrt(s) for a plane wave. Soft: E in the plane of the
+/// edge and the ray (beta_0; TE on the faces if beta_0 = 90 degrees). Hard: E along phi (TM).
 UtdTerms utd_terms(const UtdAngles& angles, double wave_number, double distance_m);
-
-/// Holds one value per polarization. Soft: E in the plane of the edge and the ray (beta_0; TE on the faces if
-/// beta_0 = 90 degrees). Hard: E along phi (TM).
-struct SoftHard {
-  Complex soft{0.0}, hard{0.0};
-};
-inline constexpr SoftHard conductor_reflection{-1.0, 1.0};
-
-/// Returns D_{s,h} = D1 + D2 + R_n D3 + R_0 D4 in sqrt(m) (Luebbers; R = -+1 gives Kouyoumjian and Pathak's
-/// eq. 25). The diffracted field is D A(s', s) e^{-jks} times the incident field at the edge, with A =
-/// sqrt(s'/(s (s + s'))) for a spherical wave and 1/sqrt(s) for a plane wave. sin(beta_0) must not be 0: D is
-/// infinite there, although the field is finite.
-SoftHard utd_coefficients(const UtdAngles& angles, double wave_number, double distance_m, double sin_beta0,
-                          const SoftHard& reflection_0, const SoftHard& reflection_n);
 
 /// Holds the angles at which the faces' reflection coefficients are taken. The face nearer to the source
 /// takes the angle of the source. The other face takes the angle at which its reflection would leave for the

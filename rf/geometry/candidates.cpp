@@ -42,39 +42,4 @@ void CandidateList::make_canonical() {
   *this = std::move(sorted);
 }
 
-CandidateList exhaustive_candidates(uint32_t facet_count, uint32_t max_depth, uint64_t max_sequences) {
-  uint64_t total = 1, level = 1;
-  for (uint32_t depth = 1; depth <= max_depth && level > 0; ++depth) {
-    const uint64_t choices = depth == 1 ? facet_count : facet_count - 1ull;
-    if (choices != 0 && level > (max_sequences + choices) / choices) total = max_sequences + 1;
-    level *= choices;
-    total += level;
-    if (total > max_sequences)
-      throw_user_error(
-          "exhaustive search for paths: {} facets to depth {} make more than {} sequences; use fewer "
-          "facets or a smaller depth",
-          facet_count, max_depth, max_sequences);
-    if (facet_count == 0) break;
-  }
-  CandidateList list;
-  list.add({});
-  size_t first = 0, last = 1;  // the sequences of the depth before
-  std::vector<uint32_t> sequence;
-  for (uint32_t depth = 1; depth <= max_depth; ++depth) {
-    for (size_t parent = first; parent < last; ++parent) {
-      const auto prefix = list.sequence(parent);
-      sequence.assign(prefix.begin(), prefix.end());
-      for (uint32_t facet = 0; facet < facet_count; ++facet) {
-        if (!sequence.empty() && sequence.back() == facet) continue;
-        sequence.push_back(facet);
-        list.add(sequence);
-        sequence.pop_back();
-      }
-    }
-    first = last;
-    last = list.size();
-  }
-  return list;
-}
-
 }  // namespace greatx::rf

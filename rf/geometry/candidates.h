@@ -63,9 +63,4 @@ struct LeftOut {
 /// Tells whether a comes before b in the canonical order: fewer facets first, then lexicographic.
 bool sequence_less(std::span<const uint32_t> a, std::span<const uint32_t> b);
 
-/// Returns every sequence of `facet_count` facets up to `max_depth` without immediate repetition, with the
-/// line of sight: the reference for small scenes. Throws UserError if there are more than `max_sequences`.
-CandidateList exhaustive_candidates(uint32_t facet_count, uint32_t max_depth,
-                                    uint64_t max_sequences = 4'000'000);
-
 }  // namespace greatx::rf

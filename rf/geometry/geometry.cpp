@@ -245,9 +245,4 @@ std::vector<GeometricPath> ImageTree::solve(const dvec3& target) const {
   return paths;
 }
 
-std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
-                                       const dvec3& receiver, const CandidateList& candidates) {
-  return ImageTree(world, transmitter, candidates).solve(receiver);
-}
-
 }  // namespace greatx::rf

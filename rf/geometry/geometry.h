@@ -108,8 +108,4 @@ class ImageTree {
 /// for paths of several trees.
 void keep_distinct(std::vector<GeometricPath>& paths);
 
-/// Solves a single pair: builds the tree, solves it and discards it.
-std::vector<GeometricPath> solve_paths(const FacetWorld& world, const dvec3& transmitter,
-                                       const dvec3& receiver, const CandidateList& candidates);
-
 }  // namespace greatx::rf

@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "renderer/lidar/lidar_pass.h"
+#include "renderer/lidar/scan/footprint.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 
@@ -18,6 +19,21 @@ struct Sweep {
   render::LidarScan scan;
   std::vector<float> ranges;
 };
+
+/// Returns the ranges of the beams' axes as an image, f32 [rows, columns] in metres; +inf where nothing was
+/// met.
+inline std::vector<float> ranges_of(const render::LidarPass& pass,
+                                    const render::LidarPass::Pending& pending) {
+  const render::ScanPattern& pattern = *pending.pattern;
+  const size_t rays = render::sub_rays(pass.desc().divergence, pass.desc().rings).size();
+  const render::EchoView echoes{pending.echoes.as<shared::LidarEcho>(), static_cast<uint32_t>(pattern.size()),
+                                static_cast<uint32_t>(rays)};
+  std::vector<float> image(pattern.size());
+  for (uint32_t row = 0; row < pattern.rows; ++row)
+    for (uint32_t column = 0; column < pattern.columns; ++column)
+      image[size_t{row} * pattern.columns + column] = echoes.at(column * pattern.rows + row, 0, 0).range;
+  return image;
+}
 
 inline Sweep sweep(const scene::Scene& scene, const render::LidarDesc& desc, std::span<const Pose> sensor,
                    const std::vector<Pose>& bodies = {Pose{}}, const render::LidarTargets& targets = {},
@@ -30,7 +46,7 @@ inline Sweep sweep(const scene::Scene& scene, const render::LidarDesc& desc, std
   const render::LidarPass::Pending pending = pass.record(slot, sensor, targets);
   ring.submit(slot);
   ring.wait(slot);
-  return {pass.collect(pending, noise), pass.collect_ranges(pending)};
+  return {pass.collect(pending, noise), ranges_of(pass, pending)};
 }
 
 /// Returns a scan of five channels from -20 to 20 degrees of elevation.

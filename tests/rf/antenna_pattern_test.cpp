@@ -26,7 +26,7 @@ double worst(const PatternTable& table, const std::function<Jones(double, double
 }
 
 Jones analytic_field(Pattern shape, double theta, double phi) {
-  return element_field(shape, 0.0, direction_of(theta, phi));
+  return own_field(shape, 0.0, direction_of(theta, phi));
 }
 
 TEST(PatternTable, ItsOwnSamples) {
@@ -107,8 +107,8 @@ TEST(PatternTable, AnElementOfSamplesIsTheElement) {
 TEST(PatternTable, SlantTurnsBothComponents) {
   const auto table = std::make_shared<const PatternTable>(sampled(37, 72, 0.0, curly_field));
   const dvec3 r = direction_of(radians(50.0), radians(40.0));
-  const Jones plain = element_field({Pattern::imported, PolarizationModel::model_2, table}, 0.0, r);
-  const Jones slanted = element_field({Pattern::imported, PolarizationModel::model_2, table}, 0.3, r);
+  const Jones plain = own_field({Pattern::imported, PolarizationModel::model_2, table}, 0.0, r);
+  const Jones slanted = own_field({Pattern::imported, PolarizationModel::model_2, table}, 0.3, r);
   EXPECT_LT(std::abs(slanted.theta - (std::cos(0.3) * plain.theta - std::sin(0.3) * plain.phi)), 1e-15);
   EXPECT_LT(std::abs(slanted.phi - (std::sin(0.3) * plain.theta + std::cos(0.3) * plain.phi)), 1e-15);
 }

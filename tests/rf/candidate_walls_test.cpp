@@ -12,6 +12,7 @@
 #include "rf/geometry/geometry.h"
 #include "rf/search/candidate_search.h"
 #include "tests/rf/crossings_support.h"
+#include "tests/rf/exhaustive.h"
 
 namespace greatx::rf {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using test::all_of;
 using test::cross;
 using test::TinyScene;
+using testing::exhaustive_candidates;
 
 using Sequences = std::set<std::vector<uint32_t>>;
 

@@ -52,27 +52,14 @@ TEST(Coherence, ExponentialProfile) {
     powers.push_back(std::exp(-(i + 0.5) / 1000.0));
   }
   EXPECT_NEAR(coherence_bandwidth_hz(paths, powers, 0.5) * 2 * pi * spread, std::sqrt(3.0), 1e-5);
-  const LinkStatistics link = link_statistics(paths, powers);
-  EXPECT_NEAR(coherence_bandwidth_rule_hz(link) * 5 * spread, 1.0, 1e-5);
 }
 
 TEST(Coherence, WithoutSpreadOrPower) {
   const std::vector<Path> one{plain_path(1e-6)};
   EXPECT_EQ(coherence_bandwidth_hz(one, std::vector{1.0}, 0.5), infinity);
   EXPECT_EQ(coherence_time_s(one, std::vector{1.0}, 0.5), infinity);
-  EXPECT_EQ(coherence_bandwidth_rule_hz(link_statistics(one, std::vector{1.0})), infinity);
-  EXPECT_EQ(coherence_time_rule_s(one, std::vector{1.0}), infinity);
   EXPECT_TRUE(std::isnan(coherence_bandwidth_hz(one, std::vector{0.0}, 0.5)));
   EXPECT_TRUE(std::isnan(coherence_time_s({}, {}, 0.5)));
-  EXPECT_TRUE(std::isnan(coherence_time_rule_s({}, {})));
-}
-
-TEST(Coherence, RuleOfClarke) {
-  auto paths = random_paths(3, 1e-6, 1);
-  paths[0].doppler_hz = -80.0;
-  paths[1].doppler_hz = 20.0;
-  paths[2].doppler_hz = 500.0;  // this path has no power
-  EXPECT_DOUBLE_EQ(coherence_time_rule_s(paths, std::vector{1.0, 2.0, 0.0}), 9.0 / (16 * pi * 80.0));
 }
 
 TEST(Coherence, AnyOrderOfPathsGivesTheSameBits) {

@@ -13,12 +13,15 @@
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::exhaustive_candidates;
 using testing::HandScene;
+using testing::solve_paths;
 using testing::wide_phasor;
 
 constexpr double seed_carrier_hz = 28e9;

@@ -13,14 +13,17 @@
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
 #include "tests/rf/channel_paths.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
 using testing::antenna;
+using testing::exhaustive_candidates;
 using testing::HandScene;
 using testing::random_paths;
+using testing::solve_paths;
 using testing::Wide;
 using testing::wide_phasor;
 using testing::wide_pi;

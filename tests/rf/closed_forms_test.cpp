@@ -18,12 +18,15 @@
 #include "rf/field/diffraction.h"
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::exhaustive_candidates;
 using testing::HandScene;
+using testing::solve_paths;
 
 constexpr double frequency_hz = 3.5e9;
 constexpr double wavelength_m = speed_of_light / frequency_hz;

@@ -11,12 +11,15 @@
 #include "core/units.h"
 #include "rf/field/field.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::exhaustive_candidates;
 using testing::HandScene;
+using testing::solve_paths;
 
 constexpr double frequency_hz = 3.5e9;
 constexpr double wave_number = 2.0 * pi * frequency_hz / speed_of_light;

@@ -12,12 +12,15 @@
 #include "core/phase.h"
 #include "core/units.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::exhaustive_candidates;
 using testing::HandScene;
+using testing::solve_paths;
 
 ChannelGrid two_gigahertz(double carrier_hz, uint32_t subcarriers = 201) {
   return {carrier_hz, 2e9 / (subcarriers - 1), subcarriers, 1, 1e-3};

@@ -12,12 +12,15 @@
 #include "rf/channel/frequency_response.h"
 #include "rf/field/diffraction.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
 
+using testing::exhaustive_candidates;
 using testing::HandScene;
+using testing::solve_paths;
 
 constexpr double frequency_hz = 3.5e9;
 

@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "rf/geometry/geometry.h"
 #include "rf/paths/path_solver.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/random_scene.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -24,9 +25,11 @@ namespace {
 using test::TinyScene;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using testing::exhaustive_candidates;
 using ::testing::IsEmpty;
 using ::testing::IsSubsetOf;
 using ::testing::Not;
+using testing::solve_paths;
 
 constexpr double carrier_hz = 3.5e9;
 enum Material : uint32_t { ground = 1, wall, pane, metal };  // as in add_radio_materials

@@ -14,6 +14,7 @@
 
 #include "core/units.h"
 #include "rf/search/beam_search.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tiny_scene.h"
 
@@ -22,6 +23,7 @@ namespace {
 
 using test::TinyScene;
 using ::testing::ElementsAre;
+using testing::exhaustive_candidates;
 using ::testing::IsEmpty;
 
 constexpr double carrier_hz = 3.5e9;

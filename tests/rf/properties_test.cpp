@@ -16,6 +16,7 @@
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/search/beam_search.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/random_scene.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -26,6 +27,7 @@ using reference::Comparison;
 using reference::polylines;
 using rf::testing::build;
 using rf::testing::Change;
+using rf::testing::exhaustive_candidates;
 using rf::testing::random_scene;
 using rf::testing::random_scene_kinds;
 using rf::testing::RandomScene;

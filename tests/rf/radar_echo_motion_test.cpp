@@ -32,17 +32,9 @@ EchoMotion frame() {
   return motion;
 }
 
-/// Records a search, submits it and collects the echoes.
 EchoList trace(EchoScene& scene, const EchoOptions& options, const EchoMotion& motion) {
   EchoFinder finder(scene.gpu, scene.surfaces(), EchoEnd{}, std::nullopt, options);
-  const std::vector<Pose> poses{Pose{}, motion.body(1, motion.traced_s)};
-  gpu::TickRing ring(test::device(), 1, 1u << 16, 1u << 16);
-  gpu::TickSlot& slot = ring.begin();
-  scene.gpu.record_update(slot, poses);
-  const EchoFinder::Pending pending = finder.record(slot, motion.transmitter(motion.traced_s), poses);
-  ring.submit(slot);
-  ring.wait(slot);
-  return finder.collect(pending, motion);
+  return trace(finder, scene.gpu, scene.scene.bodies.size(), motion);
 }
 
 double delay_at(const DelayTrack& track, double t) {

@@ -62,6 +62,31 @@ inline EchoOptions around(double half_m, double distance_m, uint32_t tubes) {
   return options;
 }
 
+/// Returns the motion of a scene in which the ends stand still and all bodies are where they were built.
+inline EchoMotion at_rest(const Pose& transmitter, const Pose& receiver) {
+  EchoMotion motion;
+  motion.transmitter = [transmitter](double) { return transmitter; };
+  motion.receiver = [receiver](double) { return receiver; };
+  motion.body = [](uint32_t, double) { return Pose{}; };
+  motion.slot_start_s = {0.0};
+  return motion;
+}
+
+/// Records a search in a scene of `bodies` bodies, submits it and collects the echoes.
+inline EchoList trace(EchoFinder& finder, scene::GpuScene& gpu, size_t bodies, const EchoMotion& motion,
+                      EchoStatistics* statistics = nullptr) {
+  std::vector<Pose> poses(bodies);
+  for (uint32_t body = 1; body < bodies; ++body) poses[body] = motion.body(body, motion.traced_s);
+  gpu::TickRing ring(test::device(), 1, 1u << 20, 1u << 20);
+  gpu::TickSlot& slot = ring.begin();
+  gpu.record_update(slot, poses);
+  const EchoFinder::Pending pending =
+      finder.record(slot, motion.transmitter(motion.traced_s), motion.receiver(motion.traced_s), poses);
+  ring.submit(slot);
+  ring.wait(slot);
+  return finder.collect(pending, motion, statistics);
+}
+
 /// Holds one scene on the device. All its materials are perfect conductors unless `surfaces` is given.
 class EchoScene {
  public:
@@ -74,8 +99,8 @@ class EchoScene {
   EchoList find(const EchoOptions& options, const Pose& transmitter, const std::optional<Pose>& receiver = {},
                 EchoStatistics* statistics = nullptr, const EchoEnd& end = {}) {
     EchoFinder finder(gpu, *surfaces_, end, receiver ? std::optional(end) : std::nullopt, options);
-    return finder.find(transmitter, receiver.value_or(transmitter), std::vector<Pose>(scene.bodies.size()),
-                       statistics);
+    return trace(finder, gpu, scene.bodies.size(), at_rest(transmitter, receiver.value_or(transmitter)),
+                 statistics);
   }
   const RadioSurfaces& surfaces() const { return *surfaces_; }
 

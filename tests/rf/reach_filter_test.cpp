@@ -9,10 +9,13 @@
 
 #include "core/random.h"
 #include "rf/geometry/geometry.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/scenes.h"
 
 namespace greatx::rf {
 namespace {
+
+using testing::exhaustive_candidates;
 
 /// Returns whether the line from the image to the point passes the window, in fp64.
 bool passes(const ImageWindow& image, double distance, double u, double v) {

@@ -12,6 +12,7 @@
 #include "rf/reference/comparison.h"
 #include "rf/reference/exhaustive_paths.h"
 #include "rf/reference/occluders.h"
+#include "tests/rf/exhaustive.h"
 #include "tests/rf/random_scene.h"
 #include "tests/rf/scenes.h"
 
@@ -19,9 +20,11 @@ namespace greatx::rf::reference {
 namespace {
 
 using rf::testing::build;
+using rf::testing::exhaustive_candidates;
 using rf::testing::HandScene;
 using rf::testing::random_scene;
 using rf::testing::RandomScene;
+using rf::testing::solve_paths;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;

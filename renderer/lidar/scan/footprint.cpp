@@ -9,8 +9,6 @@
 
 namespace greatx::render {
 
-uint32_t sub_ray_count(uint32_t rings) { return 1 + 3 * rings * (rings + 1); }
-
 std::vector<SubRay> sub_rays(double divergence, uint32_t rings) {
   GREATX_CHECK(rings <= most_rings, "{} rings", rings);
   GREATX_CHECK(rings == 0 || (divergence > 0.0 && divergence < 0.5), "divergence of {} rad", divergence);

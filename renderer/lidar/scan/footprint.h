@@ -28,7 +28,5 @@ inline constexpr uint32_t most_rings = 8;
 /// other ring is turned by half a step. The weights thus sum to one, and the footprint's second moment is the
 /// beam's, w^2/2, whatever n. With 0 `rings` there is only the axis.
 std::vector<SubRay> sub_rays(double divergence, uint32_t rings);
-/// Returns 1 + 3 n (n + 1).
-uint32_t sub_ray_count(uint32_t rings);
 
 }  // namespace greatx::render

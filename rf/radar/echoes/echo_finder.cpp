@@ -324,20 +324,4 @@ EchoList EchoFinder::collect(const Pending& pending, const EchoMotion& motion, E
   return list;
 }
 
-EchoList EchoFinder::find(const Pose& transmitter, const Pose& receiver, std::span<const Pose> body_poses,
-                          EchoStatistics* statistics) {
-  gpu::Device& device = scene_->device();
-  gpu::TickSlot slot;
-  slot.upload = gpu::Arena(device, gpu::Memory::upload, 1u << 20, "echoes upload");
-  slot.readback = gpu::Arena(device, gpu::Memory::readback, 1u << 20, "echoes readback");
-  Pending pending;
-  gpu::submit_setup(device, [&](gpu::Cmd& cmd) {
-    slot.cmd = &cmd;
-    scene_->record_update(slot, body_poses);
-    pending = record(slot, transmitter, receiver, body_poses);
-    cmd.barrier(gpu::sync::compute_write, gpu::sync::host_read);
-  });
-  return collect(pending, at_rest(transmitter, receiver, {body_poses.begin(), body_poses.end()}), statistics);
-}
-
 }  // namespace greatx::rf

@@ -49,20 +49,11 @@ class EchoFinder {
   /// coordinates.
   [[nodiscard]] Pending record(gpu::TickSlot& slot, const Pose& transmitter, const Pose& receiver,
                                std::span<const Pose> body_poses);
-  [[nodiscard]] Pending record(gpu::TickSlot& slot, const Pose& radar, std::span<const Pose> body_poses) {
-    return record(slot, radar, radar, body_poses);
-  }
 
   /// Returns the echoes; call it after the submission of the slot is done. The list is empty if no ray meets
   /// anything. The bytes do not depend on the number of threads. Throws UserError naming the instance if a
   /// surface is inside an antenna (EchoOptions::antenna_radius_m).
   EchoList collect(const Pending& pending, const EchoMotion& motion, EchoStatistics* statistics = nullptr);
-
-  /// Returns the echoes outside the ticks, with everything at rest. Uses a set-up submission of its own and
-  /// waits for it. Calls GpuScene::record_update; the caller has to record that again before the next pass of
-  /// a tick.
-  EchoList find(const Pose& transmitter, const Pose& receiver, std::span<const Pose> body_poses,
-                EchoStatistics* statistics = nullptr);
 
   const EchoOptions& options() const { return options_; }
 

@@ -28,9 +28,6 @@ struct EchoMotion {
   }
 };
 
-/// Returns the motion of a scene in which everything stands still.
-EchoMotion at_rest(const Pose& transmitter, const Pose& receiver, const std::vector<Pose>& body_poses);
-
 /// Holds counts of a search, for summaries.
 struct EchoStatistics {
   uint32_t tubes = 0, target_tubes = 0;

@@ -40,15 +40,6 @@ std::array<double, 4> cubic_through(const std::array<double, 4>& x, std::array<d
 
 }  // namespace
 
-EchoMotion at_rest(const Pose& transmitter, const Pose& receiver, const std::vector<Pose>& body_poses) {
-  EchoMotion motion;
-  motion.transmitter = [transmitter](double) { return transmitter; };
-  motion.receiver = [receiver](double) { return receiver; };
-  motion.body = [body_poses](uint32_t body, double) { return body_poses.at(body); };
-  motion.slot_start_s = {0.0};
-  return motion;
-}
-
 PoseTable::PoseTable(const EchoMotion& motion, std::span<const bool> bodies, std::vector<double> times_s)
     : times_s_(std::move(times_s)), bodies_(bodies.size()) {
   for (size_t body = 1; body < bodies.size(); ++body)

@@ -80,10 +80,4 @@ Polygon Polygon::clipped(const HalfPlane& side) const {
   return kept;
 }
 
-Polygon intersection(const Polygon& a, const Polygon& b) {
-  Polygon kept = a;
-  for (uint32_t i = 0; i < b.size() && !kept.empty(); ++i) kept = kept.clipped(b.inside(i));
-  return kept;
-}
-
 }  // namespace greatx::rf

@@ -54,6 +54,4 @@ class Polygon {
   uint32_t count_ = 0;
 };
 
-Polygon intersection(const Polygon& a, const Polygon& b);
-
 }  // namespace greatx::rf

@@ -100,14 +100,7 @@ double cell_averaging_factor(double cells, uint32_t looks, double false_alarm) {
 
 double ordered_statistic_factor(uint32_t cells, uint32_t rank, uint32_t looks, double false_alarm) {
   GREATX_CHECK(rank >= 1 && rank <= cells, "rank {} of {}", rank, cells);
-  if (looks > 1) return statistic_factor(cells, rank, looks, false_alarm, quantiles_of(looks));
-  return root_of_falling(
-      [&](double t) {
-        double product = 1.0;
-        for (uint32_t i = 0; i < rank; ++i) product *= (cells - i) / (cells - i + t);
-        return product;
-      },
-      false_alarm);
+  return statistic_factor(cells, rank, looks, false_alarm, quantiles_of(looks));
 }
 
 double ordered_statistic_mean(uint32_t cells, uint32_t rank, uint32_t looks) {

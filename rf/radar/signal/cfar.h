@@ -24,9 +24,9 @@ namespace greatx::rf {
 double cell_averaging_factor(double cells, uint32_t looks, double false_alarm);
 
 /// Returns the factor T such that noise exceeds T times the rank-th smallest of `cells` with the probability
-/// P_fa = `false_alarm`. For V = 1, T is the root of prod_{i<rank} (cells - i)/(cells - i + T) = P_fa (H.
-/// Rohling, IEEE Trans. Aerosp. Electron. Syst. 19(4), 1983, eq. 35). For V > 1 the tail of Gamma(V) is
-/// averaged over the density of the order statistic by quadrature.
+/// P_fa = `false_alarm`. The tail of Gamma(V) is averaged over the density of the order statistic by
+/// quadrature. For V = 1, T is the root of prod_{i<rank} (cells - i)/(cells - i + T) = P_fa (H. Rohling, IEEE
+/// Trans. Aerosp. Electron. Syst. 19(4), 1983, eq. 35).
 double ordered_statistic_factor(uint32_t cells, uint32_t rank, uint32_t looks, double false_alarm);
 
 /// Returns the expected value of the rank-th smallest of `cells` noise cells, divided by the mean of a cell.

@@ -171,10 +171,4 @@ void MeshBuilder::append(const MeshBuilder& other, const dvec3& offset, double y
     }
 }
 
-size_t MeshBuilder::triangle_count() const {
-  size_t count = 0;
-  for (const PrimitiveData& p : primitives_) count += p.indices.size() / 3;
-  return count;
-}
-
 }  // namespace greatx::scene::generator

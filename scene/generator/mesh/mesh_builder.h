@@ -68,7 +68,6 @@ class MeshBuilder {
 
   const std::vector<PrimitiveData>& primitives() const { return primitives_; }
   bool empty() const { return primitives_.empty(); }
-  size_t triangle_count() const;
 
  private:
   uint32_t vertex(PrimitiveData& primitive, const dvec3& position, const dvec3& normal, const dvec2& uv);

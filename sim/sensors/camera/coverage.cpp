@@ -48,10 +48,6 @@ dvec2 Projection::shown(dvec2 direction) const {
   return dvec2(cx_, cy_) + dvec2(fx_, fy_) * distortion_.distort(direction);
 }
 
-dvec2 Projection::picture(const dvec2& pinhole) const {
-  return distorted() ? shown(normalised(pinhole)) : pinhole;
-}
-
 struct Projection::Bounds {
   dvec4 sides{infinity, infinity, -infinity, -infinity};
   void add(const dvec2& p) {

@@ -25,9 +25,6 @@ class Projection {
   dvec2 pinhole(const dvec3& optical) const {
     return {cx_ + fx_ * optical.x / optical.z, cy_ + fy_ * optical.y / optical.z};
   }
-  /// Returns the pixel coordinates in the picture. A point beyond the fold of the lens, which is certainly
-  /// outside the picture, is moved to the fold.
-  dvec2 picture(const dvec2& pinhole) const;
   /// Returns the bounds in the picture of a polygon in pinhole coordinates: u_min, v_min, u_max, v_max. A
   /// lens bends its edges. Therefore points are sampled along each edge: every `edge_step` pixels where the
   /// picture may show it, and at the extrema of a coordinate between samples.
@@ -47,7 +44,8 @@ class Projection {
   struct Bounds;
   void add_edge(const dvec2& from, const dvec2& to, Bounds& bounds) const;
   dvec2 normalised(const dvec2& pinhole) const { return {(pinhole.x - cx_) / fx_, (pinhole.y - cy_) / fy_}; }
-  /// Returns the pixel coordinates in the picture of normalised coordinates.
+  /// Returns the pixel coordinates in the picture of normalised coordinates. A point beyond the fold of the
+  /// lens, which is certainly outside the picture, is moved to the fold.
   dvec2 shown(dvec2 direction) const;
 
   uint32_t width_, height_;
