@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/text.h"
 #include "rf/config/subcarriers.h"
 #include "sim/scenario/parse/scenario_parse.h"
 #include "sim/scenario/sensor_kinds.h"

@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "core/text.h"
 #include "sim/scenario/parse/scenario_parse.h"
 
 namespace greatx::sim {
