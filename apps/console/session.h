@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands share this: from the command line to a scenario and a device, and from an experiment to a data
-// set.
+// The commands share this: from the command line to a scenario and a device.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +11,6 @@
 #include <CLI/CLI.hpp>
 
 #include "gpu/device.h"
-#include "io/dataset/dataset_format.h"
-#include "sim/experiment/experiment.h"
 #include "sim/scenario/parse/load_scenario.h"
 #include "sim/scenario/scenario.h"
 
@@ -45,10 +42,6 @@ uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 
 /// Throws UserError if the scenario has no such sequence (--sequence) or tick (--tick).
 void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario);
-
-/// What a data set says of its run: everything that decides its bytes, and the tables that ids refer to.
-io::DatasetInfo dataset_info(const sim::Experiment& experiment, const gpu::Device& device,
-                             const std::vector<SensorSpec>& sensors);
 
 /// Throws if the validation layer had anything to say.
 void check_validation(const gpu::Device& device);
