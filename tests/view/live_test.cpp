@@ -177,6 +177,34 @@ TEST(Live, ASensorThatWasNotSeenHasNoNewestRecord) {
   EXPECT_EQ(run->shown()->newest[camera]->tick, 8);
 }
 
+TEST(Live, ARecordThatIsNotTheNewestIsNotShownInItsPlace) {
+  const std::string beams = "elevation_min_deg: -20, elevation_max_deg: 20, channels: 2, azimuth_steps: 8";
+  const auto run = live_run(options_of(
+      "greatx: 1\nname: two\nticks: 40\ntick_rate_hz: 100\nscene: {generate: {kind: room}}\nnodes:\n"
+      "  - name: eye\n    trajectory: {type: static, position_m: [0, 0, 1]}\n    sensors:\n"
+      "      - {name: fast, type: lidar, rate_hz: 100, " +
+      beams + "}\n      - {name: slow, type: lidar, rate_hz: 20, " + beams + "}\n"));
+  const auto slow = [&] { return run->shown()->newest.at(2); };
+  ASSERT_TRUE(wait_for_tick(*run, 0, 0));
+  run->step(4);
+  ASSERT_TRUE(wait_for_tick(*run, 0, 4));
+  ASSERT_NE(slow(), nullptr);
+  EXPECT_EQ(slow()->tick, 0);
+  run->jump(0, 33);  // the slow one is due at 30, which nobody has seen
+  ASSERT_TRUE(wait_for_tick(*run, 0, 33));
+  EXPECT_EQ(slow(), nullptr);
+  run->step(2);
+  ASSERT_TRUE(wait_for_tick(*run, 0, 35));
+  EXPECT_EQ(slow()->tick, 35);
+  run->jump(0, 3);  // kept, as all of it was
+  ASSERT_TRUE(wait_for_tick(*run, 0, 3));
+  ASSERT_NE(slow(), nullptr);
+  EXPECT_EQ(slow()->tick, 0);
+  run->jump(0, 34);
+  ASSERT_TRUE(wait_for_tick(*run, 0, 34));
+  EXPECT_EQ(slow(), nullptr);
+}
+
 TEST(Live, AReplayOfItsDataSetHasItsBytes) {
   const sim::Experiment experiment = sim::make_experiment(sim::parse_scenario(street, "street.yaml", "."));
   const test::TemporaryFolder folder;
