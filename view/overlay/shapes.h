@@ -24,9 +24,9 @@ struct LineShape {
   dvec3 a{0.0}, b{0.0};  ///< world, m
   io::Color color;
   float width_px = 1.5f;
-  uint32_t row = ~0u;      ///< into Shapes::rows; ~0: none
-  bool arrow = false;      ///< a head at b
-  bool always = false;     ///< drawn in front of everything, never hidden by the scene
+  uint32_t row = ~0u;   ///< into Shapes::rows; ~0: none
+  bool arrow = false;   ///< a head at b
+  bool always = false;  ///< drawn in front of everything, never hidden by the scene
 };
 
 struct PointShape {

@@ -26,7 +26,18 @@ struct WindowOptions {
 
 /// An input from a script. Coordinates are pixels of the window from its upper left corner.
 struct InputEvent {
-  enum class Kind : uint8_t { move, press, release, wheel, key_down, key_up, text, resize, minimize, restore };
+  enum class Kind : uint8_t {
+    move,
+    press,
+    release,
+    wheel,
+    key_down,
+    key_up,
+    text,
+    resize,
+    minimize,
+    restore
+  };
   Kind kind = Kind::move;
   double x = 0.0, y = 0.0;  ///< of move; of wheel: its turns; of resize: the new size
   int button = 0;           ///< of press and release: 0 left, 1 right, 2 middle
