@@ -16,7 +16,7 @@
 #include "scene/device/gpu_scene.h"
 #include "sim/plan/camera_desc.h"
 #include "sim/plan/plan_options.h"
-#include "sim/scenario/clock.h"
+#include "view/scene/moment_cache.h"
 
 namespace greatx::view {
 
@@ -58,22 +58,22 @@ bool same_pass(const render::CameraDesc& have, const render::CameraDesc& want) {
 /// Draws pictures on the thread that makes it.
 class Renderer {
  public:
-  Renderer(const sim::Experiment& experiment, const gpu::DeviceOptions& options)
-      : experiment_(experiment),
-        plan_(apps::picture_plan(experiment)),
+  Renderer(const std::shared_ptr<const sim::Experiment>& experiment, const gpu::DeviceOptions& options)
+      : moments_(experiment),
+        plan_(apps::picture_plan(*experiment)),
         device_(options),
-        gpu_scene_(device_, experiment.scene(), sim::gpu_scene_options(plan_)),
+        gpu_scene_(device_, experiment->scene(), sim::gpu_scene_options(plan_)),
         ring_(device_, 2, upload_bytes, readback_bytes),
-        lighting_(gpu_scene_, sim::lighting_of(experiment.scenario.environment), sim::camera_effects(plan_)),
-        clock_(experiment.scenario.tick_rate_hz) {}
+        lighting_(gpu_scene_, sim::lighting_of(experiment->scenario.environment),
+                  sim::camera_effects(plan_)) {}
 
   std::shared_ptr<const ScenePicture> draw(const SceneRequest& request) {
     const WallClock::time_point begin = WallClock::now();
-    move_to(request.sequence, request.tick);
+    const sim::Moment& moment = moments_.at(request.sequence, request.tick);
     render::CameraPass& pass = pass_for(request);
     gpu::TickSlot& slot = ring_.begin();
-    gpu_scene_.record_update(slot, moment_.bodies);
-    lighting_.record(slot, moment_.bodies);
+    gpu_scene_.record_update(slot, moment.bodies);
+    lighting_.record(slot, moment.bodies);
     pass.record(slot, request.view.local_from_sensor);
     ring_.submit(slot);
     ring_.wait(slot);
@@ -84,23 +84,14 @@ class Renderer {
     picture->depth = std::move(images.depth);
     picture->instance = std::move(images.instance);
     picture->material = std::move(images.material);
-    picture->bodies = moment_.bodies;
-    picture->nodes = moment_.motions;
+    picture->bodies = moment.bodies;
+    picture->nodes = moment.motions;
     picture->milliseconds = std::chrono::duration<double, std::milli>(WallClock::now() - begin).count();
     return picture;
   }
 
  private:
   static constexpr VkDeviceSize upload_bytes = 1 << 20, readback_bytes = 16 << 20;
-
-  void move_to(uint32_t sequence, int64_t tick) {
-    if (courses_ && sequence == sequence_ && tick == tick_) return;
-    if (!courses_ || sequence != sequence_)
-      courses_.emplace(sim::make_courses(experiment_.scenario, *experiment_.world, sequence));
-    moment_ = sim::moment_at(*experiment_.world, *courses_, clock_, tick);
-    sequence_ = sequence;
-    tick_ = tick;
-  }
 
   /// The passes are kept: one that moves and one that rests, and those of cameras that were looked through.
   render::CameraPass& pass_for(const SceneRequest& request) {
@@ -117,17 +108,12 @@ class Renderer {
   }
 
   static constexpr size_t most_passes = 4;
-  const sim::Experiment& experiment_;
+  MomentCache moments_;
   const sim::EffectPlan plan_;
   gpu::Device device_;
   scene::GpuScene gpu_scene_;
   gpu::TickRing ring_;
   render::SceneLighting lighting_;
-  sim::Clock clock_;
-  std::optional<sim::Courses> courses_;
-  sim::Moment moment_;
-  uint32_t sequence_ = 0;
-  int64_t tick_ = 0;
   std::vector<std::unique_ptr<render::CameraPass>> passes_;  ///< the one used last is the first
 };
 
@@ -169,7 +155,7 @@ class SceneView::Worker {
  private:
   void run(const gpu::DeviceOptions& options) {
     try {
-      Renderer renderer(*experiment_, options);
+      Renderer renderer(experiment_, options);
       while (const std::optional<SceneRequest> request = next()) publish(renderer.draw(*request));
     } catch (const std::exception& error) {
       const std::lock_guard lock(mutex_);
