@@ -66,6 +66,8 @@ class Window {
   virtual Array screenshot() = 0;
   /// Takes an input as if it came from the user, at the next begin_frame.
   virtual void inject(const InputEvent& event) = 0;
+  /// Returns the messages of the validation layer since the last call; none without validation.
+  virtual std::vector<std::string> validation_messages() = 0;
   virtual void set_title(const std::string& title) = 0;
   virtual bool minimized() const = 0;
   /// Pixels for each screen coordinate, for fonts (1 or more).
