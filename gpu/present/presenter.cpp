@@ -28,6 +28,7 @@ VkBufferImageCopy whole(VkExtent2D extent) {
 
 Presenter::Presenter(const PresentDevice& device, const Surface* surface) : device_(device) {
   make_render_pass();
+  make_pool();
   VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
   sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -39,6 +40,7 @@ Presenter::Presenter(const PresentDevice& device, const Surface* surface) : devi
 Presenter::~Presenter() {
   device_.wait_idle();
   swapchain_.reset();
+  vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
   for (Frame& frame : frames_) {
     vkDestroyFramebuffer(device_.handle(), frame.framebuffer, nullptr);
     vkDestroySemaphore(device_.handle(), frame.acquired, nullptr);
@@ -80,6 +82,16 @@ void Presenter::make_render_pass() {
   info.dependencyCount = 2;
   info.pDependencies = dependencies;
   GREATX_VK(vkCreateRenderPass(device_.handle(), &info, nullptr, &render_pass_));
+}
+
+void Presenter::make_pool() {
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, most_textures};
+  VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+  info.maxSets = most_textures;
+  info.poolSizeCount = 1;
+  info.pPoolSizes = &size;
+  GREATX_VK(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &descriptors_));
 }
 
 void Presenter::make_frame(Frame& frame) {

@@ -22,6 +22,7 @@ using PresentTextureId = uint32_t;
 class Presenter {
  public:
   static constexpr uint32_t frames_in_flight = 2;
+  static constexpr uint32_t most_textures = 512;  ///< in the pool of descriptors
 
   /// `surface` is null without a window. Both outlive the presenter.
   Presenter(const PresentDevice& device, const Surface* surface);
@@ -31,6 +32,8 @@ class Presenter {
 
   VkRenderPass render_pass() const { return render_pass_; }
   VkSampler sampler() const { return sampler_; }
+  /// Holds sets of one sampled image each, which may be freed one by one.
+  VkDescriptorPool descriptor_pool() const { return descriptors_; }
 
   /// Runs `record` in a command buffer of its own and waits until it is done.
   void run_now(const std::function<void(VkCommandBuffer)>& record);
@@ -73,6 +76,7 @@ class Presenter {
   };
 
   void make_render_pass();
+  void make_pool();
   void make_frame(Frame& frame);
   void fit_canvas(Frame& frame, VkExtent2D extent);
   void record_updates(Frame& frame);
@@ -84,6 +88,7 @@ class Presenter {
   std::unique_ptr<Swapchain> swapchain_;
   VkRenderPass render_pass_ = VK_NULL_HANDLE;
   VkSampler sampler_ = VK_NULL_HANDLE;
+  VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
   std::array<Frame, frames_in_flight> frames_;
   uint64_t frame_ = 0;  ///< number of the next frame
   VkExtent2D last_extent_{0, 0};

@@ -13,7 +13,7 @@ namespace greatx::view {
 
 namespace {
 
-constexpr uint32_t most_textures = 512;
+constexpr size_t most_textures = gpu::Presenter::most_textures - 1;  // one is the font
 
 std::vector<std::byte> rgba_of(const Array& picture) {
   GREATX_CHECK(picture.dtype == DType::u8 && picture.shape.size() == 3 &&
@@ -28,18 +28,6 @@ std::vector<std::byte> rgba_of(const Array& picture) {
 
 VkExtent2D extent_of(const Array& picture) {
   return {static_cast<uint32_t>(picture.shape.at(1)), static_cast<uint32_t>(picture.shape.at(0))};
-}
-
-VkDescriptorPool make_pool(VkDevice device) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, most_textures + 1};
-  VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-  info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
-  info.maxSets = most_textures + 1;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &size;
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  GREATX_VK(vkCreateDescriptorPool(device, &info, nullptr, &pool));
-  return pool;
 }
 
 void check_imgui(VkResult result) { gpu::check_vk(result, "Dear ImGui's Vulkan backend"); }
@@ -58,17 +46,16 @@ void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface
                         const WindowOptions& options) {
   device_ = std::make_unique<gpu::PresentDevice>(instance, surface, options.device);
   presenter_ = std::make_unique<gpu::Presenter>(*device_, surface);
-  descriptors_ = make_pool(device_->handle());
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = device_->instance();
   info.PhysicalDevice = device_->physical();
   info.Device = device_->handle();
   info.QueueFamily = device_->queue_family();
   info.Queue = device_->queue();
-  info.DescriptorPool = descriptors_;
+  info.DescriptorPool = presenter_->descriptor_pool();
   info.MinImageCount = info.ImageCount = gpu::Presenter::frames_in_flight;
   info.CheckVkResultFn = check_imgui;
-  ImGui_ImplVulkan_Init(&info, presenter_->render_pass());
+  started_ = ImGui_ImplVulkan_Init(&info, presenter_->render_pass());
   set_style(static_cast<float>(pixel_scale()));
   presenter_->run_now([](VkCommandBuffer cmd) { ImGui_ImplVulkan_CreateFontsTexture(cmd); });
   ImGui_ImplVulkan_DestroyFontUploadObjects();
@@ -77,10 +64,7 @@ void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface
 void ImGuiWindow::stop() {
   if (device_ == nullptr) return;
   device_->wait_idle();
-  if (descriptors_ != VK_NULL_HANDLE) {
-    ImGui_ImplVulkan_Shutdown();
-    vkDestroyDescriptorPool(device_->handle(), descriptors_, nullptr);
-  }
+  if (started_) ImGui_ImplVulkan_Shutdown();
   presenter_.reset();
   device_.reset();
 }
@@ -184,7 +168,7 @@ void ImGuiWindow::drop_texture(TextureId texture) {
   const auto found = textures_.find(texture);
   GREATX_CHECK(found != textures_.end(), "a texture that is not there");
   VkDescriptorSet set = static_cast<VkDescriptorSet>(texture);
-  presenter_->drop(found->second, [device = device_->handle(), pool = descriptors_, set] {
+  presenter_->drop(found->second, [device = device_->handle(), pool = presenter_->descriptor_pool(), set] {
     vkFreeDescriptorSets(device, pool, 1, &set);
   });
   textures_.erase(found);

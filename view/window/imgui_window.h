@@ -51,7 +51,7 @@ class ImGuiWindow : public Window {
   std::string settings_file_;
   std::unique_ptr<gpu::PresentDevice> device_;
   std::unique_ptr<gpu::Presenter> presenter_;
-  VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+  bool started_ = false;
   std::map<TextureId, gpu::PresentTextureId> textures_;
   std::deque<InputEvent> injected_;
   bool scripted_ = false;
