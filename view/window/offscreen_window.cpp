@@ -3,6 +3,9 @@
 //
 // A window that exists in memory alone. Its time goes on by a sixtieth of a second with every frame, so that
 // two runs of a script draw the same.
+#include <chrono>
+#include <thread>
+
 #include "view/window/imgui_window.h"
 
 namespace greatx::view {
@@ -40,7 +43,10 @@ class OffscreenWindow final : public ImGuiWindow {
   std::vector<std::string> validation_messages() override { return instance_.validation_log()->take(); }
 
  private:
-  bool poll(double) override { return true; }
+  bool poll(double wait_s) override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+    return true;
+  }
   void begin_input() override {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
