@@ -63,10 +63,10 @@ void draw_timeline(const ImVec2& at, const ImVec2& size, std::span<Run* const> r
   const RunStatus status = runs.front()->status();
   const std::shared_ptr<const io::DatasetInfo> info = runs.front()->info();
   if (info != nullptr) {
-    int tick = static_cast<int>(std::max<int64_t>(status.tick, 0));
-    const int last = static_cast<int>(std::max<int64_t>(info->ticks_per_sequence - 1, 0));
+    int64_t tick = std::max<int64_t>(status.tick, 0);
+    const int64_t first = 0, last = std::max<int64_t>(info->ticks_per_sequence - 1, 0);
     ImGui::SetNextItemWidth(-1.0f);
-    if (ImGui::SliderInt("##tick", &tick, 0, last))
+    if (ImGui::SliderScalar("##tick", ImGuiDataType_S64, &tick, &first, &last))
       for (Run* const run : runs) run->jump(status.sequence, tick);
     const auto button = [&](const char* name, auto act) {
       if (ImGui::Button(name))
