@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds greatx and its Python package (Release), generates the embedded default
-# scenario into out/demo and draws its contact sheet. Run again, it does only what is left to do; arguments go
-# to `greatx generate`.
+# Installs missing packages, builds greatx and its Python package (Release), generates the embedded default
+# scenario into out/demo and draws its contact sheet and animation. A second run does only the remaining
+# steps. Arguments are passed to `greatx generate`.
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/setup.sh
@@ -12,8 +12,8 @@ scripts/build.sh release greatx greatx_python
 
 demo() { build/release/greatx generate --output out/demo --resume "$@"; }
 if ! demo "$@"; then
-  # A demo that an older greatx, another driver or other arguments made cannot be gone on with: it is kept
-  # beside.
+  # A demo of an older greatx, another driver or other arguments cannot be resumed. It is kept under another
+  # name.
   demo "$@" 2>&1 | grep -q 'another run' || exit 1
   number=1
   while [ -e "out/demo.$number" ]; do number=$((number + 1)); done

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds greatx (Release) and runs every test; arguments go to ctest, e.g. ./test.sh
-# -L hard
+# Installs missing packages, builds greatx (Release) and runs all tests. Arguments are passed to ctest, for
+# example: ./test.sh -L hard
 set -euo pipefail
 cd "$(dirname "$0")"
 scripts/setup.sh

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sub-commands of greatx. Each adds its options to the command line; the callback that CLI11 runs does
-// the work and throws what goes wrong.
+// The sub-commands of greatx. Each function adds a command and its options to the command line. The callback
+// that CLI11 runs does the work and throws on errors.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,5 +17,6 @@ void add_scene(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_paths(CLI::App& app);
 void add_map(CLI::App& app);
+void add_view(CLI::App& app);
 
 }  // namespace greatx::apps

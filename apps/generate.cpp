@@ -38,7 +38,8 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Runs what is left of the data set. Returns false if it was interrupted; what was simulated is kept.
+/// Runs the remaining ticks of the data set. Returns false if it was interrupted; the simulated ticks are
+/// kept.
 bool run_sequences(sim::Simulator& simulator, io::DatasetWriter& writer, const sim::Scenario& scenario,
                    bool quiet, Clock::time_point begin, double& first_packet_s) {
   const io::DatasetWriter::Position position = writer.resume_position();
@@ -82,7 +83,7 @@ void run_generate(const GenerateOptions& options) {
     const TerminalWatch watch(options.quiet);
     complete = run_sequences(simulator, writer, experiment.scenario, options.quiet, begin, first_packet_s);
   } catch (const Interrupted&) {
-    writer.flush();  // in the midst of a tick: the packets before are whole
+    writer.flush();  // the interrupted tick is lost; the packets before it are complete
   }
   device.wait_idle();
   check_validation(device);
@@ -91,12 +92,12 @@ void run_generate(const GenerateOptions& options) {
     io::write_file_atomically(std::filesystem::path(options.output) / io::consistency_file,
                               consistency_csv(statistics.rows));
 
-  for (const std::string& warning : statistics.warnings) spdlog::warn("{}", warning);  // also when quiet
+  for (const std::string& warning : statistics.warnings) spdlog::warn("{}", warning);  // even with --quiet
   nlohmann::json summary = summary_of(statistics, device, seconds_since(begin));
   summary["first_packet_seconds"] = first_packet_s;
   summary["output"] = options.output;
   summary["finished"] = complete;
-  // An unfinished data set has no manifest yet that would say: what lies in its folder.
+  // An unfinished data set has no manifest yet, so the files in its folder are counted.
   const io::FolderSize size =
       complete ? io::FolderSize{writer.stats().files, writer.stats().bytes} : io::folder_size(options.output);
   summary["files"] = size.files;

@@ -20,7 +20,8 @@
 
 namespace {
 
-/// Everything but results goes to stderr, so that --json prints one object and nothing else on stdout.
+/// Directs all messages to stderr. Only results go to stdout, so that --json prints one object and nothing
+/// else there.
 void set_up_logging() {
   using namespace greatx;
   spdlog::set_default_logger(spdlog::stderr_color_mt("greatx"));
@@ -32,7 +33,7 @@ void set_up_logging() {
 
 int main(int argc, char** argv) {
   using namespace greatx;
-  io::ignore_file_size_signal();  // a limit of the shell's is then an error of the write that meets it
+  io::ignore_file_size_signal();  // so that a write beyond the shell's file size limit returns an error
   set_up_logging();
   watch_memory();
   const apps::SafeStream safe_out(std::cout), safe_err(std::cerr);
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
       "program, 130 interrupted.");
   apps::add_info(app);
   apps::add_generate(app);
+  apps::add_view(app);
   apps::add_inspect(app);
   apps::add_verify(app);
   apps::add_scene(app);

@@ -47,7 +47,7 @@ struct MapOptions {
 
 constexpr double default_height_m = 1.5;
 
-/// Checks all that needs no scene.
+/// Returns the request, with all checks that need no scene. Throws UserError.
 sim::MapRequest map_request(const MapOptions& options, const sim::ChannelConfig& channel,
                             const sim::Scenario& scenario) {
   check_instant(options.instant.sequence, options.instant.tick, scenario);
@@ -69,7 +69,8 @@ sim::MapRequest map_request(const MapOptions& options, const sim::ChannelConfig&
   return request;
 }
 
-/// The antenna of the scenario that --rx names, turned as at the moment.
+/// Returns the antenna of the scenario that --rx names, with its orientation at the moment of the snapshot;
+/// the default receiver without --rx. Throws UserError if there is no such antenna.
 sim::MapReceiver map_receiver(const MapOptions& options, const sim::ChannelSnapshot& snapshot) {
   if (options.receiver.empty()) return {};
   const sim::Experiment& experiment = snapshot.experiment();
@@ -92,7 +93,8 @@ sim::MapReceiver map_receiver(const MapOptions& options, const sim::ChannelSnaps
               .orientation};
 }
 
-/// Of where everything that moves stands: files that the scenario names decide it, too.
+/// Returns a hash of the poses of all bodies. It is part of the request because the poses also depend on
+/// files that the scenario names.
 std::string hash_of(std::span<const Pose> bodies) {
   Sha256 hash;
   for (const Pose& pose : bodies) {
@@ -103,7 +105,7 @@ std::string hash_of(std::span<const Pose> bodies) {
   return hash.hex();
 }
 
-/// Everything that decides the map's bytes.
+/// Returns everything that decides the bytes of the map.
 Json json_of(const MapOptions& options, const sim::ChannelSnapshot& snapshot, const sim::RadioMapRun& map,
              const gpu::Device& device) {
   const auto& [scenario, world, plan] = snapshot.experiment();
@@ -162,7 +164,7 @@ Json json_of(const MapOptions& options, const sim::ChannelSnapshot& snapshot, co
   return json;
 }
 
-/// Until every cell has its links, or somebody stops it.
+/// Solves the cells that have no links yet. Throws Interrupted if it is stopped before the last cell.
 void solve(const MapOptions& options, sim::RadioMapRun& map, MapJournal& journal) {
   const size_t transmitters = map.transmitters().size(), total = map.cells().grid.cells();
   const auto done = [&] { return journal.links().size() / transmitters; };
@@ -176,7 +178,7 @@ void solve(const MapOptions& options, sim::RadioMapRun& map, MapJournal& journal
       return !interrupted();
     });
   } catch (const Interrupted&) {
-    // In the midst of some cells: those before are kept.
+    // The cells in progress are lost; the cells before them are kept.
   }
   if (done() < total)
     throw Interrupted(fmt::format("{}: {} of {} cells are kept; the same command with --resume goes on",

@@ -44,19 +44,20 @@ struct PathsOptions {
   std::optional<double> within_db;
 };
 
-/// Rows of a picture that are not the scene's.
+/// Pixel rows of a picture above and below the view of the scene.
 constexpr uint32_t picture_bars = picture_head + picture_foot;
 
-/// What is asked of which channel.
+/// Describes what is requested of which channel.
 struct PathsRequest {
   uint32_t channel = 0;
   sim::ChannelSnapshot::Instant instant;
-  std::vector<dvec3> points;         ///< of --receivers; empty: the channel's own
-  std::optional<uint32_t> only;      ///< of --receiver
-  std::optional<CameraName> camera;  ///< of --view; none: automatic
+  std::vector<dvec3> points;         ///< positions of --receivers; empty: the channel's receivers
+  std::optional<uint32_t> only;      ///< index of the receiver of --receiver; none: all
+  std::optional<CameraName> camera;  ///< camera of --view; none: automatic
 };
 
-/// An end by its number or, if it has one, by its name.
+/// Returns the index of a transmitter or receiver that `text` gives by its number or by its name. `names` is
+/// empty if they have none. Throws UserError, which names `option`.
 uint32_t find_end(const char* option, const std::string& text, size_t count,
                   std::span<const std::string> names) {
   uint32_t index = 0;
@@ -136,7 +137,7 @@ Json tail_of(const PathTotals& totals, const sim::ChannelSnapshot& snapshot) {
   return tail;
 }
 
-/// The closing lines of the tables.
+/// Returns the closing lines of the tables.
 std::string closing_text(const PathTotals& totals, const Json& head, const Json& tail, double seconds) {
   std::string text = fmt::format("{} in {:.2f} s\n", totals.text(), seconds);
   for (const auto& [name, value] : tail.items())
@@ -192,8 +193,8 @@ void write_glb(const PathsOptions& options, const Json& head, std::span<const Pa
   io::write_file_atomically(file, paths_glb(links, scene, glb));
 }
 
-/// Solves what is asked for and hands every receiver to the outputs. Returns those that pictures and exports
-/// need.
+/// Solves the request and passes every receiver to the outputs. Returns the links if pictures or exports need
+/// them, else none.
 std::vector<PathLink> solve(const PathsOptions& options, const PathsRequest& request, const PathScene& scene,
                             sim::ChannelSnapshot& snapshot,
                             std::span<const std::unique_ptr<PathsOutput>> outputs, CfrFile* cfr,
@@ -234,7 +235,7 @@ void run_paths(const PathsOptions& options) {
   scene::Bounds points;
   for (const dvec3& point : request.points) points.add(point);
   const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), points);
-  // Only a picture needs what cameras need.
+  // Only a picture needs the effects of cameras.
   const sim::EffectPlan view_plan = options.png.empty() ? experiment.plan : picture_plan(experiment);
   gpu::Device device(options.run.device_options());
   sim::ChannelSnapshot snapshot(device, experiment, request.channel, request.instant,

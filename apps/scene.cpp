@@ -90,7 +90,8 @@ std::string describe(const std::optional<scene::RadioMaterial>& radio) {
 
 double luminance(const vec3& color) { return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b; }
 
-/// Of the base colour, with the mean over its texture (what is cut out of it does not count).
+/// Returns the luminance of the base colour, averaged over its texture. Texels that the alpha mask cuts out
+/// do not count.
 double mean_luminance(const scene::Material& material, const scene::Scene& scene) {
   const vec4& factor = material.pbr.base_color;
   if (material.pbr.base_color_texture < 0) return luminance(vec3(factor));
@@ -109,7 +110,8 @@ double mean_luminance(const scene::Material& material, const scene::Scene& scene
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-/// "0.20 at 905 and 1550 nm, mean of the base colour": stated, or what LiDAR takes instead.
+/// Returns a text such as "reflectance 0.20 (905 nm, from the base colour), 0.25 (1550 nm)": the stated
+/// reflectance, or the value that LiDAR uses if none is stated.
 std::string reflectance_of(const scene::Material& material, const scene::Scene& scene) {
   const bool textured = material.pbr.base_color_texture >= 0;
   const double color = mean_luminance(material, scene);

@@ -4,7 +4,7 @@
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 # greatx_shaders(TARGET NAME.stage.glsl ...): compiles each shader to SPIR-V at build time, with dependency
-# tracking, and links the words into TARGET, where gpu::spirv("folder/NAME.stage") finds them.
+# tracking, and embeds the SPIR-V words in the library TARGET. gpu::spirv("folder/NAME.stage") returns them.
 function(greatx_shaders TARGET)
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/spirv)
   set(table "")

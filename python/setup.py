@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the compiled module into the wheel: CMake's target greatx_python, in the project's build folder.
+"""Builds CMake's target greatx_python in the project's build folder and puts the compiled module into the
+wheel.
 
-GREATX_NATIVE=1: it must be there; 0: it is left out (data sets alone, nothing is compiled); not set: it is
-built where the project has been built before, or can be (CMake, Ninja and the shaders' compiler are there).
-Nothing is written into python/.
+With GREATX_NATIVE=1, the module must be built. With 0, it is left out, nothing is compiled, and the package
+only reads data sets. If the variable is not set, the module is built if the project has been built before, or
+if CMake, Ninja and the shader compiler are installed. Nothing is written into python/.
 """
 import contextlib
 import os
@@ -23,7 +24,7 @@ SUFFIX = sysconfig.get_config_var("EXT_SUFFIX")
 
 
 RELEASE = PROJECT / "build" / "release"
-#: For a Python that the release build's module is not for.
+#: Build folder for a Python other than the one that the release build serves.
 OWN = PROJECT / "build" / ("release" + SUFFIX.rsplit(".", 1)[0])
 
 
@@ -41,8 +42,10 @@ def wanted() -> bool:
 
 @contextlib.contextmanager
 def progress_output():
-    """Yields where the progress of a build goes: the terminal, since pip keeps standard output to itself, or standard
-    output (None) if there is no terminal."""
+    """Yields where the progress of a build goes.
+
+    It is the terminal, since pip keeps standard output to itself, or None (standard output) without one.
+    """
     try:
         terminal = open("/dev/tty", "w")
     except OSError:
@@ -83,8 +86,8 @@ class CMakeBuild(build_ext):
             if module.is_file():
                 return module
         sys.exit(
-            f"{OWN}: built no _native{SUFFIX}: expected pybind11 and the headers of this Python (scripts/setup.sh), or "
-            "GREATX_NATIVE=0 to install what reads data sets alone"
+            f"{OWN}: built no _native{SUFFIX}: expected pybind11 and the headers of this Python "
+            "(scripts/setup.sh), or GREATX_NATIVE=0 to install what reads data sets alone"
         )
 
     def run_cmake(self, *command):
@@ -93,12 +96,12 @@ class CMakeBuild(build_ext):
                 subprocess.run([str(part) for part in command], cwd=PROJECT, check=True, stdout=output)
         except (OSError, subprocess.CalledProcessError) as error:
             sys.exit(
-                f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, GREATX_NATIVE=0 "
-                "installs what reads data sets alone"
+                f"the compiled module was not built: {error}; scripts/setup.sh installs what it needs, "
+                "GREATX_NATIVE=0 installs what reads data sets alone"
             )
 
 
-# setuptools' own litter goes where all that is built goes.
+# setuptools writes its temporary files into the project's build folder, too.
 scratch = PROJECT / "build" / "pip" if (PROJECT / "CMakePresets.json").is_file() else HERE / "build"
 scratch.mkdir(parents=True, exist_ok=True)
 setup(

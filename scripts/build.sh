@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# build.sh PRESET [TARGET...]: configures (once) and builds; prints the compiler's words only when it fails.
+# build.sh PRESET [TARGET...]: configures the preset if needed and builds it. It prints the output of the
+# tools only if a step fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1

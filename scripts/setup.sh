@@ -2,34 +2,41 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what greatx needs to build and run, and nothing that is there already.
-# Quiet when nothing is to do. Debian 12 or newer, Ubuntu 24.04 or newer; as root or through sudo.
+# Installs the packages that greatx needs to build and run, if they are missing. It prints nothing if there is
+# nothing to do. It supports Debian 12 or newer and Ubuntu 24.04 or newer, as root or with sudo.
 set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build pkg-config ccache glslang-tools
   libvulkan-dev vulkan-validationlayers libglm-dev libtinygltf-dev libopenexr-dev libhdf5-dev libstb-dev
-  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libspdlog-dev libssl-dev zlib1g-dev libpng-dev libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev
-  libglfw3-dev libimgui-dev
-  libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py python3-jsonschema python3-yaml
-  xvfb xauth
+  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libspdlog-dev libssl-dev zlib1g-dev libpng-dev
+  libjpeg-dev libdeflate-dev libwebp-dev libpugixml-dev libkissfft-dev libglfw3-dev libimgui-dev
+  libgtest-dev libgmock-dev pybind11-dev python3-dev python3-numpy python3-h5py python3-jsonschema
+  python3-yaml xvfb xauth fonts-dejavu-core
 )
-# Ray queries on lavapipe, Mesa's software Vulkan, need this version.
+# lavapipe, Mesa's software Vulkan driver, supports ray queries from this version on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1
 
 say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: error: %s\n' "$*" >&2; exit 1; }
 
-command -v apt-get >/dev/null || die "this script knows apt only; install the packages that it lists by hand: ${packages[*]} and $mesa_package >= $mesa_minimum"
+command -v apt-get >/dev/null ||
+  die "this script knows apt only; install the packages that it lists by hand:" \
+    "${packages[*]} and $mesa_package >= $mesa_minimum"
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || die "not root and no sudo"
   as_root=(sudo)
 fi
-apt_get() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >/dev/null; }
+apt_get() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >/dev/null
+}
 
-version_of() { dpkg-query -W -f '${db:Status-Abbrev} ${Version}' "$1" 2>/dev/null | awk '$1 == "ii" {print $2}' | head -n 1; }
+version_of() {
+  dpkg-query -W -f '${db:Status-Abbrev} ${Version}' "$1" 2>/dev/null |
+    awk '$1 == "ii" {print $2}' | head -n 1
+}
 is_recent() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$mesa_minimum"; }
 candidate_of() { LC_ALL=C apt-cache policy "$1" | awk '/Candidate:/ && $2 != "(none)" {print $2}'; }
 
@@ -56,13 +63,15 @@ if is_recent "$(candidate_of "$mesa_package")"; then
   exit 0
 fi
 
-# The distribution's own Mesa is too old: its backports suite has a newer one. The suite lives in the same
-# archive as the release itself, so take the address (a mirror, perhaps) from the sources that apt uses now.
+# The Mesa of the distribution is too old, but its backports suite has a newer one. That suite is in the same
+# archive as the release itself, so its address, perhaps that of a mirror, is that of the current apt sources.
 codename=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
 read -r archive signed_by < <(apt-get indextargets \
   --format '$(REPO_URI) $(RELEASE) $(COMPONENT) $(SIGNED_BY)' 'Created-By: Packages' |
-  awk -v release="$codename" '$2 == release && $3 == "main" {print $1, ($4 ~ /^\// ? $4 : "")}' | head -n 1) ||
-  die "no apt source with the suite '$codename main' found, so the archive with $mesa_package >= $mesa_minimum is unknown"
+  awk -v release="$codename" '$2 == release && $3 == "main" {print $1, ($4 ~ /^\// ? $4 : "")}' |
+  head -n 1) ||
+  die "no apt source with the suite '$codename main' found, so the archive with" \
+    "$mesa_package >= $mesa_minimum is unknown"
 
 sources=/etc/apt/sources.list.d/greatx-backports.list
 preferences=/etc/apt/preferences.d/greatx-backports
@@ -71,7 +80,8 @@ say "  adding $sources (the archive this machine uses already)"
 say "  adding $preferences (nothing but Mesa and the libdrm it needs may come from there)"
 options=""
 [ -z "$signed_by" ] || options="[signed-by=$signed_by] "
-printf 'deb %s%s %s-backports main\n' "$options" "$archive" "$codename" | "${as_root[@]}" tee "$sources" >/dev/null
+printf 'deb %s%s %s-backports main\n' "$options" "$archive" "$codename" |
+  "${as_root[@]}" tee "$sources" >/dev/null
 "${as_root[@]}" tee "$preferences" >/dev/null <<PIN
 # Written by greatx's scripts/setup.sh: ray queries on lavapipe need Mesa >= $mesa_minimum.
 Package: *
@@ -84,6 +94,7 @@ Pin-Priority: 500
 PIN
 apt_get update || say "warning: some package lists could not be refreshed"
 is_recent "$(candidate_of "$mesa_package")" ||
-  die "$codename-backports offers $mesa_package '$(candidate_of "$mesa_package")', but >= $mesa_minimum is needed"
+  die "$codename-backports offers $mesa_package '$(candidate_of "$mesa_package")'," \
+    "but >= $mesa_minimum is needed"
 say "installing $mesa_package $(candidate_of "$mesa_package")"
 apt_get install -y --no-install-recommends "$mesa_package"

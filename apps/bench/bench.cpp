@@ -139,13 +139,15 @@ void run(const Options& options) {
         fmt::format("bench: the figures are those of {} of {} ticks", statistics.ticks, scenario.ticks));
 }
 
-/// One of the benchmarks that print a table of their own.
+/// Runs one of the benchmarks that have rows of their own, and prints its result.
 template <typename BenchOptions>
 void run_rows(const Options& options, BenchOptions bench_options,
               nlohmann::json (*bench)(const ScenarioOptions&, const RunOptions&, const BenchOptions&),
               std::string (*text)(const nlohmann::json&)) {
   bench_options.warm_up = options.warm_up;
-  const TerminalWatch watch(options.json);  // that shows searches; without a handler, Ctrl-C ends at once
+  // The watch shows the progress of searches. No interrupt handler is installed, so Ctrl-C ends the program
+  // at once.
+  const TerminalWatch watch(options.json);
   const nlohmann::json result = bench(options.scenario, options.run, bench_options);
   std::cout << (options.json ? json_text(result) + "\n" : text(result));
 }

@@ -30,7 +30,7 @@ constexpr double night_elevation_deg = -20.0, night_ev100 = 4.0;
 constexpr double fog_g_m3 = 0.05, fog_sun_elevation_deg = 48.0, fog_sun_lux = 2500.0, fog_sky_lux = 14000.0,
                  fog_ev100 = 13.4;
 
-/// One way to take the picture, with everything it needs.
+/// One row: a camera pass with its own scene, lighting and ring of ticks.
 class CameraRow {
  public:
   CameraRow(gpu::Device& device, std::string name, scene::Scene scene, const sim::EffectPlan& plan,
@@ -64,7 +64,8 @@ class CameraRow {
   scene::GpuScene& gpu_scene() { return gpu_; }
   render::SceneLighting& lighting() { return lighting_; }
 
-  /// Adds the squared differences of 8-bit channels to a reference of the same size.
+  /// Adds the squared differences between the 8-bit channels of the last picture and of `reference`, if both
+  /// have the same size.
   void compare(const std::vector<uint8_t>& reference) {
     if (images_.rgb.size() != reference.size()) return;
     for (size_t i = 0; i < reference.size(); ++i)
@@ -93,8 +94,9 @@ class CameraRow {
   double squares_ = 0.0;
 };
 
-/// `count` street lamps around the scene's middle, one in each square of 30 m, 8 m above its lowest point:
-/// 900 cd down a cone of 70 degrees that reaches 30 m. The more of them, the farther they stand.
+/// Returns `count` street lamps around the middle of the scene, on a square grid with a spacing of 30 m, 8 m
+/// above the lowest point of the scene. Each shines 900 cd down a cone of 70 degrees half-angle with a range
+/// of 30 m. More lamps cover a larger area.
 std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, uint32_t count) {
   constexpr double spacing_m = 30.0;
   std::vector<scene::PunctualLight> lamps;
@@ -114,8 +116,8 @@ std::vector<scene::PunctualLight> lattice_of_lamps(const scene::Scene& scene, ui
   return lamps;
 }
 
-/// For each of `count` ticks spread over the run, the instants of an event camera's interval that begins with
-/// it.
+/// Returns, for each of `count` ticks spread evenly over the first sequence, the instants of an event
+/// camera's interval that begins at the tick.
 std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, const sim::World& world,
                                               sim::SensorPlace camera, uint32_t count) {
   const sim::Courses courses = sim::make_courses(scenario, world, 0);
@@ -135,7 +137,8 @@ std::vector<std::vector<Instant>> instants_of(const sim::Scenario& scenario, con
   return intervals;
 }
 
-/// Mean of blocks of 4 x 4 pixels of a picture 4 times as large, in linear light and back.
+/// Reduces a picture to a quarter of its width and height. A pixel is the mean of 4 x 4 pixels in linear
+/// light.
 std::vector<uint8_t> reduced(const render::CameraImages& large) {
   const uint32_t width = large.width / 4, height = large.height / 4;
   std::vector<uint8_t> small(size_t{3} * width * height);
@@ -231,7 +234,8 @@ class CameraBench {
         std::make_unique<CameraRow>(device_, name, std::move(scene), plan_, lighting, effects, desc));
   }
 
-  /// The same view under an overcast sky, some 380 m of sight: the light of city_fog.
+  /// Adds the same view in fog, with the light of the scenario city_fog: an overcast sky and a visibility of
+  /// about 380 m.
   void add_fog() {
     sim::Scenario scenario = scenario_;
     sim::Environment& environment = scenario.environment = {};
@@ -247,7 +251,7 @@ class CameraBench {
         sim::camera_effects(sim::make_effect_plan(scenario, experiment_.scene())), desc);
   }
 
-  /// The same view by night: the scene's own lamps, then lamps over the whole scene.
+  /// Adds the same view by night, first with the scene's own lamps, then with lattice_of_lamps().
   void add_night() {
     sim::Scenario scenario = scenario_;
     scenario.environment = {};
@@ -267,7 +271,8 @@ class CameraBench {
     }
   }
 
-  /// The same view by day, as an event camera sees it; on the first row's scene and light.
+  /// Adds the same view by day for an event camera. These rows use the scene and the lighting of the first
+  /// row.
   void add_events() {
     for (const bool edges : {true, false}) {
       render::CameraDesc desc = desc_;

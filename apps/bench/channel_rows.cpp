@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rows of what comes after the paths: responses, records, files.
+// Rows of the steps after the paths: frequency responses, records, files.
 #include <algorithm>
 
 #include "apps/bench/radio_rows.h"
@@ -16,14 +16,14 @@ namespace greatx::apps {
 
 namespace {
 
-/// Figures to reach on two cores, ms.
+/// Times to reach on two cores, ms.
 constexpr double response_target_ms = 1.0, written_tick_target_ms = 4.0, many_responses_target_ms = 8000.0;
 constexpr size_t response_paths = 20;
 
 const TickRow& plain_tick = tick_rows[0];
 
-/// Paths of a link of the channel, repeated or cut to `count`: what they are does not matter to the time of
-/// their sum.
+/// Returns exactly `count` paths of links of the channel, repeated or cut as needed: the time of their sum
+/// does not depend on which paths they are. Throws UserError if no point has a path.
 std::vector<rf::Path> some_paths(sim::ChannelSnapshot& snapshot, std::span<const dvec3> points,
                                  size_t count) {
   std::vector<rf::Path> paths;
@@ -99,7 +99,7 @@ nlohmann::json many_responses_row(const ScenarioOptions& scenario_options, const
   sim::ChannelSnapshot snapshot(device, experiment, 0, {0, 0, 0});
   const ScratchFolder scratch;
   const auto stop = [](sim::ChannelSnapshot::Link) { return false; };
-  snapshot.solve(std::span(points).first(1), 0, stop);  // the search, or its file
+  snapshot.solve(std::span(points).first(1), 0, stop);  // runs the search, or reads it from the cache
   const Clock::time_point begin = Clock::now();
   CfrFile file(scratch.path() / "cfr.npy", snapshot, 0, points.size());
   snapshot.solve(points, 0, [&](sim::ChannelSnapshot::Link link) {

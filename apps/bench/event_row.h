@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A row of `greatx bench --camera`: what one interval of an event camera costs.
+// A row of `greatx bench --camera`: measures the time of one interval of an event camera.
 #pragma once
 
 #include <string>
@@ -15,26 +15,27 @@
 
 namespace greatx::apps {
 
-/// Where the camera and everything else is at one picture.
+/// Holds the poses of the camera and of all bodies at the time of one picture.
 struct Instant {
   Pose local_from_sensor;
   std::vector<Pose> bodies;
 };
 
-/// The view of `desc` as an event camera with its defaults sees it: luminance pictures at even sub-steps, all
-/// in one submission, from recording to the sorted list of events.
+/// Measures an event camera with default settings and the view of `desc`. It renders luminance pictures at
+/// equally spaced sub-steps in one submission. The measured time runs from the recording of the commands to
+/// the sorted list of events.
 class EventRow {
  public:
   static constexpr uint32_t substeps = 4;
-  static constexpr int64_t interval_ns = 33'333'333;  ///< of a camera of 30 Hz
+  static constexpr int64_t interval_ns = 33'333'333;  ///< interval of a camera of 30 Hz
 
-  /// `lighting`, its scene and `gpu_scene`, which is that scene, outlive this.
+  /// `gpu_scene` is the scene of `lighting`. Both outlive this.
   EventRow(std::string name, scene::GpuScene& gpu_scene, render::SceneLighting& lighting,
            render::CameraDesc desc);
-  /// The picture that the interval begins with, then, counted, those of its sub-steps: `substeps` + 1
-  /// instants.
+  /// Renders one interval, given by `substeps` + 1 instants: the picture at its beginning, then the pictures
+  /// of its sub-steps. Only the sub-steps are measured. If `counts` is false, nothing is added to the result.
   void shoot(const std::vector<Instant>& instants, bool counts);
-  /// As the other rows of the bench, and `events`: on average.
+  /// Returns the fields of the other rows of the bench, and `events`, the average number of events.
   nlohmann::json result() const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sensor that a benchmark of one modality is about, and when it looks.
+// Selects the sensor that a benchmark of one modality measures, and the moments at which it is measured.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@
 
 namespace greatx::apps {
 
-/// In the scenario's order. `option`, `what`: for the message of the UserError if there is none ("--lidar",
-/// "a LiDAR").
+/// Returns the first sensor with a configuration of type `Config`, in the order of the scenario. Throws
+/// UserError if there is none; the message names `option` ("--lidar") and `what` ("a LiDAR").
 template <typename Config>
 sim::SensorPlace first_sensor(const sim::Scenario& scenario, const char* option, const char* what) {
   for (uint32_t node = 0; node < scenario.nodes.size(); ++node)
@@ -27,8 +27,9 @@ sim::SensorPlace first_sensor(const sim::Scenario& scenario, const char* option,
   throw_user_error("{}: bench {}: expected {}, found none", scenario.name, option, what);
 }
 
-/// The scenario without channels and with no other sensor than the first one of `Config` and antennas, which
-/// an effect plan then is about alone.
+/// Returns the scenario without channels and without sensors, except for antennas and the first sensor of
+/// type `Config`. An effect plan of this scenario then considers that sensor alone. Throws like
+/// first_sensor().
 template <typename Config>
 sim::Scenario first_sensor_alone(sim::Scenario scenario, const char* option, const char* what) {
   const sim::SensorPlace first = first_sensor<Config>(scenario, option, what);
@@ -45,7 +46,7 @@ sim::Scenario first_sensor_alone(sim::Scenario scenario, const char* option, con
   return scenario;
 }
 
-/// `count` ticks spread over the first sequence.
+/// Returns the moments of `count` ticks spread evenly over the first sequence.
 inline std::vector<sim::Moment> moments_of(const sim::Scenario& scenario, const sim::World& world,
                                            const sim::Courses& courses, uint32_t count) {
   std::vector<sim::Moment> moments;

@@ -20,22 +20,25 @@ namespace greatx::apps {
 namespace {
 
 constexpr const char* lidar_option = "--lidar";
-constexpr double spun_s = 0.1;         ///< of the rows with a sweep, where the scenario's has none
-constexpr double divergence = 1.5e-3;  ///< rad, of the rows with rings, where the scenario's has none
+/// Duration of a sweep in the rows with motion, if the scenario's LiDAR has none.
+constexpr double spun_s = 0.1;
+/// Divergence in the rows with rings, rad, if the scenario's LiDAR has none.
+constexpr double divergence = 1.5e-3;
 constexpr double noise_equivalent_power = 1e-8;
 
 constexpr const char* effect_names[] = {
     "lidar_alpha_mask", "lidar_textures", "lidar_sweep_motion", "lidar_target_motion", "lidar_divergence",
     "lidar_glass",      "lidar_haze",     "lidar_backscatter",  "lidar_detection",     "lidar_range_noise"};
 
-/// What a row adds to the plain sweep.
+/// Describes what a row adds to the plain sweep.
 struct LidarChange {
   std::string name;
-  std::vector<std::string> effects;  ///< that the plan may switch on; the first one is what the row is about
+  std::vector<std::string> effects;  ///< effects that the plan may switch on; the row measures the first one
   std::function<void(sim::LidarConfig&, sim::Environment&)> apply;
 };
 
-/// All shots at the tick, of the scenario's own elevations if it has that many.
+/// Returns a scan with all shots at the time of the tick. It has the elevations of the scenario's LiDAR if
+/// their number is that of the options.
 render::SpinningScan plain_scan(const render::Scan& own, const LidarBenchOptions& options) {
   render::SpinningScan scan;
   scan.azimuth_steps = options.azimuth_steps;
@@ -94,7 +97,7 @@ std::vector<LidarChange> changes(const sim::LidarConfig& own, const LidarBenchOp
   };
 }
 
-/// The plain sweep with a change, every other effect off.
+/// Returns the scenario with the plain sweep and one change. Every other effect is off.
 sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, const LidarChange& change,
                       const LidarBenchOptions& options) {
   auto& config = std::get<sim::LidarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
@@ -111,7 +114,7 @@ sim::Scenario changed(sim::Scenario scenario, const sim::SensorPlace& place, con
   return scenario;
 }
 
-/// One way to sweep, with everything it needs.
+/// One row: a LiDAR with its own experiment.
 class LidarRow {
  public:
   LidarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The row of radio maps: a square about the scene's middle, 1.5 m above the ground.
+// Measures a radio map of a square around the middle of the scene, 1.5 m above the ground.
 #include <memory>
 #include <utility>
 
@@ -13,7 +13,8 @@ namespace greatx::apps {
 
 namespace {
 
-/// Figure to reach on two cores for 300 x 300 cells of 1 m and depth 3, ms; other sizes in proportion.
+/// Time to reach on two cores for 300 x 300 cells of 1 m and depth 3, ms. It is scaled in proportion to the
+/// number of cells.
 constexpr double map_target_ms = 60'000.0, map_target_cells = 90'000.0;
 constexpr double cell_m = 1.0, above_ground_m = 1.5;
 
@@ -35,7 +36,8 @@ nlohmann::json map_row(const ScenarioOptions& scenario_options, const RunOptions
   const sim::Experiment experiment = sim::make_experiment(std::move(scenario), std::move(world), points);
   gpu::Device device(run.device_options());
   sim::ChannelSnapshot snapshot(device, experiment, 0, {});
-  snapshot.solve(std::span(&center, 1), 0, [](sim::ChannelSnapshot::Link) { return false; });  // the search
+  // Runs the search, or reads it from the cache.
+  snapshot.solve(std::span(&center, 1), 0, [](sim::ChannelSnapshot::Link) { return false; });
 
   const Clock::time_point begin = Clock::now();
   sim::RadioMapRun map(snapshot, request, {});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What benchmarks measure with.
+// Clocks, a sink and a scratch folder for benchmarks.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline double seconds_since(Clock::time_point begin) {
 }
 inline double milliseconds_since(Clock::time_point begin) { return 1e3 * seconds_since(begin); }
 
-/// Of all threads of this process.
+/// Returns the user and system time of all threads of this process so far, ms.
 inline double cpu_milliseconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -33,12 +33,12 @@ inline double cpu_milliseconds() {
   return of(usage.ru_utime) + of(usage.ru_stime);
 }
 
-/// Takes packets and keeps none.
+/// A sink that discards every packet.
 struct Discard : RecordSink {
   void write(Packet) override {}
 };
 
-/// A folder of its own below the temporary folder, removed at the end.
+/// Names a folder for this process below the system's temporary folder. The destructor removes the folder.
 class ScratchFolder {
  public:
   ScratchFolder()
@@ -55,7 +55,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Count, least, median and largest of samples.
+/// Returns {"count", "min", "median", "max"} of the samples; only {"count": 0} if there are none.
 inline nlohmann::json distribution(std::vector<double> samples) {
   if (samples.empty()) return {{"count", 0}};
   std::sort(samples.begin(), samples.end());

@@ -30,7 +30,7 @@ sim::RadarConfig& radar_of(sim::Scenario& scenario, const sim::SensorPlace& plac
   return std::get<sim::RadarConfig>(scenario.nodes[place.node].sensors[place.sensor].config);
 }
 
-/// One radar, with everything it needs.
+/// One row: a radar with its own experiment.
 class RadarRow {
  public:
   RadarRow(gpu::Device& device, std::string name, sim::Experiment experiment, const sim::SensorPlace& place)
@@ -53,7 +53,7 @@ class RadarRow {
     for (const rf::EchoList& list : echoes.lists) echoes_ += list.echoes.size();
     detections_ += radar_.sensor().frame().detections.size();
   }
-  /// W [range, velocity], of the frame shot last.
+  /// Returns the range-Doppler map of the last frame, [range, velocity], W.
   const std::vector<float>& map() const { return radar_.sensor().frame().range_doppler; }
 
   nlohmann::json frame_result() const {
@@ -85,7 +85,8 @@ class RadarRow {
   uint64_t echoes_ = 0, detections_ = 0;
 };
 
-/// `factor` times the tubes, on targets as well; only the range-Doppler map, without noise.
+/// Multiplies the number of tubes by `factor`, on targets as well. The only output is the range-Doppler map,
+/// without noise.
 void refine(sim::RadarConfig& config, double factor) {
   const auto times = [&](uint32_t count) {
     return static_cast<uint32_t>(std::max(1.0, std::round(factor * count)));
@@ -102,7 +103,8 @@ void refine(sim::RadarConfig& config, double factor) {
   config.signal.processing.range_azimuth = config.signal.processing.detections = false;
 }
 
-/// Of a cell of the range-Doppler map, W: k T0 fs F ENBW_r ENBW_d/(N M) (docs/radar.md).
+/// Returns the noise power of a cell of the range-Doppler map, W: k T0 fs F ENBW_r ENBW_d/(N M)
+/// (docs/radar.md).
 double cell_noise_w(const rf::RadarSignalConfig& signal) {
   const rf::RadarWaveform& waveform = signal.waveform;
   return rf::noise_power_w(waveform.sample_rate_hz, signal.receiver.noise_figure_db.value_or(0.0)) *
@@ -171,7 +173,8 @@ class RadarBench {
     for (size_t cell = 0; cell < truth.size(); ++cell) {
       if (truth[cell] < least_w) continue;
       ++cells_;
-      // A cell in which a row has nothing at all is as wrong as one at the smallest normal number.
+      // An empty cell of a row counts as 1e-37 W, about the smallest normal float, so that the error is
+      // finite.
       for (size_t r = 0; r < echoes_.size(); ++r)
         errors_[r].push_back(
             std::abs(10.0 * std::log10(std::max<double>(echoes_[r]->map()[cell], 1e-37) / truth[cell])));

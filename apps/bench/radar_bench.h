@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --radar`: what a frame of a scenario's first radar costs, and what fewer or more ray tubes
-// make of it.
+// `greatx bench --radar`: measures the time of a frame of a scenario's first radar, and how the number of ray
+// tubes changes the time and the error.
 #pragma once
 
 #include <string>
@@ -14,27 +14,30 @@
 namespace greatx::apps {
 
 struct RadarBenchOptions {
-  int64_t warm_up = 1;
-  uint32_t frames = 12;  ///< measured of each row
+  int64_t warm_up = 1;   ///< frames of each row that are computed first and not measured
+  uint32_t frames = 12;  ///< measured frames of each row
 };
 
-/// One JSON object: scenario, device, driver, radar, triangles, transmitters, receivers, chirps, samples, and
-/// - frames: rows of whole frames, name, frame_ms (from recording to arrays on the host, nothing encoded), of
-///   it echoes_ms
-///   (from recording to the list of echoes) and signal_ms (from there to the arrays), cpu_ms (of all
-/// threads), `ratio` of
-///   the medians of frame_ms to that of the first row, the scenario's own, echoes, detections (of a frame, on
-/// average);
-/// - echoes: rows of the same radar with `factor` times the tubes: tubes (of a frame), echoes, echoes_ms,
-///   cpu_ms, and the
-///   difference of their range-Doppler map, free of noise, from that of `reference_factor` times the tubes:
-/// median_db and
-///   q90_db of |10 log10| over the `cells` in which the reference stands above the receiver's noise (figure 0
-/// dB if the
-///   scenario has none); of every third frame. Target tubes get smaller and more along with the others.
-/// Rows are measured in turns, frame by frame. Throws UserError if there is no radar.
+/// Returns one JSON object with scenario, device, driver, radar, triangles, transmitters, receivers, chirps,
+/// samples and two lists of rows.
+/// `frames` holds rows of whole frames:
+/// - name;
+/// - frame_ms: time from the recording of the commands to the arrays on the host, without encoding. It is the
+///   sum of echoes_ms, up to the list of echoes, and signal_ms, from there to the arrays;
+/// - cpu_ms: processor time of all threads;
+/// - ratio: median of frame_ms divided by that of the first row, which is the scenario's own radar;
+/// - echoes and detections of a frame, on average.
+/// `echoes` holds rows of the same radar with `factor` times the tubes. Target tubes become smaller and more
+/// numerous along with the others.
+/// - tubes of a frame, echoes, echoes_ms, cpu_ms;
+/// - median_db and q90_db: difference of the range-Doppler map, without noise, from that of a reference with
+///   `reference_factor` times the tubes. They are the median and the 90 % quantile of |10 log10 of the ratio|
+///   over the `cells` where the reference is above the receiver's noise. Every third frame is compared. The
+///   noise figure is 0 dB if the scenario has none. The last row is the reference.
+/// The rows take turns, frame by frame. Throws UserError if there is no radar.
 nlohmann::json radar_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const RadarBenchOptions& options);
+/// Returns the result as two tables.
 std::string radar_bench_text(const nlohmann::json& result);
 
 }  // namespace greatx::apps

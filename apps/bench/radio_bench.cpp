@@ -28,7 +28,7 @@ nlohmann::json about_row(const ScenarioOptions& options, const RunOptions& run) 
 
 nlohmann::json radio_bench(const ScenarioOptions& scenario, const RunOptions& run,
                            const RadioBenchOptions& options) {
-  const SaidOnce once;  // all rows look at one scene
+  const SaidOnce once;  // all rows load the same scene and log the same messages
   const auto since_start =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process_age_s()));
   const Clock::time_point begin = Clock::now() - since_start;

@@ -25,8 +25,8 @@ namespace greatx::apps {
 
 namespace {
 
-/// Figures to reach on etoile (assets/examples/etoile_walls.yaml), two cores; with diffraction and
-/// scattering: what Sionna RT 2.2.0 needs for a position there.
+/// Times to reach on etoile (assets/examples/etoile_walls.yaml) on two cores, ms. With diffraction and
+/// scattering, it is the time that Sionna RT 2.2.0 needs for a position in that scene.
 constexpr double first_cir_target_ms = 1000.0, search_target_ms = 10'000.0, tick_target_ms = 2.5,
                  many_target_ms = 3000.0, sionna_effects_ms = 430.0;
 
@@ -37,7 +37,7 @@ uint64_t counter(const sim::RunStatistics& statistics, const std::string& ending
   return sum;
 }
 
-/// The whole tick, as a run has it: the host works on one while the GPU works on another.
+/// Measures the whole tick as in a run, where the host works on one tick while the GPU works on another.
 nlohmann::json pipelined(gpu::Device& device, const sim::Experiment& experiment,
                          const RadioBenchOptions& options) {
   sim::Simulator simulator(device, experiment);
@@ -61,7 +61,7 @@ nlohmann::json pipelined(gpu::Device& device, const sim::Experiment& experiment,
           {"paths", per(counter(statistics, "paths"), statistics.packets)}};
 }
 
-/// The same ticks stage by stage, each waiting for the one before.
+/// Measures the same ticks stage by stage. Each stage waits for the one before.
 nlohmann::json staged(gpu::Device& device, const sim::Experiment& experiment,
                       const RadioBenchOptions& options) {
   const sim::Scenario& scenario = experiment.scenario;
@@ -192,7 +192,7 @@ nlohmann::json many_row(const ScenarioOptions& scenario_options, const RunOption
     paths += link.paths.size();
     return true;
   };
-  snapshot.solve(std::span(points).first(1), 0, take);  // the search, or its file
+  snapshot.solve(std::span(points).first(1), 0, take);  // runs the search, or reads it from the cache
   paths = 0;
   const Clock::time_point begin = Clock::now();
   snapshot.solve(points, 0, take);

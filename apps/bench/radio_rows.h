@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rows of `greatx bench --radio`: each measures one thing and returns {"ms" or distributions, "target",
-// "ratio", ...}. Every row runs in a process of its own.
+// The rows of `greatx bench --radio`. Each function measures one thing and returns {"ms" or distributions,
+// "target", "ratio", ...}. Every row runs in a process of its own.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@
 
 namespace greatx::apps {
 
-/// A row's effects beside line of sight and reflection.
+/// Selects the effects of a row besides line of sight, reflection and transmission.
 struct TickRow {
   const char* name;
   bool diffraction, scattering;
@@ -23,29 +23,34 @@ constexpr TickRow tick_rows[] = {{"reflection_transmission", false, false},
                                  {"scattering", false, true},
                                  {"diffraction_scattering", true, true}};
 
+/// Measures the time from `begin` to the record of the first tick.
 nlohmann::json first_cir_row(const ScenarioOptions& options, const RunOptions& run, Clock::time_point begin);
+/// Measures the beam search without the cache.
 nlohmann::json search_row(const ScenarioOptions& options);
+/// Measures the ticks of the channel, pipelined and stage by stage, with the effects of `which`.
 nlohmann::json tick_row(const ScenarioOptions& scenario, const RunOptions& run,
                         const RadioBenchOptions& options, const TickRow& which);
-/// Paths of `receivers` drawn points in one call.
+/// Measures the paths to `receivers` drawn points, solved in one call.
 nlohmann::json many_row(const ScenarioOptions& scenario, const RunOptions& run, uint32_t receivers);
-/// Their frequency responses as well, written to a file.
+/// Measures the same with the frequency responses, written to a file.
 nlohmann::json many_responses_row(const ScenarioOptions& scenario, const RunOptions& run, uint32_t receivers);
-/// A radio map of so many cells of 1 m along each side.
+/// Measures a radio map with `side_cells` cells of 1 m along each side.
 nlohmann::json map_row(const ScenarioOptions& scenario, const RunOptions& run, uint32_t side_cells);
-/// H of the channel's ports and subcarriers from 20 paths, on one thread.
+/// Measures the frequency response H of the channel's ports and subcarriers from 20 paths, on one thread.
 nlohmann::json response_row(const ScenarioOptions& scenario, const RunOptions& run);
-/// The whole tick of the channel, written to disk.
+/// Measures the whole tick of the channel, written to disk.
 nlohmann::json written_tick_row(const ScenarioOptions& scenario, const RunOptions& run,
                                 const RadioBenchOptions& options);
 
-// What the rows share.
+// Functions that several rows use.
 
-/// The scenario's first channel and nothing else.
+/// Returns the scenario with its first channel only and no sensors but antennas, with diffraction and
+/// scattering switched as in `row`. Throws UserError if there is no channel.
 sim::Scenario radio_only(const ScenarioOptions& options, const TickRow& row);
+/// Sets `target`, and `ratio` to `measured` / `target`.
 void set_target(nlohmann::json& row, double target, double measured);
 
-/// Whether a row of ticks has enough.
+/// Decides when a row of ticks has enough samples: at least 3, and RadioBenchOptions::seconds are over.
 class Until {
  public:
   explicit Until(const RadioBenchOptions& options) : options_(options), begin_(Clock::now()) {}

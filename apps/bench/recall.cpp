@@ -30,7 +30,7 @@ namespace greatx::apps {
 namespace {
 
 using rf::reference::Comparison;
-/// A scene with its transmitter and receivers, and what the reference says.
+/// Holds a scene with its transmitter and receivers, and the paths of the reference.
 struct Case {
   sim::Experiment experiment;
   std::vector<dvec3> receivers;  ///< world coordinates
@@ -38,12 +38,12 @@ struct Case {
   double reference_s = 0.0;
 };
 
-/// greatx's own answer.
+/// Holds the paths that greatx finds.
 struct Answer {
   std::vector<sim::ChannelPaths::Link> links;  ///< [receivers]
   uint64_t candidates = 0;
-  double search_s = 0.0;  ///< candidates and their images
-  double solve_s = 0.0;   ///< every receiver: geometry, what stands in the way, fields
+  double search_s = 0.0;  ///< time of the candidates and their images
+  double solve_s = 0.0;   ///< time of geometry, obstruction and fields for all receivers
 };
 
 sim::Moment beginning_of(const sim::Experiment& experiment) {
@@ -51,7 +51,8 @@ sim::Moment beginning_of(const sim::Experiment& experiment) {
   return sim::moment_at(*experiment.world, courses, sim::Clock(experiment.scenario.tick_rate_hz), 0);
 }
 
-/// The channel's own way through a tick, with the receivers as points. `rays` 0: the guaranteed search.
+/// Solves the channel as in a tick of a run, with the receivers as points. `rays`: number of rays; 0: the
+/// guaranteed search.
 Answer solve(gpu::Device& device, const Case& c, uint32_t rays) {
   sim::Scenario scenario = c.experiment.scenario;
   scenario.channels[0].candidates =
@@ -129,7 +130,7 @@ nlohmann::json json_of(const Comparison::Counts& counts) {
           {"extra", counts.extra}};
 }
 
-/// Where they go, for whoever looks into a fault; the first few of them.
+/// Prints the vertices and interactions of the first mismatched paths, to help find the fault.
 void print_mismatches(const Case& c, const Answer& answer, const Comparison& comparison) {
   constexpr size_t shown = 20;
   static constexpr const char* names[] = {"missing", "doubled", "extra"};
@@ -158,7 +159,7 @@ void print_mismatches(const Case& c, const Answer& answer, const Comparison& com
     std::cout << fmt::format("    and {} more\n", comparison.mismatches().size() - shown);
 }
 
-/// The guaranteed search; false if it is not what it promises.
+/// Measures the guaranteed search. Returns false if it does not find exactly the paths of the reference.
 bool measure_beams(gpu::Device& device, const Case& c, bool quiet, nlohmann::json& result) {
   const Answer answer = solve(device, c, 0);
   const Comparison comparison = compare(c, answer);
@@ -185,7 +186,7 @@ bool measure_beams(gpu::Device& device, const Case& c, bool quiet, nlohmann::jso
   return comparison.all().perfect();
 }
 
-/// Plain shoot and bounce over the number of rays.
+/// Measures plain shooting and bouncing of rays for increasing numbers of rays.
 void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& options, nlohmann::json& result) {
   result["rays"] = nlohmann::json::array();
   if (options.max_rays_log2 < 14) return;
@@ -193,7 +194,7 @@ void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& optio
     std::cout << fmt::format("  {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9}\n", "rays", "candidates",
                              "found", "missing", "doubled", "recall", "search s", "solve s");
   const spdlog::level::level_enum level = spdlog::get_level();
-  spdlog::set_level(spdlog::level::err);  // where receivers stand has been said by the beams
+  spdlog::set_level(spdlog::level::err);  // measure_beams() has already warned about the receivers
   for (uint32_t log2 = 14; log2 <= options.max_rays_log2; ++log2) {
     const Answer answer = solve(device, c, 1u << log2);
     const Comparison::Counts all = compare(c, answer).all();
@@ -214,7 +215,7 @@ void measure_rays(gpu::Device& device, const Case& c, const RecallOptions& optio
 }  // namespace
 
 void run_recall(const RecallOptions& options) {
-  // What is timed is the search, not a file of an earlier one.
+  // The cache is off, so that the search itself is timed.
   setenv("GREATX_CACHE", "off", 1);
   std::vector<std::string> names{options.scenario.scenario};
   if (options.every_scene) names = {"room", "canyon", "city"};

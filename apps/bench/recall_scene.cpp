@@ -15,19 +15,20 @@ namespace greatx::apps {
 
 namespace {
 
-/// Yaw, pitch and roll of R = R_z R_y R_x.
+/// Returns yaw, pitch and roll of R = R_z R_y R_x, rad.
 dvec3 angles_of(const dquat& orientation) {
   const dmat3 r = glm::mat3_cast(orientation);  // r[column][row]
   return {std::atan2(r[0][1], r[0][0]), std::atan2(-r[0][2], std::hypot(r[0][0], r[0][1])),
           std::atan2(r[1][2], r[2][2])};
 }
 
-/// A surface on the vertical through a point.
+/// Describes a surface on a vertical line.
 struct Level {
   double z = 0.0;
-  bool up = false;  ///< it faces up
+  bool up = false;  ///< whether the surface faces up
 };
 
+/// Returns the surfaces on the vertical line through `at`, from the lowest to the highest.
 std::vector<Level> levels_at(const scene::Scene& scene, const dvec2& at) {
   std::vector<Level> levels;
   for (const scene::FacetTriangle& triangle : scene.facet_triangles) {
@@ -45,8 +46,8 @@ std::vector<Level> levels_at(const scene::Scene& scene, const dvec2& at) {
   return levels;
 }
 
-/// The point `share` of the way from 1.5 m above the ground to the top, if there is ground below it and no
-/// solid around.
+/// Returns the point at the fraction `share` of the way from 1.5 m above the ground to the top of the scene.
+/// It returns none if there is no ground below the point or the point is inside a solid.
 std::optional<dvec3> place(const scene::Scene& scene, const dvec2& at, double share) {
   const std::vector<Level> levels = levels_at(scene, at);
   const auto ground = std::find_if(levels.begin(), levels.end(), [](const Level& level) { return level.up; });
@@ -54,7 +55,7 @@ std::optional<dvec3> place(const scene::Scene& scene, const dvec2& at, double sh
   const double low = ground->z + 1.5, z = low + share * std::max(0.0, scene.bounds.max.z - low);
   const auto above =
       std::find_if(levels.begin(), levels.end(), [&](const Level& level) { return level.z >= z; });
-  if (above != levels.end() && above->up) return std::nullopt;  // its top is next: the point is inside
+  if (above != levels.end() && above->up) return std::nullopt;  // below a solid's top, hence inside it
   return dvec3(at, z);
 }
 

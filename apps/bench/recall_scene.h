@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the recall is measured on: a scenario at tick 0 and a list of receivers in it.
+// Prepares the measurement of the recall: a scenario frozen at tick 0 and a list of receivers in it.
 #pragma once
 
 #include <vector>
@@ -13,17 +13,18 @@
 
 namespace greatx::apps {
 
-/// The scenario with every node at rest where it is at tick 0, so that its whole world is static; reflections
-/// and walls alone are on. The first channel's transmitter loses its own mesh if it moved. Throws UserError
-/// if there is no channel.
+/// Returns the scenario with every node at rest at its pose of tick 0, so that the whole world is static. It
+/// keeps the first channel only. Reflection is on, transmission is on if `max_transmissions` > 0, and
+/// diffraction, scattering and moving reflectors are off. If the node of the channel's first transmitter
+/// moved, the node loses its mesh. Throws UserError if there is no channel.
 sim::Scenario frozen_for_recall(sim::Scenario scenario, uint32_t max_depth, uint32_t max_transmissions);
 
-/// Of the first channel's transmitter, local coordinates.
+/// Returns the position of the first transmitter of the first channel, local coordinates.
 dvec3 transmitter_position(const sim::Scenario& scenario, const sim::World& world, const sim::Moment& moment);
 
-/// `count` positions in the world, a function of the scene and the seed: half of them 1.5 m above the lowest
-/// ground below them, half between there and the top of the scene; none inside a closed solid. Throws
-/// UserError if there is no room.
+/// Returns `count` positions in world coordinates, which depend only on the scene and the seed. Half of them
+/// are 1.5 m above the lowest ground below them, and half are between that height and the top of the scene.
+/// None is inside a closed solid. Throws UserError if no place is found.
 std::vector<dvec3> draw_receivers(const scene::Scene& scene, uint64_t seed, uint32_t count);
 
 }  // namespace greatx::apps

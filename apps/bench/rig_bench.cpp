@@ -19,10 +19,10 @@ namespace greatx::apps {
 
 namespace {
 
-/// A scenario that is run a block at a time.
+/// One row: a scenario that is run block by block.
 class Row {
  public:
-  /// `folder`: where it writes; empty: nothing is written.
+  /// `folder`: folder of the data set; empty: nothing is written.
   Row(gpu::Device& device, std::string name, sim::Experiment experiment, const std::filesystem::path& folder)
       : name_(std::move(name)), experiment_(std::move(experiment)), simulator_(device, experiment_) {
     if (!folder.empty()) {
@@ -33,7 +33,7 @@ class Row {
     simulator_.start(0);
   }
 
-  /// All ticks before `end` that are left, until their files are written.
+  /// Runs the remaining ticks before `end` and waits until their files are written.
   void run(int64_t end, bool counts) {
     const int64_t ticks = end - begin_;
     const double cpu_before = cpu_milliseconds();
@@ -94,11 +94,12 @@ class Bench {
     for (size_t n = 0; n < scenario_.nodes.size(); ++n)
       for (size_t s = 0; s < scenario_.nodes[n].sensors.size(); ++s) {
         const sim::SensorConfig& sensor = scenario_.nodes[n].sensors[s];
-        if (!sim::sensor_kind(sensor).fires) continue;  // it costs nothing by itself, and radars may use it
+        // A sensor that does not fire costs nothing by itself, and radars may use it.
+        if (!sim::sensor_kind(sensor).fires) continue;
         sim::Scenario without = scenario_;
         without.nodes[n].sensors.erase(without.nodes[n].sensors.begin() + static_cast<std::ptrdiff_t>(s));
-        for (sim::SensorConfig& other :
-             without.nodes[n].sensors)  // that had its pixels: they render themselves
+        // Event cameras that shared the pixels of this camera now render their own.
+        for (sim::SensorConfig& other : without.nodes[n].sensors)
           if (auto* events = std::get_if<sim::EventCameraConfig>(&other.config))
             if (events->camera == sensor.name) events->camera.clear();
         add(fmt::format("without {} {}/{}", sim::sensor_kind(sensor).words, scenario_.nodes[n].name,
@@ -140,7 +141,7 @@ class Bench {
 
   RigBenchOptions options_;
   sim::Scenario scenario_;
-  std::shared_ptr<const sim::World> world_;  ///< it fits all scenarios that leave out a sensor, too
+  std::shared_ptr<const sim::World> world_;  ///< the same world for all rows
   gpu::Device device_;
   ScratchFolder scratch_;
   std::vector<std::unique_ptr<Row>> rows_;

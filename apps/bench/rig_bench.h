@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `greatx bench --rig`: what a tick of the whole scenario costs, written to disk, and what each sensor of it
-// does.
+// `greatx bench --rig`: measures the time of a tick of the whole scenario, written to disk, and the part of
+// each sensor and channel in it.
 #pragma once
 
 #include <string>
@@ -14,21 +14,25 @@
 namespace greatx::apps {
 
 struct RigBenchOptions {
-  int64_t warm_up = 5;
-  uint32_t rounds = 4;  ///< measured of each row
+  int64_t warm_up = 5;  ///< first ticks of each row, not measured
+  uint32_t rounds = 4;  ///< measured rounds of each row
   int64_t block = 8;    ///< ticks of a round
 };
 
-/// One JSON object: scenario, device, driver, cores (of the host), block, rounds, and rows: name, wall_ms and
-/// cpu_ms (of all threads of this program) of a tick, from its recording until its files are on disk. The
-/// first row is the whole scenario; then nothing written, and the scenario without each of its sensors and
-/// channels, with `cost_wall_ms` and `cost_cpu_ms`: the medians over rounds of what the whole scenario took
-/// more in the same round. Rows take turns, a block of ticks at a time, the order reversed every second
-/// round; between blocks nothing is in flight, so that a block's time holds one tick that nothing overlaps.
-/// Costs need not add up: what two sensors share is in neither's. Fewer ticks than all rounds need make fewer
-/// rounds. Throws UserError if the scenario has no sensor, or fewer ticks than warm-up and one block.
+/// Returns one JSON object with scenario, device, driver, cores of the host, block, rounds and `rows`. A row
+/// has a name, and wall_ms and cpu_ms (of all threads of this program) of a tick, from the recording of its
+/// commands until its files are on disk. The first row is the whole scenario. The second one writes nothing.
+/// Each further row leaves out one sensor or channel. All rows but the first have `cost_wall_ms` and
+/// `cost_cpu_ms`: the median over the rounds of how much more time the whole scenario took in the same round.
+///
+/// The rows take turns, a block of ticks at a time, in an order that is reversed every second round. Between
+/// blocks no tick is in flight, so the time of a block includes one tick that overlaps with no other. The
+/// costs need not add up: work that two sensors share is part of neither's cost. If the scenario has too few
+/// ticks, the number of rounds is reduced. Throws UserError if the scenario has no sensor and no channel, or
+/// fewer ticks than the warm-up and one block.
 nlohmann::json rig_bench(const ScenarioOptions& scenario, const RunOptions& run,
                          const RigBenchOptions& options);
+/// Returns the result as a table.
 std::string rig_bench_text(const nlohmann::json& result);
 
 }  // namespace greatx::apps

@@ -30,7 +30,8 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// What the child has to say: {"row": ...} or what went wrong.
+/// Returns the answer of the child process as JSON text: {"row": ...} or the error, and the messages that it
+/// has printed.
 std::string answer_of(const std::function<nlohmann::json()>& row) {
   nlohmann::json answer;
   try {
@@ -100,7 +101,8 @@ nlohmann::json in_own_process(const std::function<nlohmann::json()>& row) {
 double process_age_s() {
   std::ifstream file("/proc/self/stat");
   std::string stat((std::istreambuf_iterator<char>(file)), {});
-  // Field 22, counted from the name in brackets, which may hold blanks: field 2 (proc(5)).
+  // The start time is field 22 (proc(5)). Fields are counted from the name in brackets, field 2, because the
+  // name may contain blanks.
   const size_t bracket = stat.rfind(')');
   if (bracket == std::string::npos) throw std::runtime_error("bench: /proc/self/stat cannot be read");
   std::istringstream fields(stat.substr(bracket + 1));

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// Runs the rows of a benchmark in processes of their own.
 #pragma once
 
 #include <functional>
@@ -8,13 +10,14 @@
 
 namespace greatx::apps {
 
-/// Runs `row` in a process of its own, so that its memory, its caches and its threads are no other row's, and
-/// returns what it returned, with `cpu_s` (user and system time) and `peak_rss_bytes` of that process. To be
-/// called before this process has a device or a thread. A UserError thrown by `row` is thrown again here;
-/// whatever else ends it is a runtime_error.
+/// Runs `row` in a process of its own, so that rows share no memory, caches or threads. Returns the result of
+/// `row` with `cpu_s` (user and system time) and `peak_rss_bytes` of that process. Must be called before this
+/// process has a device or a thread. Throws UserError if `row` throws one, and runtime_error if the process
+/// fails in any other way.
 nlohmann::json in_own_process(const std::function<nlohmann::json()>& row);
 
-/// Seconds since this process was started, to 10 ms: loading of libraries and parsing included.
+/// Returns the seconds since this process was started, to 10 ms. They include the loading of libraries and
+/// the parsing of the command line.
 double process_age_s();
 
 }  // namespace greatx::apps

@@ -12,7 +12,7 @@ namespace greatx::apps {
 
 namespace {
 
-/// Hands on to the sinks of another logger what is new.
+/// Passes only new messages on to the sinks of another logger.
 class OnceSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit OnceSink(std::vector<spdlog::sink_ptr> sinks) : sinks_(std::move(sinks)) {}

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rows in processes of their own have to say: each would say it again.
+// Suppresses repeated log messages. Rows that run in processes of their own would each print the same
+// messages.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,8 @@
 
 namespace greatx::apps {
 
-/// As long as this lives, the default logger says nothing twice. A process forked meanwhile knows what was
-/// said before.
+/// As long as this lives, the default logger prints no message twice. A process that is forked meanwhile
+/// knows the messages printed before.
 class SaidOnce {
  public:
   SaidOnce();
@@ -22,9 +23,9 @@ class SaidOnce {
   SaidOnce(const SaidOnce&) = delete;
   SaidOnce& operator=(const SaidOnce&) = delete;
 
-  /// What the logger that is in force has said; empty if that is none of a SaidOnce.
+  /// Returns the messages that the current default logger has printed; empty if it is not that of a SaidOnce.
   static std::vector<std::string> said();
-  /// Another process has said it.
+  /// Marks messages as printed, because another process has printed them.
   static void add(const std::vector<std::string>& said);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One sensor of a scenario on a device, with everything it needs, for the rows of its benchmark.
+// Runs one sensor of a scenario on a device for the rows of its benchmark.
 #pragma once
 
 #include <utility>
@@ -13,17 +13,18 @@
 
 namespace greatx::apps {
 
+/// Holds one sensor with its experiment, its scene on the GPU and its ring of ticks.
 template <typename Sensor>
 class SensorAlone {
  public:
-  /// The device outlives this.
+  /// `device` outlives this.
   SensorAlone(gpu::Device& device, sim::Experiment experiment, const sim::SensorPlace& place)
       : experiment_(std::move(experiment)),
         gpu_(device, experiment_.scene(), sim::gpu_scene_options(experiment_.plan)),
         sensor_(gpu_, experiment_, place.node, place.sensor),
         ring_(device, 2, 4u << 20, 16u << 20) {}
 
-  /// Records the moment's tick, and waits until the device is done with it.
+  /// Records and submits the tick of `moment`, and waits until the device has finished it.
   gpu::TickSlot& trace(const sim::Moment& moment) {
     gpu::TickSlot& slot = ring_.begin();
     gpu_.record_update(slot, moment.bodies);

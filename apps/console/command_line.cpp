@@ -18,7 +18,7 @@ namespace greatx::apps {
 
 namespace {
 
-/// The whole text as a decimal number; an infinite one is none.
+/// Returns the number if the whole text is a decimal one; none if it is not, or does not fit into T.
 template <typename T>
 std::optional<T> read(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -29,7 +29,8 @@ std::optional<T> read(std::string_view text) {
   return value;
 }
 
-/// A check that the text is a T, which writes it as CLI11 reads it: no octal.
+/// Returns a check that the text is a T. It rewrites integers without leading zeros, so that CLI11 does not
+/// read them as octal.
 template <typename T>
 CLI::Validator strict(const char* expected) {
   return {[expected](std::string& text) {
@@ -71,7 +72,7 @@ CLI::Validator number_of(double low, double high) {
 void read_numbers_strictly(CLI::App& app) {
   for (CLI::Option* option : app.get_options(std::function<bool(CLI::Option*)>())) {
     const std::string type = option->get_type_name();
-    // Goes before the option's own checks.
+    // The transforms run before the option's own checks.
     if (type.starts_with("UINT"))
       option->transform(strict<uint64_t>("an integer from 0 to 18446744073709551615"));
     else if (type.starts_with("INT"))

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What CLI11 leaves loose: numbers that wrap or overflow, ranges in hundreds of digits, commands that do not
-// exist.
+// Makes the command line stricter than CLI11: numbers may not wrap or overflow, messages show ranges in a
+// readable form, and unknown commands are reported with a suggestion.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,23 @@
 
 namespace greatx::apps {
 
-/// An option's check: "expected an integer of 1 or more, found '0'".
+/// Returns a check of an option's range. Its message is, for example, "expected an integer of 1 or more,
+/// found '0'".
 CLI::Validator integer_of(uint64_t low, uint64_t high = std::numeric_limits<int64_t>::max());
-/// "expected a number of 0 or more, found '-1'".
+/// Returns the same check for a real number: "expected a number of 0 or more, found '-1'".
 CLI::Validator number_of(double low, double high = std::numeric_limits<double>::infinity());
 
-/// Every option of a number, of every command, takes a decimal one that its type can hold, and finite: CLI11
-/// takes -1 for 2^64 - 1, 010 for 8 and what is too large for the largest. To be called when all commands are
-/// there.
+/// Makes every numeric option of every command accept only finite decimal numbers that its type can hold.
+/// CLI11 alone reads -1 as 2^64 - 1, 010 as 8, and a number that is too large as the largest one. Must be
+/// called after all commands have been added.
 void read_numbers_strictly(CLI::App& app);
 
-/// "no command 'generat', did you mean 'generate'?" if that is what is wrong with `arguments`; empty if it is
-/// not.
+/// Returns a message if `arguments` name a command that does not exist ("no command 'generat', did you mean
+/// 'generate'?") or lack a command. Returns an empty string if the error is a different one.
 std::string unknown_command(const CLI::App& app, const std::vector<std::string>& arguments);
 
-/// Throws UserError if what was printed did not reach standard output: a full disk behind it, a size limit.
+/// Throws UserError if the output could not be written to standard output, for example because the disk is
+/// full or a size limit is reached.
 void check_printed();
 
 }  // namespace greatx::apps

@@ -4,11 +4,12 @@
 
 namespace greatx::apps {
 
-/// Exit codes: 0 all well; 1 the input or the data is at fault; 2 the program or the device is; 130, as a
-/// shell has it of Ctrl-C: somebody stopped it.
+/// Exit codes: 0 success; 1 faulty input or data; 2 failure of the program or the device; 130 interrupted, as
+/// shells report Ctrl-C.
 enum ExitCode : int { exit_success = 0, exit_user = 1, exit_internal = 2, exit_interrupted = 130 };
 
-/// A command that ran to its end and found something wrong (verify): its exit code, nothing more to print.
+/// Thrown by a command that ran to its end and found a fault (verify). It carries the exit code; nothing more
+/// is printed.
 struct Failed {
   int code = exit_user;
 };

@@ -8,8 +8,8 @@
 
 namespace greatx::apps {
 
-/// What --json prints, indented. A file's name need not be UTF-8, JSON must: bytes that are not become
-/// U+FFFD.
+/// Returns the indented text that --json prints. JSON must be UTF-8, but names of files need not be: bytes
+/// that are not UTF-8 become U+FFFD.
 template <typename Json>
 std::string json_text(const Json& json, int indent = 2) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

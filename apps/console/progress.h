@@ -8,10 +8,11 @@
 
 namespace greatx::apps {
 
-/// A line on stderr with a bar, the rate in `unit`s and the time left; silent when stderr is no terminal.
+/// Shows a line on stderr with a bar, the rate in units per second and the time left. It shows nothing if
+/// `quiet` is set or stderr is not a terminal.
 class Progress {
  public:
-  /// `unit` empty: a share of the whole, no rate.
+  /// If `unit` is empty, the line shows the percentage that is done instead of a count and a rate.
   Progress(std::string what, int64_t total, bool quiet, std::string unit = "ticks");
   ~Progress();
   void update(int64_t done);
@@ -23,12 +24,14 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// "\rsearch [####      ] about 41 %, 0:32 min left": `share` of the work is done after so many seconds, < 0:
-/// who knows.
+/// Returns a line such as "\rsearch [####      ] about 41 %, 0:32 min left". `share` is the part of the work
+/// that is done after `seconds`. If it is unknown, < 0, the line shows the elapsed time.
 std::string progress_line(const std::string& what, double share, double seconds);
 
-/// True after Ctrl-C or SIGTERM, once installed: long work stops after the tick it is in.
+/// Returns true after Ctrl-C or SIGTERM, if the handler is installed. Long work then stops after the current
+/// tick.
 bool interrupted();
+/// Installs the handler of the first Ctrl-C or SIGTERM; a second one ends the program at once.
 void install_interrupt_handler();
 
 }  // namespace greatx::apps

@@ -44,7 +44,7 @@ sim::Scenario load_scenario(const ScenarioOptions& options) {
                                    options.assets);
   } else {
     const std::filesystem::path file = options.scenario;
-    std::error_code unreadable;  // a link to itself, say
+    std::error_code unreadable;  // for example of a symbolic link to itself
     if (!std::filesystem::is_regular_file(file, unreadable)) {
       std::vector<std::string_view> names;
       for (const EmbeddedScenario& s : embedded_scenarios()) names.push_back(s.name);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands share this: from the command line to a scenario and a device.
+// Functions that the commands share: they turn the command line into a scenario and a device.
 #pragma once
 
 #include <filesystem>
@@ -16,17 +16,17 @@
 
 namespace greatx::apps {
 
-/// Options that choose and change a scenario.
+/// Holds the options that choose and change a scenario.
 struct ScenarioOptions {
-  std::string scenario = "city";  ///< a file, or the name of an embedded one
-  std::string assets;             ///< where its relative paths are looked for, beside its own folder
+  std::string scenario = "city";  ///< a file, or the name of an embedded scenario
+  std::string assets;             ///< folder for relative paths that are not found beside the scenario
   std::optional<uint64_t> seed;
   std::optional<int64_t> ticks;
   std::optional<uint32_t> sequences;
   void add_to(CLI::App& command);
 };
 
-/// Options that choose the device.
+/// Holds the options that choose the device.
 struct RunOptions {
   std::string device;
   bool validation = false;
@@ -34,16 +34,17 @@ struct RunOptions {
   gpu::DeviceOptions device_options() const { return {device, validation}; }
 };
 
-/// Reads the scenario and applies the options.
+/// Reads the scenario and applies the options. Throws UserError if there is no such scenario.
 sim::Scenario load_scenario(const ScenarioOptions& options);
 
-/// Index of the channel of that name (--channel); of the first one if `name` is empty. Throws UserError.
+/// Returns the index of the channel `name` (--channel), or of the first one if `name` is empty. Throws
+/// UserError if there is no such channel.
 uint32_t find_channel(const std::string& name, const sim::Scenario& scenario);
 
-/// Throws UserError if the scenario has no such sequence (--sequence) or tick (--tick).
+/// Throws UserError if the scenario does not have the sequence (--sequence) or the tick (--tick).
 void check_instant(uint32_t sequence, int64_t tick, const sim::Scenario& scenario);
 
-/// Throws if the validation layer had anything to say.
+/// Throws runtime_error if the validation layer has reported anything.
 void check_validation(const gpu::Device& device);
 
 }  // namespace greatx::apps

@@ -9,13 +9,14 @@
 
 namespace greatx::apps {
 
-/// Highest resident set size of this process so far, bytes.
+/// Returns the largest resident set size of this process so far, bytes.
 uint64_t peak_rss_bytes();
 
-/// One object: ticks, submits, packets, passes with their GPU time, what was built, consistency.
+/// Returns one object: counts of ticks, submits and packets, GPU time of each pass, counts of built pipelines
+/// and acceleration structures, consistency, and more. `seconds`: the duration of the run.
 nlohmann::json summary_of(const sim::RunStatistics& statistics, const gpu::Device& device, double seconds);
 
-/// The same for people.
+/// Returns the summary as text to read.
 std::string summary_text(const nlohmann::json& summary);
 
 }  // namespace greatx::apps

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last thing that text passes before a terminal: names of scenes and files are in tables, notes and
-// errors, and a terminal obeys control characters.
+// Escapes control characters in all text before it reaches a terminal. Tables, notes and errors contain names
+// of scenes and files, and a terminal would obey control characters in them.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace greatx::apps {
 
-/// While it lives, what goes to `stream` goes through printable_lines(): in JSON the same text, written
-/// otherwise.
+/// As long as this lives, text written to `stream` passes through printable_lines(). In JSON the escaped text
+/// has the same meaning.
 class SafeStream : public std::streambuf {
  public:
   explicit SafeStream(std::ostream& stream);
@@ -32,10 +32,10 @@ class SafeStream : public std::streambuf {
   bool pass_on();
   std::ostream& stream_;
   std::streambuf* target_;
-  std::string line_;  ///< not passed on yet: a character may come in two writes
+  std::string line_;  ///< text not yet passed on, since one character may come in two writes
 };
 
-/// "warning: message", the message through printable_lines().
+/// Returns a format of log messages, "warning: message", that passes the message through printable_lines().
 std::unique_ptr<spdlog::formatter> safe_log_format();
 
 }  // namespace greatx::apps

@@ -30,7 +30,7 @@ bool TerminalWatch::look(const WorkState& state) noexcept {
 void TerminalWatch::stage_ended() noexcept {
   if (!drawn_) return;
   drawn_ = false;
-  std::fputs("\r\x1b[K", stderr);  // whatever comes next on the terminal begins a line
+  std::fputs("\r\x1b[K", stderr);  // clears the line, so that the next output begins a line
   std::fflush(stderr);
 }
 

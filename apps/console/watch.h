@@ -6,9 +6,9 @@
 
 namespace greatx::apps {
 
-/// As long as this lives, long work of this thread (a search for paths) ends with Interrupted after Ctrl-C or
-/// SIGTERM, if install_interrupt_handler() was called, and tells how far it is like Progress, in its place on
-/// stderr: a bar and the time left, from the second second on.
+/// As long as this lives, it watches long work of its thread, such as a search for paths. If
+/// install_interrupt_handler() was called, the work ends with Interrupted after Ctrl-C or SIGTERM. Work that
+/// takes more than a second shows a line on stderr like that of Progress: a bar and the time left.
 class TerminalWatch : public Watch {
  public:
   explicit TerminalWatch(bool quiet);

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* header = "figure,sequence,tick,sensor,other,compared,largest_relative_error";
-/// Both are of the same arrays; what is left are sums in another order.
+/// Largest difference between the errors of the run and the recomputed ones, relative to 1 + error. Both are
+/// computed from the same arrays; only the order of the sums may differ.
 constexpr double agreement = 1e-12;
 constexpr size_t most_instances = 1 << 22;
 
@@ -42,7 +43,8 @@ bool parse(const std::string& text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Which of the arrays no file keeps as it was; empty: all are there.
+/// Returns the first of the arrays that no file keeps exactly, with its sensor; empty: files keep all of
+/// them.
 std::string unwritten(const SensorSpec& sensor, const std::vector<std::string>& arrays) {
   for (const std::string& name : arrays) {
     const bool kept = std::ranges::any_of(sensor.outputs, [&](const OutputSpec& output) {
@@ -54,19 +56,20 @@ std::string unwritten(const SensorSpec& sensor, const std::vector<std::string>& 
   return {};
 }
 
-/// Null: no figure of this name has rows.
+/// Returns the comparison of a figure that has rows; null: there is none of this name.
 const sim::Comparison* comparison_with_rows(const std::string& figure) {
   const sim::Comparison* const comparison = sim::comparison_called(figure);
   return comparison != nullptr && comparison->recompute != nullptr ? comparison : nullptr;
 }
 
-/// Of a row that parse_consistency_csv() let pass.
+/// Returns the comparison of a row that parse_consistency_csv() accepted.
 const sim::Comparison& comparison_of(const sim::ConsistencyRow& row) {
   const sim::Comparison* const comparison = comparison_with_rows(row.figure);
   GREATX_CHECK(comparison != nullptr, "no figure '{}'", row.figure);
   return *comparison;
 }
 
+/// Recomputes rows of consistency.csv from the records of a data set.
 class Recomputer {
  public:
   explicit Recomputer(const fs::path& folder) : reader_(folder) {
@@ -82,7 +85,7 @@ class Recomputer {
     return found == numbers_.end() ? nullptr : &reader_.sensors()[found->second];
   }
 
-  /// Of the arrays that a row needs the first that is not on disk.
+  /// Returns the first of the arrays that a row needs and that is not on disk; empty: all are there.
   std::string missing(const sim::ConsistencyRow& row) const {
     const SensorSpec &a = *sensor(row.sensor), &b = *sensor(row.other);
     const sim::Comparison::Needs needs = comparison_of(row).needs(b);
@@ -134,7 +137,7 @@ class Recomputer {
     if (found == rows_.end()) throw_user_error("{} has no record at tick {}", name, row.tick);
     return {reader_.sensors()[number],
             [this, sequence = row.sequence, record = found->second](const std::string& array) {
-              const std::lock_guard lock(mutex_);  // stacks are read by one at a time
+              const std::lock_guard lock(mutex_);  // only one thread at a time may read a stack
               return reader_.load(sequence, record, array);
             }};
   }
@@ -150,7 +153,7 @@ std::string words(uint64_t compared, double largest) {
   return fmt::format("{} compared, largest relative error {:.3e}", compared, largest);
 }
 
-/// Where a record's files are.
+/// Returns the place of a record's files, for a message.
 std::string place_of(const sim::ConsistencyRow& row) {
   return fmt::format("{}/{}, tick {}", io::sequence_folder(row.sequence), row.sensor, row.tick);
 }
@@ -233,7 +236,7 @@ ConsistencyReport verify_consistency(const fs::path& folder, uint32_t threads) {
           io::Problem{place_of(row), fmt::format("{} against {}, recomputed", row.figure, row.other),
                       words(row.compared, row.largest), words(result.errors.count(), result.errors.max())};
   });
-  std::map<std::string, ConsistencyReport::Figure> figures;  // reported in the order of their names
+  std::map<std::string, ConsistencyReport::Figure> figures;  // the report is in the order of the names
   for (size_t i = 0; i < rows.size(); ++i) {
     ConsistencyReport::Figure& figure = figures[rows[i].figure];
     if (!results[i].missing.empty()) {

@@ -17,7 +17,7 @@ io::Bytes imported_glb(const scene::ImportedScene& scene, const std::string& nam
     out.base_color = dvec3(material.base_color);
     out.metallic = material.metallic;
     out.roughness = 0.8f;
-    out.double_sided = true;  // walls are drawn as sheets, and often wound either way
+    out.double_sided = true;  // walls are often single sheets with either winding
     out.extensions_json = fmt::format(R"({{"GREATX_radio_material":{}}})", material.radio_json);
     materials.push_back(writer.add_material(out));
   }
@@ -37,7 +37,7 @@ io::Bytes imported_glb(const scene::ImportedScene& scene, const std::string& nam
 
 std::string imported_sidecar(const scene::ImportedScene& scene, const std::string& source) {
   std::string text = fmt::format("# Radio materials of {}, by `greatx scene import`.\nmaterials:\n", source);
-  // JSON is YAML.
+  // JSON is valid YAML.
   for (const scene::ImportedMaterial& material : scene.materials)
     text += fmt::format("  {}: {}\n", nlohmann::json(material.name).dump(),
                         nlohmann::ordered_json::parse(material.radio_json).dump());

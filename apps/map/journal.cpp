@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view mark = "greatx map 1\n";
 constexpr const char* journal_file = "links.part";
 constexpr size_t numbers = 12;                      ///< doubles of a link on disk
-constexpr uint64_t most_links = uint64_t{1} << 24;  ///< of a block
+constexpr uint64_t most_links = uint64_t{1} << 24;  ///< largest number of links of a block
 using Stored = std::array<double, numbers>;
 
 Stored stored(const rf::LinkStatistics& link) {
@@ -56,10 +56,10 @@ rf::LinkStatistics loaded(const Stored& s) {
   return link;
 }
 
-/// Before the links of a block.
+/// Precedes the links of a block.
 struct BlockHead {
   uint64_t links = 0;
-  char hash[16] = {};
+  char hash[16] = {};  ///< first hexadecimal digits of the SHA-256 of the block's offset and links
 };
 
 BlockHead head_of(uint64_t offset, std::span<const std::byte> payload, uint64_t links) {
@@ -69,7 +69,7 @@ BlockHead head_of(uint64_t offset, std::span<const std::byte> payload, uint64_t 
   return head;
 }
 
-/// "/grid/cell_m: asked for 1, the folder's has 2": what differs first, by its JSON pointer.
+/// Returns the first difference, by its JSON pointer: "/grid/cell_m: asked for 1, the folder's has 2".
 std::string difference(const Json& asked, const Json& found) {
   const Json a = asked.flatten(), b = found.is_structured() ? found.flatten() : Json::object();
   for (const auto& [key, value] : a.items())
@@ -99,7 +99,7 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
                                     {description.string(), 1});
     check_same(folder, request, finished.root().at("request").json());
     finished_ = true;
-    fs::remove(journal);  // if the map was killed between its last file and this
+    fs::remove(journal);  // left if the program was killed after the last file and before finish()
     return;
   }
   if (io::exists_inside(folder, journal_file)) {
@@ -127,7 +127,7 @@ MapJournal::MapJournal(const fs::path& folder, const Json& request, bool resume)
       throw_user_error("{}: expected an unfinished radio map of this version, found something else",
                        journal.string());
   }
-  if (size < head || size - head < length) {  // killed while it was made
+  if (size < head || size - head < length) {  // new, or the program was killed while it wrote the request
     open_new(request.dump());
     return;
   }

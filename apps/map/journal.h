@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An unfinished radio map: the links of its cells in the order in which they were solved, so that a map that
-// was stopped goes on where it was.
+// Stores an unfinished radio map: the links of its cells in the order in which they were solved. A map that
+// was stopped can then be resumed.
 #pragma once
 
 #include <filesystem>
@@ -16,22 +16,26 @@
 
 namespace greatx::apps {
 
-/// FOLDER/links.part: a line of text, what was asked for (JSON, with its length in front), then blocks of
-/// links, each with its number of links and a hash: a torn block at the end is seen and dropped.
+/// Reads and appends to FOLDER/links.part. The file holds a line of text, the length of the request, the
+/// request (JSON), and blocks of links. Each block begins with its number of links and a hash, so that an
+/// incomplete block at the end is detected and dropped.
 class MapJournal {
  public:
-  /// A new folder (or an empty one), or with `resume` one whose map was stopped and asked for the same.
-  /// Throws UserError naming the folder: it holds something else, a map that is finished, one that is not and
-  /// `resume` is off, or one that asked for something else (the first difference is named, as a JSON
-  /// pointer).
+  /// Opens a journal in a new or empty folder or, with `resume`, in the folder of a map with the same
+  /// request. Throws UserError, which names the folder, if
+  /// - the folder holds other files, or another process is writing the map;
+  /// - the folder holds a map, finished or not, and `resume` is off;
+  /// - the map in the folder has a different request. The message names the first difference as a JSON
+  ///   pointer.
   MapJournal(const std::filesystem::path& folder, const nlohmann::ordered_json& request, bool resume);
 
-  /// There is nothing left to do.
+  /// Returns true if the folder holds the finished map.
   bool finished() const { return finished_; }
-  /// All links so far, [cells, tx].
+  /// Returns all links so far, [cells, tx].
   const std::vector<rf::LinkStatistics>& links() const { return links_; }
+  /// Appends a block of links, in memory and on disk.
   void append(std::span<const rf::LinkStatistics> links);
-  /// The map's files are in place, map.json too: takes the journal away.
+  /// Removes the journal. Called when all files of the map, including map.json, are in place.
   void finish();
 
  private:
@@ -45,6 +49,7 @@ class MapJournal {
   std::vector<rf::LinkStatistics> links_;
 };
 
+/// The file that describes a finished map.
 inline constexpr const char* map_description = "map.json";
 
 }  // namespace greatx::apps

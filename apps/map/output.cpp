@@ -49,7 +49,7 @@ std::vector<const sim::MapQuantity*> chosen(const MapFiles& files) {
   return quantities;
 }
 
-/// The picture of all: what there is of these, in this order.
+/// Returns the quantities of the overview picture, in this order. Those that are not written are left out.
 std::vector<std::string> overview(size_t transmitters) {
   return {"path_gain",    "sinr",     transmitters > 1 ? "best_server" : "line_of_sight",
           "delay_spread", "k_factor", "arrival_azimuth_spread"};

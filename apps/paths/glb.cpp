@@ -22,13 +22,13 @@ using Json = nlohmann::ordered_json;
 
 Json triple(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-/// Vertex colours are linear, colours on a screen are sRGB (IEC 61966-2-1).
+/// Converts a screen colour, which is sRGB (IEC 61966-2-1), to a vertex colour, which is linear in glTF.
 vec3 linear(io::Color color) {
   const auto channel = [](uint8_t byte) { return linear_from_srgb(byte / 255.0f); };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
-/// An octahedron added to triangles.
+/// Adds an octahedron to the triangles of `markers`.
 void add_marker(io::GlbPrimitive& markers, const dvec3& center, double radius, const vec3& color) {
   const auto first = static_cast<uint32_t>(markers.positions.size());
   for (int axis = 0; axis < 3; ++axis)
@@ -160,7 +160,7 @@ int Exporter::instance_mesh(uint32_t instance, const std::vector<uint32_t>& prim
     if (source.index_count == 0) continue;
     io::GlbPrimitive part;
     part.material = scene_material(source.material);
-    std::map<uint32_t, uint32_t> places;  // of the scene's vertices among the part's
+    std::map<uint32_t, uint32_t> places;  // index of a vertex in the scene -> its index in the part
     for (uint32_t i = 0; i < source.index_count; ++i) {
       const uint32_t vertex = scene.indices[source.first_index + i];
       const auto [place, added] = places.emplace(vertex, static_cast<uint32_t>(part.positions.size()));

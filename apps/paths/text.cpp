@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 Json json_of(const dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json json_of(const rf::Complex& z) { return Json::array({z.real(), z.imag()}); }
 
-/// JSON has no infinity: null where there is no power.
+/// Returns the gain in dB, or null if there is no power, because JSON has no infinity.
 Json json_of_decibels(double gain) { return gain > 0.0 ? Json(gain_db(gain)) : Json(); }
 
 Json json_of_direction(const dvec3& direction) {
@@ -62,7 +62,7 @@ Json json_of(const rf::Path& path, const PathScene& scene) {
 
 std::string decibels_text(double gain) { return gain > 0.0 ? fmt::format("{:.2f}", gain_db(gain)) : "none"; }
 
-/// Degrees with two digits; never "-0.00".
+/// Returns the angle in degrees with two decimals, never "-0.00".
 std::string angle_text(double rad) {
   const double rounded = std::round(degrees(rad) * 100.0) / 100.0;
   return fmt::format("{:.2f}", rounded == 0.0 ? 0.0 : rounded);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths as tables, JSON and CSV. All of it comes receiver by receiver, so that thousands need no memory.
+// Formats paths as tables, JSON and CSV, receiver by receiver, so that the memory does not grow with the
+// number of receivers.
 #pragma once
 
 #include <string>
@@ -12,20 +13,22 @@
 
 namespace greatx::apps {
 
-/// One line about a receiver, then one line a path, with units in the heads of the columns.
+/// Returns a table: one line about the receiver, then one line for each path, with units in the heads of the
+/// columns.
 std::string table_of(const PathLink& link, const PathScene& scene);
-/// The heads of the table with one line a receiver, and its lines.
+/// Returns the head of the table with one line for each receiver.
 std::string brief_head();
+/// Returns a line of that table.
 std::string brief_row(const PathLink& link, double carrier_hz);
 
-/// Everything about a receiver: figures of the link and all paths; positions in world coordinates, SI units,
-/// radians.
+/// Returns everything about a receiver: the figures of the link and all its paths. Positions are in world
+/// coordinates, values in SI units, angles in radians.
 nlohmann::ordered_json json_of(const PathLink& link, const PathScene& scene);
 
-/// The compact form:
-/// receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns. Cells
-/// that mean nothing without a path are empty.
+/// Returns the header line of the compact CSV:
+/// receiver,x_m,y_m,z_m,distance_m,paths,line_of_sight,path_gain_db,first_delay_ns,delay_spread_ns.
 std::string csv_head();
+/// Returns the line of a receiver. Cells that have no meaning without a path are empty.
 std::string csv_row(const PathLink& link, double carrier_hz);
 
 }  // namespace greatx::apps

@@ -42,7 +42,8 @@ constexpr FormatName format_names[] = {
 const FormatName& row_of(FileFormat format) { return format_names[static_cast<size_t>(format)]; }
 
 constexpr int64_t most_index_rows = int64_t{1} << 26;
-/// Of a rate's numerator and denominator: times of most_ticks ticks stay within 128 bits on the way.
+/// Bounds the numerator and denominator of a rate, so that times of most_ticks ticks are computed within 128
+/// bits.
 constexpr int64_t most_of_ratio = 1'000'000'000'000;
 
 constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i8,  DType::i32,
@@ -51,7 +52,7 @@ constexpr DType all_dtypes[] = {DType::u8,  DType::u16, DType::u32, DType::i8,  
 constexpr size_t event_array_count = 4;  // t, x, y, p
 constexpr size_t most_sensors = 10'000, most_arrays = 256, most_axes = 16, most_arrays_in_all = 65'536;
 
-/// What is wrong with an array; empty: nothing.
+/// Describes the fault of an array; returns an empty string if there is none.
 std::string fault_of_array(const SensorSpec& sensor, const ArraySpec& array) {
   const bool varies = !array.shape.empty() && array.shape[0] < 0;
   if (!std::all_of(array.shape.begin() + varies, array.shape.end(), [](int64_t n) { return n >= 0; }))
@@ -67,7 +68,8 @@ std::string fault_of_array(const SensorSpec& sensor, const ArraySpec& array) {
                      array.name, array.shape.size(), largest_array, most_axes);
 }
 
-/// Likewise of an output, whose arrays are known to be there.
+/// Describes the fault of an output; returns an empty string if there is none. The sensor must declare its
+/// arrays.
 std::string fault_of_output(const SensorSpec& sensor, const OutputSpec& output) {
   const size_t most = is_cloud(output.format) ? output.arrays.size() : 1;
   if (output.arrays.size() != (is_export(output.format) ? event_array_count : most))
@@ -84,7 +86,7 @@ std::string fault_of_output(const SensorSpec& sensor, const OutputSpec& output) 
   return {};
 }
 
-/// Whether arrays and outputs of a sensor fit each other; empty: they do.
+/// Describes the first fault of a sensor's arrays and outputs; returns an empty string if there is none.
 std::string fault_of_sensor(const SensorSpec& sensor) {
   std::set<std::string> names, kept;
   for (const ArraySpec& array : sensor.arrays) {
@@ -106,10 +108,10 @@ std::string fault_of_sensor(const SensorSpec& sensor) {
   return {};
 }
 
-/// Paths of a sequence, none of which may be another one, or a folder that another one lies in.
+/// Collects the paths of a sequence. Paths must differ, and no path may be a folder of another one.
 class Claims {
  public:
-  /// Empty: it is free; else what is wrong.
+  /// Adds a path; returns an empty string if the path is free, and a description of the conflict otherwise.
   std::string add(const std::string& path) {
     const std::string taken = fmt::format("two outputs of the data set would share {}", path);
     if (folders_.contains(path) || !paths_.insert(path).second) return taken;
@@ -126,7 +128,7 @@ class Claims {
   std::set<std::string> paths_, folders_;
 };
 
-/// Whether all files of a sequence can lie beside each other; empty: they can.
+/// Describes the first conflict between the paths of a sequence; returns an empty string if there is none.
 std::string fault_of_paths(const std::vector<SensorSpec>& sensors) {
   Claims claims;
   std::vector<std::string> paths;
@@ -207,7 +209,8 @@ SensorSpec sensor_from(const JsonValue& json) {
 
 __extension__ using Wide = __int128;
 
-/// Within the bounds of SampleClock no intermediate product reaches 2^127; the result may leave 64 bits.
+/// Returns floor(numerator / denominator). Throws UserError if the result does not fit into 64 bits. Within
+/// the bounds of SampleClock, no intermediate product reaches 2^127.
 int64_t floor_ratio(Wide numerator, Wide denominator) {
   Wide quotient = numerator / denominator;
   if (numerator % denominator < 0) --quotient;
@@ -219,7 +222,7 @@ int64_t floor_ratio(Wide numerator, Wide denominator) {
 template <typename Bits>
 size_t first_non_finite(std::span<const Bits> values, Bits infinity, bool allow_positive) {
   const Bits magnitude = static_cast<Bits>(~Bits{0}) >> 1;
-  bool bad = false;  // one pass without branches, as nearly every array is good
+  bool bad = false;  // a first pass without branches, because nearly all arrays are good
   for (const Bits v : values) bad |= (v & magnitude) >= infinity && !(allow_positive && v == infinity);
   if (!bad) return values.size();
   return static_cast<size_t>(std::find_if(values.begin(), values.end(),
@@ -457,7 +460,8 @@ int64_t SampleClock::tick_of(int64_t sample) const {
 
 int64_t SampleClock::samples_before(int64_t tick) const {
   if (tick <= 0) return 0;
-  // tick_of(k) < tick: 2 k n + d < 2 d tick, k < d (2 tick - 1) / 2 n; so many k from 0 on, rounded up.
+  // tick_of(k) < tick means 2 k n + d < 2 d tick, so k < d (2 tick - 1) / (2 n). The count of such k >= 0 is
+  // this bound, rounded up.
   const Wide numerator = Wide{tick_rate_.numerator} * rate_.denominator;
   const Wide denominator = Wide{tick_rate_.denominator} * rate_.numerator;
   return floor_ratio(denominator * (2 * tick - 1) + 2 * numerator - 1, 2 * numerator);

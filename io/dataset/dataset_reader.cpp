@@ -24,8 +24,8 @@ std::vector<std::vector<IndexRow>> rows_of_journal(const fs::path& folder, const
   const Recovered recovered = read_committed(folder, info);
   std::vector<std::vector<IndexRow>> sequences(recovered.closed.size());
   std::vector<int64_t> counts(info.sensors.size());
-  for (const JournalPacket& packet :
-       recovered.packets) {  // of sequences one after the other, as read_committed knows
+  // read_committed() guarantees that the packets are in order of sequences.
+  for (const JournalPacket& packet : recovered.packets) {
     if (packet.sequence >= sequences.size()) sequences.resize(packet.sequence + 1);
     if (sequences[packet.sequence].empty()) std::fill(counts.begin(), counts.end(), 0);
     for (const auto& record : packet.records) {
@@ -50,7 +50,8 @@ Array points_of(const std::map<std::string, Array>& properties, const std::strin
   return points;
 }
 
-/// Of the shape that the sensor declares: the file may say something else, and be sparse.
+/// Reads an array of the shape that the sensor declares. Throws UserError if the file states another shape,
+/// because a sparse file could state any size.
 Array read_npy_frame(const fs::path& path, const ArraySpec& spec) {
   const NpyFile file(path);
   bool fits = file.shape().size() == spec.shape.size();
@@ -117,7 +118,7 @@ Array DatasetReader::load_output(uint32_t sequence, const IndexRow& row, const O
   if (is_stack(output.format)) return load_stack(sequence, row, output, spec);
   const fs::path path = inside(folder_, frame_path(sequence, sensor, output, row.sample));
   const bool varies = is_cloud(output.format) || (!spec.shape.empty() && spec.shape[0] < 0);
-  // Packed pictures are hardly ever larger than their pixels.
+  // A compressed picture is hardly larger than its pixels, so twice their size is a safe bound.
   const uint64_t most_bytes = varies ? largest_read : 2 * stack_row_bytes(spec) + (uint64_t{1} << 20);
   Array result;
   switch (output.format) {
@@ -180,7 +181,7 @@ Array DatasetReader::read_stack_rows(const std::string& path, DType dtype, std::
   row_shape.insert(row_shape.begin(), last - first);
   uint64_t row_bytes = size_of(dtype), bytes = 0;
   for (size_t axis = 1; axis < row_shape.size(); ++axis)
-    row_bytes *= static_cast<uint64_t>(row_shape[axis]);  // of one row: bounded when dataset.json was read
+    row_bytes *= static_cast<uint64_t>(row_shape[axis]);  // parsing dataset.json has bounded the product
   const bool sized = first >= 0 && first <= last &&
                      !__builtin_mul_overflow(static_cast<uint64_t>(last - first), row_bytes, &bytes) &&
                      bytes <= largest_array;
@@ -201,7 +202,7 @@ Array DatasetReader::read_stack_rows(const std::string& path, DType dtype, std::
     }
     return file->read_rows(first, last);
   }
-  // Unfinished: the header does not yet say how many rows there are.
+  // The stack is unfinished, and its header does not yet state the number of rows.
   const File file = File::open_for_reading(inside(folder_, path + ".part"));
   const uint64_t size = file.size(), stored = size < npy_header_bytes ? 0 : size - npy_header_bytes;
   if (row_bytes > 0 && stored / row_bytes < static_cast<uint64_t>(last))

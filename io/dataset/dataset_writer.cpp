@@ -80,7 +80,7 @@ void check_array(const SensorSpec& sensor, const ArraySpec& spec, const Array& a
 
 }  // namespace
 
-/// One packet between write() and its commit.
+/// Holds a packet between write() and its commit.
 struct QueuedPacket {
   Packet packet;
   struct Frame {
@@ -88,13 +88,14 @@ struct QueuedPacket {
     uint64_t size = 0;
     std::string sha256;
   };
-  std::vector<Frame> frames;  ///< per record, per output that is one file a frame
-  size_t jobs_left = 0;       ///< guarded by DatasetWriter::State::mutex_, as is the next
-  std::exception_ptr error;   ///< the first that one of its jobs threw
+  std::vector<Frame> frames;  ///< per record and per output of one file per frame
+  // DatasetWriter::State::mutex_ guards the next two members.
+  size_t jobs_left = 0;
+  std::exception_ptr error;  ///< first exception of a job of this packet
 };
 
-/// See DatasetWriter. Its functions run in the caller's thread, those of a packet after enqueue() in the
-/// workers.
+/// Implements DatasetWriter. Public functions run in the caller's thread. The functions that process a packet
+/// after enqueue() run in the workers.
 class DatasetWriter::State {
  public:
   State(const std::filesystem::path& folder, DatasetInfo info, WriterOptions options);
@@ -109,9 +110,10 @@ class DatasetWriter::State {
   void write(Packet packet);
 
  private:
-  /// Throw UserError for a file of the data set, the frames from `first` on, that are not there as they were
-  /// written: somebody else deleted or changed them meanwhile.
+  /// Throws UserError if a file is missing or has another size, because another process has deleted or
+  /// changed it.
   void check_written(const std::string& path, uint64_t size) const;
+  /// Checks the frames of the manifest from index `first` on by check_written().
   void check_frames(size_t first) const;
   void rethrow_error();
   [[noreturn]] void explain(const WriteError& error) const;
@@ -135,11 +137,12 @@ class DatasetWriter::State {
   const std::string description_;
   const WriterOptions options_;
 
-  // Where the data set stands; changed by commits, which are one at a time, and by the caller between drains.
+  // The next members are the state of the data set. Commits, which run one at a time, change them, and so
+  // does the caller's thread while no packet is queued.
   File journal_;
   uint64_t journal_bytes_ = 0;
   Manifest manifest_;
-  std::vector<IndexRow> rows_;  ///< of the sequence that is open or about to be
+  std::vector<IndexRow> rows_;  ///< index of the sequence that is open or will be opened next
   std::vector<int64_t> resumed_records_;
   std::optional<SequenceFiles> files_;
   uint32_t next_sequence_ = 0;
@@ -154,10 +157,10 @@ class DatasetWriter::State {
   std::atomic<bool> failed_ = false;
   std::exception_ptr error_;
   WriterStats stats_;
-  std::optional<WorkerPool> workers_;  ///< last, so that its threads end before what they use
+  std::optional<WorkerPool> workers_;  ///< last, so that the threads end before the members that they use
 };
 
-// These functions open the folder: a new one, or that of an unfinished run.
+// The next functions open the folder of a new data set or of an unfinished one.
 
 DatasetWriter::State::State(const fs::path& folder, DatasetInfo info, WriterOptions options)
     : folder_(folder), info_(std::move(info)), description_(dataset_json(info_)), options_(options) {
@@ -182,7 +185,7 @@ void DatasetWriter::State::prepare_folder() {
     open_existing(read_text_file(description, JsonLimits{}.bytes));
   } else {
     for (const auto& entry : fs::directory_iterator(folder_)) {
-      if (entry.path() == part_name(description)) continue;  // killed before anything else was written
+      if (entry.path() == part_name(description)) continue;  // left by a run that was killed at its beginning
       throw_user_error(
           "{}: expected an empty folder or a data set, found a folder with other files ({}); choose another "
           "folder",
@@ -215,7 +218,7 @@ void DatasetWriter::State::open_existing(const std::string& stored) {
                      differences.empty() ? "  the text of dataset.json differs\n" : differences);
   }
   if (complete) {
-    fs::remove(folder_ / journal_file);  // if the run was killed between the manifest and this
+    fs::remove(folder_ / journal_file);  // exists if the run was killed just after it wrote the manifest
     next_sequence_ = info_.sequences;
     finished_ = true;
   }
@@ -261,8 +264,8 @@ void DatasetWriter::State::recover() {
     manifest_.files.insert(manifest_.files.end(), closed.files.begin(), closed.files.end());
 }
 
-// These functions take a packet on its way: it is checked and queued, the workers encode and write its files,
-// and it is committed in its order.
+// The next functions process a packet: they check and queue it, encode and write its files in the workers,
+// and commit it in order.
 
 void DatasetWriter::State::check_packet(const Packet& packet) const {
   GREATX_CHECK(files_, "no sequence was begun");
@@ -358,8 +361,8 @@ void DatasetWriter::State::write_frame(const QueuedPacket& pending, QueuedPacket
   write_file_atomically(path, bytes);
 }
 
-/// Commits the packets at the head of the queue that are complete. Any worker may do it, one at a time.
-/// Packets before one that failed are still committed, those behind it are not.
+/// Commits the complete packets at the head of the queue. Any worker may call this, but only one at a time
+/// commits. Packets before a failed one are still committed, later ones are not.
 void DatasetWriter::State::commit_ready(std::unique_lock<std::mutex>& lock) {
   if (committing_) return;
   committing_ = true;
@@ -419,7 +422,7 @@ void DatasetWriter::State::append_journal(const std::string& line) {
   journal_bytes_ += line.size();
 }
 
-// These functions begin and end sequences, and finish the data set.
+// The next functions begin and end sequences, and finish the data set.
 
 void DatasetWriter::State::begin_sequence(uint32_t sequence) {
   GREATX_CHECK(!finished_ && !files_ && sequence == next_sequence_ && sequence < info_.sequences,
@@ -456,7 +459,7 @@ void DatasetWriter::State::end_sequence() {
     write_file_atomically(inside(folder_, index_path(next_sequence_, "csv")), csv);
     entries.push_back({index_path(next_sequence_, "npy"), npy.size(), sha256_hex(npy)});
     entries.push_back({index_path(next_sequence_, "csv"), csv.size(), sha256_hex(bytes_of(csv))});
-    // The frames of this sequence are the last ones.
+    // The frames of this sequence are the last ones in the manifest.
     size_t first = manifest_.frames.size();
     while (first > 0 && manifest_.frames[first - 1].sequence == next_sequence_) --first;
     check_frames(first);
@@ -485,7 +488,7 @@ void DatasetWriter::State::finish() {
   } catch (const WriteError& error) {
     explain(error);
   }
-  std::error_code ignored;  // one that stays is reported by verify and removed by --resume
+  std::error_code ignored;  // `verify` reports a journal that remains, and --resume removes it
   fs::remove(folder_ / journal_file, ignored);
   journal_ = File();
   finished_ = true;
@@ -508,7 +511,7 @@ void DatasetWriter::State::check_frames(size_t first) const {
   }
 }
 
-// These functions report errors and figures to the caller.
+// The next functions report errors and statistics to the caller.
 
 WriterStats DatasetWriter::State::stats() const {
   const std::lock_guard lock(mutex_);
@@ -520,7 +523,8 @@ void DatasetWriter::State::rethrow_error() {
   {
     std::unique_lock lock(mutex_);
     if (!error_) return;
-    changed_.wait(lock, [this] { return !committing_; });  // so that the count of whole packets stands still
+    // explain() states the number of complete packets, so wait until it no longer changes.
+    changed_.wait(lock, [this] { return !committing_; });
     error = error_;
   }
   try {
@@ -537,7 +541,7 @@ void DatasetWriter::State::explain(const WriteError& error) const {
 }
 
 DatasetWriter::State::~State() {
-  // Workers finish what was handed over; an error that nobody asked for must not get lost.
+  // The workers finish all queued packets. Errors are logged, because possibly no call has thrown them.
   workers_.reset();
   if (error_ && !finished_) spdlog::debug("{}: closed after an error, unfinished", folder_.string());
 }

@@ -17,14 +17,14 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr size_t checksum_size = 9;  // a tab and eight digits
+constexpr size_t checksum_size = 9;  // a tab and eight hexadecimal digits
 
 uint32_t crc(std::string_view text) {
   return static_cast<uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 std::string sealed(const std::string& text) { return fmt::format("{}\t{:08x}\n", text, crc(text)); }
 
-/// More than any packet or sequence has.
+/// Bounds the lists of a line. No packet and no sequence has so many entries.
 constexpr size_t most_files = 1 << 20;
 constexpr int64_t largest_file = int64_t{1} << 60;
 

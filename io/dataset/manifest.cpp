@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Collects text and writes it in large pieces.
+/// Buffers text and writes it in large pieces.
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& path) : file_(File::open_for_writing(path)) {
@@ -109,7 +109,7 @@ std::pair<int64_t, uint64_t> write_manifest(const std::filesystem::path& folder,
 }
 
 std::vector<FileEntry> read_manifest(const std::filesystem::path& folder) {
-  constexpr JsonLimits limits{uint64_t{2} << 30, uint64_t{1} << 26, 8};  // some 16 million files
+  constexpr JsonLimits limits{uint64_t{2} << 30, uint64_t{1} << 26, 8};  // about 16 million files
   const std::filesystem::path path = inside(folder, manifest_file);
   const JsonDocument document(read_text_file(path, limits.bytes), {path.string(), 1}, limits);
   const JsonValue json = document.root();

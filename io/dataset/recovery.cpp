@@ -20,7 +20,7 @@ bool has_size(const fs::path& folder, const std::string& path, uint64_t size) {
   return size_inside(folder, path) == size;
 }
 
-/// Throws UserError for a line of the journal that this run cannot have written.
+/// Checks the lines of the journal in order. Throws UserError for a line that this run cannot have written.
 class JournalChecker {
  public:
   JournalChecker(const fs::path& journal, const DatasetInfo& info) : journal_(journal), info_(info) {}
@@ -63,7 +63,8 @@ class JournalChecker {
   int64_t next_tick_ = 0;
 };
 
-/// Calls visit(path, frame) for every per-frame file of the packet; stops when it returns false.
+/// Calls visit(path, frame) for every per-frame file of the packet. Stops and returns false if `visit`
+/// returns false.
 template <typename Visit>
 bool for_each_frame(const DatasetInfo& info, const JournalPacket& packet, Visit visit) {
   size_t next = 0;
@@ -93,14 +94,16 @@ Recovered read_committed(const fs::path& folder, const DatasetInfo& info) {
   std::vector<JournalEntry> entries = parse_journal(read_text_file(journal), journal.string());
   JournalChecker checker(journal, info);
   for (const JournalEntry& entry : entries) checker.check(entry);
-  size_t closed_until = 0;  // packets before the last "end" are not examined: their sequence was complete
+  // Packets before the last end of a sequence are not examined, because their sequences were complete.
+  size_t closed_until = 0;
   for (size_t i = 0; i < entries.size(); ++i)
     if (std::holds_alternative<JournalEnd>(entries[i].entry)) closed_until = i + 1;
   uint32_t open_sequence = 0;
   for (size_t i = 0; i < closed_until; ++i)
     open_sequence += std::holds_alternative<JournalEnd>(entries[i].entry);
 
-  // The stacks of the open sequence, which a cut-short end may have renamed already, are counted by size.
+  // The records in the stacks of the open sequence are counted by the sizes of the files. An interrupted end
+  // of the sequence may have renamed the stacks already.
   std::vector<int64_t> whole, used(info.sensors.size());
   if (open_sequence < info.sequences) {
     whole = SequenceFiles::whole_records(folder, info, open_sequence);
@@ -146,8 +149,8 @@ void clear_uncommitted(const fs::path& folder, const DatasetInfo& info, const Re
   if (open_sequence < info.sequences) {
     for (const std::string& path : SequenceFiles::stack_paths(info, open_sequence)) {
       const fs::path part = inside(folder, path + ".part");
-      if (exists_inside(folder, path))
-        rename_file(folder / path, part);  // closing the sequence was cut short
+      // The stack has its final name if the end of the sequence was interrupted.
+      if (exists_inside(folder, path)) rename_file(folder / path, part);
       keep.insert(part_name(path).generic_string());
     }
   }
@@ -155,7 +158,7 @@ void clear_uncommitted(const fs::path& folder, const DatasetInfo& info, const Re
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().lexically_relative(folder).generic_string();
     if (entry.is_directory() && !entry.is_symlink()) continue;
-    inside(folder, path);  // a plain file, or an error
+    inside(folder, path);  // throws unless the entry is a plain file
     if (path.starts_with("sequence_") && !keep.contains(path)) remove.push_back(entry.path());
   }
   for (const fs::path& file : remove) {

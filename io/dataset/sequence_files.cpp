@@ -12,12 +12,13 @@ namespace greatx::io {
 
 namespace {
 
-/// Where a stack lies now: under its final name if closing the sequence was cut short behind its renaming.
+/// Returns the current path of a stack: its final name if the end of the sequence was interrupted after
+/// renaming the stack, else its `.part` name.
 std::string current_name(const std::filesystem::path& folder, const std::string& final) {
   return exists_inside(folder, final) ? final : final + ".part";
 }
 
-/// Data bytes behind the header of a stack; 0 if it is not there.
+/// Returns the number of data bytes after the header of a stack; 0 if the file does not exist.
 uint64_t data_bytes(const std::filesystem::path& folder, const std::string& file) {
   const uint64_t size = size_inside(folder, file).value_or(0);
   return size < npy_header_bytes ? 0 : size - npy_header_bytes;
@@ -30,7 +31,7 @@ int64_t read_offset(const File& file, int64_t row) {
   return value;
 }
 
-/// Whole records of a ragged stack: as far as its offsets ascend and its data reach.
+/// Returns the number of complete records of a ragged stack, whose offsets ascend and lie within the data.
 int64_t whole_ragged(const std::filesystem::path& folder, const std::string& data, const std::string& offsets,
                      uint64_t row_bytes) {
   const auto entries = static_cast<int64_t>(data_bytes(folder, offsets) / sizeof(int64_t));

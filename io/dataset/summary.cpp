@@ -86,7 +86,7 @@ Summary summarize(const DatasetReader& reader) {
 }
 
 std::string to_text(const Summary& summary) {
-  // Names come from the data set: what reaches a terminal is printable.
+  // Names come from the data set, so they are made printable for a terminal.
   std::string text = fmt::format("{}: {}{}\n", printable(summary.folder), printable(summary.title),
                                  summary.finished ? "" : " (unfinished)");
   text += fmt::format("  {} of {} sequences, {} ticks of 1/{} s each ({:.4g} s), {} records",
@@ -124,7 +124,7 @@ std::string to_json(const Summary& summary) {
                {"files", summary.files},
                {"bytes", summary.bytes},
                {"sensors", std::move(sensors)}})
-      .dump(-1, ' ', false, Json::error_handler_t::replace);  // a folder may be called anything
+      .dump(-1, ' ', false, Json::error_handler_t::replace);  // the folder's name may not be valid UTF-8
 }
 
 }  // namespace greatx::io

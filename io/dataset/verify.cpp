@@ -45,8 +45,8 @@ class Verifier {
   WorkerPool workers_;
   std::vector<FileEntry> files_;
   std::set<std::string> listed_;  ///< paths in the manifest
-  std::set<std::string> broken_;  ///< of those: missing or changed, already reported
-  std::set<std::string> used_;    ///< of those: what the index accounts for
+  std::set<std::string> broken_;  ///< listed paths of missing or changed files, which are already reported
+  std::set<std::string> used_;    ///< paths that the index accounts for
   std::vector<Problem> problems_;
 };
 
@@ -83,8 +83,8 @@ std::vector<Problem> Verifier::run() {
     for (const std::string& path : listed_)
       if (!used_.contains(path)) report(path, "is in the manifest, but no record of the index has it");
   } catch (const UserError& error) {
-    if (problems_.empty())
-      report(folder_.string(), error.what());  // otherwise a consequence of what is reported
+    // If there are problems already, this error is a consequence of them.
+    if (problems_.empty()) report(folder_.string(), error.what());
   }
   return problems_;
 }
@@ -201,7 +201,7 @@ void Verifier::check_stacks(const DatasetReader& reader, uint32_t sequence,
   }
 }
 
-/// Returns the last offset; -1 if the offsets are of no use.
+/// Checks the offsets of a ragged stack. Returns the last offset, or -1 if the offsets are not valid.
 int64_t Verifier::check_offsets(const std::string& path, int64_t records) {
   used_.insert(path);
   if (!listed_.contains(path)) report(path, "is not in the manifest");
@@ -241,8 +241,8 @@ void Verifier::check_stack_values(const SensorSpec& sensor, const ArraySpec& spe
   }
 }
 
-/// Decodes the frames of floating-point values; integers have no bad values, and their bytes are known by
-/// hash.
+/// Decodes the frames with floating-point values and checks the values. Frames of integers need no check:
+/// integers have no invalid values, and the hashes cover their bytes.
 void Verifier::check_frame_values(const DatasetReader& reader, uint32_t sequence) {
   const std::vector<IndexRow>& rows = reader.records(sequence);
   std::vector<std::vector<Problem>> found(rows.size());

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of what is there, a link itself; empty: nothing is.
+/// Returns the status of a file, or nullopt if it does not exist. Throws UserError for a symbolic link.
 std::optional<struct stat> status_of(const fs::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0) {
@@ -27,7 +27,8 @@ std::optional<struct stat> status_of(const fs::path& path) {
   throw_user_error("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
 }
 
-/// Calls visit(path, last) for every part of the way, until it returns false.
+/// Calls visit(path, last) for every leading part of folder/relative, until `visit` returns false. Throws
+/// UserError if fault_of_path() rejects `relative`.
 template <typename Visit>
 void walk(const fs::path& folder, const std::string& relative, Visit visit) {
   if (const std::string fault = fault_of_path(relative); !fault.empty())

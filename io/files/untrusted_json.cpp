@@ -17,8 +17,8 @@ namespace {
 
 constexpr size_t longest_excerpt = 60;
 
-/// Goes over the beginnings of values in the order of the text, which need not be valid: visit(line, depth)
-/// returns false to stop. Keys are no values.
+/// Calls visit(line, depth) at the beginning of each value in the order of the text, until `visit` returns
+/// false. Keys are not values. The text need not be valid JSON.
 template <typename Visit>
 void scan(std::string_view text, Visit visit) {
   int line = 0, depth = 0;
@@ -47,7 +47,8 @@ void scan(std::string_view text, Visit visit) {
   }
 }
 
-/// The place of `wanted` below `value` in the order of the text, and its name, as "sensors[0].name".
+/// Searches `wanted` below `value` and returns whether it was found. `number` then counts the values before
+/// it in the order of the text, and `name` is its path, e.g. "sensors[0].name".
 bool locate(const Json& value, const Json* wanted, uint64_t& number, std::string& name) {
   if (&value == wanted) return true;
   if (!value.is_structured()) return false;
@@ -100,8 +101,8 @@ JsonDocument::JsonDocument(std::string text, const SourceLocation& where, const 
     const auto* const parse_error = dynamic_cast<const Json::parse_error*>(&error);
     const size_t byte = parse_error ? std::min(parse_error->byte, text_.size()) : 0;
     const auto below = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
-    std::string reason =
-        error.what();  // "[json.exception...] parse error at line 1, column 2: what is wrong"
+    // The message has the form "[json.exception...] parse error at line 1, column 2: REASON".
+    std::string reason = error.what();
     if (const size_t colon = reason.find(": "); colon != reason.npos) reason = reason.substr(colon + 2);
     throw_user_error_at({where_.file, line(static_cast<int>(below))}, "is no JSON: {}",
                         printable(std::string_view(reason).substr(0, 200)));
@@ -173,7 +174,7 @@ bool JsonValue::boolean() const {
 }
 
 int64_t JsonValue::integer(int64_t least, int64_t most) const {
-  // Beyond int64 the library has an unsigned or a real number.
+  // The library stores a number beyond int64 as an unsigned or a floating-point number.
   const bool fits = json_->is_number_integer() &&
                     (!json_->is_number_unsigned() || json_->get<uint64_t>() <= uint64_t{INT64_MAX});
   if (!fits || json_->get<int64_t>() < least || json_->get<int64_t>() > most)

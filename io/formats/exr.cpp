@@ -22,28 +22,28 @@ namespace greatx::io {
 
 namespace {
 
-/// Workers call this from many threads at once, so OpenEXR's own pool stays empty: each picture is done where
-/// it is asked for.
+/// Empties OpenEXR's thread pool once, and returns 0 threads. Our workers call OpenEXR from many threads at
+/// once, so each picture is processed in the calling thread.
 int no_threads() {
   [[maybe_unused]] static const bool once = (Imf::setGlobalThreadCount(0), true);
   return 0;
 }
 
-constexpr int compression_level = 1;  // of libdeflate
-constexpr int lines_of_a_block = 16;  ///< of the format's ZIP compression
+constexpr int compression_level = 1;  // libdeflate's level
+constexpr int lines_of_a_block = 16;  // defined by the ZIP compression of OpenEXR
 
 std::vector<const char*> channel_names(bool rgb) {
   return rgb ? std::vector<const char*>{"R", "G", "B"} : std::vector<const char*>{"Y"};
 }
 
-/// The channels to read: the one of a plane of numbers, whose name was "Z" once, or three of a picture.
+/// Returns the channels to read: "Y" or "Z" for a plane of numbers, or the three of a picture.
 std::vector<const char*> channels_of(const Imf::ChannelList& list) {
   for (const char* plane : {"Y", "Z"})
     if (list.findChannel(plane) != nullptr) return {plane};
   return channel_names(true);
 }
 
-/// The interleaved floats at `values` as a frame buffer of channels `names`.
+/// Returns a frame buffer that describes the interleaved floats at `values` as the channels `names`.
 Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* values,
                               const Imath::Box2i& window) {
   const size_t step = names.size() * sizeof(float);
@@ -56,8 +56,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<const char*>& names, char* value
   return buffer;
 }
 
-/// Writes the format around blocks that are compressed already: OpenEXR's own way through zlib takes three
-/// times as long as libdeflate's, a sixth of all CPU time of a camera's tick.
+/// Writes an OpenEXR file around blocks that are already compressed. Compression by OpenEXR itself, which
+/// uses zlib, takes three times as long as by libdeflate, a sixth of the CPU time of a camera's tick.
 class Writer {
  public:
   explicit Writer(Bytes& file) {
@@ -97,9 +97,10 @@ class Writer {
   exr_context_t context_ = nullptr;
 };
 
-/// Lines as the format's ZIP compression has them: per line one channel after the other; of all bytes the
-/// even ones, then the odd ones, each but the first as its difference from the one before, plus 128; then
-/// zlib's format. What does not shrink stays as it is.
+/// Encodes blocks of lines for OpenEXR's ZIP compression. Each line holds one channel after the other. Of all
+/// bytes of the block, the even ones come first, then the odd ones. Each byte except the first is replaced by
+/// its difference from the previous byte, plus 128. The result is packed in zlib's format. A block that does
+/// not shrink stays as it is.
 class BlockEncoder {
  public:
   BlockEncoder(int width, int channels)
@@ -109,12 +110,12 @@ class BlockEncoder {
     GREATX_CHECK(compressor_ != nullptr, "libdeflate: no memory");
   }
 
-  /// Of interleaved pixels; valid until the next call.
+  /// Encodes lines of interleaved pixels. The result is valid until the next call.
   std::span<const std::byte> encode(const float* pixels, int lines) {
     plain_.resize(width_ * channels_ * size_t(lines) * sizeof(float));
     auto* to = reinterpret_cast<float*>(plain_.data());
     for (int line = 0; line < lines; ++line, pixels += width_ * channels_)
-      for (size_t c = channels_; c-- > 0;)  // B, G, R: in the order of their names
+      for (size_t c = channels_; c-- > 0;)  // B, G, R: in alphabetical order, as the format requires
         for (size_t x = 0; x < width_; ++x) *to++ = pixels[x * channels_ + c];
     mix();
     packed_.resize(plain_.size());
@@ -151,8 +152,7 @@ Bytes encode_exr(const Array& image) {
   Bytes file;
   file.reserve(image.bytes.size());
   Writer writer(file);
-  // The header has the attributes that the format requires and none of time or owner: same pixels, same
-  // bytes.
+  // The header has only the attributes that the format requires. A time or an owner would change the bytes.
   writer.begin(width, height, channel_names(rgb));
   BlockEncoder blocks(width, rgb ? 3 : 1);
   for (int y = 0; y < height; y += lines_of_a_block) {

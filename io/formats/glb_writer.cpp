@@ -18,14 +18,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
-constexpr int no_target = 0;  // of a view that holds a picture
+constexpr int no_target = 0;  // for views that hold pictures
 constexpr int unsigned_short = 5123, unsigned_int = 5125, float32 = 5126;
-constexpr size_t most_narrow_vertices = 65534;  // 65535 may restart a primitive
+constexpr size_t most_narrow_vertices = 65534;  // the index 65535 may restart a primitive
 constexpr const char* unlit_extension = "KHR_materials_unlit";
 constexpr const char* strength_extension = "KHR_materials_emissive_strength";
 constexpr const char* lights_extension = "KHR_lights_punctual";
 
-/// z up to glTF's y up. Adding 0 turns -0 into +0.
+/// Converts from z up to glTF's y up. Adding 0 turns -0 into +0.
 template <typename Vec>
 Vec to_gltf(const Vec& v) {
   return {v.x, v.z, -v.y + 0};
@@ -42,14 +42,15 @@ Json json_of(const Vec& v) {
   return Json::array({v.x, v.y, v.z});
 }
 
-/// Rounds to float. The value goes through memory because GCC 12.2 drops such a pair of conversions where it
-/// handles two neighbours as one vector (seen with x86-64, -O2, two members of a quaternion).
+/// Rounds to float. The value goes through memory, because GCC 12.2 drops the two conversions if it
+/// vectorises two neighbouring values (seen with x86-64, -O2, two members of a quaternion).
 double narrow(double value) {
   const volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);
 }
 
-/// glTF's rotation that takes -z, where its lights look, to `aim` (z up) by the shortest way.
+/// Returns the shortest rotation in glTF's axes that turns -z, the direction of glTF's lights, to `aim` (z
+/// up).
 dquat rotation_to(const dvec3& aim, const std::string& node) {
   const dvec3 d = glm::normalize(dvec3(aim.x, aim.z, -aim.y));
   const dvec3 axis = glm::cross(dvec3(0.0, 0.0, -1.0), d);
@@ -78,7 +79,7 @@ void check(const std::string& mesh, const GlbPrimitive& primitive) {
     GREATX_CHECK(index < count, "mesh '{}': index {} of {}", mesh, index, count);
 }
 
-/// The header, the JSON and, where there is one, the binary chunk.
+/// Returns the file: the header, the JSON chunk and, if it is not empty, the binary chunk.
 Bytes packed(std::string text, const Bytes& binary) {
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const uint64_t size = 20 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
@@ -99,8 +100,8 @@ Bytes packed(std::string text, const Bytes& binary) {
 
 }  // namespace
 
-/// The file so far. The root has every list from the beginning, which fixes their order; finish drops the
-/// empty ones.
+/// Holds the file while it is built. The root has all lists from the beginning, which fixes their order;
+/// finish() drops the empty ones.
 struct GlbWriter::Document {
   explicit Document(const GlbOptions& options) {
     root = {{"asset", {{"version", "2.0"}, {"generator", options.generator}}}, {"scene", 0}};
@@ -124,7 +125,7 @@ struct GlbWriter::Document {
   void pad() { binary.resize((binary.size() + 3) / 4 * 4); }
 
   Json root, lights = Json::array();
-  std::set<std::string> extensions;  ///< used
+  std::set<std::string> extensions;  ///< names of the used extensions
   Bytes binary;
 };
 
@@ -203,7 +204,7 @@ void GlbWriter::add_primitive(int mesh, const GlbPrimitive& primitive) {
   vec3 low = positions[0], high = positions[0];
   for (const vec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
   const int position = add_accessor(positions, float32, "VEC3", array_buffer);
-  // Exactly the floats' values: a validator compares them bit by bit.
+  // The bounds are exactly the values of the floats, because a validator compares them bit by bit.
   Json& accessor = document_->root["accessors"].back();
   accessor["min"] = json_of(low);
   accessor["max"] = json_of(high);

@@ -15,7 +15,7 @@ namespace greatx::io {
 
 namespace {
 
-/// An object of the library, closed with this one.
+/// Owns an object of the HDF5 library and closes it in the destructor.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -28,7 +28,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   hid_t id() const { return id_; }
-  /// Closes now, so that a failure is seen.
+  /// Closes the object now, and throws WriteError if this fails.
   void close(const std::filesystem::path& file) {
     if (close_(std::exchange(id_, -1)) < 0) throw WriteError(file, errno != 0 ? errno : EIO);
   }
@@ -38,13 +38,13 @@ class Handle {
   Close close_;
 };
 
-/// A data set of one axis and known length, written front to back.
+/// Writes an HDF5 dataset of one axis and known length from front to back.
 class Column {
  public:
   Column(const Handle& file, const std::filesystem::path& path, const char* name, hid_t stored, hid_t given,
          uint64_t rows)
       : path_(path), given_(given), properties_(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path) {
-    H5Pset_obj_track_times(properties_.id(), 0);  // or the bytes depend on the time of day
+    H5Pset_obj_track_times(properties_.id(), 0);  // the bytes must not depend on the time of day
     const hsize_t extent = rows;
     const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose, path);
     dataset_.emplace(
@@ -75,7 +75,7 @@ class Column {
 }  // namespace
 
 void write_hdf5_events(const std::filesystem::path& path, const EventArrays& events) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are thrown, not printed
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // this code throws on failures, so HDF5 need not print them
   errno = 0;
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
   std::vector<uint64_t> ms_to_idx;

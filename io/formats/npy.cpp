@@ -16,8 +16,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 namespace {
 
-constexpr std::string_view magic = "\x93NUMPY\x01";  // then the minor version's zero byte
-constexpr uint64_t preamble = 10;                    // magic, version, u16 length of the text
+constexpr std::string_view magic = "\x93NUMPY\x01";  // a zero byte, the minor version, follows
+constexpr uint64_t preamble = 10;                    // bytes of magic, version and the text's length (u16)
 
 std::optional<DType> dtype_named(std::string_view name) {
   for (const DType dtype : {DType::u8, DType::u16, DType::u32, DType::i8, DType::i32, DType::i64, DType::u64,
@@ -26,7 +26,7 @@ std::optional<DType> dtype_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The text between `before` and the next `after`.
+/// Returns the text between `before` and the next `after`, or an empty text if there is no `before`.
 std::string_view between(std::string_view text, std::string_view before, std::string_view after) {
   const size_t start = text.find(before);
   if (start == text.npos) return {};
@@ -58,7 +58,7 @@ std::vector<int64_t> parse_shape(std::string_view text, const std::string& file)
 Bytes npy_header(DType dtype, const std::vector<int64_t>& shape) {
   std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", numpy_name(dtype));
   for (const int64_t extent : shape) text += fmt::format("{}, ", extent);
-  // As numpy writes it: "(3,)" with one axis, "(3, 4)" with more.
+  // NumPy writes "(3,)" for one axis and "(3, 4)" for more.
   if (!shape.empty()) text.erase(text.size() - (shape.size() == 1 ? 1 : 2));
   text += "), }";
   GREATX_CHECK(preamble + text.size() < npy_header_bytes, "header of {} bytes for {} axes", text.size(),
@@ -98,7 +98,8 @@ NpyFile::NpyFile(const std::filesystem::path& path) : file_(File::open_for_readi
   data_offset_ = preamble + length;
   uint64_t expected = size_of(dtype_), bound = expected;
   for (const int64_t extent : shape_) {
-    // Of an array without elements, too: its rows must not overflow.
+    // The bound counts an empty axis as 1, because the size of a row must not overflow in an empty array
+    // either.
     if (__builtin_mul_overflow(bound, std::max<uint64_t>(1, static_cast<uint64_t>(extent)), &bound))
       throw_user_error("{}: expected a shape of less than 2^64 bytes, found [{}]", path.string(),
                        fmt::join(shape_, ", "));

@@ -35,7 +35,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// The header's lines by their first word.
+/// Maps the first word of each header line to its other words.
 using PcdHeader = std::map<std::string, std::vector<std::string>>;
 
 const std::vector<std::string>& values_of(const PcdHeader& header, const std::string& key, size_t count,

@@ -9,13 +9,13 @@ namespace greatx::io {
 
 namespace {
 
-// Measured at 40 frames of nine panels of the default city: quality 70 makes 3.2 MB, 75 3.4, 60 2.8. Method 4
-// (libwebp's default) takes 6.7 s of CPU time, method 2 5.2 and makes 5 % more bytes, method 6 30 s and 6 %
-// less.
+// Measured with 40 frames of nine panels of the default city: quality 70 gives 3.2 MB, 75 gives 3.4 MB, 60
+// gives 2.8 MB. Method 4 (libwebp's default) takes 6.7 s of CPU time; method 2 takes 5.2 s and gives 5 % more
+// bytes; method 6 takes 30 s and gives 6 % fewer bytes.
 constexpr float quality = 70.0f;
 constexpr int method = 4;
-// Between key frames, pixels that hardly change are left as they were, which shows in skies after a while.
-// Key frames only would make a quarter more bytes, one in 5 to 10 makes 2 % more.
+// Between key frames, libwebp leaves pixels unchanged that hardly change, which becomes visible in skies
+// after some time. Key frames only give 25 % more bytes; one key frame in 5 to 10 frames gives 2 % more.
 constexpr int shortest_between_keys = 5, longest_between_keys = 10;
 
 }  // namespace
@@ -36,7 +36,7 @@ WebpAnimator::WebpAnimator(int width, int height) : state_(new State{width, heig
                "libwebp: another version than the headers'");
   state_->config.quality = quality;
   state_->config.method = method;
-  options.anim_params.loop_count = 0;  // for ever
+  options.anim_params.loop_count = 0;  // repeat for ever
   options.kmin = shortest_between_keys;
   options.kmax = longest_between_keys;
   state_->encoder = WebPAnimEncoderNew(width, height, &options);

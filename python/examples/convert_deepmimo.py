@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A data set as a DeepMIMO scenario, and back into a channel: by NumPy, and by DeepMIMO itself if it is
-there.
+"""Writes a data set as a DeepMIMO scenario, and computes its channel by NumPy and, if installed, by DeepMIMO.
 
     greatx generate room -o out/room
     python3 python/examples/convert_deepmimo.py out/room
@@ -19,7 +18,7 @@ from greatx.links import transmitters
 
 KEYS = "power", "phase", "delay", "inter", "aoa_el"
 
-# %% Every tick becomes one more user: fits channels whose transmitter stands still
+# %% Write every tick as one more user, which requires that the transmitters do not move
 ds = greatx.load(sys.argv[1])
 sequence = ds.sequences[0]
 csi = sequence.first("csi", ["cfr", "delay"])
@@ -27,7 +26,7 @@ name = f"{ds.run['scenario']}_greatx".lower()
 out = pathlib.Path("deepmimo_scenarios", name)
 print(out, write_deepmimo(ds, out, channel=csi.name, sequence=sequence.number, layout="users"))
 
-# %% The matrices of each transmitter: [user, path], NaN where there is no path, the strongest first
+# %% Load the matrices of each transmitter: [user, path], strongest path first, NaN for missing paths
 matrices = [
     {key: np.load(out / f"{key}_t000_tx{tx:03}_r001.npz")[key] for key in KEYS}
     for tx in range(len(transmitters(csi)))
@@ -35,8 +34,8 @@ matrices = [
 for key, value in matrices[0].items():
     print(f"  {key:6} {value.shape} {value.dtype}: user 0: {value[0, :4]}")
 
-# %% H(f) between upright isotropic antennas, as DeepMIMO sums it: subcarrier 0 is the carrier, and paths that
-# are longer than a symbol are left out
+# %% Sum the paths to H(f) between upright isotropic antennas like DeepMIMO: subcarrier 0 is the carrier, and
+# paths whose delay exceeds a symbol are left out
 f = np.arange(max(csi.subcarriers // 2, 1)) * csi.subcarrier_spacing_hz
 channels = []
 for matrix in matrices:
@@ -47,17 +46,18 @@ for matrix in matrices:
 h = np.stack(channels)  # [transmitter, user, subcarrier]
 print(f"H {h.shape}, mean gain {10 * np.log10(max(np.mean(np.abs(h) ** 2), 1e-30)):.1f} dB")
 
-# %% The same by DeepMIMO
+# %% Compute the same channel by DeepMIMO
 try:
     import deepmimo
 except ImportError:
     print(
-        f"no DeepMIMO here: pip install DeepMIMO, then deepmimo.load({name!r}, max_paths={matrices[0]['power'].shape[1]})"
+        f"no DeepMIMO here: pip install DeepMIMO, then deepmimo.load({name!r}, "
+        f"max_paths={matrices[0]['power'].shape[1]})"
     )
 else:
     paths = matrices[0]["power"].shape[1]
     loaded = deepmimo.load(name, max_paths=paths)
-    pairs = loaded.datasets if isinstance(loaded, deepmimo.MacroDataset) else [loaded]  # one a transmitter
+    pairs = loaded.datasets if isinstance(loaded, deepmimo.MacroDataset) else [loaded]  # per transmitter
     one = {"shape": np.array([1, 1])}
     parameters = deepmimo.ChannelParameters(
         num_paths=paths,

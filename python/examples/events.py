@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What an event camera saw: its stream, a picture of a moment, the tensor that a network takes.
+"""Reads the events of an event camera, and makes a picture of 10 ms and a tensor for a network of them.
 
     greatx generate scenario.yaml -o out/events        # with a sensor of type event_camera
     python3 python/examples/events.py out/events
@@ -14,7 +14,7 @@ import numpy as np
 
 import greatx
 
-# %% The stream: t in integer nanoseconds since the sequence's first tick, in order; views of the files
+# %% Load the stream as views of the files: t in nanoseconds since the sequence's first tick, ascending
 ds = greatx.load(sys.argv[1])
 camera = ds.sequences[0].first("event_camera", ["t", "x", "y", "p"])
 events = camera.events()
@@ -24,21 +24,22 @@ print(
     f"{100 * np.mean(events.p):.0f} % brighter, {int(camera.dropped.sum())} left out"
 )
 
-# %% From one record to the next: as many intervals as a camera of that rate has pictures
+# %% Find the record with the most events: a record holds the events since the record before
 counts = np.diff(camera["t"].offsets)
 busiest = int(np.argmax(counts))
 record = camera.record(busiest)
 print(
-    f"record {busiest} at {record.time_s:g} s is the busiest: {counts[busiest]} events in {record.pictures} sub-steps"
+    f"record {busiest} at {record.time_s:g} s is the busiest: {counts[busiest]} events "
+    f"in {record.pictures} sub-steps"
 )
 
-# %% A picture of 10 ms for people: red brighter, blue darker
+# %% Draw a picture of 10 ms: red pixels got brighter, blue ones darker
 moment = events.between(record.time_ns - 10_000_000, record.time_ns)
 picture = moment.picture()
 pathlib.Path("events.ppm").write_bytes(b"P6 %d %d 255\n" % picture.shape[1::-1] + picture.tobytes())
 print(f"events.ppm: {len(moment)} events on {picture.shape[1]} x {picture.shape[0]} pixels")
 
-# %% A voxel grid: float32 [bin, row, column]
+# %% Make a voxel grid: float32 [bin, row, column]
 grid = record.events().voxel_grid(5)
 print(f"voxel grid {grid.shape} {grid.dtype}, sum {grid.sum():.1f}")
 try:
@@ -48,7 +49,7 @@ except ImportError:
 else:
     print(torch.from_numpy(grid)[None].shape, "is a batch of one")
 
-# %% What moved: events by the instance that their pixel saw
+# %% Count the events by the instance that their pixel saw
 if events.instance is not None:
     ids, of_each = np.unique(events.instance, return_counts=True)
     for i in np.argsort(-of_each)[:5]:

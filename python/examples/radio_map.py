@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A coverage map of two base stations, and where to put a third.
+"""Computes a coverage map of two base stations, and finds the place of the weakest coverage.
 
     PYTHONPATH=build/release/python python3 python/examples/radio_map.py
 
-Writes radio_map.png if matplotlib is there.
+Writes radio_map.png if matplotlib is installed.
 """
 import numpy as np
 
 import greatx
 
-# %% Two base stations in a generated street
+# %% Place two base stations in a generated street
 sim = greatx.Simulation(
     {"greatx": 1, "name": "street", "ticks": 1, "scene": {"generate": {"kind": "canyon", "size_m": 120}}}
 )
@@ -20,7 +20,7 @@ for name, position, target in (("south", [6.3, -40, 8], [0, 0, 1.5]), ("north", 
     )
 sim.add_channel("coverage", carrier_hz=3.5e9, bandwidth_hz=20e6, subcarriers=64, max_depth=2)
 
-# %% The map: each cell has the paths of a receiver put there, 1.5 m above the ground
+# %% Compute the map: each cell has the paths of a receiver at its centre, 1.5 m above the ground
 area = {"min_m": [-15, -60], "max_m": [15, 60], "power_dbm": 30, "noise_figure_db": 7}
 coverage = sim.radio_map(3.0, progress=lambda cells: print(f"  {cells} cells"), **area)
 print(coverage.facts["height"], coverage.rss.shape, coverage.unit("rss"))
@@ -28,16 +28,17 @@ free = coverage.placement == 0
 for tx, name in enumerate(coverage.transmitters):
     share = np.mean(coverage.best_server[free] == tx)
     print(
-        f"  {name}: serves {100 * share:.0f} % of the free cells, median {np.median(coverage.rss[tx][free]):.1f} dBm"
+        f"  {name}: serves {100 * share:.0f} % of the free cells, "
+        f"median {np.median(coverage.rss[tx][free]):.1f} dBm"
     )
 
-# %% A cell is a receiver put there, to the bit
+# %% Check that a cell has exactly the gain of a receiver at its centre
 row, column = np.argwhere(free)[len(np.argwhere(free)) // 2]
 point = [coverage.x[column], coverage.y[row], coverage.z[row, column]]
 gain = sim.paths(receivers=[point]).statistics().path_gain[0]
 assert (gain == coverage.path_gain[:, row, column]).all()
 
-# %% Where would one more help most? Where the best of the two is weakest
+# %% Find the cell in which the stronger of the two stations is weakest: there a third one helps most
 best = np.where(free, coverage.rss.max(axis=0), np.inf)
 row, column = np.unravel_index(np.argmin(best), best.shape)
 print(f"weakest: {best[row, column]:.1f} dBm at x {coverage.x[column]:.0f}, y {coverage.y[row]:.0f} m")

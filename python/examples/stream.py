@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A simulation in the loop: every tick's channel and picture straight from memory, no files; a base station
-that keeps the beam of the tick before, and what that costs it.
+"""Runs a simulation in memory, tick by tick, without files. A base station keeps the best beam of the
+previous tick, and the example measures the loss of gain.
 
     PYTHONPATH=build/release/python python3 python/examples/stream.py [SCENARIO]
 """
@@ -11,14 +11,14 @@ import numpy as np
 
 import greatx
 
-# %% A scenario with everything in it: base station, car with a camera, channel
+# %% Load a scenario with a base station, a car with a camera, and a channel
 sim = greatx.Simulation(sys.argv[1] if len(sys.argv) > 1 else "canyon", ticks=20)
 print(sim)
 channel = next(iter(sim.channels), None)
 if channel is None:
     sys.exit(f"{sim.name}: expected a scenario with a channel, found none")
 
-# %% Step it. What a tick holds is what `greatx generate` would write
+# %% Step through the ticks, whose records are those that `greatx generate` would write
 beam, loss_db, run = None, [], sim.run()
 print({name: sensor["kind"] for name, sensor in run.sensors.items()})
 for tick in run:
@@ -35,12 +35,14 @@ for tick in run:
     beam = best
     seen = {name: r["depth"].shape for name, r in tick.items() if "depth" in r}
     print(
-        f"  {tick.time_s:5.2f} s: {record.path_count[0, 0]} paths, gain {10 * np.log10(values[-1] + 1e-30):6.1f} dB, {seen}"
+        f"  {tick.time_s:5.2f} s: {record.path_count[0, 0]} paths, "
+        f"gain {10 * np.log10(values[-1] + 1e-30):6.1f} dB, {seen}"
     )
 
-# %% What an old beam costs
+# %% Print the loss of the previous tick's beam
 if loss_db:
     print(
-        f"a beam that is a tick old loses {np.mean(loss_db):.2f} dB on average, {np.max(loss_db):.2f} dB at worst"
+        f"a beam that is a tick old loses {np.mean(loss_db):.2f} dB on average, "
+        f"{np.max(loss_db):.2f} dB at worst"
     )
 print({name: count for name, count in run.summary()["counters"].items() if count})

@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Learns to clean noisy channel estimates: a torch Dataset, a DataLoader, a model of one weight a delay.
+"""Learns to remove noise from channel estimates by a torch Dataset, a DataLoader and one weight per delay.
 
     greatx generate room -o out/room
     python3 python/examples/train_torch.py out/room
 
-The model goes to the delay domain, weighs every delay, and comes back; it has to find out which delays hold
-the channel and which noise alone. Toy-sized: it shows how complex tensors get from a data set into a training
-loop.
+The model weights every delay in the delay domain. It learns which delays hold the channel and which hold only
+noise. The example shows how complex tensors get from a data set into a training loop.
 """
 import sys
 
@@ -23,27 +22,27 @@ SNR_DB = 5.0
 
 
 def links(item):
-    """complex64 [links, subcarrier] of unit mean power: all port pairs of a tick's first receiver and
-    transmitter."""
+    """Returns complex64 [links, subcarrier] of unit mean power: all port pairs of a tick's first receiver and
+    first transmitter."""
     h = item[name][0, :, 0].flatten(0, -2)
     return h / h.abs().square().mean().sqrt().clamp_min(1e-20)
 
 
-# %% One item a tick at which the channel has a record, complex64 as on disk
+# %% Load one item for each tick at which the channel has a record, complex64 as on disk
 ds = greatx.load(sys.argv[1])
 name = ds.sequences[0].first("csi", ["cfr"]).name + "/cfr"
 data = ds.torch(name, transform=links)
 print(data.samples)
 
-# %% Training ticks, and every fifth held out
+# %% Hold out every fifth tick, and train on the others
 torch.manual_seed(1)
 held_out = torch.stack([data[i] for i in range(4, len(data), 5)] or [data[len(data) - 1]])
 training = torch.utils.data.Subset(data, [i for i in range(len(data)) if i % 5 != 4])
-loader = torch.utils.data.DataLoader(training, batch_size=8, shuffle=True)  # num_workers: as many as you like
+loader = torch.utils.data.DataLoader(training, batch_size=8, shuffle=True)  # any num_workers works
 
 
 class DelayFilter(torch.nn.Module):
-    """A real weight for every delay, 0 to 1."""
+    """Multiplies every delay by a real weight from 0 to 1."""
 
     def __init__(self, subcarriers):
         super().__init__()
@@ -61,7 +60,7 @@ def nmse(guess, h):
     return (guess - h).abs().square().mean() / h.abs().square().mean()
 
 
-# %% Training: fresh noise at every step
+# %% Train with new noise at every step
 model = DelayFilter(held_out.shape[-1])
 optimizer = torch.optim.Adam(model.parameters(), lr=0.1)
 test = noisy(held_out)
@@ -75,5 +74,6 @@ for epoch in range(40):
     if epoch % 10 == 9:
         with torch.no_grad():
             print(
-                f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB on ticks it never saw"
+                f"epoch {epoch + 1:3}:    {10 * torch.log10(nmse(model(test), held_out)):6.2f} dB "
+                "on ticks it never saw"
             )

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A camera's ground truth: optical flow in colours and as Middlebury's .flo, and boxes drawn into the
-picture.
+"""Shows a camera's ground truth: optical flow in colours and as Middlebury's .flo, and boxes in the picture.
 
     greatx generate uav_medium -o out/truth        # a camera with `outputs: [rgb, depth, ids, flow, boxes]`
     python3 python/examples/truth.py out/truth
@@ -18,7 +17,7 @@ import greatx
 
 
 def write_png(path, rgb):
-    """u8 [h, w, 3]"""
+    """Writes a picture, uint8 [h, w, 3]."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -34,30 +33,30 @@ def write_png(path, rgb):
         )
 
 
-# %% The middle record of the first camera with flow and boxes
+# %% Load the middle record of the first camera with flow and boxes
 ds = greatx.load(sys.argv[1])
 try:
     camera = ds.sequences[0].first("camera", ["rgb", "flow", "box_amodal"])
 except greatx.Error as error:
     sys.exit(f"{error}\n`greatx generate uav_medium` makes one that has them")
 record = camera.record(len(camera) // 2)
-flow = record.flow  # [h, w, 2] pixels to the right and down; NaN: out of sight at the next picture
+flow = record.flow  # [h, w, 2] pixels to the right and down; NaN: not visible in the next picture
 speed = np.hypot(flow[..., 0], flow[..., 1])
 print(f"{camera.name}, tick {record.tick}: flow up to {np.nanmax(speed):.1f} pixels")
 
-# %% Flow as colours: direction is hue, length is strength; black where there is none
+# %% Draw the flow: the hue is its direction, the saturation its length; pixels without flow are black
 strength = np.nan_to_num(np.clip(speed / max(np.nanpercentile(speed, 90), 1e-6), 0, 1))
 hue = np.nan_to_num(np.arctan2(flow[..., 1], flow[..., 0])) / (2 * np.pi) * 6
 wheel = np.clip(np.abs((hue[..., None] + [0, 4, 2]) % 6 - 3) - 1, 0, 1)
 color = np.where(np.isnan(speed)[..., None], 0, 1 - strength[..., None] * (1 - wheel))
 write_png("flow.png", (255 * color + 0.5).astype(np.uint8))
 
-# %% Middlebury's format: magic 202021.25, width, height, then u and v pixel by pixel; above 1e9: unknown
+# %% Write Middlebury's format: magic 202021.25, width, height, then u and v of each pixel, unknown above 1e9
 with open("flow.flo", "wb") as file:
     file.write(struct.pack("<fii", 202021.25, flow.shape[1], flow.shape[0]))
     file.write(np.where(np.isnan(flow), np.float32(1e10), flow).astype("<f4").tobytes())
 
-# %% Boxes of what is seen: amodal in yellow, of the visible pixels in green
+# %% Draw the boxes of visible objects: amodal boxes in yellow, boxes of the visible pixels in green
 picture = record.rgb.copy()
 for i in np.flatnonzero(record.box_visible_pixels):
     for box, ink in ((record.box_amodal[i], (255, 220, 0)), (record.box_modal[i], (0, 255, 0))):
@@ -67,6 +66,7 @@ for i in np.flatnonzero(record.box_visible_pixels):
 write_png("boxes.png", picture)
 for i in np.argsort(record.box_visible_pixels)[:-6:-1]:
     print(
-        f"  {ds.semantic_classes[record.box_semantic[i]]:12} {np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
+        f"  {ds.semantic_classes[record.box_semantic[i]]:12} "
+        f"{np.linalg.norm(record.box_sensor_center[i]):6.1f} m away, "
         f"{record.box_visible_pixels[i]:6} pixels, visibility {record.box_visibility[i]:.2f}"
     )

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""greatx from Python.
+"""The Python package of greatx (docs/python.md).
 
-`greatx.load(DIR)` opens a generated data set with nothing but NumPy (docs/python.md); `greatx.convert` writes
-it in the conventions of other tools. What computes (`greatx.Simulation`: scenes, paths, channels) stands on
-the compiled module greatx._native, which is imported when one of its names is first used.
+`greatx.load(DIR)` opens a generated data set and needs only NumPy. `greatx.convert` writes a data set in the
+conventions of other tools. `greatx.Simulation` computes scenes, paths and channels. It needs the compiled
+module greatx._native, which is imported when `Simulation` is first used.
 """
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ __all__ = [
     "load",
 ]
 
-#: What needs greatx._native.
+#: Names that need greatx._native.
 NATIVE = ("Simulation",)
 
 
@@ -54,8 +54,8 @@ def __getattr__(name: str) -> Any:
     except ImportError as error:
         raise ImportError(
             f"greatx.{name} needs the compiled module greatx._native, which is not here: {error}. Build it "
-            "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the project's "
-            "folder (docs/python.md)"
+            "with ./run.sh and set PYTHONPATH=build/release/python, or `pip install ./python` in the "
+            "project's folder (docs/python.md)"
         ) from error
     return getattr(simulation, name)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Antennas to be placed, and where they look."""
+"""Describes antennas that a simulation places, and their orientations."""
 from __future__ import annotations
 
 import dataclasses
@@ -11,22 +11,25 @@ from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 @dataclasses.dataclass(frozen=True)
 class Array:
-    """An array of equal elements that all look along +x (boresight), as a scenario's `type: antenna`
+    """Describes an array of equal elements whose boresight is +x, like `type: antenna` in a scenario
     (docs/scenario.md).
 
-    Lengths are in wavelengths at the channel's carrier. Port p = element * polarizations + polarization,
-    element = row * columns + column. What is not given is the scenario format's default, and that checks
-    everything when the array is placed: no array is silently made of what it is not.
+    Lengths are in wavelengths at the channel's carrier. Ports are numbered p = element * polarizations +
+    polarization, elements are numbered row * columns + column. A field that is not given has the default of
+    the scenario format. The scenario's parser checks all fields when the array is placed.
 
-    pattern             of one element: "isotropic" (default), "short_dipole", "half_wave_dipole", "tr38901"
-    pattern_file        a CSV in place of `pattern`
-    polarization        "v" (default), "h": one port an element; "vh", "slant" (+45, -45 degrees): two
-    slant_deg           one port of this slant, in place of `polarization`
+    pattern             pattern of one element: "isotropic" (default), "short_dipole", "half_wave_dipole",
+                        "tr38901"
+    pattern_file        CSV file with a pattern, in place of `pattern`
+    polarization        "v" (default) or "h": one port per element; "vh" or "slant" (+45 and -45 degrees):
+                        two ports
+    slant_deg           one port per element with this slant, in place of `polarization`
     polarization_model  1 or 2 (default) of 3GPP TR 38.901, 7.3.2
-    plane               "yz" (default): rows along +z, columns along +y; "xz", "xy"
+    plane               "yz" (default): rows along +z, columns along +y; "xz"; "xy"
     rows, columns       default 1
     row_spacing_wl, column_spacing_wl   wavelengths, default 0.5
-    elements_wl         [[x, y, z], ...] wavelengths: elements wherever they are, in place of the five above
+    elements_wl         [[x, y, z], ...] positions of the elements in wavelengths, in place of `plane`, the
+                        rows, the columns and their spacings
     """
 
     rows: Optional[int] = None
@@ -42,7 +45,7 @@ class Array:
     pattern_file: Optional[Union[str, "os.PathLike[str]"]] = None
 
     def as_sensor(self, name: str, orientation_deg: Any = None) -> Dict[str, Any]:
-        """The scenario's item of `sensors`."""
+        """Returns the array as an item of a scenario's `sensors`."""
         sensor: Dict[str, Any] = {"name": name, "type": "antenna"}
         if orientation_deg is not None:
             sensor["mount"] = {"rotation_deg": orientation_deg}
@@ -54,7 +57,7 @@ class Array:
 
 
 def look_from_to(position_m: Any, target_m: Any) -> Tuple[float, float, float]:
-    """Yaw, pitch, roll in degrees of what is at `position_m` and has its +x towards `target_m`; positive
-    pitch is down."""
+    """Returns yaw, pitch and roll in degrees of an object at `position_m` whose +x axis points to `target_m`.
+    Positive pitch is down."""
     x, y, z = (float(b) - float(a) for a, b in zip(position_m, target_m))
     return math.degrees(math.atan2(y, x)), -math.degrees(math.atan2(z, math.hypot(x, y))), 0.0

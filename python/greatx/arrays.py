@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The arrays of a sensor over a sequence: stacks, ragged stacks, one file a record."""
+"""Opens the arrays of a sensor over a sequence: stacks, ragged stacks, and outputs of one file per record."""
 from __future__ import annotations
 
 import pathlib
@@ -14,7 +14,9 @@ from .layout import SUFFIX, ArrayInfo, OutputInfo
 
 
 def _open(path: pathlib.Path, dtype: np.dtype, wanted: Tuple[int, ...]) -> np.ndarray:
-    """A memory map after a look at whether its shape is the one wanted; -1 fits anything."""
+    """Returns a memory map. Raises DatasetError if its type or shape differs; an extent of -1 accepts any
+    value.
+    """
     array = load_npy(path, mmap_mode="r")
     fits = array.ndim == len(wanted) and all(w in (-1, n) for w, n in zip(wanted, array.shape))
     if not fits or array.dtype != dtype:
@@ -26,13 +28,14 @@ def _open(path: pathlib.Path, dtype: np.dtype, wanted: Tuple[int, ...]) -> np.nd
 
 
 def open_stack(path: pathlib.Path, array: ArrayInfo, records: int) -> np.ndarray:
-    """A read-only memory map [records, *shape of a record]."""
+    """Returns a read-only memory map [records, *shape of a record]."""
     return _open(path, array.dtype, (records, *array.shape))
 
 
 class Ragged:
-    """Records of different lengths, joined along their first axis. ragged[i] is record i, a view [rows,
-    ...]."""
+    """Holds records of different lengths, which are joined along their first axis. ragged[i] is a view [rows,
+    ...] of record i.
+    """
 
     def __init__(self, values: np.ndarray, offsets: np.ndarray):
         self.values = values  #: [rows of all records, ...], memory-mapped
@@ -40,7 +43,8 @@ class Ragged:
 
     @classmethod
     def open(cls, base: pathlib.Path, array: ArrayInfo, records: int) -> "Ragged":
-        """Of the files BASE.npy and BASE_offsets.npy."""
+        """Opens the files BASE.npy and BASE_offsets.npy. Raises DatasetError if they do not fit `array` and
+        `records`."""
         values = _open(base.with_name(base.name + ".npy"), array.dtype, array.shape)
         path = base.with_name(base.name + "_offsets.npy")
         offsets = load_npy(path)
@@ -60,7 +64,7 @@ class Ragged:
 
     @property
     def counts(self) -> np.ndarray:
-        """int64 [records]: rows of each record"""
+        """Returns int64 [records], the number of rows of each record."""
         return np.diff(self.offsets)
 
     def __len__(self) -> int:
@@ -80,8 +84,9 @@ class Ragged:
 
 
 class Frames:
-    """One file a record. frames[i] reads and decodes the file of record i: an array, or a dict of arrays by
-    name for the files that hold several. A slice gives a list."""
+    """Reads an output of one file per record. frames[i] reads and decodes the file of record i and returns an
+    array, or a dict of arrays by name if the files hold several arrays. A slice returns a list.
+    """
 
     def __init__(
         self, folder: pathlib.Path, output: OutputInfo, array: Optional[ArrayInfo], samples: np.ndarray
@@ -92,7 +97,7 @@ class Frames:
         self._samples = samples
 
     def path(self, i: int) -> pathlib.Path:
-        """The file of record i."""
+        """Returns the path of the file of record i."""
         return self.folder / f"{int(self._samples[i]):06d}{SUFFIX[self._output.format]}"
 
     def __len__(self) -> int:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A generated data set, memory-mapped: `load(DIR)`, by sequence, by sensor, by tick (docs/python.md)."""
+"""Opens a generated data set by memory maps, and gives access by sequence, by sensor and by tick
+(docs/python.md).
+"""
 from __future__ import annotations
 
 import os
@@ -38,24 +40,27 @@ INDEX_COLUMNS = ("tick", "time_ns", "sensor", "sample", "row")
 def load(folder: Union[str, "os.PathLike[str]"], incomplete: bool = False) -> "Dataset":
     """Opens the data set in `folder` without reading its arrays.
 
-    A data set without manifest.json was not finished (`greatx generate --resume` finishes it): that is a
-    DatasetError unless `incomplete` is set; then a warning is given and the sequences that are whole are
-    opened. Raises DatasetError, whose message names the file, for whatever is not as docs/dataset.md has it.
+    A data set without manifest.json is unfinished (`greatx generate --resume` finishes it). Raises
+    DatasetError for such a data set unless `incomplete` is set; then gives a warning and opens the complete
+    sequences. Raises DatasetError, whose message names the file, for everything that does not follow
+    docs/dataset.md.
     """
     return Dataset(folder, incomplete)
 
 
 class Dataset:
-    """What `load` gives. Picklable: workers of a DataLoader open the files themselves."""
+    """Provides a data set; returned by `load`. Pickling stores only the folder, so that the workers of a
+    DataLoader open the files themselves.
+    """
 
     def __init__(self, folder: Union[str, "os.PathLike[str]"], incomplete: bool = False):
         self.path = pathlib.Path(os.path.abspath(folder))
         self._incomplete = incomplete
         fields = read_info(self.path)
-        #: dataset.json, as it is
+        #: contents of dataset.json
         self.info: Dict[str, Any] = fields.value
         fields["run"].object()
-        #: every sensor's description by name, in the order of their numbers in the index
+        #: descriptions of the sensors by name, in the order of their numbers in the index
         self.sensors: Dict[str, SensorInfo] = parse_sensors(fields)
         self.complete = inside(self.path, "manifest.json").is_file()
         self.tick_rate_hz = fields["tick_rate_hz"].rate()
@@ -85,7 +90,7 @@ class Dataset:
         elif len(whole) < count:
             missing = next(n for n, i in enumerate([*whole, -1]) if n != i)
             raise DatasetError(f"{self.path / f'sequence_{missing:04d}' / 'index.npy'}: is missing")
-        #: one for every run of the scenario
+        #: the opened sequences, one per run of the scenario
         self.sequences: List[Sequence] = [Sequence(self, i) for i in whole]
 
     def __reduce__(self):
@@ -93,24 +98,27 @@ class Dataset:
 
     @property
     def run(self) -> Dict[str, Any]:
-        """What was run: scenario, seed, effects, device, `materials`, `instances`, `semantic_classes`, ..."""
+        """Returns the description of the run: scenario, seed, effects, device, `materials`, `instances`,
+        `semantic_classes`, ..."""
         return self.info["run"]
 
     @property
     def materials(self) -> List[str]:
-        """Names of the materials: the id k of `material` and `object_material` arrays is materials[k - 1]; 0:
-        none."""
+        """Returns the names of the materials. The id k in `material` and `object_material` arrays stands for
+        materials[k - 1], and 0 for none."""
         return self._names("materials")
 
     @property
     def instances(self) -> List[Dict[str, str]]:
-        """Name and class of the instances: the id k of `instance` and `object` arrays is instances[k - 1]; 0:
-        none."""
+        """Returns the name and class of each instance. The id k in `instance` and `object` arrays stands for
+        instances[k - 1], and 0 for none."""
         return self._run_list("instances", dict)
 
     @property
     def semantic_classes(self) -> List[str]:
-        """Names by the values of `semantic` arrays."""
+        """Returns the names of the semantic classes; the values of `semantic` arrays are indices into this
+        list.
+        """
         return self._names("semantic_classes")
 
     def _names(self, key: str) -> List[str]:
@@ -124,7 +132,7 @@ class Dataset:
         return field.value
 
     def single(self) -> "Sequence":
-        """The sequence of a data set that has one; DatasetError if it has several."""
+        """Returns the only sequence. Raises DatasetError if there are several."""
         if len(self.sequences) != 1:
             raise DatasetError(
                 f"{self.path}: has {len(self.sequences)} sequences: say which one, as in ds.sequences[0]"
@@ -132,17 +140,17 @@ class Dataset:
         return self.sequences[0]
 
     def __getitem__(self, sensor: str) -> "Sensor":
-        """The sensor of this name, of the only sequence."""
+        """Returns the sensor of this name in the only sequence."""
         return self.single()[sensor]
 
     def at(self, tick: int) -> "Tick":
-        """Every sensor's record of a tick, of the only sequence."""
+        """Returns the records of all sensors at a tick of the only sequence."""
         return self.single().at(tick)
 
     def samples(
         self, arrays: Union[str, Iterable[str]], sequences: Optional[Iterable[int]] = None, pad: bool = False
     ) -> "Samples":
-        """One dict of NumPy arrays a tick: see greatx.samples.Samples. Needs no torch."""
+        """Returns one dict of NumPy arrays per tick (see greatx.samples.Samples). Needs no torch."""
         from .samples import Samples
 
         return Samples(self, arrays, sequences, pad)
@@ -154,8 +162,10 @@ class Dataset:
         pad: bool = False,
         transform: Any = None,
     ) -> Any:
-        """A torch.utils.data.Dataset, map-style: one dict of tensors a tick. The arguments are those of
-        greatx.samples.Samples; `transform` maps each dict. ImportError without torch."""
+        """Returns a map-style torch.utils.data.Dataset with one dict of tensors per tick. The arguments are
+        those of greatx.samples.Samples; `transform` is applied to each dict. Raises ImportError without
+        torch.
+        """
         try:
             from .torch_dataset import TorchDataset
         except ImportError as error:
@@ -167,22 +177,22 @@ class Dataset:
 
     def __repr__(self) -> str:
         return (
-            f"<greatx.Dataset {str(self.path)!r}: {len(self.sequences)} sequences, tick rate {self.tick_rate_hz} Hz, "
-            f"sensors {', '.join(self.sensors)}>"
+            f"<greatx.Dataset {str(self.path)!r}: {len(self.sequences)} sequences, "
+            f"tick rate {self.tick_rate_hz} Hz, sensors {', '.join(self.sensors)}>"
         )
 
 
 class Sequence:
-    """One run of the scenario."""
+    """Holds one run of the scenario."""
 
     def __init__(self, dataset: Dataset, number: int):
         self.dataset = dataset
         self.number = number
         self.path = dataset.path / f"sequence_{number:04d}"
-        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), in order of tick, then
+        #: int64 [records, 5]: tick, time_ns, sensor, sample, row (docs/dataset.md), sorted by tick, then by
         #: sensor
         self.index: np.ndarray = self._read_index(inside(dataset.path, f"sequence_{number:04d}/index.npy"))
-        #: int64 [ticks]: at which something was recorded, ascending
+        #: int64 [ticks]: the ticks that have records, ascending
         self.ticks: np.ndarray = np.unique(self.index[:, 0])
         self.sensors: Dict[str, Sensor] = {
             name: Sensor(self, i, info) for i, (name, info) in enumerate(dataset.sensors.items())
@@ -200,7 +210,8 @@ class Sequence:
             bad = np.flatnonzero((index[:, column] < 0) | (index[:, column] > limit))
             if len(bad):
                 raise DatasetError(
-                    f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, found {index[bad[0], column]}"
+                    f"{path}: row {bad[0]}: expected a {name} from 0 to {limit}, "
+                    f"found {index[bad[0], column]}"
                 )
         ticks, sensors = index[:, 0], index[:, 2]
         back = np.flatnonzero((np.diff(ticks) < 0) | ((np.diff(ticks) == 0) & (np.diff(sensors) <= 0)))
@@ -217,8 +228,9 @@ class Sequence:
             ) from None
 
     def first(self, kind: str, arrays: Iterable[str] = ()) -> "Sensor":
-        """The first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of these
-        arrays; DatasetError if there is none."""
+        """Returns the first sensor of a kind ("csi", "camera", "lidar", ...) that has records and all of the
+        given arrays. Raises DatasetError if there is none.
+        """
         wanted = list(arrays)
         for sensor in self.sensors.values():
             if sensor.kind == kind and len(sensor) and all(name in sensor for name in wanted):
@@ -232,15 +244,17 @@ class Sequence:
 
     @property
     def poses(self) -> "Sensor":
-        """The poses of all nodes: arrays `position` [records, nodes, 3] m, `orientation` [records, nodes, 4]
-        (w, x, y, z), `velocity`, ...; metadata `nodes` has the names."""
+        """Returns the sensor with the poses of all nodes. Its arrays are `position` [records, nodes, 3] m,
+        `orientation` [records, nodes, 4] (w, x, y, z), `velocity`, ...; its metadata `nodes` holds the
+        names.
+        """
         for sensor in self.sensors.values():
             if sensor.kind == "pose":
                 return sensor
         raise DatasetError(f"{self.dataset.path}: has no poses")
 
     def at(self, tick: int) -> "Tick":
-        """Every sensor's record of a tick."""
+        """Returns the records of all sensors at a tick. Raises KeyError if the tick has no record."""
         first, last = np.searchsorted(self.index[:, 0], [tick, tick + 1])
         if first == last:
             raise KeyError(
@@ -264,7 +278,7 @@ class Sequence:
         return (self.at(int(tick)) for tick in self.ticks)
 
     def __len__(self) -> int:
-        """Number of ticks at which something was recorded."""
+        """Returns the number of ticks that have records."""
         return len(self.ticks)
 
     def __repr__(self) -> str:
@@ -272,7 +286,7 @@ class Sequence:
 
 
 class Tick(TickRecords["Record"]):
-    """The records of one tick by the sensor's name; only of the sensors that fired."""
+    """Maps the names of the sensors that fired at one tick to their records."""
 
     def __init__(self, tick: int, time_ns: int, sequence: Sequence, records: Dict[str, "Record"]):
         super().__init__(tick, time_ns, records, where=f"{sequence.path}: ")
@@ -284,15 +298,15 @@ class Tick(TickRecords["Record"]):
 
 
 class Sensor:
-    """One sensor's records in one sequence, in order of time.
+    """Holds the records of one sensor in one sequence, in order of time.
 
-    sensor["NAME"], or sensor.NAME, is by the kind of the output that holds the array:
+    The type of sensor["NAME"] or sensor.NAME depends on the format of the output that holds the array:
       npy_stack   a read-only memory map [records, ...];
-      npy_ragged  a Ragged: [i] is the view [rows of record i, ...];
-      files       Frames: [i] reads and decodes the file of record i;
-      hdf5_events, text_events  the path of the sequence's file, for h5py and the like.
-    NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). Names
-    that are neither are looked for in `metadata`: csi.carrier_hz.
+      npy_ragged  a Ragged, whose item [i] is a view [rows of record i, ...];
+      one file per record  Frames, whose item [i] reads and decodes the file of record i;
+      hdf5_events, text_events  the path of the sequence's file, for h5py and other readers.
+    NAME is an array ("delay") or an output ("paths/delay"; "cloud", whose records are dicts of arrays). An
+    attribute that is neither is looked up in `metadata`, e.g. csi.carrier_hz.
     """
 
     def __init__(self, sequence: Sequence, number: int, info: SensorInfo):
@@ -301,7 +315,7 @@ class Sensor:
         self.name = info.name
         self.kind = info.kind
         self.metadata: Dict[str, Any] = info.metadata
-        #: int64 [records, 5]: this sensor's rows of the index
+        #: int64 [records, 5]: rows of the index that belong to this sensor
         self.index: np.ndarray = sequence.index[sequence.index[:, 2] == number]
         if not np.array_equal(self.index[:, 4], np.arange(len(self.index))):
             raise DatasetError(f"{sequence.path / 'index.npy'}: the rows of {info.name} are not 0, 1, 2, ...")
@@ -309,37 +323,38 @@ class Sensor:
 
     @property
     def arrays(self) -> Dict[str, ArrayInfo]:
-        """Type, shape of a record, unit and axes of each array."""
+        """Returns the type, the shape of a record, the unit and the axes of each array, by name."""
         return self.info.arrays
 
     @property
     def ticks(self) -> np.ndarray:
-        """int64 [records]"""
+        """Returns the ticks of the records, int64 [records]."""
         return self.index[:, 0]
 
     @property
     def times_s(self) -> np.ndarray:
-        """float64 [records], from the ticks"""
+        """Returns the times of the records, float64 [records] in seconds, computed from the ticks."""
         rate = self.sequence.dataset.tick_rate_hz
         return self.ticks * rate.denominator / rate.numerator
 
     def __len__(self) -> int:
-        """Number of records."""
+        """Returns the number of records."""
         return len(self.index)
 
     def record(self, i: int) -> "Record":
-        """The i-th record; negative i counts from the end."""
+        """Returns the i-th record. A negative i counts from the end."""
         if not -len(self) <= i < len(self):
             raise IndexError(f"{self.name} has {len(self)} records, not one of number {i}")
         return Record(self, i % len(self))
 
     def at(self, tick: int) -> "Record":
-        """The record of a tick."""
+        """Returns the record at a tick."""
         return self.sequence.at(tick)[self.name]
 
     def events(self, first: int = 0, last: Optional[int] = None) -> "Events":
-        """Of an event camera: the events of records first to last - 1, of all of them by default; views of
-        the files."""
+        """Returns the events of an event camera from the records first to last - 1, by default from all
+        records. The arrays are views of the files.
+        """
         from .events import Events
 
         return Events.of(self, first, len(self) if last is None else last)
@@ -370,7 +385,7 @@ class Sensor:
         return self._opened[key]
 
     def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_") and "info" in self.__dict__:  # not while a copy is being made
+        if not name.startswith("_") and "info" in self.__dict__:  # `info` is missing during unpickling
             if name in self:
                 return self[name]
             if name in self.metadata:
@@ -383,7 +398,7 @@ class Sensor:
         return sorted({*super().__dir__(), *self.arrays, *self.metadata})
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**self.__dict__, "_opened": {}}  # memory maps would be pickled by value
+        return {**self.__dict__, "_opened": {}}  # without memory maps, which would be pickled by value
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -393,11 +408,12 @@ class Sensor:
 
 
 class Record:
-    """What one sensor measured at one tick: record["NAME"], or record.NAME, is its part of sensor["NAME"]."""
+    """Holds the measurement of one sensor at one tick. record["NAME"] or record.NAME is this record's part of
+    sensor["NAME"]."""
 
     def __init__(self, sensor: Sensor, row: int):
         self.sensor = sensor
-        self.row = row  #: in the sensor's stacked arrays
+        self.row = row  #: row in the sensor's stacked arrays
 
     @property
     def tick(self) -> int:
@@ -413,14 +429,14 @@ class Record:
 
     @property
     def sample(self) -> int:
-        """The sensor's own count, also the number of the record's files."""
+        """Returns the number of the sensor's sample, which is also the number of the record's files."""
         return int(self.sensor.index[self.row, 3])
 
     def __getitem__(self, name: str) -> Any:
         return self.sensor[name][self.row]
 
     def __getattr__(self, name: str) -> Any:
-        sensor = self.__dict__.get("sensor")  # none while a copy is being made
+        sensor = self.__dict__.get("sensor")  # None during unpickling
         if sensor is not None and not name.startswith("_") and name in sensor:
             return self[name]
         raise AttributeError(
@@ -428,14 +444,15 @@ class Record:
         )
 
     def paths(self, rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """All arrays of a channel's paths by name, [path, ...]: of the record, or of one link (see
-        greatx.links)."""
+        """Returns all arrays of a channel's paths by name, [path, ...], for the whole record or for one link
+        (see greatx.links).
+        """
         from .links import paths_of
 
         return paths_of(self, rx, tx)
 
     def events(self) -> "Events":
-        """Of an event camera: the events since its record before (see greatx.Events)."""
+        """Returns the events of an event camera since its previous record (see greatx.Events)."""
         from .events import Events
 
         return Events.of(self.sensor, self.row, self.row + 1)

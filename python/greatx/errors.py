@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Errors that tell what is wrong with the data or the arguments, and where."""
+"""Errors that describe a fault in the data or the arguments, and its place."""
 
 
 class Error(ValueError):
-    """Bad input to a simulation: the message names the file or argument, what was expected and what was
-    found."""
+    """Reports bad input to a simulation. The message names the file or argument, the expected and the found
+    value."""
 
 
 class DatasetError(Error):
-    """A data set that cannot be read as asked: the message names the file, what was expected and what was
-    found."""
+    """Reports a data set that cannot be read as requested. The message names the file, the expected and the
+    found value.
+    """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Events of an event camera, and the pictures and tensors that are made of them (docs/events.md)."""
+"""Reads the events of an event camera, and makes pictures and tensors of them (docs/events.md)."""
 from __future__ import annotations
 
 import dataclasses
@@ -14,13 +14,13 @@ from .files import Field
 if TYPE_CHECKING:
     from .dataset import Sensor
 
-#: Colours of Events.picture: brighter, darker, nothing.
+#: Colours of Events.picture for pixels that got brighter, got darker, and did not change.
 ON, OFF, NEUTRAL = (214, 39, 40), (31, 90, 200), (128, 128, 128)
 
 
 @dataclasses.dataclass(frozen=True)
 class Events:
-    """Events in order of (t, y, x, p), one entry an event in each array."""
+    """Holds events, sorted by (t, y, x, p). Each array has one entry per event."""
 
     t: np.ndarray  #: int64, ns since the sequence's first tick
     x: np.ndarray  #: uint16, column
@@ -32,7 +32,9 @@ class Events:
 
     @classmethod
     def of(cls, sensor: "Sensor", first: int, last: int) -> "Events":
-        """Those of records first to last - 1 of an event camera; views of its files."""
+        """Returns the events of the records first to last - 1 of an event camera, as views of its files.
+        Raises DatasetError if the sensor is no event camera or its arrays are not valid.
+        """
         if sensor.kind != "event_camera" or "t" not in sensor.arrays:
             raise DatasetError(f"{sensor.name}: is no event camera with events, but {sensor.kind}")
         begin, end = (int(sensor["t"].offsets[i]) for i in (first, last))
@@ -43,11 +45,13 @@ class Events:
                 or sensor.arrays[name].shape != (-1,)
             ):
                 raise DatasetError(
-                    f"{sensor.metadata.where}: expected an event camera's array {name!r}, {np.dtype(kind).name} [n]"
+                    f"{sensor.metadata.where}: expected an event camera's array {name!r}, "
+                    f"{np.dtype(kind).name} [n]"
                 )
             if not np.array_equal(sensor[name].offsets, sensor["t"].offsets):
                 raise DatasetError(
-                    f"{sensor.sequence.path / sensor.name}: expected as many of {name!r} as of 't' in each record"
+                    f"{sensor.sequence.path / sensor.name}: expected as many of {name!r} as of 't' in each "
+                    "record"
                 )
         columns = {
             name: sensor[name].values[begin:end]
@@ -72,7 +76,9 @@ class Events:
         return len(self.t)
 
     def between(self, begin_ns: int, end_ns: int) -> "Events":
-        """Those with begin_ns < t <= end_ns, as records hold them from one tick to the next."""
+        """Returns the events with begin_ns < t <= end_ns. A record holds such an interval from one tick to
+        the next.
+        """
         part = slice(*np.searchsorted(self.t, [begin_ns, end_ns], side="right"))
         return dataclasses.replace(
             self,
@@ -84,7 +90,7 @@ class Events:
         )
 
     def counts(self) -> np.ndarray:
-        """int32 [2, height, width]: how many darker and brighter events each pixel had."""
+        """Returns int32 [2, height, width], the numbers of darker and of brighter events of each pixel."""
         bins = (self.p.astype(np.int64) * self.height + self.y) * self.width + self.x
         return (
             np.bincount(bins, minlength=2 * self.height * self.width)
@@ -93,16 +99,18 @@ class Events:
         )
 
     def frame(self) -> np.ndarray:
-        """int32 [height, width]: brighter less darker. Times the threshold it is the change of
-        ln(luminance)."""
+        """Returns int32 [height, width], the number of brighter minus the number of darker events. This
+        number times the threshold is the change of ln(luminance).
+        """
         darker, brighter = self.counts()
         return brighter - darker
 
     def voxel_grid(self, bins: int, span_ns: Optional[Tuple[int, int]] = None) -> np.ndarray:
-        """float32 [bins, height, width]: polarities (1, -1) shared between the two bins nearest in time (A.
-        Zhu et al., "Unsupervised Event-based Learning", CVPR 2019, eq. 1-2). `span_ns`: times of the first
-        and the last bin, by default those of the first and the last event. torch.from_numpy takes it as it
-        is."""
+        """Returns float32 [bins, height, width], the polarities (1, -1) distributed linearly to the two
+        nearest bins in time (A. Zhu et al., "Unsupervised Event-based Learning", CVPR 2019, eq. 1-2).
+        `span_ns` holds the times of the first and the last bin, by default those of the first and the last
+        event. torch.from_numpy accepts the result.
+        """
         grid = np.zeros(bins * self.height * self.width)
         if len(self):
             begin, end = span_ns or (int(self.t[0]), int(self.t[-1]))
@@ -120,8 +128,10 @@ class Events:
         return grid.reshape(bins, self.height, self.width).astype(np.float32)
 
     def picture(self) -> np.ndarray:
-        """uint8 [height, width, 3] for people: red where it got brighter, blue where darker, grey where
-        nothing happened; the stronger the more events, full from three on."""
+        """Returns a picture for viewing, uint8 [height, width, 3]. Pixels that got brighter are red, pixels
+        that got darker are blue, the others are grey. The saturation increases with the number of events up
+        to three.
+        """
         frame = self.frame()
         strength = np.minimum(np.abs(frame), 3)[..., None] / 3.0
         color = np.where((frame > 0)[..., None], ON, OFF)

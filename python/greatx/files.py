@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way to the files of a data set, which is not believed what it says of itself: its paths stay below its
-folder, nothing on the way is a symbolic link, what is opened is a plain file, and whatever a parser makes of
-damaged data is a DatasetError that names the file."""
+"""Reads the files of a data set, whose contents are not trusted. Paths must stay below the data set's folder,
+must not contain a symbolic link, and must lead to plain files. Errors that parsers raise on damaged data
+become a DatasetError that names the file.
+"""
 from __future__ import annotations
 
 import contextlib
@@ -22,12 +23,12 @@ from .errors import DatasetError, Error
 
 Path = Union[str, "os.PathLike[str]"]
 
-#: Bytes of a file that is read as a whole, or of one array of a record.
+#: Largest size of a file that is read as a whole, and of one array of a record, bytes.
 LARGEST = 4 << 30
 LARGEST_JSON = 64 << 20
 MOST_SEQUENCES, MOST_TICKS, MOST_SENSORS, MOST_ARRAYS, MOST_AXES = 10**6, 10**12, 10**4, 256, 16
 
-#: What the parsers of Python and NumPy raise when they are given nonsense.
+#: Exceptions that the parsers of Python and NumPy raise on damaged data.
 NONSENSE = (
     ArithmeticError,
     AttributeError,
@@ -46,8 +47,9 @@ NONSENSE = (
 
 @contextlib.contextmanager
 def interpreting(what: Any) -> Iterator[None]:
-    """Around whatever interprets data: what it raises of nonsense becomes a DatasetError that begins with
-    `what`, the file."""
+    """Converts exceptions that damaged data cause within the context to a DatasetError that begins with
+    `what`, the file.
+    """
     try:
         yield
     except (Error, OSError):
@@ -58,7 +60,7 @@ def interpreting(what: Any) -> Iterator[None]:
 
 @contextlib.contextmanager
 def reading(what: Any) -> Iterator[None]:
-    """Likewise, around what reads files too."""
+    """Converts exceptions like interpreting(), and also an OSError of reading the file."""
     try:
         with interpreting(what):
             yield
@@ -67,13 +69,15 @@ def reading(what: Any) -> Iterator[None]:
 
 
 def is_inside(relative: str) -> bool:
-    """Whether a path can be one below a folder."""
+    """Returns whether `relative` can be a path below a folder."""
     parts = relative.split("/")
     return all(part not in ("", ".", "..") and "\\" not in part and part.isprintable() for part in parts)
 
 
 def inside(folder: pathlib.Path, relative: str) -> pathlib.Path:
-    """folder / relative. DatasetError if that leads out of the folder or goes over a symbolic link."""
+    """Returns folder / relative. Raises DatasetError if the path leads out of the folder or contains a
+    symbolic link.
+    """
     if not is_inside(relative):
         raise DatasetError(f"{folder}: expected a path below the data set's folder, found {relative[:200]!r}")
     path = folder
@@ -86,7 +90,7 @@ def inside(folder: pathlib.Path, relative: str) -> pathlib.Path:
 
 
 def check_plain(path: Path, most: int = LARGEST) -> None:
-    """DatasetError unless the file is a plain one, of at most so many bytes, and no symbolic link."""
+    """Raises DatasetError unless `path` is a plain file of at most `most` bytes and no symbolic link."""
     with reading(path):
         status = os.lstat(path)
     if not stat.S_ISREG(status.st_mode):
@@ -105,7 +109,9 @@ def read_bytes(path: Path, most: int = LARGEST) -> bytes:
 
 
 def inflate(data: bytes, most: int) -> bytes:
-    """Of zlib's format; ValueError if it unpacks to more than `most` bytes."""
+    """Unpacks zlib's format. Raises ValueError if the data are incomplete or unpack to more than `most`
+    bytes.
+    """
     unpacker = zlib.decompressobj()
     plain = unpacker.decompress(data, most + 1)
     if len(plain) > most:
@@ -125,8 +131,9 @@ def _show(value: Any) -> str:
 
 
 class Field:
-    """A value of JSON that somebody else may have written. Getters raise DatasetError with file, field, what
-    was expected and what was found."""
+    """Holds a value of untrusted JSON. Getters raise DatasetError, which names the file, the field, and the
+    expected and the found value.
+    """
 
     def __init__(self, file: Any, value: Any, name: str = ""):
         self.file = file
@@ -178,7 +185,8 @@ class Field:
         return self.value
 
     def rate(self) -> Fraction:
-        """A positive rational number of Hz, numerator and denominator up to 10^12."""
+        """Returns a rate, which must be a positive rational number of Hz with numerator and denominator up to
+        10^12."""
         text = self.text()
         if re.fullmatch(r"[0-9]{1,19}(/[0-9]{1,19}|\.[0-9]{1,19})?", text, re.ASCII) and not re.search(
             r"/0+$", text
@@ -190,13 +198,13 @@ class Field:
 
 
 def read_json(path: pathlib.Path) -> Field:
-    """The contents of a JSON file."""
+    """Returns the contents of a JSON file. Raises DatasetError if the file is too large or not JSON."""
     data = read_bytes(path, LARGEST_JSON)
     try:
         return Field(path, json.loads(data.decode("utf-8")))
     except json.JSONDecodeError as error:
         raise DatasetError(f"{path}:{error.lineno}: is no JSON: {error.msg}") from error
-    except (ValueError, RecursionError) as error:  # no UTF-8, digits by the thousand, nested too deep
+    except (ValueError, RecursionError) as error:  # no UTF-8, a number of too many digits, nested too deeply
         raise DatasetError(f"{path}: is no JSON: {error}") from error
 
 

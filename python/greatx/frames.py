@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Readers of one file a frame: PNG, OpenEXR and PLY as greatx writes them, with nothing but NumPy and zlib.
+"""Reads files of one frame each, npy, PNG, OpenEXR, PLY, PCD and KITTI, with NumPy and zlib only.
 
-They read what a data set holds (docs/dataset.md), not every file of these formats; whatever else is met is an
-error that says so.
+The readers support the variants that data sets hold (docs/dataset.md). They raise DatasetError for all other
+files of these formats.
 """
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .errors import DatasetError
 from .files import LARGEST, Path, bytes_of_shape, check_plain, inflate, read_bytes, reading
 from .layout import OutputInfo
 
-#: Of a picture: extents, -1: any; None: not known.
+#: Shape of a picture. An extent of -1 accepts any value; None accepts any shape.
 Shape = Optional[Tuple[int, ...]]
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _EXR_MAGIC = 20000630
-_EXR_LINES = {0: 1, 2: 1, 3: 16}  # lines in a block: none, ZIPS, ZIP
+_EXR_LINES = {0: 1, 2: 1, 3: 16}  # lines per block by compression: none, ZIPS, ZIP
 _EXR_TYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
 _PLY_TYPES = {
     "char": "i1",
@@ -42,7 +42,9 @@ _PCD_TYPES = {
 
 
 def _check_shape(path: Path, found: Tuple[int, ...], itemsize: int, expected: Shape) -> None:
-    """Before room is made for a picture, whose file may say anything."""
+    """Raises DatasetError if a picture does not have the expected shape or is too large. Must be called
+    before memory is allocated for the picture, because its file is not trusted.
+    """
     fits = expected is None or (
         len(found) == len(expected) and all(e in (-1, f) for e, f in zip(expected, found))
     )
@@ -53,7 +55,9 @@ def _check_shape(path: Path, found: Tuple[int, ...], itemsize: int, expected: Sh
 
 
 def read_png(path: Path, expected: Shape = None) -> np.ndarray:
-    """uint8 [h, w, 3] of RGB, uint8 [h, w] of 8-bit grey, uint16 [h, w] of 16-bit grey (ISO/IEC 15948)."""
+    """Reads a PNG (ISO/IEC 15948): uint8 [h, w, 3] from RGB, uint8 [h, w] from 8-bit grey, or uint16 [h, w]
+    from 16-bit grey.
+    """
     data = read_bytes(path)
     if data[:8] != _PNG_SIGNATURE:
         raise DatasetError(f"{path}: is no PNG")
@@ -85,9 +89,10 @@ def read_png(path: Path, expected: Shape = None) -> np.ndarray:
 
 
 def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
-    """Takes the filters None, Sub and Up off lines [h, w, bytes of a pixel]; sums wrap at 256 as they
-    must."""
-    if np.all(filters == 2):  # Up in every line, as greatx writes it
+    """Undoes the filters None, Sub and Up of lines [h, w, bytes of a pixel]. Sums are modulo 256, as the
+    standard requires.
+    """
+    if np.all(filters == 2):  # greatx writes Up in every line
         return np.cumsum(lines, axis=0, dtype=np.uint8)
     out = np.empty_like(lines)
     for y, kind in enumerate(filters):
@@ -99,8 +104,8 @@ def _unfilter(path: Path, filters: np.ndarray, lines: np.ndarray) -> np.ndarray:
 
 
 def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
-    """float32 [h, w] metres from uint8 [h, w, 3]: 1000 m (R + 256 G + 65536 B)/(2^24 - 1), CARLA's coding.
-    1000 m stands for everything beyond, the sky too."""
+    """Returns depths, float32 [h, w] in metres, from uint8 [h, w, 3] in CARLA's coding: 1000 m (R + 256 G +
+    65536 B)/(2^24 - 1). 1000 m stands for all depths from 1000 m on, including the sky."""
     code = (
         rgb[..., 0].astype(np.uint32)
         + (rgb[..., 1].astype(np.uint32) << 8)
@@ -110,8 +115,9 @@ def depth_from_png24(rgb: np.ndarray) -> np.ndarray:
 
 
 def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
-    """float32 [h, w] of channel Y, or of Z (data sets of before), else [h, w, 3] of R, G, B: OpenEXR 2,
-    single part, scan lines, ZIP or uncompressed."""
+    """Reads OpenEXR 2, single part, scan lines, ZIP, ZIPS or uncompressed. Returns float32 [h, w] from
+    channel Y or, if there is none, Z, which some data sets have; otherwise [h, w, 3] from R, G, B.
+    """
     data = read_bytes(path)
     with reading(path):
         header, at = _exr_header(data)
@@ -152,7 +158,7 @@ def read_exr(path: Path, expected: Shape = None) -> np.ndarray:
 
 
 def _exr_header(data: bytes) -> Tuple[dict, int]:
-    """The attributes that decoding takes, and where the table of blocks begins."""
+    """Returns the attributes that decoding needs, and the offset of the table of blocks."""
     if struct.unpack_from("<I", data)[0] != _EXR_MAGIC:
         raise ValueError("it does not begin as OpenEXR does")
     header, at = {}, 8
@@ -184,7 +190,9 @@ def _exr_channels(body: bytes) -> list:
 
 
 def _exr_unzip(block: bytes, size: int) -> bytes:
-    """Undoes ZIP: inflate, differences with 128 added, first the even bytes and then the odd ones."""
+    """Undoes the ZIP compression. The inflated bytes are differences plus 128; their sums are first all even
+    bytes, then all odd bytes of the block.
+    """
     coded = np.frombuffer(inflate(block, size), np.uint8).copy()
     coded[1:] -= 128
     plain = np.cumsum(coded, dtype=np.uint8)
@@ -207,8 +215,9 @@ def _rows(data: bytes, kind: np.dtype, count: int, begin: int) -> np.ndarray:
 
 
 def read_ply(path: Path) -> np.ndarray:
-    """A structured array [n] with a field for each property of the element "vertex": binary, little
-    endian."""
+    """Reads a binary little-endian PLY. Returns a structured array [n] with a field for each property of the
+    element "vertex".
+    """
     data = read_bytes(path)
     end = data.find(b"end_header\n")
     lines = data[: max(end, 0)].decode("ascii", "replace").splitlines()
@@ -222,8 +231,9 @@ def read_ply(path: Path) -> np.ndarray:
 
 
 def read_pcd(path: Path) -> np.ndarray:
-    """A structured array [n] with a field for each field of a PCD file, version 0.7, binary, one value a
-    field."""
+    """Reads a binary PCD file, version 0.7, with one value per field. Returns a structured array [n] with a
+    field for each field of the file.
+    """
     data = read_bytes(path)
     end = data.find(b"\nDATA binary\n")
     if end < 0:
@@ -239,7 +249,7 @@ def read_pcd(path: Path) -> np.ndarray:
 
 
 def read_kitti(path: Path) -> np.ndarray:
-    """KITTI's velodyne points: float32 [n, 4], x, y, z, reflectance."""
+    """Reads KITTI's velodyne points. Returns float32 [n, 4]: x, y, z, reflectance."""
     data = read_bytes(path)
     if len(data) % 16:
         raise DatasetError(f"{path}: expected points of 16 bytes, found {len(data)} bytes")
@@ -247,7 +257,7 @@ def read_kitti(path: Path) -> np.ndarray:
 
 
 def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
-    """The arrays of one file of an output, by name, as the sensor measured them."""
+    """Returns the arrays of one file of an output by name, with their types and shapes in dataset.json."""
     if output.format in ("ply", "pcd"):
         points = read_ply(path) if output.format == "ply" else read_pcd(path)
         first = output.arrays[0].name
@@ -273,7 +283,9 @@ def read_frame(path: pathlib.Path, output: OutputInfo) -> Dict[str, np.ndarray]:
 
 
 def load_npy(path: pathlib.Path, mmap_mode: Union[str, None] = None) -> np.ndarray:
-    """numpy.load of a .npy file whose errors name the file. What is not mapped has at most LARGEST bytes."""
+    """Loads a .npy file by numpy.load. Errors name the file. A file that is not memory-mapped may have at
+    most LARGEST bytes.
+    """
     check_plain(path, 1 << 62 if mmap_mode else LARGEST)
     with reading(path):
         with open(path, "rb") as file:

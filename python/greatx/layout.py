@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What dataset.json says: sensors, their arrays and where these lie on disk (docs/dataset.md)."""
+"""Reads dataset.json, which describes the sensors, their arrays, and the outputs that hold them
+(docs/dataset.md).
+"""
 from __future__ import annotations
 
 import dataclasses
@@ -25,8 +27,7 @@ from .files import (
 
 FORMAT = "greatx-dataset"
 FORMAT_VERSION = 1
-#: The file formats of an output, from the one to read first to the one to read last where several hold one
-#: array.
+#: The file formats of outputs. If several outputs hold one array, the format that comes first here is read.
 FORMATS = (
     "npy_stack",
     "npy_ragged",
@@ -40,11 +41,11 @@ FORMATS = (
     "hdf5_events",
     "text_events",
 )
-#: The types of arrays, by NumPy's names.
+#: The types of arrays by NumPy's names.
 DTYPES = ("|u1", "<u2", "<u4", "<u8", "|i1", "<i4", "<i8", "<f4", "<f8", "<c8")
-#: Files that hold several arrays.
+#: The formats of point clouds, whose files may hold several arrays.
 CLOUDS = ("ply", "pcd")
-#: Of files of a whole sequence for other tools, made from its arrays.
+#: Suffixes of files for other tools, which hold a whole sequence and are made from its arrays.
 EXPORT_SUFFIX = {"hdf5_events": ".h5", "text_events": ".txt"}
 SUFFIX = {
     "npy_frame": ".npy",
@@ -59,18 +60,18 @@ SUFFIX = {
 
 @dataclasses.dataclass(frozen=True)
 class ArrayInfo:
-    """One array of a sensor's record."""
+    """Describes one array of a sensor's record."""
 
     name: str
-    dtype: np.dtype  #: of one element
-    shape: Tuple[int, ...]  #: of one record; -1: differs from record to record
+    dtype: np.dtype  #: type of one element
+    shape: Tuple[int, ...]  #: shape of one record; an extent of -1 varies from record to record
     unit: str
     description: str  #: axes and meaning
 
 
 @dataclasses.dataclass(frozen=True)
 class OutputInfo:
-    """How one or more arrays of a sensor are kept on disk."""
+    """Describes an output, which holds one or more arrays of a sensor on disk."""
 
     name: str
     format: str
@@ -78,13 +79,15 @@ class OutputInfo:
 
 
 class MissingField(DatasetError, KeyError):
-    """A field that dataset.json should have."""
+    """Reports a field that dataset.json lacks."""
 
     __str__ = DatasetError.__str__
 
 
 class Metadata(Dict[str, Any]):
-    """A sensor's metadata; a field that is not there is a DatasetError (and a KeyError) that says where."""
+    """Holds the metadata of a sensor. A missing field raises a DatasetError, which is also a KeyError and
+    names the place.
+    """
 
     def __init__(self, fields: Mapping[str, Any] = {}, where: str = ""):
         super().__init__(fields)
@@ -99,19 +102,20 @@ class Metadata(Dict[str, Any]):
 
 @dataclasses.dataclass(frozen=True)
 class SensorInfo:
-    """A sensor as dataset.json describes it."""
+    """Describes a sensor, as in dataset.json."""
 
     name: str
     kind: str  #: "csi", "camera", "lidar", "pose", ...
-    rate_hz: Optional[Fraction]  #: None: fires whenever another one does
+    rate_hz: Optional[Fraction]  #: None: the sensor fires whenever another one does
     arrays: Dict[str, ArrayInfo]
     outputs: Dict[str, OutputInfo]
     metadata: Dict[str, Any]
 
     def locate(self, name: str) -> Optional[Tuple[OutputInfo, Optional[ArrayInfo]]]:
-        """The output to read `name` from and the array in it (None: all of a file of several). `name` is an
-        output or an array; None if it is neither. Of several outputs that hold an array, the exact one is
-        taken."""
+        """Returns the output from which to read `name`, and the array in it. The array is None if `name` is
+        an output of several arrays, all of which are read. `name` is an output or an array; returns None if
+        it is neither. If several outputs hold the array, an exact one is chosen.
+        """
         if name in self.outputs:
             output = self.outputs[name]
             return output, output.arrays[0] if len(output.arrays) == 1 else None
@@ -122,7 +126,7 @@ class SensorInfo:
 
 
 def read_info(folder: pathlib.Path) -> Field:
-    """dataset.json of a data set of this version."""
+    """Reads dataset.json. Raises DatasetError if the folder is no data set of this version."""
     path = inside(folder, "dataset.json")
     if not path.is_file():
         raise DatasetError(f"{folder}: is no data set of greatx: it has no dataset.json")
@@ -140,7 +144,7 @@ def read_info(folder: pathlib.Path) -> Field:
 
 
 def parse_sensors(info: Field) -> Dict[str, SensorInfo]:
-    """All sensors by name, in the order of their numbers in the index."""
+    """Returns all sensors by name, in the order of their numbers in the index."""
     sensors: Dict[str, SensorInfo] = {}
     for entry in info["sensors"].items(MOST_SENSORS):
         sensor = _sensor(entry)

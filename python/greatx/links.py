@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The links of a channel: its ends in the world, and which paths are whose."""
+"""Finds the antennas at the ends of a channel's links, and the paths of each link."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 SPEED_OF_LIGHT = 299792458.0  #: m/s
 
-# Interactions as the arrays `interaction` have them.
+# Values of the arrays `interaction`.
 NONE, REFLECTION, TRANSMISSION, DIFFRACTION, SCATTERING = range(5)
 
 
@@ -29,7 +29,7 @@ def check_channel(sensor: "Sensor") -> "Sensor":
 
 def _antennas(sensor: "Sensor", key: str) -> List[Dict[str, Any]]:
     ends = Field(sensor.metadata.where, sensor.metadata)[key]
-    if isinstance(ends.value, dict):  # one
+    if isinstance(ends.value, dict):  # a single antenna
         ends = Field(ends.file, [ends.value], ends.name)
     for end in ends.items(1 << 20):
         end["name"].text()
@@ -44,18 +44,22 @@ def _antennas(sensor: "Sensor", key: str) -> List[Dict[str, Any]]:
 
 
 def transmitters(sensor: "Sensor") -> List[Dict[str, Any]]:
-    """The transmitting antennas of a channel as dataset.json describes them, in the order of the axis tx."""
+    """Returns the descriptions of a channel's transmitting antennas in dataset.json, in the order of the axis
+    tx.
+    """
     meta = check_channel(sensor).metadata
     return _antennas(sensor, "transmitters" if "transmitters" in meta else "transmitter")
 
 
 def receivers(sensor: "Sensor") -> List[Dict[str, Any]]:
-    """The receiving antennas, in the order of the axis rx."""
+    """Returns the descriptions of the receiving antennas, in the order of the axis rx."""
     return _antennas(check_channel(sensor), "receivers")
 
 
 def rotation(orientation_wxyz: Any) -> np.ndarray:
-    """[..., 3, 3] of unit quaternions [..., 4] (w, x, y, z): takes the body's axes to the world's."""
+    """Returns the rotation matrices [..., 3, 3] of unit quaternions [..., 4] (w, x, y, z). A matrix
+    transforms from body axes to world axes.
+    """
     w, x, y, z = np.moveaxis(np.asarray(orientation_wxyz, float), -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -66,8 +70,9 @@ def rotation(orientation_wxyz: Any) -> np.ndarray:
 
 
 def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray, np.ndarray]:
-    """World position [3] in metres and world_from_antenna [3, 3] of an antenna (an entry of `transmitters` or
-    `receivers`) at a record."""
+    """Returns the world position [3] in metres and the rotation world_from_antenna [3, 3] of an antenna at a
+    record. `antenna` is an entry of `transmitters` or `receivers`.
+    """
     poses = record.sensor.sequence.at(record.tick)[record.sensor.sequence.poses.name]
     nodes = poses.sensor.metadata["nodes"]
     if (
@@ -94,9 +99,10 @@ def antenna_pose(record: "Record", antenna: Dict[str, Any]) -> Tuple[np.ndarray,
 
 
 def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = None) -> Dict[str, np.ndarray]:
-    """The arrays below paths/ of a record by name (docs/dataset.md), each [path, ...]: of all links, or of
-    the receiver rx and transmitter tx alone. Views, not copies, where a link's paths lie together, as they
-    do."""
+    """Returns the arrays below paths/ of a record by name (docs/dataset.md), each [path, ...], for all links
+    or only for receiver rx and transmitter tx. The arrays are views if the selected paths are contiguous, as
+    those of one link always are.
+    """
     sensor = check_channel(record.sensor)
     for what, number, ends in (
         ("receiver", rx, receivers(sensor)),
@@ -113,8 +119,8 @@ def paths_of(record: "Record", rx: Optional[int] = None, tx: Optional[int] = Non
         raise DatasetError(f"{sensor.sequence.path / sensor.name}: the data set keeps no paths")
     if "delay" not in arrays or len({len(a) for a in arrays.values()}) != 1:
         raise DatasetError(
-            f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, found "
-            + ", ".join(f"{name} {len(a)}" for name, a in arrays.items())
+            f"{sensor.sequence.path / sensor.name}: expected arrays of as many paths, among them `delay`, "
+            "found " + ", ".join(f"{name} {len(a)}" for name, a in arrays.items())
         )
     for name, ends in (("rx", receivers(sensor)), ("tx", transmitters(sensor))):
         if len(arrays.get(name, ())) and not 0 <= arrays[name].min() <= arrays[name].max() < len(ends):

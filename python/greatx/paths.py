@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The paths of a channel at a tick, and every channel quantity that is made of them."""
+"""Holds the paths of a channel at a tick, and computes channel quantities from them."""
 from __future__ import annotations
 
 import json
@@ -13,36 +13,36 @@ import numpy as np
 from .errors import Error
 from .tables import Arrays
 
-#: Beyond the last delay, if taps() is not told how many.
+#: Number of taps beyond the longest delay, if the caller of taps() gives no number.
 TAPS_BEYOND = 8
 
 
 class Paths:
-    """What Simulation.paths() gives. Every array is memory of the engine, not a copy of it.
+    """Holds the result of Simulation.paths(). The arrays are memory of the engine and no copies.
 
-    Of each path, [path, ...], as in a data set (`paths.arrays` has units and axes): rx, tx (int32), amplitude
-    (complex64 [rx_ant, tx_ant], with e^{-j 2 pi f_c tau}), delay (s, absolute), doppler (Hz), departure,
-    arrival ((zenith, azimuth) rad, world axes), transfer (complex64 [2, 2], 1/m), id, foliage (m),
-    interaction [i], vertex [i, xyz] (m, world; NaN: none), facet, element, object, object_material. Links lie
-    one after the other: those of receiver rx and transmitter tx are offsets[rx * T + tx]:offsets[rx * T + tx
-    + 1], T transmitters; `link(rx, tx)` are views of them.
+    Arrays of the paths, [path, ...], are those of a data set (`paths.arrays` has units and axes): rx, tx
+    (int32), amplitude (complex64 [rx_ant, tx_ant], including e^{-j 2 pi f_c tau}), delay (s, absolute),
+    doppler (Hz), departure, arrival ((zenith, azimuth) rad, world axes), transfer (complex64 [2, 2], 1/m),
+    id, foliage (m), interaction [i], vertex [i, xyz] (m, world; NaN: none), facet, element, object,
+    object_material. Links are consecutive: with T transmitters, the paths of receiver rx and transmitter tx
+    are offsets[rx * T + tx]:offsets[rx * T + tx + 1]. `link(rx, tx)` returns views of them.
 
-    Of ends and links: transmitter_position [tx, 3], receiver_position [rx, 3] (m, world), distance [rx, tx]
-    (m).
+    Arrays of the ends and links are transmitter_position [tx, 3], receiver_position [rx, 3] (m, world) and
+    distance [rx, tx] (m).
     """
 
     def __init__(self, native: Any, receivers: Optional[List[str]]):
         self._native = native
         self.arrays = Arrays(native.take_arrays())
-        #: channel, tick, time_s, carrier_hz, counters (path_overflow, ...), notes (how paths were found, what
-        #: holds), ...
+        #: channel, tick, time_s, carrier_hz, counters (path_overflow, ...), notes (how the paths were found,
+        #: which guarantee holds), ...
         self.facts: Dict[str, Any] = json.loads(native.facts())
         self.channel: str = self.facts["channel"]
         self.tick: int = self.facts["tick"]
         self.time_s: float = self.facts["time_s"]
         self.carrier_hz: float = self.facts["carrier_hz"]
         self.transmitters: List[str] = self.facts["transmitters"]
-        #: names of the channel's receivers; None: points
+        #: names of the channel's receivers; None if the receivers are points
         self.receivers = receivers
         #: (receivers, transmitters)
         self.shape: Tuple[int, int] = self.arrays["distance"].shape
@@ -60,11 +60,11 @@ class Paths:
         return sorted({*super().__dir__(), *self.arrays})
 
     def __len__(self) -> int:
-        """Number of paths of all links."""
+        """Returns the number of paths of all links."""
         return len(self.arrays["delay"])
 
     def link(self, rx: int, tx: int = 0) -> Dict[str, np.ndarray]:
-        """All arrays of the paths of one link by name, [path, ...]: views."""
+        """Returns views of all arrays of the paths of one link by name, [path, ...]."""
         for what, number, count in (("receiver", rx, self.shape[0]), ("transmitter", tx, self.shape[1])):
             if not 0 <= number < count:
                 raise IndexError(f"{self.channel} has {count} {what}s, not one of number {number}")
@@ -75,18 +75,18 @@ class Paths:
         return self.arrays.description(name).startswith("[path")
 
     def first_delay(self) -> np.ndarray:
-        """Of the first path of each link, float64 [rx, tx] s; 0 where there is none."""
+        """Returns the delay of the first path of each link, float64 [rx, tx] s; 0 for links without paths."""
         first = np.full(self.shape, np.inf)
         np.minimum.at(first, (self.arrays["rx"], self.arrays["tx"]), self.arrays["delay"])
         return np.where(np.isfinite(first), first, 0.0)
 
     def cir(self, *, normalize_delays: bool = False) -> Tuple[np.ndarray, np.ndarray]:
-        """The impulse response h(t) = sum_i a_i delta(t - tau_i) about the carrier, links filled up with
-        zeros to the longest: a complex64 [rx, rx_ant, tx, tx_ant, path], tau float64 [rx, tx, path] in
-        seconds, absolute.
+        """Returns the impulse response h(t) = sum_i a_i delta(t - tau_i) about the carrier: a, complex64 [rx,
+        rx_ant, tx, tx_ant, path], and tau, float64 [rx, tx, path] in seconds, absolute. Links are padded with
+        zeros to the longest one.
 
-        normalize_delays: tau without each link's first_delay(), as from a receiver that is in time with its
-        first path. The carrier's phase in a stays absolute."""
+        If normalize_delays is set, subtracts first_delay() of each link from tau, as in a receiver that is
+        synchronised to the first path. The carrier's phase in a stays absolute."""
         rx, tx, amplitude = self.arrays["rx"], self.arrays["tx"], self.arrays["amplitude"]
         counts = np.diff(self.arrays["offsets"])
         number = np.arange(len(self)) - np.repeat(self.arrays["offsets"][:-1], counts)
@@ -110,21 +110,25 @@ class Paths:
         select: str = "all",
         normalize_delays: bool = False,
     ) -> np.ndarray:
-        """The frequency response, complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]: H(f) at carrier + (k
-        - floor(N/2)) * spacing, absolute delays, nothing normalised unless `normalize_delays` asks for delays
-        without each link's first_delay(): H(f) e^{j 2 pi (f - carrier) first_delay}.
+        """Returns the frequency response H(f), complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier], at the
+        frequencies carrier + (k - floor(N/2)) * spacing. Delays are absolute, and nothing is normalised. If
+        `normalize_delays` is set, subtracts first_delay() of each link from the delays:
+        H(f) e^{j 2 pi (f - carrier) first_delay}.
 
-        Without arguments it is the channel's grid and the bytes of the data set's `cfr` at this tick.
-        `bandwidth_hz` is all of it: the spacing is bandwidth_hz / subcarriers, unless subcarrier_spacing_hz
-        is given instead. time_samples, time_spacing_s: samples about the tick, turned by each path's Doppler
-        shift. `select`: "all" paths, the "line_of_sight" alone, or the "others".
-        A plane wave passes over each array; a warning counts the links that
+        Without arguments, the grid is the channel's, and the bytes are those of the data set's `cfr` at this
+        tick. `bandwidth_hz` is the total bandwidth: the spacing is bandwidth_hz / subcarriers.
+        subcarrier_spacing_hz can be given instead. time_samples and time_spacing_s describe samples from the
+        tick on, in which the Doppler shift of each path turns its phase. `select` is "all", "line_of_sight"
+        (only this path) or "others".
+
+        The response assumes a plane wave over each array. A warning gives the number of links that
         Simulation.run() solves element by element (`every_element` of the scenario's effects).
         """
         if bandwidth_hz is not None:
             if subcarrier_spacing_hz is not None:
                 raise Error(
-                    "subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, found both"
+                    "subcarrier_spacing_hz: expected one of bandwidth_hz and subcarrier_spacing_hz, "
+                    "found both"
                 )
             subcarrier_spacing_hz = bandwidth_hz / (
                 self.facts["subcarriers"] if subcarriers is None else max(subcarriers, 1)
@@ -159,11 +163,12 @@ class Paths:
         time_samples: int = 1,
         time_spacing_s: float = 1e-3,
     ) -> Arrays:
-        """The channel as a filter at a bandwidth: `taps` complex64 [rx, rx_ant, tx, tx_ant, time, tap], tap l
-        the absolute delay (first + l) / bandwidth_hz, ideal low-pass; `power_outside` [rx, tx], the share of
-        the power that the window leaves out, and `paths_outside` [rx, tx], the number of paths.
+        """Returns the channel as a discrete filter after an ideal low-pass of a bandwidth: `taps` complex64
+        [rx, rx_ant, tx, tx_ant, time, tap], where tap l has the absolute delay (first + l) / bandwidth_hz.
+        Also returns `power_outside` and `paths_outside` [rx, tx], the share of the power and the number of
+        the paths whose delays lie outside the window of taps.
 
-        bandwidth_hz: the channel's by default. taps: by default as many as reach 8 beyond the longest delay.
+        bandwidth_hz is the channel's by default. By default, the taps reach 8 taps beyond the longest delay.
         """
         if bandwidth_hz is None:
             bandwidth_hz = self.facts["subcarriers"] * self.facts["subcarrier_spacing_hz"]
@@ -173,14 +178,16 @@ class Paths:
         return Arrays(self._native.taps(bandwidth_hz, first, taps, time_samples, time_spacing_s))
 
     def statistics(self) -> Arrays:
-        """Of every link, [rx, tx]: path_count, line_of_sight, path_gain (sum of the paths' powers, mean over
-        ports), mean_delay, delay_spread (s), k_factor, angle spreads (rad), doppler_spread (Hz), as in a data
-        set."""
+        """Returns the statistics of every link, [rx, tx], as in a data set: path_count, line_of_sight,
+        path_gain (sum of the paths' powers, mean over ports), mean_delay, delay_spread (s), k_factor, angle
+        spreads (rad), doppler_spread (Hz).
+        """
         return Arrays(self._native.statistics())
 
     def coherence(self, level: float = 0.5) -> Arrays:
-        """Of every link, [rx, tx]: `bandwidth` (Hz) and `time` (s) at which the correlation falls to `level`;
-        inf: never."""
+        """Returns `bandwidth` (Hz) and `time` (s) of every link, [rx, tx], at which the correlation falls to
+        `level`. inf means that it never falls so far.
+        """
         return Arrays(self._native.coherence(level))
 
     def received(
@@ -191,9 +198,10 @@ class Paths:
         transmit_port: int = 0,
         receive_port: int = 0,
     ) -> Arrays:
-        """What arrives at the carrier for power_w watts into one port, [rx, tx]: power_w (fields added),
-        mean_power_w (powers added), amplitude, open_circuit_v (V rms, complex), field_v_per_m [rx, tx, xyz]
-        (V/m rms, complex, world axes)."""
+        """Returns the received quantities at the carrier, [rx, tx], if power_w watts enter one transmitting
+        port: power_w (fields of the paths added), mean_power_w (powers added), amplitude (complex),
+        open_circuit_v (V rms, complex) and field_v_per_m [rx, tx, xyz] (V/m rms, complex, world axes).
+        """
         named = self._native.received(power_w, resistance_ohm, transmit_port, receive_port)
         return Arrays(
             (name, unit, text, array.view(np.complex128)[..., 0] if "complex" in text else array)
@@ -202,6 +210,6 @@ class Paths:
 
     def __repr__(self) -> str:
         return (
-            f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, {self.shape[0]} receivers, "
-            f"{self.shape[1]} transmitters>"
+            f"<greatx.Paths of {self.channel}, tick {self.tick}: {len(self)} paths, "
+            f"{self.shape[0]} receivers, {self.shape[1]} transmitters>"
         )

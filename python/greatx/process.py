@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Objects of the engine belong to the process that made them: the threads and the device behind them do not
-survive fork()."""
+"""Guards objects of the engine against use in a forked process. Such objects belong to the process that made
+them, because their threads and their device do not survive fork().
+"""
 from __future__ import annotations
 
 import os
@@ -11,8 +12,9 @@ from .errors import Error
 
 
 class Owned:
-    """Passes everything on to an object of the engine, unless this process is a fork of its maker: that would
-    wait for ever."""
+    """Passes attributes on to an object of the engine. Raises Error if this process is a fork of the one that
+    made the object, because the call would wait for ever.
+    """
 
     def __init__(self, native: Any):
         self._native = native
@@ -24,8 +26,9 @@ class Owned:
             raise AttributeError(name)
         if os.getpid() != fields["_process"]:
             raise Error(
-                f"this simulation was made by process {fields['_process']}, of which process {os.getpid()} is a fork: its "
-                "device cannot be used here. Make a greatx.Simulation in each process, or start processes by 'spawn' "
+                f"this simulation was made by process {fields['_process']}, "
+                f"of which process {os.getpid()} is a fork: its device cannot be used here. "
+                "Make a greatx.Simulation in each process, or start processes by 'spawn' "
                 "(multiprocessing.set_start_method)"
             )
         return getattr(fields["_native"], name)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""One item a tick, for learning: what sensors measured at the same time, as one dict."""
+"""Combines the measurements of several sensors at one tick to one dict, for machine learning."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
@@ -15,20 +15,18 @@ if TYPE_CHECKING:
 
 
 class Samples:
-    """A sequence of dicts of NumPy arrays: one for every tick at which all the sensors asked for have a
-    record.
+    """A sequence of dicts of NumPy arrays, one for every tick at which all requested sensors have a record.
 
-    arrays: names "SENSOR/ARRAY", as in "csi/cfr", "uav/cam/rgb", "csi/paths/delay", "poses/position"; or
-    "SENSOR" for
-      all its arrays of fixed shape. One name or several.
-    sequences: numbers (places in Dataset.sequences); None: all, one behind the other.
-    pad: arrays whose length differs from tick to tick (paths, point clouds) are filled up with zeros to the
-    longest of
-      all ticks, and "SENSOR/ARRAY_count" says how many rows are valid, so that items can be batched. Not for
-      arrays kept as one file a record, whose lengths are not known beforehand.
+    arrays     one or several names "SENSOR/ARRAY", e.g. "csi/cfr", "uav/cam/rgb", "csi/paths/delay",
+               "poses/position"; "SENSOR" stands for all arrays of fixed shape of this sensor
+    sequences  indices into Dataset.sequences; None: all sequences, one after the other
+    pad        if true, arrays whose length varies from tick to tick (paths, point clouds) are padded with
+               zeros to the longest of all ticks, and "SENSOR/ARRAY_count" gives the number of valid rows, so
+               that items can be batched. Arrays of one file per record cannot be padded, because their
+               lengths are not known beforehand
 
-    An item has, beside the arrays, "sequence" and "tick" (int) and "time_s" (float). Arrays are read-only
-    views of the files where these are memory-mapped. Picklable.
+    An item has the arrays, "sequence" and "tick" (int) and "time_s" (float). Arrays of memory-mapped files
+    are read-only views. The object is picklable.
     """
 
     def __init__(
@@ -71,7 +69,7 @@ class Samples:
         )
 
     def _rows(self, number: int) -> np.ndarray:
-        """int64 [items, 2]: sequence, tick."""
+        """Returns int64 [items, 2]: sequence, tick."""
         sequence = self.dataset.sequences[number]
         ticks = sequence.ticks
         for sensor in {s for _, s, _ in self.fields}:
@@ -79,7 +77,9 @@ class Samples:
         return np.stack([np.full(len(ticks), number, np.int64), ticks], axis=1)
 
     def _longest_of(self, key: str, sensor: str, array: str) -> Optional[int]:
-        """Most rows of any record, of the sequences in use; None for arrays of fixed shape."""
+        """Returns the largest number of rows of any record in the selected sequences, or None for an array of
+        fixed shape.
+        """
         longest = None
         for number in self.sequences:
             opened = self.dataset.sequences[number][sensor][array]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes, paths and channels, computed here and now: needs the compiled module (docs/python.md)."""
+"""Computes scenes, paths and channels by the compiled module (docs/python.md)."""
 from __future__ import annotations
 
 import json
@@ -20,13 +20,14 @@ from .process import Owned
 from .radio_map import RadioMap
 from .stream import Run
 
-#: What the engine says on its way.
+#: Receives the log of the engine.
 logger = logging.getLogger("greatx")
 
 PathLike = Union[str, "os.PathLike[str]"]
 Position = Union[Sequence[float], np.ndarray]
 
-#: From places in the texts that are handed to the scenario's parser to the arguments that they were made of.
+#: Replaces the places that the scenario's parser and `greatx map` name in messages by the names of our
+#: arguments.
 _PLACES = [
     (r"^(\w+):1: ", r"\1: "),
     (r"nodes\[0\]\.sensors\[0\]\.mount\.rotation_deg", "orientation_deg"),
@@ -50,8 +51,9 @@ _PLACES = [
 
 
 def _call(function: Callable[..., Any], *arguments: Any) -> Any:
-    """Of the engine, whose log goes to logging's "greatx" and whose faults are told in the words of the
-    arguments."""
+    """Calls a function of the engine. Passes the engine's log on to the logger "greatx", and replaces the
+    places in error messages by names of arguments.
+    """
     try:
         return function(*arguments)
     except Error as error:
@@ -65,23 +67,23 @@ def _call(function: Callable[..., Any], *arguments: Any) -> Any:
 
 
 def _text(value: Any) -> str:
-    """JSON, which is YAML; of NumPy's numbers, too."""
+    """Returns a value as JSON, which is also YAML. Accepts NumPy's numbers and arrays."""
     return json.dumps(
         value, default=lambda other: other.tolist() if hasattr(other, "tolist") else os.fspath(other)
     )
 
 
 class Effect(NamedTuple):
-    """What was decided of one effect, and why."""
+    """Describes the decision on one effect and its reason."""
 
     on: bool
     reason: str
-    bound: str  #: what leaving it off can change at most, or what keeping it on costs; may be empty
+    bound: str  #: largest change if the effect is off, or its cost if it is on; may be empty
     switchable: bool
 
 
 def _turn(name: str, position_m: Position, orientation_deg: Any, look_at: Optional[Position]) -> Any:
-    """orientation_deg, or the one that look_at gives."""
+    """Returns orientation_deg, or the orientation towards look_at if that is given."""
     if look_at is None:
         return orientation_deg
     if orientation_deg is not None:
@@ -90,23 +92,27 @@ def _turn(name: str, position_m: Position, orientation_deg: Any, look_at: Option
 
 
 class Simulation:
-    """A scenario that can be asked for paths, channels, maps and records, and added to.
+    """Holds a scenario, to which nodes and channels can be added, and computes its paths, channels, maps and
+    records.
 
-    scenario    the name of an embedded scenario ("city"), a YAML file, or a dict of what such a file has
-    (docs/scenario.md) assets      folder in which relative paths are looked for, beside the scenario's own (a
-    dict: the current one) seed, ticks, sequences, tolerance_db, effects, environment
-                in place of the scenario's; of effects and environment only what is named, e.g.
-                effects={"diffraction": "on"}, environment={"time": "2026-12-21T08:30:00+01:00"}. Where a
-                scenario's place and time say where sun and moon are, both angles of a sun by hand take their
-                place; one angle alone is an error
-    device      index or part of the name of a Vulkan device; empty: $GREATX_DEVICE, else the best
-    validation  run under the Vulkan validation layer; a message is a RuntimeError
+    scenario    name of an embedded scenario ("city"), a YAML file, or a dict with the contents of such a file
+                (docs/scenario.md)
+    assets      folder in which relative paths are looked up, in addition to the scenario's own folder (for a
+                dict: the current folder)
+    seed, ticks, sequences, tolerance_db, effects, environment
+                values that replace those of the scenario. In effects and environment, only the named items
+                are replaced, e.g. effects={"diffraction": "on"},
+                environment={"time": "2026-12-21T08:30:00+01:00"}. If the scenario's place and time determine
+                the sun, `azimuth_deg` and `elevation_deg` of `sun` replace them together; one angle alone is
+                an error
+    device      index of a Vulkan device, or part of its name; empty: $GREATX_DEVICE, else the best device
+    validation  if true, runs under the Vulkan validation layer, whose messages raise a RuntimeError
 
-    The scene is loaded, and the device opened, when they are first needed. What is wrong with the input is a
-    greatx.Error (a ValueError); what goes wrong with the device is a RuntimeError. Ctrl-C works between
-    batches. A process that is forked cannot use its parent's Simulation, which says so; it makes its own.
-    Positions are metres in the world: x east, y north, z up; orientations yaw, pitch, roll in degrees,
-    positive yaw left, positive pitch down.
+    The scene is loaded and the device is opened when they are first needed. Faulty input raises a
+    greatx.Error (a ValueError); a failure of the device raises a RuntimeError. Ctrl-C works between batches.
+    A forked process cannot use its parent's Simulation (this raises greatx.Error) and must make its own.
+    Positions are in metres in the world: x east, y north, z up. Orientations are yaw, pitch and roll in
+    degrees; positive yaw is left, positive pitch is down.
     """
 
     def __init__(
@@ -133,7 +139,8 @@ class Simulation:
             session = _call(_native.Session.load, os.fspath(scenario), *options)
         else:
             raise Error(
-                f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of {', '.join(embedded)}"
+                f"{os.fspath(scenario)}: no such scenario: expected a YAML file or one of "
+                f"{', '.join(embedded)}"
             )
         self._native = Owned(session)
         self._placed: Dict[str, List[str]] = {"transmitters": [], "receivers": []}
@@ -150,15 +157,15 @@ class Simulation:
     def from_scene(
         cls, file: PathLike, *, radio_materials: Optional[PathLike] = None, **options: Any
     ) -> "Simulation":
-        """A glTF scene and nothing else in it, to be placed into. `radio_materials`: YAML with the radio
-        properties of its materials. `options` are those of Simulation."""
+        """Makes a simulation of a glTF scene without nodes and channels. `radio_materials` is a YAML file
+        with the radio properties of its materials. `options` are those of Simulation.
+        """
         scene = {"file": os.path.abspath(file)}
         if radio_materials is not None:
             scene["radio_materials"] = os.path.abspath(radio_materials)
         return cls({"greatx": 1, "name": "scene", "ticks": 1, "scene": scene}, **options)
 
-    # ------------------------------------------------------------------------------------------------ what
-    # there is
+    # The next properties and functions describe the simulation.
 
     @property
     def _facts(self) -> Dict[str, Any]:
@@ -173,7 +180,8 @@ class Simulation:
     antennas = property(lambda self: self._facts["antennas"], doc="[node/sensor]")
     place = property(
         lambda self: self._facts["place"],
-        doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts them.",
+        doc="{latitude_deg, longitude_deg, height_m, time}; None: sun and moon are where the scenario puts "
+        "them.",
     )
     channels = property(
         lambda self: self._facts["channels"],
@@ -182,26 +190,30 @@ class Simulation:
 
     @property
     def scene(self) -> Dict[str, Any]:
-        """Of the loaded scene: triangles, facets, bounds_m [[x, y, z], [x, y, z]], origin_m, materials,
-        instances, sha256."""
+        """Returns facts of the loaded scene: triangles, facets, bodies, bounds_m [[x, y, z], [x, y, z]],
+        origin_m, materials, instances, sha256.
+        """
         return json.loads(_call(self._native.scene_facts))
 
     @property
     def device(self) -> Dict[str, str]:
-        """Name, type, driver, Vulkan version of the device."""
+        """Returns the name, the type, the driver and the Vulkan version of the device."""
         return json.loads(_call(self._native.device_facts))
 
     @property
     def effects(self) -> Dict[str, Effect]:
-        """What was decided of every effect."""
+        """Returns the decisions on all effects by name."""
         decided = json.loads(_call(self._native.explain))["effects"]
         return {e["name"]: Effect(e["on"], e["reason"], e["bound"], e["switchable"]) for e in decided}
 
     def explain(self) -> str:
-        """Which effects act and why, and how each channel's paths will be found: as `greatx explain`."""
+        """Returns the text of `greatx explain`: which effects are on and why, and how each channel's paths
+        will be found.
+        """
         facts = json.loads(_call(self._native.explain))
         lines = [
-            f"{'on' if e['on'] else 'off':<4} {e['name']:<24} {e['reason']}{' — ' if e['bound'] else ''}{e['bound']}"
+            f"{'on' if e['on'] else 'off':<4} {e['name']:<24} "
+            f"{e['reason']}{' — ' if e['bound'] else ''}{e['bound']}"
             for e in facts["effects"]
         ]
         for channel, notes in facts["channels"].items():
@@ -211,17 +223,17 @@ class Simulation:
             ]
         return "\n".join(lines)
 
-    # ----------------------------------------------------------------------------------------------- what is
-    # added
+    # The next functions add to the scenario.
 
     def _parsed(self, function: Callable[..., Any], where: str, text: Mapping[str, Any], *more: Any) -> None:
-        """Hands a part of a scenario to the parser."""
+        """Passes a part of a scenario to the parser."""
         whole = {"greatx": 1, "name": "change", "ticks": 1, "tick_rate_hz": str(self.tick_rate_hz), **text}
         _call(function, _text(whole), where, *more)
 
     def _beside(self, environment: Mapping[str, Any]) -> Mapping[str, Any]:
-        """A change of the environment with what the parser needs beside it: the scenario's place and time,
-        unless a sun by hand takes their place."""
+        """Returns a change of the environment, completed for the parser. Adds the scenario's place and time,
+        unless the change replaces them by angles of the sun. Raises Error if only one angle is given.
+        """
         place = self.place
         sun = environment.get("sun")
         angles = {"azimuth_deg", "elevation_deg"} & set(sun if isinstance(sun, Mapping) else ())
@@ -230,8 +242,9 @@ class Simulation:
         if angles and not {"place", "time"} & set(environment):
             if len(angles) == 1:
                 raise Error(
-                    f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place of the "
-                    "scenario's place and time, which say where the sun is (environment.time moves it), found one"
+                    f"environment.sun.{angles.pop()}: expected azimuth_deg and elevation_deg both, in place "
+                    "of the scenario's place and time, which say where the sun is "
+                    "(environment.time moves it), found one"
                 )
             return environment
         time = place.pop("time")
@@ -257,14 +270,16 @@ class Simulation:
             self._parsed(self._native.change, "Simulation", given, keys)
 
     def add_node(self, node: Mapping[str, Any]) -> None:
-        """Any node, as an item of a scenario's `nodes`: with a trajectory, a mesh, cameras, LiDARs,
-        antennas."""
+        """Adds a node, given as an item of a scenario's `nodes`, with a trajectory, a mesh, cameras, LiDARs,
+        antennas, ..."""
         self._parsed(self._native.add_nodes, "add_node", {"nodes": [node]})
 
     def _place(
         self, role: str, placed: Sequence[Tuple[str, Position, Any]], array: Optional[Array]
     ) -> List[str]:
-        """(name, position_m, orientation_deg) of each; all of them, or none if one is not as it should be."""
+        """Places antennas, each given by (name, position_m, orientation_deg). If one of them is faulty,
+        places none.
+        """
         nodes = [
             {
                 "name": name,
@@ -287,11 +302,11 @@ class Simulation:
         orientation_deg: Optional[Sequence[float]] = None,
         look_at: Optional[Position] = None,
     ) -> str:
-        """Puts an antenna at rest (by default one isotropic, vertical element) and gives its name,
-        "NAME/array".
+        """Places an antenna at rest, by default one isotropic element of vertical polarization, and returns
+        its name, "NAME/array".
 
-        position_m [x, y, z]; orientation_deg (yaw, pitch, roll) turns its boresight, +x; or look_at, a
-        position.
+        position_m is [x, y, z]. orientation_deg (yaw, pitch, roll) turns the boresight, which is +x;
+        alternatively, look_at is a position to which the boresight points.
         """
         return self._place(
             "transmitter", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array
@@ -306,7 +321,7 @@ class Simulation:
         orientation_deg: Optional[Sequence[float]] = None,
         look_at: Optional[Position] = None,
     ) -> str:
-        """As place_transmitter."""
+        """Places a receiving antenna like place_transmitter()."""
         return self._place(
             "receiver", [(name, position_m, _turn(name, position_m, orientation_deg, look_at))], array
         )[0]
@@ -319,8 +334,8 @@ class Simulation:
         names: str = "rx{}",
         orientation_deg: Optional[Sequence[float]] = None,
     ) -> List[str]:
-        """One for every row of positions_m [N, 3]. For thousands of them, paths(receivers=points) is
-        quicker."""
+        """Places one receiver for every row of positions_m [N, 3]. For thousands of positions,
+        paths(receivers=points) is faster."""
         return self._place(
             "receiver",
             [
@@ -339,10 +354,11 @@ class Simulation:
         carrier_hz: float = 3.5e9,
         **fields: Any,
     ) -> str:
-        """A channel between antennas ("node/sensor"), by default all that were placed as transmitters and as
-        receivers; with no receivers at all it is for paths(receivers=points). `fields` are those of a
-        scenario's channel: bandwidth_hz or subcarrier_spacing_hz, subcarriers, time_samples, time_spacing_s,
-        max_depth, max_transmissions, candidates, ..."""
+        """Adds a channel between antennas ("node/sensor"), by default between all placed transmitters and all
+        placed receivers. A channel without receivers can be used with paths(receivers=points) only. `fields`
+        are those of a scenario's channel: bandwidth_hz or subcarrier_spacing_hz, subcarriers, time_samples,
+        time_spacing_s, max_depth, max_transmissions, candidates, ...
+        """
         tx = list(self._placed["transmitters"] if transmitters is None else transmitters)
         rx = list(self._placed["receivers"] if receivers is None else receivers)
         if not tx:
@@ -351,9 +367,11 @@ class Simulation:
         for antenna in tx + rx:
             if antenna not in known:
                 raise Error(
-                    f"channel {name!r}: expected antennas of the scenario ({', '.join(known)}), found {antenna!r}"
+                    f"channel {name!r}: expected antennas of the scenario ({', '.join(known)}), "
+                    f"found {antenna!r}"
                 )
-        # The parser wants to see the antennas that a channel names; whatever they are.
+        # The parser requires that the antennas of a channel exist, so the text has stand-ins with their
+        # names.
         sensors: Dict[str, List[str]] = {}
         for antenna in dict.fromkeys(tx + rx):
             node, sensor = antenna.rsplit("/", 1)
@@ -379,8 +397,7 @@ class Simulation:
         )
         return name
 
-    # -------------------------------------------------------------------------------------------- what is
-    # computed
+    # The next functions compute results.
 
     def _channel(self, name: Optional[str]) -> str:
         channels = self.channels
@@ -401,7 +418,7 @@ class Simulation:
 
     @staticmethod
     def _antenna(array: Optional[Array], orientation_deg: Any) -> str:
-        """What stands at bare points, as a scenario."""
+        """Returns a scenario whose first antenna stands at receiving points."""
         return _text(
             {
                 "greatx": 1,
@@ -428,16 +445,16 @@ class Simulation:
         orientation_deg: Optional[Sequence[float]] = None,
         progress: Optional[Callable[[int], None]] = None,
     ) -> Paths:
-        """Every path of a channel (None: the only one) at a tick, from all transmitters to all receivers.
+        """Computes all paths of a channel (None: the only one) at a tick, from all transmitters to all
+        receivers.
 
-        receivers         float64 [N, 3]: points at rest in the world in place of the channel's receivers,
-        each with `array`
-                          (by default one isotropic, vertical element) turned by orientation_deg. The points
-                          have the paths that antennas there would have, to the bit; of other points a path
-                          depends only in so far as the farthest one decides which effects of the air matter
-                          (docs/paths.md). The search from the transmitters is done once and kept for further
-                          calls.
-        progress          called now and then with the number of receivers that are done
+        receivers         float64 [N, 3]: points at rest in the world, which replace the channel's receivers.
+                          At each point stands `array` (by default one isotropic element of vertical
+                          polarization), turned by orientation_deg. The paths equal those of placed antennas
+                          bit by bit. Other points influence a path in one way only: the farthest point
+                          decides which effects of the air are on (docs/paths.md). The search from the
+                          transmitters is done once and kept for later calls.
+        progress          function that is called from time to time with the number of finished receivers
         """
         name = self._channel(channel)
         points, antenna = None, ""
@@ -448,7 +465,8 @@ class Simulation:
             antenna = self._antenna(array, orientation_deg)
         elif array is not None or orientation_deg is not None:
             raise Error(
-                "array, orientation_deg: expected receivers=points with them; the channel's receivers have their own"
+                "array, orientation_deg: expected receivers=points with them; the channel's receivers have "
+                "their own"
             )
         native = _call(self._native.solve, name, sequence, tick, points, antenna, progress)
         return Paths(native, None if points is not None else self.channels[name]["receivers"])
@@ -474,18 +492,20 @@ class Simulation:
         sequence: int = 0,
         progress: Optional[Callable[[int], None]] = None,
     ) -> RadioMap:
-        """A map of a channel's transmitters, as `greatx map`: each cell has the paths of a receiver put in
-        its middle.
+        """Computes a map of a channel's transmitters like `greatx map`. Each cell has the values of a
+        receiver at its centre.
 
-        cell_m            side of the cells
+        cell_m            side of the cells, metres
         min_m, max_m      [x, y] corners; by default the scene's bounds
-        z_m               height of the plane; None: draped, height_m above what `over` says: "ground", or
-        "roofs" power_dbm         of each transmitter, or one for all; by default the channel's, else 30
-        bandwidth_hz, noise_figure_db   of the noise, k 290 K B F; the bandwidth is the channel's by default
-        array, orientation_deg          of the receiver, by default one isotropic, vertical element
-        inside_solids     cells inside solids have values, too
-        beyond_scene      maps that miss the scene are wanted
-        progress          called now and then with the number of cells that are done
+        z_m               height of the plane; None: the map lies height_m above `over`, "ground" or "roofs"
+        power_dbm         power of each transmitter, or of all; by default the channel's, else 30
+        bandwidth_hz, noise_figure_db   bandwidth B and noise factor F (in dB) of the noise k 290 K B F; by
+                          default the channel's bandwidth
+        array, orientation_deg          the receiver's antenna; by default one isotropic element of vertical
+                          polarization
+        inside_solids     if true, cells inside solids have values, too
+        beyond_scene      if true, a map that misses the scene is no error
+        progress          function that is called from time to time with the number of finished cells
         """
         if over not in ("ground", "roofs"):
             raise Error(f"over: expected one of ground, roofs, found {over!r}")
@@ -515,9 +535,9 @@ class Simulation:
         )
 
     def run(self, sequence: int = 0, first_tick: int = 0) -> Run:
-        """Steps the whole scenario in memory: an iterator over ticks, each a mapping of the sensors that
-        fired to their
-        records, with the arrays (and the bytes) that `greatx generate` would write:
+        """Runs the whole scenario in memory and returns an iterator over its ticks. A tick maps the names of
+        the sensors that fired to their records, whose arrays are byte-identical to those of `greatx
+        generate`:
 
             for tick in sim.run():
                 tick["csi"].cfr, tick["uav/front"].rgb, tick["poses"].position

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A run in memory: every sensor's records as arrays, tick by tick, without files."""
+"""Runs a scenario in memory and gives the records of every sensor as arrays, tick by tick, without files."""
 from __future__ import annotations
 
 import json
@@ -14,14 +14,14 @@ from .ticks import TickRecords
 
 
 class Run:
-    """What Simulation.run() gives: an iterator over ticks. Leaving it early is fine."""
+    """Iterates over the ticks of a run; returned by Simulation.run(). The iteration may be left early."""
 
     def __init__(self, native: Any, call: Callable[..., Any], tick_rate_hz: Fraction):
         self._native = native
         self._call = call
         self.tick_rate_hz = tick_rate_hz
-        #: every sensor's description: name, kind, rate_hz, metadata (as in dataset.json), arrays (name, unit,
-        #: description)
+        #: descriptions of the sensors by name: name, kind, rate_hz, metadata (as in dataset.json), arrays
+        #: (name, unit, description)
         self.sensors: Dict[str, Dict[str, Any]] = {s["name"]: s for s in json.loads(native.sensors())}
         self._names = list(self.sensors)
 
@@ -44,12 +44,14 @@ class Run:
         )
 
     def summary(self) -> Dict[str, Any]:
-        """ticks, counters and notes of the run so far, and warnings: what it lost, a sentence each."""
+        """Returns the ticks, counters and notes of the run so far, and its warnings: one sentence for each
+        kind of data that the run has lost.
+        """
         return json.loads(self._native.summary())
 
 
 class RunTick(TickRecords["RunRecord"]):
-    """The records of one tick by the sensor's name; only of the sensors that fired."""
+    """Maps the names of the sensors that fired at one tick to their records."""
 
     def __init__(self, run: Run, tick: int, time_ns: int, records: Dict[str, "RunRecord"]):
         super().__init__(tick, time_ns, records)
@@ -57,8 +59,9 @@ class RunTick(TickRecords["RunRecord"]):
 
 
 class RunRecord(Arrays):
-    """What one sensor measured at one tick: record["NAME"], or record.NAME, the arrays that a data set would
-    have."""
+    """Holds the measurement of one sensor at one tick. record["NAME"] or record.NAME is the array that a data
+    set would have under this name.
+    """
 
     def __init__(self, sensor: Dict[str, Any], tick: int, sample: int, arrays: List[np.ndarray]):
         super().__init__(
@@ -66,4 +69,4 @@ class RunRecord(Arrays):
         )
         self.sensor = sensor
         self.tick = tick
-        self.sample = sample  #: the sensor's own count
+        self.sample = sample  #: number of the sensor's sample

@@ -9,7 +9,8 @@ import numpy as np
 
 
 class Arrays(Mapping[str, np.ndarray]):
-    """arrays["delay"], or arrays.delay; `unit(name)` and `description(name)` (axes and meaning) of each."""
+    """Maps names to arrays: arrays["delay"] or arrays.delay. unit(name) returns an array's unit, and
+    description(name) its axes and meaning."""
 
     def __init__(self, named: Iterable[Tuple[str, str, str, np.ndarray]]):
         self._arrays: Dict[str, np.ndarray] = {}

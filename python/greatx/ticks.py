@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the ticks of a data set and of a run in memory have in common."""
+"""The base class of the ticks of a data set and of a run in memory."""
 from __future__ import annotations
 
 from typing import Dict, Iterator, Mapping, TypeVar
@@ -9,7 +9,7 @@ R = TypeVar("R")
 
 
 class TickRecords(Mapping[str, R]):
-    """The records of one tick by the sensor's name; only of the sensors that fired."""
+    """Maps the names of the sensors that fired at one tick to their records."""
 
     tick: int
     time_ns: int  #: exact time, rounded to nanoseconds
@@ -19,12 +19,13 @@ class TickRecords(Mapping[str, R]):
         self.tick = tick
         self.time_ns = time_ns
         self._records = records
-        self._where = where  # begins messages
+        self._where = where  # beginning of messages
 
     def __getitem__(self, sensor: str) -> R:
         if sensor not in self._records:
             raise KeyError(
-                f"{self._where}sensor {sensor!r} has no record at tick {self.tick}; {', '.join(self._records)} have"
+                f"{self._where}sensor {sensor!r} has no record at tick {self.tick}; "
+                f"{', '.join(self._records)} have"
             )
         return self._records[sensor]
 

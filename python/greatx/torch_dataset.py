@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The torch half of Dataset.torch; imported only there, since it needs torch."""
+"""Implements Dataset.torch. Only that function imports this module, because the module needs torch."""
 from __future__ import annotations
 
 from typing import Any, Callable, Dict, Optional
@@ -11,14 +11,14 @@ import torch.utils.data
 
 from .samples import Samples
 
-#: torch computes with no unsigned integers but bytes: the next signed type that holds them; 64-bit ids keep
-#: their bits.
+#: Signed types that hold the values of unsigned types. torch computes with no unsigned integers except uint8.
 _SIGNED = {"uint16": np.int32, "uint32": np.int64}
 
 
 def to_tensor(value: np.ndarray) -> "torch.Tensor":
-    """A tensor of its own memory (the files are mapped read-only). complex64 stays complex64; uint16 and
-    uint32 become int32 and int64, uint64 becomes int64 with the same bits."""
+    """Copies an array to a tensor, because the files are mapped read-only. complex64 stays complex64, uint16
+    becomes int32, uint32 becomes int64, and uint64 becomes int64 with the same bits.
+    """
     value = np.asarray(value)
     if value.dtype == np.uint64:
         value = value.view(np.int64)
@@ -26,8 +26,10 @@ def to_tensor(value: np.ndarray) -> "torch.Tensor":
 
 
 class TorchDataset(torch.utils.data.Dataset):
-    """Samples as tensors: map-style, one dict a tick; "sequence", "tick", "time_s" and counts stay numbers,
-    which torch's own collate makes tensors of. Picklable, so any number of DataLoader workers will do."""
+    """Provides Samples as a map-style dataset of tensors, one dict per tick. "sequence", "tick", "time_s" and
+    counts stay numbers, which torch's collate function converts to tensors. The object is picklable, so a
+    DataLoader can use any number of workers.
+    """
 
     def __init__(self, samples: Samples, transform: Optional[Callable[[Dict[str, Any]], Any]] = None):
         self.samples = samples

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Damages a data set: one random change after another, each a function (folder, random.Random) -> str that
-says what it did. For the tests here, and for whoever wants to try a program on many damaged data sets."""
+"""Damages a data set by random changes. Each kind of change is a function (folder, random.Random) -> str,
+which returns a description of the change. The module serves the tests here and can try any program on many
+damaged data sets.
+"""
 import json
 import os
 import pathlib
@@ -9,7 +11,7 @@ import random
 import struct
 import zlib
 
-#: Values that a field may get instead of its own.
+#: Values that may replace the value of a field.
 EXTREMES = (
     0,
     -1,
@@ -42,14 +44,14 @@ EXTREMES = (
 
 
 def files_of(folder: pathlib.Path) -> list:
-    """Plain files that can be read at once."""
+    """Returns the plain files that are small enough to be read as a whole."""
     return sorted(
         p for p in folder.rglob("*") if not p.is_symlink() and p.is_file() and p.stat().st_size < 1 << 26
     )
 
 
 def pick(folder: pathlib.Path, rng: random.Random) -> pathlib.Path:
-    """A file; those that describe the others as often as all others."""
+    """Picks a file. In half of the cases, picks one of the files that describe the others."""
     files = files_of(folder)
     small = [
         p
@@ -62,7 +64,7 @@ def pick(folder: pathlib.Path, rng: random.Random) -> pathlib.Path:
 def flip_bytes(folder: pathlib.Path, rng: random.Random) -> str:
     path = pick(folder, rng)
     data = bytearray(path.read_bytes())
-    # Headers are where sizes stand.
+    # Small offsets are preferred, because headers hold the sizes.
     places = (
         [
             rng.randrange(min(len(data), rng.choice((64, 400, 1 << 30))))
@@ -78,7 +80,7 @@ def flip_bytes(folder: pathlib.Path, rng: random.Random) -> str:
 
 
 def write_numbers(folder: pathlib.Path, rng: random.Random) -> str:
-    """Extreme numbers where a binary file may keep numbers."""
+    """Writes an extreme number at a place where a binary file may hold a number."""
     path = pick(folder, rng)
     data = bytearray(path.read_bytes())
     form, value = rng.choice(
@@ -119,7 +121,7 @@ def delete(folder: pathlib.Path, rng: random.Random) -> str:
 
 
 def swap(folder: pathlib.Path, rng: random.Random) -> str:
-    """Something else in the place of a file, or another file of the data set."""
+    """Replaces a file by another kind of file, or by a copy of another file of the data set."""
     path = pick(folder, rng)
     kind = rng.choice(
         ("folder", "fifo", "link", "link to a device", "link to itself", "sparse", "empty", "other")
@@ -149,8 +151,9 @@ def _places(tree, place=()):
 
 
 def change_json(folder: pathlib.Path, rng: random.Random) -> str:
-    """Another value in dataset.json, manifest.json or a line of the journal, whose checksum is made to
-    fit."""
+    """Changes a value in dataset.json, in manifest.json or in a line of the journal, whose checksum is
+    updated.
+    """
     names = [
         n
         for n in ("dataset.json", "dataset.json", "manifest.json", "journal.txt")
@@ -201,7 +204,7 @@ MUTATORS = (
 
 
 def sign(folder: pathlib.Path) -> None:
-    """Makes sizes and hashes of the manifest fit, so that what lies behind them is reached."""
+    """Updates the sizes and hashes in the manifest, so that a program gets beyond their check."""
     import hashlib
 
     path = folder / "manifest.json"
@@ -225,7 +228,9 @@ def sign(folder: pathlib.Path) -> None:
 
 
 def damage(folder: pathlib.Path, seed: int) -> str:
-    """One change, now and then three; half of the time the manifest is made to fit."""
+    """Makes one change, in a quarter of the cases three. In half of the cases, updates the manifest. Returns
+    a description.
+    """
     rng = random.Random(seed)
     done = []
     for _ in range(rng.choice((1, 1, 1, 3))):

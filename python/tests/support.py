@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Data sets for the tests: made by the program that GREATX_PROGRAM names, and one written by hand."""
+"""Makes data sets for the tests by the program that GREATX_PROGRAM names, and one data set by hand."""
 import atexit
 import functools
 import json
@@ -14,8 +14,8 @@ import numpy as np
 
 C = 299792458.0
 
-# A street with everything: two panels, two receivers, time samples with Doppler, a camera and a LiDAR at half
-# the rate.
+# A street with two panels, two receivers, time samples with Doppler, and a camera and a LiDAR at half the
+# rate.
 STREET = """
 greatx: 1
 name: street
@@ -30,24 +30,27 @@ nodes:
     trajectory: {type: static, position_m: [-6.3, 21.7, 7], rotation_deg: [-90, 0, 0]}
     sensors: [{name: panel, type: antenna, polarization: slant, rows: 1, columns: 2}]
   - name: car
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, {t_s: 1, position_m: [2.4, -20, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, \
+{t_s: 1, position_m: [2.4, -20, 0]}]}
     model: {generate: {kind: car, variant: hatchback}}
     class: vehicle
     sensors:
       - {name: front, type: camera, rate_hz: 10, width: 31, height: 24, fov_deg: 90,
          outputs: [rgb, depth, ids, hdr, depth_png24], mount: {position_m: [1.2, 0, 1.4]}}
       - {name: lidar, type: lidar, rate_hz: 10, channels: 8, elevation_min_deg: -45, elevation_max_deg: 15,
-         azimuth_steps: 64, max_range_m: 150, mount: {position_m: [0, 0, 2]}, outputs: [points, ply, pcd, kitti]}
+         azimuth_steps: 64, max_range_m: 150, mount: {position_m: [0, 0, 2]}, \
+outputs: [points, ply, pcd, kitti]}
       - {name: antenna, type: antenna, mount: {position_m: [0, 0, 1.6]}}
   - name: walker
     trajectory: {type: static, position_m: [-5, 20, 1.5]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna], rate_hz: 20, carrier_hz: 3.5e9,
+  - {name: csi, tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna], rate_hz: 20, \
+carrier_hz: 3.5e9,
      bandwidth_hz: 100e6, subcarriers: 64, time_samples: 3, time_spacing_s: 1e-3, max_depth: 2}
 """
 
-# A van that follows a car, with every kind of a camera's ground truth.
+# A van that follows a car, with all kinds of ground truth of a camera.
 TRUTH = """
 greatx: 1
 name: truth
@@ -56,18 +59,21 @@ tick_rate_hz: 10
 scene: {generate: {kind: canyon, seed: 9, size_m: 80}, optical_only: true}
 nodes:
   - name: van
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, {t_s: 1, position_m: [2.2, -20, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2.4, -30, 0]}, \
+{t_s: 1, position_m: [2.2, -20, 0]}]}
     model: {generate: {kind: car, variant: van}}
     sensors:
-      - {name: front, type: camera, rate_hz: 10, width: 62, height: 48, fov_deg: 80, mount: {position_m: [1.5, 0, 1.8]},
+      - {name: front, type: camera, rate_hz: 10, width: 62, height: 48, fov_deg: 80, \
+mount: {position_m: [1.5, 0, 1.8]},
          outputs: [rgb, depth, ids, depth_ray, normals, flow, boxes]}
   - name: car
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -20, 0]}, {t_s: 1, position_m: [2, -9, 0]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [2, -20, 0]}, \
+{t_s: 1, position_m: [2, -9, 0]}]}
     model: {generate: {kind: car}}
     class: vehicle
 """
 
-# An event camera that turns past a parked van, with every output.
+# A turning event camera with all outputs.
 EVENTS = """
 greatx: 1
 name: events
@@ -80,10 +86,12 @@ nodes:
                                            {t_s: 0.1, position_m: [2.4, -29, 1.5], rotation_deg: [95, 0, 0]}]}
     sensors:
       - {name: dvs, type: event_camera, rate_hz: 30, width: 62, height: 48, fov_deg: 80, steps: 4,
-         noise: {shot_rate_hz: 5}, outputs: [events, differences, hdf5, text, instance], difference: {on: 0.02, off: 0.02}}
+         noise: {shot_rate_hz: 5}, outputs: [events, differences, hdf5, text, instance], \
+difference: {on: 0.02, off: 0.02}}
 """
 
-# Two antennas in free space, the second moving away: closed forms. Two runs of it.
+# Two antennas in free space, for which closed forms exist. The second one moves away. The data set has two
+# sequences.
 SPACE = """
 greatx: 1
 name: space
@@ -94,10 +102,12 @@ nodes:
     trajectory: {type: static, position_m: [0, 0, 10], rotation_deg: [30, 0, 0]}
     sensors: [{name: antenna, type: antenna}]
   - name: uav
-    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [30, 40, 10]}, {t_s: 1, position_m: [60, 80, 10]}]}
+    trajectory: {type: waypoints, points: [{t_s: 0, position_m: [30, 40, 10]}, \
+{t_s: 1, position_m: [60, 80, 10]}]}
     sensors: [{name: antenna, type: antenna}]
 channels:
-  - {name: csi, tx: bs/antenna, rx: [uav/antenna], rate_hz: 10, carrier_hz: 3.5e9, bandwidth_hz: 20e6, subcarriers: 8}
+  - {name: csi, tx: bs/antenna, rx: [uav/antenna], rate_hz: 10, carrier_hz: 3.5e9, bandwidth_hz: 20e6, \
+subcarriers: 8}
 """
 
 
@@ -109,7 +119,7 @@ def _folder() -> pathlib.Path:
 
 
 def scenario_file(name: str, text: str) -> pathlib.Path:
-    """The file of a scenario."""
+    """Writes a scenario to a file and returns its path."""
     path = _folder() / f"{name}.yaml"
     path.write_text(text)
     return path
@@ -125,27 +135,27 @@ def _made(name: str, text: str, *arguments: str) -> pathlib.Path:
 
 
 def street() -> pathlib.Path:
-    """The folder of a data set of STREET, which is not to be changed."""
+    """Returns the folder of a data set of STREET, which tests must not change."""
     return _made("street", STREET)
 
 
 def truth() -> pathlib.Path:
-    """The folder of a data set of TRUTH, which is not to be changed."""
+    """Returns the folder of a data set of TRUTH, which tests must not change."""
     return _made("truth", TRUTH)
 
 
 def events() -> pathlib.Path:
-    """The folder of a data set of EVENTS, which is not to be changed."""
+    """Returns the folder of a data set of EVENTS, which tests must not change."""
     return _made("events", EVENTS)
 
 
 def space() -> pathlib.Path:
-    """The folder of a data set of SPACE, two sequences."""
+    """Returns the folder of a data set of SPACE with two sequences, which tests must not change."""
     return _made("space", SPACE, "--sequences", "2")
 
 
 def copy_of(folder: pathlib.Path) -> pathlib.Path:
-    """A copy that a test may damage."""
+    """Returns a copy that a test may damage."""
     out = pathlib.Path(tempfile.mkdtemp(dir=_folder())) / folder.name
     shutil.copytree(folder, out)
     return out
@@ -158,8 +168,9 @@ def edit_json(path: pathlib.Path, change) -> None:
 
 
 def two_transmitters() -> pathlib.Path:
-    """A data set written by hand: two transmitters, three receivers, one of them (number 1) without any path;
-    two ticks, of which the second has no path at all."""
+    """Writes a data set by hand and returns its folder. It has two transmitters, three receivers, of which
+    number 1 has no paths, and two ticks, of which the second has no paths.
+    """
     out = pathlib.Path(tempfile.mkdtemp(dir=_folder()))
     links = np.array([[0, 0], [0, 1], [0, 1], [2, 0], [2, 0], [2, 1]], np.int32)  # rx, tx of each path
     n = len(links)
@@ -177,7 +188,7 @@ def two_transmitters() -> pathlib.Path:
         "vertex": np.zeros((n, 2, 3)),
         "object": np.tile(np.array([1, 2], np.uint32), (n, 1)),
     }
-    paths["transfer"][1, 0, 0] = 0  # nothing vertical comes through
+    paths["transfer"][1, 0, 0] = 0  # path 1 has no vertical amplitude
     end = {"body_from_antenna": {"position_m": [0, 0, 1], "orientation_wxyz": [1, 0, 0, 0]}, "ports": 1}
     names = ["a", "b", "c", "d", "e"]
     meta = {

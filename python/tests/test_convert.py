@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The converters against closed forms and against the data set's own response. That DeepMIMO itself reads the
-result is checked by tests/peer/deepmimo.py, outside of these tests."""
+"""Tests the converters against closed forms and against the data set's own response. tests/peer/deepmimo.py,
+which is not part of these tests, checks that DeepMIMO itself reads the result.
+"""
 import contextlib
 import io
 import json
@@ -80,8 +81,7 @@ class DeepMimo(Converted):
             paths = csi.record(user // 2).paths(user % 2, 0)
             n = len(paths["delay"])
             self.assertEqual(np.count_nonzero(~np.isnan(power[user])), n)
-            # Each path of theirs is one of ours: its interactions are in its digits, its vertices are where
-            # they were.
+            # Each path of the scenario is a path of the data set, with the same interactions and vertices.
             by_delay = np.argsort(paths["delay"])
             mine = np.argsort(self.matrix("delay")[user, :n])
             for p, q in zip(mine, by_delay):
@@ -104,7 +104,7 @@ class DeepMimo(Converted):
         )
         delay = self.matrix("delay", "snapshot_000000", tx=1)
         np.testing.assert_allclose(delay, [[3e-7, np.nan], [np.nan, np.nan], [6e-7, np.nan]], rtol=1e-6)
-        # Strongest first: transfers are 1, 2, ...
+        # The strongest path comes first: the transfers of the paths are 1, 2, ...
         np.testing.assert_allclose(self.matrix("delay", "snapshot_000000")[2], [5e-7, 4e-7], rtol=1e-6)
         self.assertEqual(self.matrix("inter", "snapshot_000000")[0, 0], 14)  # reflection, transmission
         np.testing.assert_allclose(self.matrix("tx_pos", "snapshot_000000", tx=1), [[1, 0, 1]])
@@ -144,7 +144,7 @@ class Sionna(Converted):
             d = 50.0 + 5 * i
             p = sionna_paths(record)
             self.assertEqual(p.a.shape, (1, 1, 1, 1, 1))
-            # A passband coefficient: the carrier's phase over the delay is not in it.
+            # The passband coefficient does not include the carrier's phase over the delay.
             self.assertAlmostEqual(complex(p.a.item()), C / 3.5e9 / (4 * np.pi * d), delta=1e-9)
             self.assertAlmostEqual(p.tau.item(), d / C, delta=1e-18)
             np.testing.assert_allclose(
@@ -157,7 +157,7 @@ class Sionna(Converted):
             self.assertTrue(p.valid.all() and not p.interactions.any())
 
     def test_the_response_is_the_sum_over_paths(self):
-        """As Paths.cfr sums it, ports and time samples included."""
+        """The sum is that of Sionna's Paths.cfr, including ports and time samples."""
         csi = greatx.load(support.street())["csi"]
         for record in csi:
             p = sionna_paths(record)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""greatx.load: what is where, what is a view, what is wrong with a data set and which file says so."""
+"""Tests greatx.load: the places of arrays, views of files, and messages about faulty data sets."""
 import pickle
 import unittest
 import warnings
@@ -136,7 +136,7 @@ class TwoTransmitters(unittest.TestCase):
         self.assertEqual(counts, [[1, 2], [0, 0], [2, 1]])
         np.testing.assert_allclose(
             csi.record(0).paths(tx=1)["delay"], [2e-7, 3e-7, 6e-7]
-        )  # not together: a copy
+        )  # a copy, because the paths are not contiguous
         self.assertEqual([e["name"] for e in transmitters(csi)], ["a/antenna", "b/antenna"])
 
     def test_a_tick_without_paths(self):

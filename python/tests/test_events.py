@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Events: the files against each other, DSEC's HDF5 read back by h5py, what greatx.Events makes of them."""
+"""Tests the files of events against each other, DSEC's HDF5 by h5py, and the functions of greatx.Events."""
 import unittest
 
 import numpy as np
@@ -25,7 +25,7 @@ class EventFiles(unittest.TestCase):
         self.assertLess(e.x.max(), e.width)
         self.assertLess(e.y.max(), e.height)
         offsets = self.camera["t"].offsets
-        self.assertEqual(offsets[1], 0)  # the first record has nothing to compare with
+        self.assertEqual(offsets[1], 0)  # the first record has no earlier picture to compare with
         for i in range(1, len(index)):
             t = e.t[offsets[i] : offsets[i + 1]]
             if len(t):
@@ -50,7 +50,7 @@ class EventFiles(unittest.TestCase):
             ms = file["ms_to_idx"][:]
             self.assertEqual(ms.dtype, np.uint64)
             self.assertEqual(ms[-1], len(t))
-            for i, first in enumerate(ms.tolist()):  # t[ms_to_idx[ms]] >= 1000 ms, and no event before it is
+            for i, first in enumerate(ms.tolist()):  # ms_to_idx[i] is the first event with t >= 1000 i
                 self.assertTrue(first == len(t) or t[first] >= 1000 * i)
                 self.assertTrue(first == 0 or t[first - 1] < 1000 * i)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The examples on data sets run, with whatever of their optional packages is there."""
+"""Runs the examples on data sets with those of their optional packages that are installed."""
 import os
 import pathlib
 import re
@@ -11,7 +11,8 @@ import unittest
 
 import support
 
-# As much of DeepMIMO 4's interface as the example uses, by its definition of the channel.
+# A stand-in with the part of DeepMIMO 4's interface that the example uses, by DeepMIMO's definition of the
+# channel.
 DEEPMIMO = """
 import glob, types
 import numpy as np
@@ -21,12 +22,15 @@ ChannelParameters = types.SimpleNamespace
 
 class Dataset:
     def __init__(self, folder, tx):
-        self.matrix = {key: np.load(f"{folder}/{key}_t000_tx{tx:03}_r001.npz")[key] for key in ("power", "phase", "delay")}
+        self.matrix = {key: np.load(f"{folder}/{key}_t000_tx{tx:03}_r001.npz")[key] \
+for key in ("power", "phase", "delay")}
 
     def compute_channels(self, parameters):
-        ofdm, m = parameters.ofdm, {key: np.nan_to_num(value.astype(float)) for key, value in self.matrix.items()}
+        ofdm, m = parameters.ofdm, {key: np.nan_to_num(value.astype(float)) \
+for key, value in self.matrix.items()}
         spacing = ofdm["bandwidth"] / ofdm["subcarriers"]
-        a = 10 ** (m["power"] / 20) * np.exp(1j * np.radians(m["phase"])) * (self.matrix["power"] == self.matrix["power"])
+        a = 10 ** (m["power"] / 20) * np.exp(1j * np.radians(m["phase"])) \
+* (self.matrix["power"] == self.matrix["power"])
         a = a * (m["delay"] < 1 / spacing) / np.sqrt(ofdm["subcarriers"])
         turn = np.exp(-2j * np.pi * spacing * ofdm["selected_subcarriers"] * m["delay"][..., None])
         return (a[..., None] * turn).sum(1)[:, None, None]
@@ -78,7 +82,7 @@ class Examples(unittest.TestCase):
         self.assertIn("mean gain", self.run_example("convert_deepmimo.py", support.street()))
 
     def test_convert_deepmimo_beside_it(self):
-        """DeepMIMO gives one data set for one transmitter, and a list of them for several."""
+        """DeepMIMO returns one data set for one transmitter, and a list of data sets for several."""
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "deepmimo.py").write_text(DEEPMIMO)
             for data in (support.street(), support.space()):

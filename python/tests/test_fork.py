@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A forked child and its parent's Simulation: an error at once, and both end."""
+"""Tests that a forked child gets an error at once if it uses its parent's Simulation, and that both processes
+end.
+"""
 import os
 import signal
 import subprocess
@@ -17,12 +19,14 @@ paths, run = sim.paths(), sim.run()
 next(run)
 child = os.fork()
 if child == 0:
-    for use in (lambda: sim.paths(), lambda: sim.name, lambda: sim.add_node({}), lambda: next(run), lambda: run.summary(),
+    for use in (lambda: sim.paths(), lambda: sim.name, lambda: sim.add_node({}), lambda: next(run), \
+lambda: run.summary(),
                 lambda: sim.device, lambda: repr(sim)):
         try:
             use()
         except greatx.Error as error:
-            assert f"made by process {os.getppid()}, of which process {os.getpid()} is a fork" in str(error), error
+            assert f"made by process {os.getppid()}, of which process {os.getpid()} is a fork" \
+in str(error), error
         else:
             sys.exit(3)
     assert paths.cfr().shape == (1, 1, 1, 1, 1, 8)  # what is computed already

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The readers of PNG, OpenEXR and PLY: against files made here, and one format against another."""
+"""Tests the readers of PNG, OpenEXR, PLY, PCD and KITTI with files made here, and one format against
+another.
+"""
 import pathlib
 import struct
 import tempfile
@@ -15,7 +17,7 @@ from greatx.frames import read_exr, read_kitti, read_pcd, read_ply, read_png
 
 
 def png(lines, width, height, bits, colour):
-    """Of filtered lines, each with its filter's number in front."""
+    """Returns a PNG of filtered lines, each of which begins with the number of its filter."""
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
@@ -32,7 +34,8 @@ def png(lines, width, height, bits, colour):
 
 
 def exr(channels, height, width, compression):
-    """OpenEXR of {name: float32 [h, w]}, by the format's description alone."""
+    """Returns an OpenEXR of the channels {name: float32 [h, w]}, written independently from the format's
+    description."""
 
     def attribute(name, kind, body):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(body)) + body
@@ -110,7 +113,7 @@ class Files(unittest.TestCase):
         values[3, 4], values[5, 5] = np.inf, np.nan
         smooth = np.tile(np.arange(9, dtype=np.float32), (37, 1))
         for compression in (0, 3):
-            for plane in "YZ":  # as it is written, and as it was
+            for plane in "YZ":  # greatx writes Y; some data sets have Z
                 self.path.write_bytes(exr({plane: values}, 37, 9, compression))
                 np.testing.assert_array_equal(read_exr(self.path), values)
             self.path.write_bytes(exr({"R": values, "G": smooth, "B": -smooth}, 37, 9, compression))
@@ -180,7 +183,7 @@ class OfADataSet(unittest.TestCase):
         self.assertEqual((record.rgb.shape, record.rgb.dtype), ((24, 31, 3), np.uint8))
         sky = np.isinf(record.depth)
         self.assertTrue(np.all(record.instance[sky] == 0) and np.all(record.instance[~sky] > 0))
-        # Development is monotonic: what is brighter in radiance is not darker in the picture.
+        # Development is monotonic: a pixel of more radiance is not darker in the picture.
         bright = record.hdr.max(axis=-1) > 2 * np.median(record.hdr)
         self.assertGreater(record.rgb[bright].mean(), record.rgb[~bright].mean())
         self.assertEqual(camera.rgb.path(1).name, "000001.png")

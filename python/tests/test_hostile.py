@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Data sets that lie: whatever is wrong with them is a greatx.Error that names the file, and nothing
-hangs."""
+"""Tests hostile data sets: every fault raises a greatx.Error that names the file, and nothing hangs."""
 import copy
 import os
 import pathlib
@@ -21,12 +20,12 @@ import support
 from greatx.convert import sionna_paths, write_deepmimo
 from greatx.frames import read_exr, read_pcd, read_ply, read_png
 
-#: Random damages that are tried here; python/tests/damage.py makes as many as one likes.
+#: Number of random damages that are tried here. python/tests/damage.py can make any number.
 TRIES = 60
 
 
 def read_all(folder):
-    """Everything that a data set holds, by every way to it."""
+    """Reads all contents of a data set by every function that reads them."""
     ds = greatx.load(folder, incomplete=True)
     ds.materials, ds.instances, ds.semantic_classes
     for sequence in ds.sequences:
@@ -50,7 +49,7 @@ def read_all(folder):
 
 class Hostile(unittest.TestCase):
     def setUp(self):
-        signal.alarm(60)  # ends the process: something hangs
+        signal.alarm(60)  # ends the process if a test hangs
 
     def tearDown(self):
         signal.alarm(0)
@@ -90,7 +89,7 @@ class Hostile(unittest.TestCase):
             self.fails(
                 self.changed(put("tick_rate_hz", value=rate)), "dataset.json: tick_rate_hz: expected a"
             )
-            if rate != "":  # which says that it has none
+            if rate != "":  # an empty rate is valid for a sensor
                 self.fails(
                     self.changed(put("sensors", 1, "rate_hz", value=rate)),
                     "dataset.json: sensors[1].rate_hz: expected a",
@@ -188,7 +187,8 @@ class Hostile(unittest.TestCase):
                 self.assertIn(str(path), str(caught.exception))
             path.write_bytes(data)
         data = exr.read_bytes()
-        at = data.index(b"compression\0compression\0") + 24  # the attribute's size: backwards, for ever
+        # The negative size of the attribute would lead the reader backwards, for ever.
+        at = data.index(b"compression\0compression\0") + 24
         exr.write_bytes(data[:at] + struct.pack("<i", -29) + data[at + 4 :])
         with self.assertRaisesRegex(greatx.Error, "an attribute of -29 bytes"):
             read_exr(exr)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Light of a scenario, changed from Python."""
+"""Tests changes of a scenario's environment from Python: sun, moon, place and time."""
 import unittest
 
 import greatx
@@ -11,7 +11,7 @@ NOON, NIGHT = "2026-06-21T13:50:00+02:00", "2026-12-21T01:00:00+01:00"
 
 
 class Light(unittest.TestCase):
-    """Of `environment=`, only what is named changes."""
+    """`environment=` changes only the named fields."""
 
     def sim(self, environment=None, **base):
         return greatx.Simulation({**EMPTY, "environment": base}, environment=environment, validation=True)

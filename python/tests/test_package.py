@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The package as it lies in the sources, without the compiled module."""
+"""Tests the package in the source folder, without the compiled module."""
 import importlib.util
 import unittest
 

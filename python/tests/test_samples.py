@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""One item a tick: NumPy's half always, torch's with a stand-in where torch is not installed."""
+"""Tests Dataset.samples and Dataset.torch, the latter with a stand-in for torch and, if installed, with
+torch.
+"""
 import importlib.util
 import pickle
 import sys
@@ -77,7 +79,7 @@ class Items(unittest.TestCase):
 
 
 def stand_in():
-    """The little of torch that greatx touches, by NumPy."""
+    """Returns modules with the part of torch that greatx uses, by NumPy."""
     torch = types.ModuleType("torch")
     torch.from_numpy = np.asarray
     torch.utils = types.ModuleType("torch.utils")
@@ -87,7 +89,7 @@ def stand_in():
 
 
 class Tensors(unittest.TestCase):
-    """Runs with a stand-in for torch; RealTorch below with the real one."""
+    """Runs with a stand-in for torch. The class RealTorch below runs the same tests with torch."""
 
     names = ["csi/cfr", "csi/id", "car/front/rgb", "car/front/instance", "csi/rx"]
 
@@ -110,7 +112,7 @@ class Tensors(unittest.TestCase):
         np.testing.assert_array_equal(
             item["csi/id"].view(np.uint64)[: item["csi/id_count"]], self.ds["csi"].id[2]
         )
-        item["csi/cfr"][...] = 0  # memory of its own: the file is mapped read-only
+        item["csi/cfr"][...] = 0  # a tensor has its own memory, because the file is mapped read-only
         self.assertTrue(self.ds["csi"].cfr[2].any())
 
     def test_transform(self):

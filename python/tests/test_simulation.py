@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes, paths and channels computed from Python."""
+"""Tests scenes, paths, channels, maps and runs that are computed from Python."""
 import gc
 import logging
 import os
@@ -21,7 +21,7 @@ LAMBDA = C / 3.5e9
 
 
 def in_space(**fields):
-    """A transmitter and a receiver 50 m apart and nothing else."""
+    """Returns a simulation of a transmitter and a receiver in free space, 50 m apart."""
     sim = greatx.Simulation(EMPTY, validation=True)
     sim.place_transmitter("bs", [0, 0, 10])
     sim.place_receiver("ue", [30, 40, 10])
@@ -118,7 +118,7 @@ class ClosedForms(unittest.TestCase):
             points = np.array([[0.1, -3, 1.5], own.receiver_position[rx]])
             there = sim.paths(tick=2, receivers=points)
             if name.startswith("car"):
-                continue  # it moves: the body that it is on hides no antenna of its own
+                continue  # a car's own body does not hide its antenna, but would hide a point
             for tx in range(2):
                 mine, other = own.link(rx, tx), there.link(1, tx)
                 for array in ("delay", "transfer", "amplitude", "id", "vertex", "departure"):
@@ -232,7 +232,9 @@ class SameBytes(unittest.TestCase):
             ({}, {"moving_reflectors": "on"}),
             (
                 {
-                    "tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna]": "tx: [walker/antenna, car/antenna], rx: [bs/panel]"
+                    "tx: [bs/panel, corner/panel], rx: [car/antenna, walker/antenna]": (
+                        "tx: [walker/antenna, car/antenna], rx: [bs/panel]"
+                    )
                 },
                 {},
             ),
@@ -430,7 +432,7 @@ class Errors(unittest.TestCase):
         self.check(["no receivers"], sim.run)
 
     def test_the_air_between_far_points(self):
-        """Which effects matter follows the points of each call, whatever was asked before."""
+        """The effects that are on depend on the points of each call and not on earlier calls."""
         far, near = np.array([[1000.0, 0, 20]]), np.array([[0.2, 0, 20]])
         for carrier_hz, environment in ((60e9, {}), (28e9, {"rain_mm_h": 25})):
             sim = greatx.Simulation(EMPTY, environment=environment, validation=True)
@@ -458,7 +460,7 @@ class Errors(unittest.TestCase):
             self.assertLess(20 * np.log10(ratio), -3)
 
     def test_interrupt_within_a_search(self):
-        """One that would take minutes."""
+        """The search would take minutes if it were not interrupted."""
         sim = greatx.Simulation(
             {**EMPTY, "ticks": 2, "scene": {"generate": {"kind": "city", "seed": 9, "size_m": 200}}},
             validation=True,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""The examples that compute run, with whatever of their optional packages is there."""
+"""Runs the examples that compute, with those of their optional packages that are installed."""
 import os
 import pathlib
 import subprocess

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A camera's ground truth as a data set holds it, against itself in NumPy: flow by depth and poses, boxes by
-the 3-D box's corners and the picture of ids, depth along the ray by planar depth."""
+"""Tests a camera's ground truth in a data set by computations in NumPy: the flow by depth and poses, the
+boxes by the corners of the 3-D boxes and the picture of ids, and the depth along the ray by the planar
+depth.
+"""
 import unittest
 
 import numpy as np
@@ -29,7 +31,7 @@ class Truth(unittest.TestCase):
         cls.poses = cls.ds.single().poses
         m = cls.camera.metadata
         v, u = np.mgrid[: m["height"], : m["width"]] + m["pixel_center"]
-        # sensor axes: x forward, y left, z up
+        # Rays are in sensor axes: x forward, y left, z up.
         cls.pixel = np.stack([u, v], axis=-1)
         cls.rays = np.stack([np.ones_like(u), -(u - m["cx"]) / m["fx"], -(v - m["cy"]) / m["fy"]], axis=-1)
 
@@ -40,7 +42,7 @@ class Truth(unittest.TestCase):
         )
 
     def camera_pose(self, row):
-        """World position and rotation of the sensor."""
+        """Returns the world position and the rotation world_from_sensor of the camera at a record."""
         mount = self.camera.metadata["body_from_sensor"]
         r = rotation(self.poses.orientation[row, 0])
         return self.poses.position[row, 0] + r @ mount["position_m"], r @ rotation(mount["orientation_wxyz"])
@@ -104,7 +106,7 @@ class Truth(unittest.TestCase):
                 uv = self.project(p)
                 self.assertTrue((record.box_unclipped[i, :2] >= uv.min(0) - 1e-3).all())
                 self.assertTrue((record.box_unclipped[i, 2:] <= uv.max(0) + 1e-3).all())
-                # Both frames place it alike.
+                # The centres in sensor and world coordinates agree.
                 position, r = self.camera_pose(record.row)
                 np.testing.assert_allclose(
                     position + r @ record.box_sensor_center[i], record.box_center[i], atol=1e-6

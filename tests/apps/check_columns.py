@@ -4,8 +4,8 @@
 
 usage: check_columns.py ROOT
 
-All lines of the source (C++, GLSL, Python, CMake, shell) and of the scenarios in assets/ are checked. Of a Markdown page the
-sentences are checked, but no table, block of code or picture.
+All lines of the source (C++, GLSL, Python, CMake, shell) and of the scenarios in assets/ are checked. Of a
+Markdown page the sentences are checked, but no table, block of code or picture.
 """
 import pathlib
 import subprocess

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/vec.h"
@@ -24,9 +25,9 @@ struct LineShape {
   dvec3 a{0.0}, b{0.0};  ///< world, m
   io::Color color;
   float width_px = 1.5f;
-  uint32_t row = ~0u;      ///< into Shapes::rows; ~0: none
-  bool arrow = false;      ///< a head at b
-  bool always = false;     ///< drawn in front of everything, never hidden by the scene
+  uint32_t row = ~0u;   ///< into Shapes::rows; ~0: none
+  bool arrow = false;   ///< a head at b
+  bool always = false;  ///< drawn in front of everything, never hidden by the scene
 };
 
 struct PointShape {
@@ -52,7 +53,14 @@ struct Shapes {
   std::vector<ShapeRow> rows;
   /// A legend for the corner of the view: texts with their colours.
   std::vector<std::pair<std::string, io::Color>> legend;
+
+  bool empty() const { return lines.empty() && points.empty() && labels.empty(); }
+  /// Adds everything of `other`. Its rows come behind those that are there.
   void append(const Shapes& other);
+  /// Adds a row and returns its number, for LineShape::row and PointShape::row.
+  uint32_t add_row(std::string text, uint64_t id = 0);
+  /// Adds a line of the legend in the colour of plain text.
+  void note(std::string text);
 };
 
 }  // namespace greatx::view

@@ -34,10 +34,10 @@ struct RunStatus {
   double progress = -1.0;  ///< of the activity, 0 to 1; negative: unknown
   std::string error;       ///< of `failed`: the whole message, with file and line; also of a tick that failed
   bool playing = false;
-  double speed = 1.0;      ///< wanted ticks of simulated time per wall time: 1 is real time, 0 as fast as it can
-  double reached = 0.0;    ///< the speed of the last second
+  double speed = 1.0;  ///< wanted ticks of simulated time per wall time: 1 is real time, 0 as fast as it can
+  double reached = 0.0;  ///< the speed of the last second
   uint32_t sequence = 0;
-  int64_t tick = -1;       ///< shown; -1: none yet
+  int64_t tick = -1;  ///< shown; -1: none yet
 };
 
 class Run {

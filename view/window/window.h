@@ -26,7 +26,18 @@ struct WindowOptions {
 
 /// An input from a script. Coordinates are pixels of the window from its upper left corner.
 struct InputEvent {
-  enum class Kind : uint8_t { move, press, release, wheel, key_down, key_up, text, resize, minimize, restore };
+  enum class Kind : uint8_t {
+    move,
+    press,
+    release,
+    wheel,
+    key_down,
+    key_up,
+    text,
+    resize,
+    minimize,
+    restore
+  };
   Kind kind = Kind::move;
   double x = 0.0, y = 0.0;  ///< of move; of wheel: its turns; of resize: the new size
   int button = 0;           ///< of press and release: 0 left, 1 right, 2 middle
@@ -55,6 +66,8 @@ class Window {
   virtual Array screenshot() = 0;
   /// Takes an input as if it came from the user, at the next begin_frame.
   virtual void inject(const InputEvent& event) = 0;
+  /// Returns the messages of the validation layer since the last call; none without validation.
+  virtual std::vector<std::string> validation_messages() = 0;
   virtual void set_title(const std::string& title) = 0;
   virtual bool minimized() const = 0;
   /// Pixels for each screen coordinate, for fonts (1 or more).

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A data set's channels in the conventions of other tools (docs/converters.md). Nothing is normalised.
+"""Writes a data set's channels in the conventions of other tools (docs/converters.md). Nothing is normalised.
 
 `python3 -m greatx.convert deepmimo|sionna DIR OUT` does the same from a shell.
 """

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""python3 -m greatx.convert: exit codes as the program's, 0 success, 1 faulty input or data."""
+"""The command python3 -m greatx.convert. Its exit codes are those of greatx: 0 for success, 1 for faulty
+input or data.
+"""
 from __future__ import annotations
 
 import argparse

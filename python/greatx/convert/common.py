@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""What both converters need."""
+"""Functions that both converters use."""
 from __future__ import annotations
 
 import os
@@ -14,7 +14,9 @@ from ..errors import DatasetError
 
 
 def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:
-    """The sequence of this number; None: the only one."""
+    """Returns the sequence of this number; None stands for the only one. Raises DatasetError if there is
+    none.
+    """
     if number is None:
         if len(dataset.sequences) != 1:
             raise DatasetError(
@@ -25,12 +27,15 @@ def pick_sequence(dataset: Dataset, number: Optional[int]) -> Sequence:
         if sequence.number == number:
             return sequence
     raise DatasetError(
-        f"{dataset.path}: has no sequence {number}; it has {', '.join(str(s.number) for s in dataset.sequences)}"
+        f"{dataset.path}: has no sequence {number}; it has "
+        f"{', '.join(str(s.number) for s in dataset.sequences)}"
     )
 
 
 def pick_channel(sequence: Sequence, name: Optional[str]) -> Sensor:
-    """The channel of this name; None: the only one."""
+    """Returns the channel of this name; None stands for the only one. Raises DatasetError if there is
+    none.
+    """
     channels = [s for s in sequence.sensors.values() if s.kind == "csi"]
     names = ", ".join(s.name for s in channels) or "none"
     for channel in channels:
@@ -43,7 +48,7 @@ def pick_channel(sequence: Sequence, name: Optional[str]) -> Sensor:
 
 
 def make_folder(out: Union[str, "os.PathLike[str]"]) -> pathlib.Path:
-    """A folder that was not there or is empty."""
+    """Creates a folder, or accepts an empty one. Raises FileExistsError if the folder is not empty."""
     path = pathlib.Path(out)
     path.mkdir(parents=True, exist_ok=True)
     if any(path.iterdir()):
@@ -52,5 +57,5 @@ def make_folder(out: Union[str, "os.PathLike[str]"]) -> pathlib.Path:
 
 
 def turns(frequency_hz: float, delay_s: np.ndarray) -> np.ndarray:
-    """f tau without its whole turns, [0, 1): so that the exponential meets small numbers."""
+    """Returns the fractional part of f tau, [0, 1), so that the argument of the exponential is small."""
     return np.mod(frequency_hz * np.asarray(delay_s, np.float64), 1.0)

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""A scenario in the folder format of DeepMIMO 4, which `deepmimo.load` reads (docs/converters.md).
+"""Writes a scenario in the folder format of DeepMIMO 4, which `deepmimo.load` reads (docs/converters.md).
 
-A path's amplitude is that between upright isotropic antennas of vertical polarization at both ends,
+The amplitude of a path is that between upright isotropic antennas of vertical polarization at both ends,
     a = lambda/(4 pi) transfer[theta, theta] e^{-j 2 pi f_c tau},
-whatever the antennas of the channel: DeepMIMO puts arrays and patterns on itself. power is 20 lg |a| (dBW at
-0 dBW transmitted), phase is the angle of a in degrees, of the time convention e^{+j omega t}, at the carrier.
+independently of the channel's antennas, because DeepMIMO applies arrays and patterns itself. power is 20 lg
+|a| (dBW for 0 dBW transmitted). phase is the angle of a in degrees at the carrier, for the time convention
+e^{+j omega t}.
 """
 from __future__ import annotations
 
@@ -33,11 +34,11 @@ from ..links import (
 )
 from .common import make_folder, pick_channel, pick_sequence, turns
 
-#: The version of DeepMIMO whose files these are.
+#: The version of DeepMIMO whose format is written.
 DEEPMIMO_VERSION = "4.0.5"
-#: What a tick is: a snapshot in a sub-folder of its own, or so many more users of one static scenario.
+#: A tick becomes a snapshot in a subfolder of its own, or adds users to one static scenario.
 LAYOUTS = ("snapshots", "users")
-#: Our interactions as DeepMIMO's digits.
+#: DeepMIMO's digits of our interactions.
 DIGIT = {REFLECTION: 1, DIFFRACTION: 2, SCATTERING: 3, TRANSMISSION: 4}
 _DIGITS = np.array([DIGIT.get(i, 0) for i in range(max(DIGIT) + 1)])
 VACUUM_PERMITTIVITY = 8.8541878188e-12  # F/m, CODATA 2022
@@ -53,15 +54,14 @@ def write_deepmimo(
     sequence: Optional[int] = None,
     layout: str = "snapshots",
 ) -> Dict[str, Any]:
-    """Writes a channel of one sequence to the folder `out`, whose name is the scenario's; counts of what was
-    written.
+    """Writes a channel of one sequence to the folder `out`, whose name becomes the scenario's name. Returns
+    counts of the written objects.
 
-    layout "snapshots": a tick is a snapshot (of one tick alone the scenario is static); "users": every
-    receiver at every tick is a user of a static scenario, for which the transmitters must stand still.
-    Beside what DeepMIMO reads there are doppler_*.npz in Hz (for `Dataset.set_doppler`), and the times of the
-    snapshots under "greatx" in params.json.
-    Paths whose vertical amplitude is 0 are left out and counted. DatasetError, or FileExistsError for a
-    folder in use.
+    With the layout "snapshots", each tick is a snapshot; a single tick gives a static scenario. With "users",
+    every receiver at every tick is a user of a static scenario, so the transmitters must not move. In
+    addition to the files that DeepMIMO reads, writes doppler_*.npz in Hz (for `Dataset.set_doppler`), and the
+    times of the snapshots under "greatx" in params.json. Leaves out and counts the paths whose vertical
+    amplitude is 0. Raises DatasetError, or FileExistsError if the folder is not empty.
     """
     if layout not in LAYOUTS:
         raise ValueError(f"layout {layout!r}: expected one of {', '.join(LAYOUTS)}")
@@ -102,7 +102,7 @@ def _write(
             for key, value in arrays.items():
                 np.savez_compressed(folder / f"{key}_t{TX_SET:03}_tx{tx:03}_r{RX_SET:03}.npz", **{key: value})
         np.savez_compressed(folder / "vertices.npz", vertices=np.empty((0, 3), np.float32))
-        (folder / "objects.json").write_text("[]\n")  # a data set holds no geometry
+        (folder / "objects.json").write_text("[]\n")  # no objects, because a data set holds no geometry
     params = _params(sensor, records, len(snapshots), len(snapshots[0]), int(active.sum()), layout)
     (root / "params.json").write_text(json.dumps(params, indent=2) + "\n")
     return {
@@ -115,14 +115,16 @@ def _write(
 
 
 def _vertical_amplitude(sensor: Sensor, paths: Dict[str, np.ndarray]) -> np.ndarray:
-    """complex128 [path]: a, as at the top of this file."""
+    """Returns the amplitudes a (see the docstring of this file), complex128 [path]."""
     carrier = sensor.metadata["carrier_hz"]
     phase = np.exp(-2j * np.pi * turns(carrier, paths["delay"]))
     return SPEED_OF_LIGHT / carrier / (4 * np.pi) * paths["transfer"][:, 0, 0].astype(complex) * phase
 
 
 class _Room:
-    """How many paths and interactions all arrays have room for, and what went into them."""
+    """Holds the extents of all arrays, the largest numbers of paths per link and of interactions per path,
+    and the numbers of written and omitted paths.
+    """
 
     def __init__(self, sensor: Sensor, records: List[Record]):
         self.paths, self.interactions, self.written, self.left_out = 1, 1, 0, 0
@@ -141,11 +143,13 @@ class _Room:
 
 
 def _arrays(points: List[Point], tx: int, room: _Room) -> Dict[str, np.ndarray]:
-    """The matrices of one transmitter: N points, P paths, I interactions; NaN where there is none."""
+    """Returns the arrays of one transmitter for N points, P paths and I interactions. Missing entries are
+    NaN.
+    """
     n, p, i = len(points), room.paths, room.interactions
     keys = ("power", "phase", "delay", "aoa_az", "aoa_el", "aod_az", "aod_el", "doppler")
     out = {key: np.full((n, p), np.nan, np.float32) for key in keys}
-    # The digits of up to seven interactions are exact in a float32.
+    # A float32 represents the digits of up to seven interactions exactly.
     out["inter"] = np.full((n, p), np.nan, np.float32 if i <= 7 else np.float64)
     out["inter_pos"] = np.full((n, p, i, 3), np.nan, np.float32)
     out["rx_pos"] = np.empty((n, 3), np.float32)
@@ -160,7 +164,9 @@ def _arrays(points: List[Point], tx: int, room: _Room) -> Dict[str, np.ndarray]:
 
 
 def _link(record: Record, rx: int, tx: int) -> Dict[str, np.ndarray]:
-    """DeepMIMO's quantities of one link's paths, the strongest first: [path], inter_pos [path, depth, 3]."""
+    """Returns DeepMIMO's quantities of one link's paths, sorted from the strongest path on: [path], and
+    inter_pos [path, depth, 3].
+    """
     paths = paths_of(record, rx, tx)
     amplitude = _vertical_amplitude(record.sensor, paths)
     order = np.argsort(-np.abs(amplitude), kind="stable")
@@ -274,7 +280,7 @@ def _params(
 
 
 def _materials(meta: Dict[str, Any]) -> Dict[str, Any]:
-    """The outermost layer of each wall; all layers are in rt_params.raw_params."""
+    """Returns the outermost layer of each wall. rt_params.raw_params holds all layers."""
     materials = {}
     for wall in meta["walls"]:
         if not wall["layers"]:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The greatx authors
 # SPDX-License-Identifier: Apache-2.0
-"""Paths and channels as arrays in the conventions of Sionna RT 2.2 (sionna.rt.Paths with synthetic arrays;
-docs/converters.md). Delays are absolute: `cir` and `cfr` are those of Sionna's methods with
+"""Converts paths and channels to arrays in the conventions of Sionna RT 2.2 (sionna.rt.Paths with synthetic
+arrays; docs/converters.md). Delays are absolute: `cir` and `cfr` equal those of Sionna's methods with
 normalize_delays=False.
 """
 from __future__ import annotations
@@ -28,40 +28,44 @@ from ..links import (
 )
 from .common import make_folder, pick_channel, pick_sequence, turns
 
-#: Our interactions as sionna.rt.constants.InteractionType: SPECULAR, DIFFUSE, REFRACTION, DIFFRACTION.
+#: Values of sionna.rt.constants.InteractionType of our interactions: SPECULAR, DIFFUSE, REFRACTION,
+#: DIFFRACTION.
 INTERACTION = {REFLECTION: 1, SCATTERING: 2, TRANSMISSION: 4, DIFFRACTION: 8}
 _INTERACTIONS = np.array([INTERACTION.get(i, 0) for i in range(max(INTERACTION) + 1)], np.uint32)
-INVALID = 0xFFFFFFFF  #: in `objects`: there is none
+INVALID = 0xFFFFFFFF  #: value in `objects` that stands for no object
 
 
 @dataclasses.dataclass
 class SionnaPaths:
-    """Named as sionna.rt.Paths names them. Links with fewer paths than `path` are padded: a, angles, Doppler
-    and vertices with 0, tau with -1, interactions with 0, objects with INVALID; `valid` is False there."""
+    """Holds the arrays of a record under the names of sionna.rt.Paths. Links with fewer paths than the axis
+    `path` are padded: a, angles, Doppler shifts, vertices and interactions with 0, tau with -1, objects with
+    INVALID. There, `valid` is False.
+    """
 
     a: np.ndarray  #: complex64 [rx, rx_ant, tx, tx_ant, path]: coefficients without e^{-j 2 pi f_c tau}
     tau: np.ndarray  #: float64 [rx, tx, path] s, absolute
     theta_t: np.ndarray  #: float32 [rx, tx, path] rad: zenith of departure
     phi_t: np.ndarray  #: float32 [rx, tx, path] rad: azimuth of departure
-    theta_r: np.ndarray  #: float32 [rx, tx, path] rad: zenith of arrival, from the receiver back along the path
+    #: float32 [rx, tx, path] rad: zenith of arrival, the direction from the receiver back along the path
+    theta_r: np.ndarray
     phi_r: np.ndarray  #: float32 [rx, tx, path] rad: azimuth of arrival
     doppler: np.ndarray  #: float32 [rx, tx, path] Hz
     valid: np.ndarray  #: bool [rx, tx, path]
     interactions: np.ndarray  #: uint32 [depth, rx, tx, path]: sionna.rt.constants.InteractionType
-    objects: np.ndarray  #: uint32 [depth, rx, tx, path]: place in run.instances of dataset.json
+    objects: np.ndarray  #: uint32 [depth, rx, tx, path]: index into run.instances of dataset.json
     vertices: np.ndarray  #: float32 [depth, rx, tx, path, 3] m, world
     cir: np.ndarray  #: complex64 [rx, rx_ant, tx, tx_ant, path, time]: a e^{-j 2 pi f_c tau} e^{j 2 pi nu t}
     cfr: np.ndarray  #: complex64 [rx, rx_ant, tx, tx_ant, time, subcarrier]: the data set's own H
     frequencies: np.ndarray  #: float64 [subcarrier] Hz, about the carrier: the argument of Paths.cfr
-    times: np.ndarray  #: float64 [time] s, from the tick on
+    times: np.ndarray  #: float64 [time] s, relative to the tick
     sources: np.ndarray  #: float64 [tx, 3] m, world
     targets: np.ndarray  #: float64 [rx, 3] m, world
     frequency: float  #: Hz, the carrier
-    synthetic_array: bool = True  #: one direction and one delay a path for a whole array
+    synthetic_array: bool = True  #: a path has one direction and one delay for a whole array
 
 
 def sionna_paths(record: Record) -> SionnaPaths:
-    """Of one record of a channel. Paths stay in their own order (docs/dataset.md)."""
+    """Converts one record of a channel. Paths keep their order (docs/dataset.md)."""
     sensor = check_channel(record.sensor)
     with interpreting(sensor.sequence.path / sensor.name):
         return _paths(record, sensor)
@@ -96,7 +100,8 @@ def _paths(record: Record, sensor: Sensor) -> SionnaPaths:
         out["objects"][(slice(None), *at)] = np.where(p["object"] > 0, p["object"] - np.uint32(1), INVALID).T
         out["vertices"][(slice(None), *at)] = np.nan_to_num(p["vertex"]).transpose(1, 0, 2)
         a[rx, :, tx, :, : len(p["delay"])] = np.moveaxis(p["amplitude"], 0, -1)
-    # `amplitude` is the baseband coefficient, with the carrier's phase: Paths.a is without.
+    # `amplitude` is the baseband coefficient, which includes the carrier's phase. Paths.a does not include
+    # it.
     passband = (
         a * np.exp(2j * np.pi * turns(carrier, np.where(out["valid"], out["tau"], 0)))[:, None, :, None]
     )
@@ -124,9 +129,10 @@ def write_sionna(
     channel: Optional[str] = None,
     sequence: Optional[int] = None,
 ) -> Dict[str, int]:
-    """OUT/sequence_0000/000000.npz, ...: a file a record, with the fields of SionnaPaths and `tick`,
-    `time_s`. Of one sequence or (None) of all. Counts of what was written; DatasetError, or FileExistsError
-    for a folder in use."""
+    """Writes OUT/sequence_0000/000000.npz, ...: one file per record, with the fields of SionnaPaths, `tick`
+    and `time_s`. Writes one sequence, or all if `sequence` is None. Returns counts of the written objects.
+    Raises DatasetError, or FileExistsError if the folder is not empty.
+    """
     sequences = dataset.sequences if sequence is None else [pick_sequence(dataset, sequence)]
     sensors = [pick_channel(s, channel) for s in sequences]
     for sensor in sensors:
