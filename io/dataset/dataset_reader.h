@@ -42,10 +42,18 @@ class DatasetReader {
   /// array exactly is preferred (EXR to 24-bit PNG for depth). Throws UserError if the file is missing or
   /// does not hold such an array.
   Array load(uint32_t sequence, const IndexRow& row, const std::string& array) const;
+  /// Loads all arrays of one record, in the order of the sensor's arrays, each one like load(). A file that
+  /// holds several of them is read once.
+  std::vector<Array> load_record(uint32_t sequence, const IndexRow& row) const;
   /// Loads an array from the given output. `array` is an index into OutputSpec::arrays.
   Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array) const;
 
  private:
+  /// Holds the properties of the clouds that were read, by output.
+  using Clouds = std::map<const OutputSpec*, std::map<std::string, Array>>;
+  Array load(uint32_t sequence, const IndexRow& row, const std::string& array, Clouds& clouds) const;
+  Array load_output(uint32_t sequence, const IndexRow& row, const OutputSpec& output, size_t array,
+                    Clouds& clouds) const;
   Array load_stack(uint32_t sequence, const IndexRow& row, const OutputSpec& output,
                    const ArraySpec& spec) const;
   Array read_stack_rows(const std::string& path, DType dtype, std::vector<int64_t> row_shape, int64_t first,

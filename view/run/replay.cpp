@@ -138,9 +138,8 @@ std::shared_ptr<const Record> RecordedTicks::record(uint32_t sequence, const io:
   const auto sensor = static_cast<uint32_t>(row.sensor);
   if (RecordStore::Kept kept = store_.find(sequence, sensor, row.tick); kept.record) return kept.record;
   open_stacks_of(sequence);
-  auto record = std::make_shared<Record>(Record{sensor, row.tick, row.time_ns, row.sample, {}});
-  for (const ArraySpec& array : info_->sensors[sensor].arrays)
-    record->arrays.push_back(reader_->load(sequence, row, array.name));
+  const auto record = std::make_shared<const Record>(
+      Record{sensor, row.tick, row.time_ns, row.sample, reader_->load_record(sequence, row)});
   store_.put(sequence, record, 0.0);
   return record;
 }
