@@ -210,10 +210,11 @@ std::optional<TickAt> RunLoop::target(const Moves& moves) {
     at = checked(*moves.jump);
     if (!at) return {};
   }
+  if (!at) at = first(0);  // as if it had been shown, so that steps do not depend on how long opening takes
   for (int64_t left : moves.steps)
     for (; left != 0; left += left > 0 ? -1 : 1) {
       checkpoint();
-      const std::optional<TickAt> next = !at ? first(0) : left > 0 ? after(*at) : before(*at);
+      const std::optional<TickAt> next = !at ? at : left > 0 ? after(*at) : before(*at);
       if (!next) break;
       at = next;
     }
