@@ -50,6 +50,12 @@ struct Rig {
       : tables(run, std::vector{made.spec, poses.spec}, "test"), at(tables, poses.record) {}
 };
 
+/// The uav `dt_s` after the tick.
+Pose uav_after(double dt_s) {
+  return {uav_pose.position + dt_s * dvec3(3.0, -1.0, 0.5),
+          glm::angleAxis(0.8 * dt_s, dvec3(0, 0, 1)) * uav_pose.orientation};
+}
+
 // --- Shapes::append
 
 TEST(Shapes, AppendShiftsRows) {
@@ -126,9 +132,7 @@ TEST(LidarShapes, ArePlacedByThePoseOfTheirOwnShot) {
   const auto second = [&](const RecordTables& tables) {
     return lidar_shapes(tables, made.spec, made.record, &rig.at, {}).points.at(1).at;
   };
-  Pose moved{uav_pose.position + dt * dvec3(3.0, -1.0, 0.5),
-             glm::angleAxis(0.8 * dt, dvec3(0, 0, 1)) * uav_pose.orientation};
-  EXPECT_LT(glm::distance(second(rig.tables), (moved * sensor_mount).apply(in_sensor)), 1e-6);
+  EXPECT_LT(glm::distance(second(rig.tables), (uav_after(dt) * sensor_mount).apply(in_sensor)), 1e-6);
   // Without the effect, all shots start from the pose at the tick.
   const Rig still(made, R"({"effects": {"lidar_sweep_motion": false}})");
   EXPECT_LT(glm::distance(second(still.tables), (uav_pose * sensor_mount).apply(in_sensor)), 1e-9);
@@ -237,12 +241,14 @@ TEST(LidarShapes, RefuseDamagedArrays) {
 
 // --- Radar
 
+constexpr double frame_middle_s = 0.02;
+
 Made radar(const std::vector<float>& velocities, bool bistatic = false) {
   nlohmann::json metadata{{"azimuth_min_rad", -0.5},
                           {"azimuth_max_rad", 0.5},
                           {"range_span_m", 100.0},
                           {"velocity_min_m_s", -12.5},
-                          {"frame_middle_s", 0.0}};
+                          {"frame_middle_s", frame_middle_s}};
   if (bistatic) {
     metadata["illuminator"] = "point 4";
     metadata["body_from_illuminator"] = json_of(Pose{uav_pose.position + dvec3(0, 0, 50), dquat(1, 0, 0, 0)});
@@ -281,7 +287,7 @@ TEST(RadarShapes, HaveArrowsOfTheRadialVelocity) {
     const Shapes shapes = radar_shapes(rig.tables, made.spec, made.record, &rig.at, options);
     const std::vector<LineShape> arrows = arrows_of(shapes);
     ASSERT_EQ(arrows.size(), 3u) << "what rests has none";
-    const Pose world = uav_pose * sensor_mount;
+    const Pose world = uav_after(frame_middle_s) * sensor_mount;
     for (const auto& [arrow, i] : {std::pair(0, 0), std::pair(1, 1), std::pair(2, 3)}) {
       const dvec3 target = world.apply({10.0 + i, 2.0, -1.0});
       EXPECT_LT(glm::distance(arrows[arrow].a, target), 1e-5);
@@ -299,7 +305,7 @@ TEST(RadarShapes, OfABistaticRadarPointAlongTheGradientOfTheRange) {
   const Shapes shapes = radar_shapes(rig.tables, made.spec, made.record, &rig.at, {});
   const std::vector<LineShape> arrows = arrows_of(shapes);
   ASSERT_EQ(arrows.size(), 1u);
-  const dvec3 receiver = (uav_pose * sensor_mount).position,
+  const dvec3 receiver = (uav_after(frame_middle_s) * sensor_mount).position,
               transmitter = uav_pose.position + dvec3(0, 0, 50);
   const auto half_way = [&](const dvec3& at) {
     return 0.5 * (glm::distance(at, transmitter) + glm::distance(at, receiver));
@@ -397,8 +403,10 @@ const std::string box_run =
     R"({"semantic_classes": ["unlabeled", "road", "pole", "uav"],
         "instances": [{"name": "road", "class": "road", "box_m": [[0, 0, 0], [100, 8, 0]]},
                       {"name": "pole", "class": "pole", "box_m": [[3, 3, 0], [3.2, 3.2, 5]]},
-                      {"name": "frame", "class": "uav", "node": "uav", "box_m": [[-0.3, -0.3, -0.1], [0.3, 0.3, 0.1]]},
-                      {"name": "rotor", "class": "pole", "node": "uav", "box_m": [[0.2, 0.2, 0.0], [0.5, 0.5, 0.2]]},
+                      {"name": "frame", "class": "uav", "node": "uav",
+                       "box_m": [[-0.3, -0.3, -0.1], [0.3, 0.3, 0.1]]},
+                      {"name": "rotor", "class": "pole", "node": "uav",
+                       "box_m": [[0.2, 0.2, 0.0], [0.5, 0.5, 0.2]]},
                       {"name": "label", "class": "pole"}]})";
 
 TEST(BoxShapes, OfInstancesFollowTheirNode) {
