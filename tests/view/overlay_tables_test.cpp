@@ -218,6 +218,11 @@ TEST(NodePoses, AreThoseOfTheRecord) {
   EXPECT_LT(
       glm::distance(later.rotate({1, 0, 0}), glm::angleAxis(1.0, dvec3(0, 0, 1)) * at.rotate({1, 0, 0})),
       1e-12);
+  Made accelerated = made;
+  accelerated.array("acceleration").as<double>()[4] = -2.0;  // of b along y
+  EXPECT_LT(glm::distance(NodePoses(tables, accelerated.record).after(1, 3.0).position,
+                          at.position + dvec3(9, -9, 0)),
+            1e-9);
   const Pose by_name = pose_of(tables, "b", made.record);
   EXPECT_EQ(by_name.position, at.position);
   expect_user_error([&] { pose_of(tables, "c", made.record); }, {"'c'"});
