@@ -48,8 +48,8 @@ class FrameView : public Panel {
 const std::vector<PanelKind>& own_kinds() {
   static const std::vector<PanelKind> kinds = [] {
     std::vector<PanelKind> all;
-    for (const auto list : {time_surface_kinds, range_image_kinds, channel_kinds, path_kinds, link_kinds,
-                            motion_kinds})
+    for (const auto list :
+         {time_surface_kinds, range_image_kinds, channel_kinds, path_kinds, link_kinds, motion_kinds})
       for (PanelKind& kind : list()) all.push_back(std::move(kind));
     return all;
   }();

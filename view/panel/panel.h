@@ -103,7 +103,6 @@ class Panel {
 /// Lists what sensors with these declarations can show, in the order of the sensors.
 std::vector<PanelChoice> panels_of(std::span<const SensorSpec> sensors);
 /// Throws UserError if the sensor has no such panel, or lacks an array that it needs; the message names both.
-std::unique_ptr<Panel> make_panel(const PanelChoice& choice,
-                                  std::shared_ptr<const io::RecordSource> records);
+std::unique_ptr<Panel> make_panel(const PanelChoice& choice, std::shared_ptr<const io::RecordSource> records);
 
 }  // namespace greatx::view

@@ -12,8 +12,8 @@ namespace theme = io::theme;
 void require_arrays(const SensorSpec& sensor, std::span<const char* const> arrays, const std::string& kind) {
   for (const char* name : arrays)
     if (std::ranges::find(sensor.arrays, name, &ArraySpec::name) == sensor.arrays.end())
-      throw_user_error("{}: the panel '{}' needs the array {}, which the sensor does not deliver", sensor.name,
-                       kind, name);
+      throw_user_error("{}: the panel '{}' needs the array {}, which the sensor does not deliver",
+                       sensor.name, kind, name);
 }
 
 PlotPlace place_plot(const io::Canvas& canvas, bool color_scale) {
@@ -61,7 +61,8 @@ std::string with_prefix(double value, const char* unit) {
   static constexpr struct {
     double factor;
     const char* name;
-  } prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}};
+  } prefixes[] = {{1e9, "G"},  {1e6, "M"},  {1e3, "k"},  {1.0, ""},
+                  {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}};
   if (value == 0.0) return fmt::format("0 {}", unit);
   for (const auto& prefix : prefixes)
     if (std::abs(value) >= 0.9999999 * prefix.factor)

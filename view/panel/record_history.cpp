@@ -51,9 +51,8 @@ void RecordHistory::add(const ShownTick& tick) {
   }
   uint64_t left = bytes();
   while (left > most_bytes_) {
-    Sensor& largest = *std::ranges::max_element(sensors_, {}, [](const Sensor& sensor) {
-      return sensor.entries.size() > 1 ? sensor.bytes : 0;
-    });
+    Sensor& largest = *std::ranges::max_element(
+        sensors_, {}, [](const Sensor& sensor) { return sensor.entries.size() > 1 ? sensor.bytes : 0; });
     if (!drop_oldest(largest)) break;
     left = bytes();
   }
