@@ -150,6 +150,32 @@ TEST(LidarShapes, AreStridedAndSaySo) {
   EXPECT_EQ(lidar_shapes(rig.tables, made.spec, made.record, &rig.at, options).points.size(), 250'000u);
 }
 
+TEST(LidarShapes, AreColouredAsTheirOwnReturnsWhenStrided) {
+  const Made made = cloud(240);
+  const Rig rig(made);
+  for (const LidarColors colors :
+       {LidarColors::height, LidarColors::intensity, LidarColors::ring, LidarColors::instance}) {
+    LidarOptions options;
+    options.colors = colors;
+    const Shapes every = lidar_shapes(rig.tables, made.spec, made.record, &rig.at, options);
+    options.most = 60;
+    const Shapes fourth = lidar_shapes(rig.tables, made.spec, made.record, &rig.at, options);
+    ASSERT_EQ(fourth.points.size(), 60u);
+    for (size_t i = 0; i < 60; ++i) {
+      const PointShape &a = fourth.points[i], &b = every.points[4 * i];
+      EXPECT_EQ(a.at, b.at);
+      EXPECT_EQ(fourth.rows.at(a.row).text, every.rows.at(b.row).text);
+      // Scales follow what is shown.
+      if (colors == LidarColors::instance) {
+        EXPECT_TRUE(same(a.color, b.color));
+      }
+      if (colors == LidarColors::ring && made.record.arrays[1].as<uint16_t>()[4 * i] == 12) {
+        EXPECT_TRUE(same(a.color, io::turbo(0.92)));
+      }
+    }
+  }
+}
+
 TEST(LidarShapes, AreColouredByWhatIsAsked) {
   const Made made = cloud(300);
   const Rig rig(made,
