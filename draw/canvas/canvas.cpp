@@ -11,9 +11,8 @@ namespace greatx::io {
 
 namespace {
 
-uint8_t to_byte(double value) {
-  return static_cast<uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
-}
+/// Rounds as std::lround() does, without a call: this is done for every pixel.
+uint8_t to_byte(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
 
 /// c[0] + c[1] t + ..., one polynomial a channel.
 template <size_t N>
@@ -97,9 +96,9 @@ void Canvas::blend(int x, int y, Color color, double alpha) {
 }
 
 void Canvas::fill(const Rect& rect, Color color, double alpha) {
+  const int left = std::max(rect.x, clip_.x), right = std::min(rect.right(), clip_.right());
   for (int y = std::max(rect.y, clip_.y); y < std::min(rect.bottom(), clip_.bottom()); ++y)
-    for (int x = std::max(rect.x, clip_.x); x < std::min(rect.right(), clip_.right()); ++x)
-      blend(x, y, color, alpha);
+    for (int x = left; x < right; ++x) blend(x, y, color, alpha);
 }
 
 void Canvas::frame(const Rect& rect, Color color) {
@@ -189,15 +188,6 @@ void Canvas::picture(const Rect& rect, const Array& rgb) {
              static_cast<uint8_t>(sum[2] / count)});
     }
   }
-}
-
-void Canvas::raster(const Rect& rect, int columns, int rows, const std::function<Color(int, int)>& color) {
-  for (int y = 0; y < rect.height; ++y)
-    for (int x = 0; x < rect.width; ++x) {
-      blend(rect.x + x, rect.y + y,
-            color(static_cast<int>(int64_t{x} * columns / rect.width),
-                  static_cast<int>(int64_t{y} * rows / rect.height)));
-    }
 }
 
 }  // namespace greatx::io

@@ -5,6 +5,7 @@
 // maps.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -65,8 +66,22 @@ class Canvas {
 
   /// u8 [h, w, 3], averaged down or repeated up into `rect`.
   void picture(const Rect& rect, const Array& rgb);
-  /// Any raster: the colour of column x, row y of `columns` x `rows`, nearest sample.
-  void raster(const Rect& rect, int columns, int rows, const std::function<Color(int x, int y)>& color);
+  /// Any raster: the colour of column x, row y of `columns` x `rows`, nearest sample. `color(int x, int y)`
+  /// is asked for every pixel, so it is a template parameter and not a std::function.
+  template <typename ColorOf>
+  void raster(const Rect& rect, int columns, int rows, const ColorOf& color) {
+    const int left = std::max(rect.x, clip_.x), right = std::min(rect.right(), clip_.right());
+    for (int y = std::max(rect.y, clip_.y); y < std::min(rect.bottom(), clip_.bottom()); ++y) {
+      const int row = static_cast<int>(int64_t{y - rect.y} * rows / rect.height);
+      uint8_t* pixel = pixels_.data() + (static_cast<size_t>(y) * static_cast<size_t>(width_) + left) * 3;
+      for (int x = left; x < right; ++x, pixel += 3) {
+        const Color c = color(static_cast<int>(int64_t{x - rect.x} * columns / rect.width), row);
+        pixel[0] = c.r;
+        pixel[1] = c.g;
+        pixel[2] = c.b;
+      }
+    }
+  }
 
  private:
   void glyph(char c, const std::function<void(int column, int row)>& dot) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "draw/sheet/picture_panel.h"
 
@@ -19,10 +20,7 @@ class EventPanel : public FramePanel {
 
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
     const IndexRow& record = source_.chosen[row];
-    const Array x = source_.load(record, "x", {DType::u16}, {-1}),
-                y = source_.load(record, "y", {DType::u16}, {-1}),
-                p = source_.load(record, "p", {DType::u8}, {-1});
-    expect_same_rows(source_, {&x, &y, &p});
+    const auto [x, y, p] = load(row);
     try {
       canvas.picture(picture,
                      event_picture(x.as<uint16_t>(), y.as<uint16_t>(), p.as<uint8_t>(), width_, height_));
@@ -36,9 +34,33 @@ class EventPanel : public FramePanel {
     canvas.text(legend.x, legend.y + 4, text, theme::text_scale, theme::dim);
   }
 
+  std::string nothing_of(size_t row) override {
+    return std::get<2>(load(row)).as<uint8_t>().empty() ? "no events" : "";
+  }
+  std::string value_at(const Rect& picture, size_t row, int x, int y, const SceneNames&) override {
+    const std::optional<RasterCell> cell = cell_at(picture, width_, height_, x, y);
+    if (!cell) return {};
+    const auto [xs, ys, ps] = load(row);
+    size_t counts[2] = {0, 0};
+    for (size_t i = 0; i < ps.as<uint8_t>().size(); ++i)
+      if (xs.as<uint16_t>()[i] == cell->column && ys.as<uint16_t>()[i] == cell->row)
+        ++counts[ps.as<uint8_t>()[i] != 0];
+    return fmt::format("({}, {})  ON {} OFF {}", cell->column, cell->row, counts[1], counts[0]);
+  }
+
  private:
+  /// x, y and p of the events.
+  std::tuple<Array, Array, Array> load(size_t row) const {
+    const IndexRow& record = source_.chosen[row];
+    std::tuple<Array, Array, Array> arrays{source_.load(record, "x", {DType::u16}, {-1}),
+                                           source_.load(record, "y", {DType::u16}, {-1}),
+                                           source_.load(record, "p", {DType::u8}, {-1})};
+    const auto& [x, y, p] = arrays;
+    expect_same_rows(source_, {&x, &y, &p});
+    return arrays;
+  }
   double interval_ms(const IndexRow& record) const {
-    const std::vector<IndexRow> rows = source_.reader.records_of(source_.sequence, source_.sensor);
+    const std::vector<IndexRow> rows = source_.records.records_of(source_.sequence, source_.sensor);
     for (size_t i = 1; i < rows.size(); ++i)
       if (rows[i].tick == record.tick)
         return 1e-6 * static_cast<double>(rows[i].time_ns - rows[i - 1].time_ns);
@@ -54,7 +76,7 @@ class DifferencePanel : public PicturePanel {
   explicit DifferencePanel(const PanelSource& source)
       : PicturePanel(source, "difference_picture", "differences", {DType::u8}) {}
   void draw(Canvas& canvas, const Rect& picture, const Rect& legend, size_t row) override {
-    const Array grey = load(row);
+    const Array& grey = load(row);
     const std::span<const uint8_t> values = grey.as<uint8_t>();
     Array rgb(DType::u8, {grey.shape[0], grey.shape[1], 3});
     for (size_t i = 0; i < values.size(); ++i) std::fill_n(rgb.as<uint8_t>().begin() + 3 * i, 3, values[i]);
@@ -63,7 +85,22 @@ class DifferencePanel : public PicturePanel {
             fmt::format("{} brighter  {} darker", std::count(values.begin(), values.end(), 255),
                         std::count(values.begin(), values.end(), 0)));
   }
+
+ protected:
+  std::string text_of(size_t, const Array& grey, size_t i, const SceneNames&) override {
+    const uint8_t value = grey.as<uint8_t>()[i];
+    return value == 255 ? "brighter" : value == 0 ? "darker" : "no change";
+  }
 };
+
+std::unique_ptr<FramePanel> make_events(const PanelSource& source) {
+  const JsonDocument metadata = metadata_of(source);
+  const JsonValue root = metadata.root();
+  constexpr int64_t longest_side = 16384;
+  if (!root.has("width") || !root.has("height")) return nullptr;
+  return std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
+                                      root.at("height").integer(1, longest_side));
+}
 
 }  // namespace
 
@@ -89,14 +126,9 @@ Array event_picture(std::span<const uint16_t> x, std::span<const uint16_t> y, st
   return rgb;
 }
 
-void add_event_panels(const PanelSource& source, Panels& panels) {
-  const JsonDocument metadata = metadata_of(source);
-  const JsonValue root = metadata.root();
-  constexpr int64_t longest_side = 16384;
-  if (root.has("width") && root.has("height") && source.has("x") && source.has("y") && source.has("p"))
-    panels.frames.push_back(std::make_unique<EventPanel>(source, root.at("width").integer(1, longest_side),
-                                                         root.at("height").integer(1, longest_side)));
-  if (source.has("difference_picture")) panels.frames.push_back(std::make_unique<DifferencePanel>(source));
+std::vector<FrameKind> event_frames() {
+  return {{"events", {"x", "y", "p"}, make_events, "events"},
+          {"differences", {"difference_picture"}, make_frame<DifferencePanel>, "differences"}};
 }
 
 }  // namespace greatx::io

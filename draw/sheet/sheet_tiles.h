@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "draw/sheet/panels.h"
+#include "io/dataset/dataset_reader.h"
 
 namespace greatx::io {
 
@@ -42,6 +43,8 @@ struct Band {
 };
 std::vector<Band> make_bands(const std::vector<std::unique_ptr<FramePanel>>& panels, size_t per_band);
 
+/// The largest rectangle of the aspect (height over width) in the middle of the tile.
+Rect fit(const Rect& tile, double aspect);
 /// Of a tile for pictures up to this aspect, kept within reason.
 int tile_height(double tallest_aspect);
 /// The panel's record `row` in the middle of the tile, framed, and its legend below: sheet::legend_height

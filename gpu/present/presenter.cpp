@@ -28,11 +28,7 @@ VkBufferImageCopy whole(VkExtent2D extent) {
 
 Presenter::Presenter(const PresentDevice& device, const Surface* surface) : device_(device) {
   make_render_pass();
-  make_pool();
-  VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-  sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
-  sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-  GREATX_VK(vkCreateSampler(device_.handle(), &sampler, nullptr, &sampler_));
+  pipeline_ = std::make_unique<UiPipeline>(device_, render_pass_);
   for (Frame& frame : frames_) make_frame(frame);
   if (surface != nullptr) swapchain_ = std::make_unique<Swapchain>(device_, *surface);
 }
@@ -40,14 +36,13 @@ Presenter::Presenter(const PresentDevice& device, const Surface* surface) : devi
 Presenter::~Presenter() {
   device_.wait_idle();
   swapchain_.reset();
-  vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
+  pipeline_.reset();
   for (Frame& frame : frames_) {
     vkDestroyFramebuffer(device_.handle(), frame.framebuffer, nullptr);
     vkDestroySemaphore(device_.handle(), frame.acquired, nullptr);
     vkDestroyFence(device_.handle(), frame.done, nullptr);
     vkDestroyCommandPool(device_.handle(), frame.pool, nullptr);
   }
-  vkDestroySampler(device_.handle(), sampler_, nullptr);
   vkDestroyRenderPass(device_.handle(), render_pass_, nullptr);
 }
 
@@ -84,16 +79,6 @@ void Presenter::make_render_pass() {
   GREATX_VK(vkCreateRenderPass(device_.handle(), &info, nullptr, &render_pass_));
 }
 
-void Presenter::make_pool() {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, most_textures};
-  VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-  info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
-  info.maxSets = most_textures;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &size;
-  GREATX_VK(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &descriptors_));
-}
-
 void Presenter::make_frame(Frame& frame) {
   VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
   pool.queueFamilyIndex = device_.queue_family();
@@ -108,20 +93,6 @@ void Presenter::make_frame(Frame& frame) {
   GREATX_VK(vkCreateFence(device_.handle(), &fence, nullptr, &frame.done));
   const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
   GREATX_VK(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, &frame.acquired));
-}
-
-void Presenter::run_now(const std::function<void(VkCommandBuffer)>& record) {
-  device_.wait_idle();
-  Frame& frame = frames_[0];
-  GREATX_VK(vkResetCommandPool(device_.handle(), frame.pool, 0));
-  begin(frame.cmd);
-  record(frame.cmd);
-  GREATX_VK(vkEndCommandBuffer(frame.cmd));
-  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-  submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &frame.cmd;
-  GREATX_VK(vkQueueSubmit(device_.queue(), 1, &submit, VK_NULL_HANDLE));
-  device_.wait_idle();
 }
 
 void Presenter::fit_canvas(Frame& frame, VkExtent2D extent) {
@@ -164,6 +135,33 @@ void Presenter::record_updates(Frame& frame) {
   }
 }
 
+void Presenter::record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing& drawing) {
+  if (drawing.indices.empty()) return;
+  const auto fit = [&](std::unique_ptr<PresentBuffer>& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
+    if (!buffer || buffer->mapped().size() < bytes)
+      buffer = std::make_unique<PresentBuffer>(device_, bytes + bytes / 2, usage);
+  };
+  const VkDeviceSize vertex_bytes = drawing.vertices.size() * sizeof(UiVertex);
+  const VkDeviceSize index_bytes = drawing.indices.size() * sizeof(uint16_t);
+  fit(frame.vertices, vertex_bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  fit(frame.indices, index_bytes, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  std::memcpy(frame.vertices->mapped().data(), drawing.vertices.data(), vertex_bytes);
+  std::memcpy(frame.indices->mapped().data(), drawing.indices.data(), index_bytes);
+  const VkBuffer vertices = frame.vertices->handle();
+  const VkDeviceSize offset = 0;
+  vkCmdBindVertexBuffers(frame.cmd, 0, 1, &vertices, &offset);
+  vkCmdBindIndexBuffer(frame.cmd, frame.indices->handle(), 0, VK_INDEX_TYPE_UINT16);
+  pipeline_->begin(frame.cmd, extent);
+  PresentTextureId bound = 0;
+  for (const UiCommand& command : drawing.commands) {
+    if (command.texture != bound) pipeline_->bind(frame.cmd, textures_.at(command.texture).set);
+    bound = command.texture;
+    vkCmdSetScissor(frame.cmd, 0, 1, &command.clip);
+    vkCmdDrawIndexed(frame.cmd, command.index_count, 1, command.first_index,
+                     static_cast<int32_t>(command.first_vertex), 0);
+  }
+}
+
 void Presenter::record_copy(Frame& frame, uint32_t image) {
   const VkImage target = swapchain_->image(image);
   change_layout(frame.cmd, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -196,7 +194,7 @@ void Presenter::submit(Frame& frame, std::optional<uint32_t> image) {
   GREATX_VK(vkQueueSubmit(device_.queue(), 1, &submit, frame.done));
 }
 
-void Presenter::frame(VkExtent2D extent, const std::function<void(VkCommandBuffer)>& draw) {
+void Presenter::frame(VkExtent2D extent, const UiDrawing& drawing) {
   if (extent.width == 0 || extent.height == 0) return;
   Frame& frame = frames_[frame_ % frames_in_flight];
   GREATX_VK(vkWaitForFences(device_.handle(), 1, &frame.done, VK_TRUE, UINT64_MAX));
@@ -216,7 +214,7 @@ void Presenter::frame(VkExtent2D extent, const std::function<void(VkCommandBuffe
   pass.clearValueCount = 1;
   pass.pClearValues = &clear;
   vkCmdBeginRenderPass(frame.cmd, &pass, VK_SUBPASS_CONTENTS_INLINE);
-  draw(frame.cmd);
+  record_drawing(frame, extent, drawing);
   vkCmdEndRenderPass(frame.cmd);
   if (image) record_copy(frame, *image);
   submit(frame, image);
@@ -230,16 +228,23 @@ std::vector<std::byte> Presenter::read_back() {
   device_.wait_idle();
   const PresentImage& canvas = *frames_[(frame_ - 1) % frames_in_flight].canvas;
   const PresentBuffer buffer(device_, canvas.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-  // frames_[0]'s command buffer is free, since the device is idle.
-  run_now([&](VkCommandBuffer cmd) {
-    const VkBufferImageCopy copy = whole(canvas.extent());
-    vkCmdCopyImageToBuffer(cmd, canvas.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.handle(), 1,
-                           &copy);
-    VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
-                            VK_ACCESS_HOST_READ_BIT};
-    vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0,
-                         nullptr, 0, nullptr);
-  });
+  // The device is idle, so any frame's command buffer is free.
+  const VkCommandBuffer cmd = frames_[0].cmd;
+  GREATX_VK(vkResetCommandPool(device_.handle(), frames_[0].pool, 0));
+  begin(cmd);
+  const VkBufferImageCopy copy = whole(canvas.extent());
+  vkCmdCopyImageToBuffer(cmd, canvas.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer.handle(), 1,
+                         &copy);
+  const VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_TRANSFER_WRITE_BIT,
+                                VK_ACCESS_HOST_READ_BIT};
+  vkCmdPipelineBarrier(cmd, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0,
+                       nullptr, 0, nullptr);
+  GREATX_VK(vkEndCommandBuffer(cmd));
+  VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &cmd;
+  GREATX_VK(vkQueueSubmit(device_.queue(), 1, &submit, VK_NULL_HANDLE));
+  device_.wait_idle();
   return {buffer.mapped().begin(), buffer.mapped().end()};
 }
 
@@ -248,11 +253,11 @@ PresentTextureId Presenter::make_texture(VkExtent2D extent) {
   Texture texture;
   texture.image = std::make_unique<PresentImage>(
       device_, extent, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  texture.set = pipeline_->make_set(texture.image->view());
   textures_.emplace(next_texture_, std::move(texture));
   return next_texture_++;
 }
 
-VkImageView Presenter::view_of(PresentTextureId texture) const { return textures_.at(texture).image->view(); }
 VkExtent2D Presenter::extent_of(PresentTextureId texture) const {
   return textures_.at(texture).image->extent();
 }
@@ -264,17 +269,17 @@ void Presenter::update(PresentTextureId id, std::vector<std::byte> rgba) {
   texture.pending = std::move(rgba);
 }
 
-void Presenter::drop(PresentTextureId id, std::function<void()> then) {
+void Presenter::drop(PresentTextureId id) {
   const auto found = textures_.find(id);
   GREATX_CHECK(found != textures_.end(), "no texture {}", id);
-  dropped_.push_back({std::move(found->second), frame_ + frames_in_flight, std::move(then)});
+  dropped_.push_back({std::move(found->second), frame_ + frames_in_flight});
   textures_.erase(found);
 }
 
 void Presenter::sweep() {
   std::erase_if(dropped_, [&](const Dropped& dropped) {
     if (frame_ < dropped.after_frame) return false;
-    if (dropped.then) dropped.then();
+    pipeline_->free_set(dropped.texture.set);
     return true;
   });
 }

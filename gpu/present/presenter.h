@@ -6,23 +6,20 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/present/present_device.h"
 #include "gpu/present/swapchain.h"
+#include "gpu/present/ui_pipeline.h"
 
 namespace greatx::gpu {
-
-/// Names a texture of a Presenter.
-using PresentTextureId = uint32_t;
 
 class Presenter {
  public:
   static constexpr uint32_t frames_in_flight = 2;
-  static constexpr uint32_t most_textures = 512;  ///< in the pool of descriptors
 
   /// `surface` is null without a window. Both outlive the presenter.
   Presenter(const PresentDevice& device, const Surface* surface);
@@ -30,28 +27,20 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  VkRenderPass render_pass() const { return render_pass_; }
-  VkSampler sampler() const { return sampler_; }
-  /// Holds sets of one sampled image each, which may be freed one by one.
-  VkDescriptorPool descriptor_pool() const { return descriptors_; }
-
-  /// Runs `record` in a command buffer of its own and waits until it is done.
-  void run_now(const std::function<void(VkCommandBuffer)>& record);
-  /// Draws a frame of `extent` pixels: the updates of textures, then `draw` within the render pass. Shows it
-  /// in the window, if there is one and it can be shown. An empty extent draws nothing.
-  void frame(VkExtent2D extent, const std::function<void(VkCommandBuffer)>& draw);
+  /// Draws a frame of `extent` pixels: the updates of textures, then the triangles. Shows it in the window, if
+  /// there is one and it can be shown. An empty extent draws nothing.
+  void frame(VkExtent2D extent, const UiDrawing& drawing);
   /// Returns the pixels of the last frame, RGBA, [height, width, 4], and its extent; empty before the first.
   std::vector<std::byte> read_back();
   VkExtent2D extent() const { return last_extent_; }
 
   /// Makes a texture. Its content is undefined until update().
   PresentTextureId make_texture(VkExtent2D extent);
-  VkImageView view_of(PresentTextureId texture) const;
   VkExtent2D extent_of(PresentTextureId texture) const;
   /// Replaces the texels from the next frame on, RGBA, [height, width, 4].
   void update(PresentTextureId texture, std::vector<std::byte> rgba);
-  /// The texture may still be in use by frames in flight: it is destroyed after them, and `then` is called.
-  void drop(PresentTextureId texture, std::function<void()> then);
+  /// The texture may still be in use by frames in flight: it is destroyed after them.
+  void drop(PresentTextureId texture);
 
  private:
   /// What one frame in flight needs.
@@ -63,23 +52,24 @@ class Presenter {
     std::unique_ptr<PresentImage> canvas;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     std::vector<std::unique_ptr<PresentBuffer>> staging;  ///< of this frame's updates
+    std::unique_ptr<PresentBuffer> vertices, indices;
   };
   struct Texture {
     std::unique_ptr<PresentImage> image;
+    VkDescriptorSet set = VK_NULL_HANDLE;
     std::vector<std::byte> pending;
     bool shown = false;  ///< it has had texels
   };
   struct Dropped {
     Texture texture;
     uint64_t after_frame = 0;
-    std::function<void()> then;
   };
 
   void make_render_pass();
-  void make_pool();
   void make_frame(Frame& frame);
   void fit_canvas(Frame& frame, VkExtent2D extent);
   void record_updates(Frame& frame);
+  void record_drawing(Frame& frame, VkExtent2D extent, const UiDrawing& drawing);
   void record_copy(Frame& frame, uint32_t image);
   void submit(Frame& frame, std::optional<uint32_t> image);
   void sweep();
@@ -87,8 +77,7 @@ class Presenter {
   const PresentDevice& device_;
   std::unique_ptr<Swapchain> swapchain_;
   VkRenderPass render_pass_ = VK_NULL_HANDLE;
-  VkSampler sampler_ = VK_NULL_HANDLE;
-  VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+  std::unique_ptr<UiPipeline> pipeline_;
   std::array<Frame, frames_in_flight> frames_;
   uint64_t frame_ = 0;  ///< number of the next frame
   VkExtent2D last_extent_{0, 0};

@@ -45,6 +45,7 @@ double SidePanel::carrier_hz(ShownRun& run) const {
 
 void SidePanel::draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view) {
   keep_times(main);
+  grid_.keep(runs);
   if (!ImGui::BeginTabBar("side tabs")) return;
   const auto tab = [](const char* name, auto draw_tab) {
     if (!ImGui::BeginTabItem(name)) return;

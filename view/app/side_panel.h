@@ -21,8 +21,7 @@ class SidePanel {
   explicit SidePanel(Window& window) : grid_(window) {}
   /// Draws into the current ImGui window. `main` is the run that the main view shows.
   void draw(std::span<ShownRun* const> runs, ShownRun& main, MainView& view);
-  /// Whether every panel shows the newest tick.
-  bool settled() const { return grid_.settled(); }
+  PanelGrid& grid() { return grid_; }
   /// Returns the carrier of the chosen channel, or of the first one; 3.5 GHz if there is none.
   double carrier_hz(ShownRun& run) const;
 

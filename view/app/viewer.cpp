@@ -11,7 +11,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "io/files/file.h"
 #include "io/formats/png.h"
+#include "sim/plan/camera_desc.h"
 #include "view/app/commands.h"
 #include "view/app/main_view.h"
 #include "view/app/script_runner.h"
@@ -223,6 +225,13 @@ class Viewer {
                    [this](const std::string& argument) { follow(argument); },
                    [this] { return !main_.followed(); },
                    {}});
+    commands_.add({"panel",
+                   "View",
+                   "Panels: choose in their tab",
+                   "",
+                   [this](const std::string& title) { side_.grid().toggle(title); },
+                   {},
+                   [this] { return shown().info() != nullptr; }});
     add_switch(commands_, "side", "View", "Panels", "tab", side_open_);
     add_overlay_commands();
     add_switch(commands_, "help", "Help", "Keys and mouse", "F1", help_open_);
@@ -316,14 +325,16 @@ class Viewer {
           return status.phase == RunStatus::Phase::failed ||
                  (status.phase == RunStatus::Phase::ready && shown().run().shown() != nullptr);
         },
-        [this] { return main_.settled() && side_.settled(); },
+        [this] { return main_.settled(); },
         [this] { return shown().run().status().tick; },
         [this](const InputEvent& event) { window_->inject(event); },
         [this](const std::string& command, const std::string& argument) { commands_.run(command, argument); },
-        [this](const std::string& file) {
-          io::write_png(options_.script_folder / file, window_->screenshot());
-        },
+        [this](const std::string& file) { write_screenshot(options_.script_folder / file); },
         [this](const std::string& fact) { print(fact); }};
+  }
+
+  void write_screenshot(const std::filesystem::path& file) {
+    io::write_file_atomically(file, io::encode_png(window_->screenshot()));
   }
 
   void print(const std::string& fact) {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -120,9 +121,9 @@ std::vector<uint32_t> object_rows(Shapes& shapes, const RecordArrays& record, co
                                   const std::string& sensor, size_t stride, int64_t count) {
   if (!record.has("instance")) return {};
   const std::span<const uint32_t> ids = record.get<uint32_t>("instance", {count});
-  std::map<uint32_t, size_t> returns;
+  std::unordered_map<uint32_t, size_t> returns;
   for (const uint32_t id : ids) ++returns[id];
-  std::map<uint32_t, uint32_t> rows;
+  std::unordered_map<uint32_t, uint32_t> rows;
   std::vector<uint32_t> of_points;
   of_points.reserve(ids.size() / stride + 1);
   for (size_t i = 0; i < ids.size(); i += stride) {

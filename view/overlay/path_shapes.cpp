@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>

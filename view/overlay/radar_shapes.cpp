@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/text.h"
 #include "core/units.h"
 #include "view/overlay/record_arrays.h"
 #include "view/overlay/sensing_shapes.h"

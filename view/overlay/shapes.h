@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The greatx authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What overlays draw into the main view, as shapes in the world. The shapes come from records alone, so that a
-// live run and a data set show the same, and nothing is traced twice. view/app projects and draws them.
+// What overlays draw into the main view, as shapes in the world. The shapes come from records alone, so that
+// a live run and a data set show the same, and nothing is traced twice. view/app projects and draws them.
 #pragma once
 
 #include <cstdint>

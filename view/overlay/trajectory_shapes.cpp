@@ -25,6 +25,8 @@ uint64_t bytes_of(const Record& record) {
   return bytes;
 }
 
+int64_t tick_of(const std::shared_ptr<const Record>& record) { return record->tick; }
+
 int64_t nanoseconds_of(double seconds) {
   return static_cast<int64_t>(std::clamp(seconds, 0.0, 1e9) * static_cast<double>(second_ns));
 }
@@ -108,31 +110,39 @@ void PoseHistory::add(uint32_t sequence, std::shared_ptr<const Record> poses) {
   }
   const int64_t tick = poses->tick;
   bytes_ += bytes_of(*poses);
-  std::shared_ptr<const Record>& place = records_[tick];
-  if (place) bytes_ -= bytes_of(*place);
-  place = std::move(poses);
+  const auto place = std::ranges::lower_bound(records_, tick, {}, tick_of);
+  if (place != records_.end() && (*place)->tick == tick) {
+    bytes_ -= bytes_of(**place);
+    *place = std::move(poses);
+  } else {
+    records_.insert(place, std::move(poses));
+  }
   while (bytes_ > most_bytes_ && records_.size() > 1) {
-    const auto first = records_.begin(), last = std::prev(records_.end());
-    const auto farthest = tick - first->first >= last->first - tick ? first : last;
-    bytes_ -= bytes_of(*farthest->second);
-    records_.erase(farthest);
+    const bool first = tick - records_.front()->tick >= records_.back()->tick - tick;
+    bytes_ -= bytes_of(first ? *records_.front() : *records_.back());
+    if (first)
+      records_.pop_front();
+    else
+      records_.pop_back();
   }
 }
 
 std::shared_ptr<const Record> PoseHistory::at(int64_t tick) const {
-  const auto found = records_.find(tick);
-  return found == records_.end() ? nullptr : found->second;
+  const auto found = std::ranges::lower_bound(records_, tick, {}, tick_of);
+  return found != records_.end() && (*found)->tick == tick ? *found : nullptr;
 }
 
 std::shared_ptr<const Record> PoseHistory::at_or_before(int64_t tick) const {
-  const auto after = records_.upper_bound(tick);
-  return after == records_.begin() ? nullptr : std::prev(after)->second;
+  const auto after = std::ranges::upper_bound(records_, tick, {}, tick_of);
+  return after == records_.begin() ? nullptr : *std::prev(after);
 }
 
 std::vector<std::shared_ptr<const Record>> PoseHistory::between(int64_t first_ns, int64_t last_ns) const {
+  const auto time_of = [](const std::shared_ptr<const Record>& record) { return record->time_ns; };
   std::vector<std::shared_ptr<const Record>> found;
-  for (const auto& [tick, record] : records_)
-    if (record->time_ns >= first_ns && record->time_ns <= last_ns) found.push_back(record);
+  for (auto record = std::ranges::lower_bound(records_, first_ns, {}, time_of);
+       record != records_.end() && (*record)->time_ns <= last_ns; ++record)
+    found.push_back(*record);
   return found;
 }
 

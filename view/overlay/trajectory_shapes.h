@@ -6,7 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -33,7 +33,7 @@ class PoseHistory {
   uint64_t bytes() const { return bytes_; }
 
  private:
-  std::map<int64_t, std::shared_ptr<const Record>> records_;  ///< by tick
+  std::deque<std::shared_ptr<const Record>> records_;  ///< by tick, ascending; so do times
   uint64_t most_bytes_, bytes_ = 0;
   uint32_t sequence_ = 0;
 };

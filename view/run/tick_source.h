@@ -36,9 +36,9 @@ class TickSource {
     std::string error;                      ///< what the tick lacks; empty: nothing
     bool stops = false;                     ///< the error is worth a stop
   };
-  /// Returns the tick, at which a sensor is due. `goes_on`: the next tick will be asked for next. Work of many
-  /// ticks ends early when `unwanted` returns true. Throws if the tick cannot be had, or Interrupted like
-  /// checkpoint(); others may be asked for then.
+  /// Returns the tick, at which a sensor is due. `goes_on`: the next tick will be asked for next. Work of
+  /// many ticks ends early when `unwanted` returns true. Throws if the tick cannot be had, or Interrupted
+  /// like checkpoint(); others may be asked for then.
   virtual Loaded load(TickAt at, bool goes_on, const std::function<bool()>& unwanted) = 0;
   /// Does a small piece of work for ticks that may be asked for after `at`, or before it if `backwards`.
   /// Returns false if there is nothing left to do.

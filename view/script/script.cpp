@@ -13,6 +13,7 @@
 #include "core/budget.h"
 #include "core/input_file.h"
 #include "core/text.h"
+#include "core/vec.h"
 
 namespace greatx::view {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A real window, by GLFW.
-#define GLFW_INCLUDE_NONE
+#include <algorithm>
+
+#define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
-
-#include <vulkan/vulkan.h>
 
 #include "core/error.h"
 #include "view/window/imgui_window.h"
@@ -75,7 +75,7 @@ class GlfwWindow final : public ImGuiWindow {
         window_(options),
         instance_(glfw_.extensions(), options.validation),
         surface_(instance_, make_surface(instance_, window_.get())) {
-    ImGui_ImplGlfw_InitForVulkan(window_.get(), true);
+    ImGui_ImplGlfw_InitForOther(window_.get(), true);
     start(instance_, &surface_, options);
   }
   ~GlfwWindow() override {

@@ -13,8 +13,6 @@ namespace greatx::view {
 
 namespace {
 
-constexpr size_t most_textures = gpu::Presenter::most_textures - 1;  // one is the font
-
 std::vector<std::byte> rgba_of(const Array& picture) {
   GREATX_CHECK(picture.dtype == DType::u8 && picture.shape.size() == 3 &&
                    (picture.shape[2] == 3 || picture.shape[2] == 4),
@@ -30,7 +28,53 @@ VkExtent2D extent_of(const Array& picture) {
   return {static_cast<uint32_t>(picture.shape.at(1)), static_cast<uint32_t>(picture.shape.at(0))};
 }
 
-void check_imgui(VkResult result) { gpu::check_vk(result, "Dear ImGui's Vulkan backend"); }
+/// ImGui's ids are pointers, which stand for the numbers of textures here.
+TextureId id_of(gpu::PresentTextureId texture) {
+  return reinterpret_cast<TextureId>(static_cast<uintptr_t>(texture));
+}
+gpu::PresentTextureId texture_of(TextureId id) {
+  return static_cast<gpu::PresentTextureId>(reinterpret_cast<uintptr_t>(id));
+}
+
+/// Returns the part of ImGui's rectangle (left, top, right, bottom) within the window.
+VkRect2D clip_of(const ImVec4& rect, const ImDrawData& data, VkExtent2D extent) {
+  const auto pixel = [](float value, uint32_t most) {
+    return static_cast<int32_t>(std::clamp(value, 0.0f, static_cast<float>(most)));
+  };
+  const float sx = data.FramebufferScale.x, sy = data.FramebufferScale.y;
+  const int32_t x0 = pixel((rect.x - data.DisplayPos.x) * sx, extent.width);
+  const int32_t y0 = pixel((rect.y - data.DisplayPos.y) * sy, extent.height);
+  const int32_t x1 = pixel((rect.z - data.DisplayPos.x) * sx, extent.width);
+  const int32_t y1 = pixel((rect.w - data.DisplayPos.y) * sy, extent.height);
+  return {{x0, y0},
+          {static_cast<uint32_t>(std::max(x1 - x0, 0)), static_cast<uint32_t>(std::max(y1 - y0, 0))}};
+}
+
+static_assert(sizeof(ImDrawVert) == sizeof(gpu::UiVertex) && sizeof(ImDrawIdx) == sizeof(uint16_t));
+
+gpu::UiDrawing drawing_of(const ImDrawData& data, VkExtent2D extent) {
+  gpu::UiDrawing drawing;
+  drawing.vertices.reserve(static_cast<size_t>(data.TotalVtxCount));
+  drawing.indices.reserve(static_cast<size_t>(data.TotalIdxCount));
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    const ImDrawList& list = *data.CmdLists[l];
+    const auto first_vertex = static_cast<uint32_t>(drawing.vertices.size());
+    const auto first_index = static_cast<uint32_t>(drawing.indices.size());
+    for (const ImDrawVert& v : list.VtxBuffer)
+      drawing.vertices.push_back({(v.pos.x - data.DisplayPos.x) * data.FramebufferScale.x,
+                                  (v.pos.y - data.DisplayPos.y) * data.FramebufferScale.y, v.uv.x, v.uv.y,
+                                  v.col});
+    drawing.indices.insert(drawing.indices.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      if (command.UserCallback != nullptr || command.ElemCount == 0) continue;
+      const VkRect2D clip = clip_of(command.ClipRect, data, extent);
+      if (clip.extent.width == 0 || clip.extent.height == 0) continue;
+      drawing.commands.push_back({clip, texture_of(command.GetTexID()), first_index + command.IdxOffset,
+                                  command.ElemCount, first_vertex + command.VtxOffset});
+    }
+  }
+  return drawing;
+}
 
 }  // namespace
 
@@ -38,7 +82,9 @@ ImGuiWindow::ImGuiWindow(const WindowOptions& options) : settings_file_(options.
   context_ = ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = settings_file_.empty() ? nullptr : settings_file_.c_str();
-  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  io.BackendRendererName = "greatx gpu/present";
+  // Lists of more than 65536 vertices are drawn in parts.
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 }
 ImGuiWindow::~ImGuiWindow() { ImGui::DestroyContext(context_); }
 
@@ -46,25 +92,21 @@ void ImGuiWindow::start(const gpu::PresentInstance& instance, const gpu::Surface
                         const WindowOptions& options) {
   device_ = std::make_unique<gpu::PresentDevice>(instance, surface, options.device);
   presenter_ = std::make_unique<gpu::Presenter>(*device_, surface);
-  ImGui_ImplVulkan_InitInfo info{};
-  info.Instance = device_->instance();
-  info.PhysicalDevice = device_->physical();
-  info.Device = device_->handle();
-  info.QueueFamily = device_->queue_family();
-  info.Queue = device_->queue();
-  info.DescriptorPool = presenter_->descriptor_pool();
-  info.MinImageCount = info.ImageCount = gpu::Presenter::frames_in_flight;
-  info.CheckVkResultFn = check_imgui;
-  started_ = ImGui_ImplVulkan_Init(&info, presenter_->render_pass());
   set_style(static_cast<float>(pixel_scale()));
-  presenter_->run_now([](VkCommandBuffer cmd) { ImGui_ImplVulkan_CreateFontsTexture(cmd); });
-  ImGui_ImplVulkan_DestroyFontUploadObjects();
+  load_fonts();
+}
+
+void ImGuiWindow::load_fonts() {
+  ImGuiIO& io = ImGui::GetIO();
+  unsigned char* texels = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
+  const std::span<const unsigned char> values(texels, size_t{4} * static_cast<size_t>(width * height));
+  io.Fonts->SetTexID(make_texture(Array::of<uint8_t>({height, width, 4}, values)));
 }
 
 void ImGuiWindow::stop() {
-  if (device_ == nullptr) return;
-  device_->wait_idle();
-  if (started_) ImGui_ImplVulkan_Shutdown();
+  if (device_ != nullptr) device_->wait_idle();
   presenter_.reset();
   device_.reset();
 }
@@ -72,7 +114,6 @@ void ImGuiWindow::stop() {
 bool ImGuiWindow::begin_frame(double wait_s) {
   if (!poll(injected_.empty() ? wait_s : 0.0)) return false;
   take_injected();
-  ImGui_ImplVulkan_NewFrame();
   begin_input();
   ImGuiIO& io = ImGui::GetIO();
   if (scripted_) {
@@ -134,11 +175,10 @@ void ImGuiWindow::press_key(const InputEvent& event, bool down) {
 
 void ImGuiWindow::end_frame() {
   ImGui::Render();
-  ImDrawData* const data = ImGui::GetDrawData();
   const VkExtent2D extent{static_cast<uint32_t>(std::max(width(), 0)),
                           static_cast<uint32_t>(std::max(height(), 0))};
   if (minimized() || extent.width == 0 || extent.height == 0) return;
-  presenter_->frame(extent, [&](VkCommandBuffer cmd) { ImGui_ImplVulkan_RenderDrawData(data, cmd); });
+  presenter_->frame(extent, drawing_of(*ImGui::GetDrawData(), extent));
 }
 
 Array ImGuiWindow::screenshot() {
@@ -150,29 +190,16 @@ Array ImGuiWindow::screenshot() {
 }
 
 TextureId ImGuiWindow::make_texture(const Array& picture) {
-  if (textures_.size() >= most_textures)
-    throw_user_error("the viewer shows at most {} pictures at once", most_textures);
   const gpu::PresentTextureId texture = presenter_->make_texture(extent_of(picture));
-  const TextureId id = ImGui_ImplVulkan_AddTexture(presenter_->sampler(), presenter_->view_of(texture),
-                                                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-  textures_[id] = texture;
   presenter_->update(texture, rgba_of(picture));
-  return id;
+  return id_of(texture);
 }
 
 void ImGuiWindow::update_texture(TextureId texture, const Array& picture) {
-  presenter_->update(textures_.at(texture), rgba_of(picture));
+  presenter_->update(texture_of(texture), rgba_of(picture));
 }
 
-void ImGuiWindow::drop_texture(TextureId texture) {
-  const auto found = textures_.find(texture);
-  GREATX_CHECK(found != textures_.end(), "a texture that is not there");
-  VkDescriptorSet set = static_cast<VkDescriptorSet>(texture);
-  presenter_->drop(found->second, [device = device_->handle(), pool = presenter_->descriptor_pool(), set] {
-    vkFreeDescriptorSets(device, pool, 1, &set);
-  });
-  textures_.erase(found);
-}
+void ImGuiWindow::drop_texture(TextureId texture) { presenter_->drop(texture_of(texture)); }
 
 std::unique_ptr<Window> Window::open(const WindowOptions& options) {
   return options.offscreen ? open_offscreen_window(options) : open_glfw_window(options);

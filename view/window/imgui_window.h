@@ -6,7 +6,6 @@
 
 #include <deque>
 #include <imgui.h>
-#include <map>
 
 #include "gpu/present/presenter.h"
 #include "view/window/window.h"
@@ -44,6 +43,7 @@ class ImGuiWindow : public Window {
   bool scripted() const { return scripted_; }
 
  private:
+  void load_fonts();
   void take_injected();
   void apply(const InputEvent& event);
 
@@ -51,8 +51,6 @@ class ImGuiWindow : public Window {
   std::string settings_file_;
   std::unique_ptr<gpu::PresentDevice> device_;
   std::unique_ptr<gpu::Presenter> presenter_;
-  bool started_ = false;
-  std::map<TextureId, gpu::PresentTextureId> textures_;
   std::deque<InputEvent> injected_;
   bool scripted_ = false;
   ImVec2 scripted_mouse_{0, 0};
