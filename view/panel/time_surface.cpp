@@ -33,7 +33,7 @@ class TimeSurface : public Panel {
 
  protected:
   void load(const io::IndexRow& row) override {
-    const double tau_ms = knob("tau");
+    const double tau_ms = tau_ms_ = knob("tau");
     std::vector<io::IndexRow> rows = past(most_event_records);
     if (done_ && done_sequence_ == sequence() && done_tick_ <= row.tick && tau_ms <= done_tau_ms_) {
       std::erase_if(rows, [&](const io::IndexRow& r) { return r.tick <= done_tick_; });
@@ -91,19 +91,22 @@ class TimeSurface : public Panel {
     const Array t = read(row, "t", {DType::i64}, {-1}), x = read(row, "x", {DType::u16}, {-1}),
                 y = read(row, "y", {DType::u16}, {-1}), p = read(row, "p", {DType::u8}, {-1});
     io::expect_same_rows(source(), {&t, &x, &y, &p});
-    for (size_t i = 0; i < p.as<uint8_t>().size(); ++i) {
-      const uint16_t column = x.as<uint16_t>()[i], line = y.as<uint16_t>()[i];
+    const std::span<const int64_t> times = t.as<int64_t>();
+    const std::span<const uint16_t> columns = x.as<uint16_t>(), lines = y.as<uint16_t>();
+    const std::span<const uint8_t> signs = p.as<uint8_t>();
+    for (size_t i = 0; i < signs.size(); ++i) {
+      const uint16_t column = columns[i], line = lines[i];
       if (column >= width_ || line >= height_)
         throw_user_error("{}, tick {}: event {}: at ({}, {}), outside of {} x {} pixels", source().place(),
                          row.tick, i, column, line, width_, height_);
       const auto at = static_cast<size_t>(line * width_ + column);
-      if (t.as<int64_t>()[i] < newest_[at]) continue;
-      newest_[at] = t.as<int64_t>()[i];
-      brighter_[at] = p.as<uint8_t>()[i] != 0;
+      if (times[i] < newest_[at]) continue;
+      newest_[at] = times[i];
+      brighter_[at] = signs[i] != 0;
     }
   }
   double decay(size_t i) const {
-    const double age = 1e-6 * static_cast<double>(now_ns_ - newest_[i]) / knob("tau");
+    const double age = 1e-6 * static_cast<double>(now_ns_ - newest_[i]) / tau_ms_;
     return age > taus_seen ? 0.0 : std::exp(-std::max(age, 0.0));
   }
   /// The pixel with the newest event below pixel (x, y) of the picture on the canvas.
@@ -124,7 +127,7 @@ class TimeSurface : public Panel {
   bool done_ = false, seen_ = false;
   uint32_t done_sequence_ = 0;  ///< the newest record whose events are in
   int64_t done_tick_ = 0, now_ns_ = 0;
-  double done_tau_ms_ = 0.0;  ///< events are there for so long
+  double tau_ms_ = 1.0, done_tau_ms_ = 0.0;  ///< events are there for so long
   io::Rect picture_;
 };
 
