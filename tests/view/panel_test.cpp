@@ -724,6 +724,40 @@ TEST(Panels, EmptyRecordsSaySo) {
   EXPECT_EQ(find_text(*map, "detection")[0], -1);
 }
 
+TEST(Panels, MetadataAreNotBelieved) {
+  const auto message = [](uint32_t sensor, const char* kind, const char* metadata) {
+    io::DatasetInfo wrong = info();
+    wrong.sensors[sensor].metadata_json = metadata;
+    Memory memory(wrong);
+    memory.add(1);
+    return error_of([&] {
+      const auto panel = memory.panel(sensor, kind);
+      panel->draw(width, height);
+      if (!panel->error().empty()) throw_user_error("{}", panel->error());
+    });
+  };
+  EXPECT_THAT(message(events, "time surface", R"({"height": 6})"), HasSubstr("uav/events: metadata"));
+  EXPECT_THAT(message(events, "time surface", R"({"width": 16000, "height": 16000})"),
+              HasSubstr("16000 x 16000"));
+  EXPECT_THAT(message(events, "time surface", R"({"width": 4, "height": 6})"), HasSubstr("outside of 4 x 6"));
+  EXPECT_THAT(message(events, "events", R"({"width": 4, "height": 6})"), HasSubstr("outside of 4 x 6"));
+  EXPECT_THAT(message(events, "events", "{}"), HasSubstr("do not say how to draw events"));
+  EXPECT_THAT(message(lidar, "range image", R"({"pattern": "spinning"})"), HasSubstr("azimuth_steps"));
+  EXPECT_THAT(message(lidar, "range image",
+                      R"({"pattern": "spinning", "azimuth_steps": 9, "azimuth_start_deg": 0,
+                          "azimuth_span_deg": 0, "elevations_deg": [1]})"),
+              HasSubstr("ring: expected 0 to 0, found 2"));
+  EXPECT_EQ(message(lidar, "range image", "{}"), "") << "over elevation";
+  EXPECT_EQ(message(lidar, "range image",
+                    R"({"pattern": "raster", "columns": 100000000, "rows": 65536, "azimuth_deg": [40, 40],
+                        "elevation_deg": [10, -10]})"),
+            "");
+  EXPECT_THAT(message(radar, "range-Doppler", R"({"range_bin_m": -1})"), HasSubstr("range_bin_m"));
+  EXPECT_THAT(message(csi, "arrivals", "{}"), "");
+  EXPECT_THAT(message(csi, "|H| over frequency", R"({"subcarrier_spacing_hz": 0})"),
+              HasSubstr("subcarrier_spacing_hz"));
+}
+
 TEST(Panels, NothingYet) {
   Memory memory;
   for (const PanelChoice& choice : panels_of(memory.history->sensors())) {

@@ -19,6 +19,7 @@ namespace {
 constexpr int64_t no_event = std::numeric_limits<int64_t>::min();
 /// Older events are darker than a step of a byte.
 constexpr double taus_seen = 6.0;
+/// A jump in time reads no more.
 constexpr size_t most_event_records = 1024;
 
 class TimeSurface : public Panel {
@@ -28,6 +29,10 @@ class TimeSurface : public Panel {
     constexpr int64_t longest_side = 16384;
     width_ = metadata.root().at("width").integer(1, longest_side);
     height_ = metadata.root().at("height").integer(1, longest_side);
+    constexpr int64_t most_pixels = int64_t{1} << 26;
+    if (width_ * height_ > most_pixels)
+      throw_user_error("{}: expected at most {} pixels, found {} x {}", spec().name, most_pixels, width_,
+                       height_);
     add_knob({"tau", "ms", 30.0, 0.01, 10'000.0, false});
   }
 
