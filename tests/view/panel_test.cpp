@@ -547,6 +547,14 @@ TEST(ChannelPanels, ThePowerDelayProfilePeaksAtTheDelay) {
   EXPECT_NEAR(delay_ns, 100.0, 4.0);  // cells of 3.9 ns
   EXPECT_NEAR(metres, 30.0, 1.2);
   EXPECT_NEAR(db, -60.0, 0.1);
+  // Where several cells share a pixel, the strongest is shown.
+  panel->draw(16, 20);
+  double strongest_db = -400.0;
+  for (int x = 0; x < 16; ++x) {
+    ASSERT_EQ(std::sscanf(panel->value_at(x, 0).c_str(), "0.0000 s, %*s %*[^(](%*[^)]): %lf dB", &db), 1);
+    strongest_db = std::max(strongest_db, db);
+  }
+  EXPECT_NEAR(strongest_db, -60.0, 0.1);
   // The weaker receiver and the weaker port.
   panel->set_knob("receiver", 1);
   panel->set_knob("transmitter port", 1);
